@@ -1,0 +1,364 @@
+//! What can go wrong: one enum for each boundary.
+
+use thiserror::Error;
+
+/// A section whose numbers are not sound.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SectionError {
+    /// A number outside its limits, or not a number.
+    #[error("{field} is {value}, outside {low} to {high}")]
+    OutOfRange {
+        /// Which number.
+        field: &'static str,
+        /// What it is.
+        value: f32,
+        /// Least allowed.
+        low: f32,
+        /// Most allowed.
+        high: f32,
+    },
+    /// A polygon with too few or too many corners.
+    #[error("polygon has {corners} corners, outside {low} to {high}")]
+    Corners {
+        /// How many it has.
+        corners: usize,
+        /// Least allowed.
+        low: u32,
+        /// Most allowed.
+        high: u32,
+    },
+    /// Two neighbouring corners coincide.
+    #[error("corners {corner} and the next of the polygon coincide")]
+    RepeatedCorner {
+        /// The first of the two, from 0.
+        corner: usize,
+    },
+    /// The outline crosses, touches or folds onto itself.
+    #[error("edges {first} and {second} of the polygon meet")]
+    SelfIntersecting {
+        /// One edge, from 0.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+    /// The corners run clockwise: the tube would be inside out. Reverse them.
+    #[error("polygon runs clockwise; give its corners counter-clockwise")]
+    Clockwise,
+}
+
+/// Yarns that can't be taken. Yarns and points are counted from 0, as in the slices they came from.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum YarnError {
+    /// There is no yarn at all.
+    #[error("no yarns")]
+    NoYarns,
+    /// Offsets must be one more than yarns.
+    #[error("{offsets} offsets for {yarns} yarns, which need one more than yarns")]
+    OffsetCount {
+        /// Offsets given.
+        offsets: usize,
+        /// Yarns given.
+        yarns: usize,
+    },
+    /// Offsets must start at 0 and never fall.
+    #[error("offsets of yarn {yarn} run from {start} to {end}")]
+    OffsetOrder {
+        /// The yarn.
+        yarn: usize,
+        /// Its first offset.
+        start: u64,
+        /// Its second offset.
+        end: u64,
+    },
+    /// An open yarn needs two control points, a closed one three.
+    #[error("yarn {yarn} has {points} control points, needs {least}{}", if *.closed { " since it is closed" } else { "" })]
+    TooFewPoints {
+        /// The yarn.
+        yarn: usize,
+        /// Control points it has.
+        points: u64,
+        /// Control points it needs.
+        least: u64,
+        /// Whether it is closed.
+        closed: bool,
+    },
+    /// The control points don't match the offsets.
+    #[error("{points} control points where {planned} were planned")]
+    PointCount {
+        /// Given.
+        points: u64,
+        /// Planned.
+        planned: u64,
+    },
+    /// Sources must be one per control point.
+    #[error("{sources} sources for {points} control points")]
+    SourceCount {
+        /// Given.
+        sources: usize,
+        /// Needed.
+        points: usize,
+    },
+    /// There is no such yarn.
+    #[error("no yarn {yarn}; there are {yarns}")]
+    UnknownYarn {
+        /// Asked for.
+        yarn: usize,
+        /// How many there are.
+        yarns: usize,
+    },
+    /// A yarn refers to a material that is missing.
+    #[error("yarn {yarn} is of material {material}, but there are {materials}")]
+    UnknownMaterial {
+        /// The yarn.
+        yarn: usize,
+        /// Its material.
+        material: u32,
+        /// How many there are.
+        materials: usize,
+    },
+    /// A yarn refers to a section that is missing.
+    #[error("yarn {yarn} has section {section}, but there are {sections}")]
+    UnknownSection {
+        /// The yarn.
+        yarn: usize,
+        /// Its section.
+        section: u32,
+        /// How many there are.
+        sections: usize,
+    },
+    /// A section whose numbers are not sound.
+    #[error("section {section} is not sound")]
+    Section {
+        /// Which one.
+        section: usize,
+        /// Why.
+        source: SectionError,
+    },
+    /// A twist that is not finite or too steep.
+    #[error("yarn {yarn} has a twist of {twist} rad/mm, beyond ±{limit}")]
+    Twist {
+        /// The yarn.
+        yarn: usize,
+        /// Its twist, rad/mm.
+        twist: f32,
+        /// The steepest taken.
+        limit: f32,
+    },
+    /// A control point with NaN or infinity in it.
+    #[error("{field} of point {point} of yarn {yarn} is {value}")]
+    NotFinite {
+        /// The yarn.
+        yarn: usize,
+        /// The point.
+        point: usize,
+        /// Which component.
+        field: &'static str,
+        /// Its value.
+        value: f32,
+    },
+    /// A control point too far from the origin.
+    #[error("{field} of point {point} of yarn {yarn} is {value} mm, beyond ±{limit} mm")]
+    TooFar {
+        /// The yarn.
+        yarn: usize,
+        /// The point.
+        point: usize,
+        /// Which component.
+        field: &'static str,
+        /// Its value, mm.
+        value: f32,
+        /// The furthest taken, mm.
+        limit: f32,
+    },
+    /// A radius that is zero, negative, or no yarn's.
+    #[error("radius of point {point} of yarn {yarn} is {radius} mm, outside {low} to {high} mm")]
+    Radius {
+        /// The yarn.
+        yarn: usize,
+        /// The point.
+        point: usize,
+        /// Its radius, mm.
+        radius: f32,
+        /// Thinnest taken, mm.
+        low: f32,
+        /// Thickest taken, mm.
+        high: f32,
+    },
+}
+
+/// Settings that can't be planned for, or a plan that does not fit.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// Tension must lie in [0, 1).
+    #[error("tension is {tension}, outside 0 to below 1")]
+    Tension {
+        /// Given.
+        tension: f32,
+    },
+    /// Too many inserted points.
+    #[error("{subdivisions} subdivisions, more than {limit}")]
+    Subdivisions {
+        /// Given.
+        subdivisions: u32,
+        /// Most allowed.
+        limit: u32,
+    },
+    /// Too few or too many sides.
+    #[error("{sides} sides, outside {low} to {high}")]
+    Sides {
+        /// Given.
+        sides: u32,
+        /// Least allowed.
+        low: u32,
+        /// Most allowed.
+        high: u32,
+    },
+    /// A polygon section needs as many sides as it has corners.
+    #[error(
+        "section {section} is a polygon of {corners} corners, but tubes have {sides} sides; set sides to {corners}"
+    )]
+    PolygonSides {
+        /// The section.
+        section: usize,
+        /// Its corners.
+        corners: usize,
+        /// The plan's sides.
+        sides: u32,
+    },
+    /// One yarn has more rings than a `u32` counts.
+    #[error("yarn {yarn} has {rings} rings, more than {limit}")]
+    YarnRings {
+        /// The yarn, from 0.
+        yarn: usize,
+        /// Its rings.
+        rings: u64,
+        /// Most allowed.
+        limit: u64,
+    },
+    /// All yarns together have more rings than any machine holds.
+    #[error("{rings} rings, more than {limit}")]
+    Rings {
+        /// All rings.
+        rings: u64,
+        /// Most allowed.
+        limit: u64,
+    },
+    /// Not even one block fits the limits.
+    #[error("one block of {rings} rings needs {needed} bytes of {what}, but the limit is {limit}")]
+    BlockTooLarge {
+        /// Rings in the block.
+        rings: u32,
+        /// Of which buffer.
+        what: &'static str,
+        /// Bytes that it needs.
+        needed: u64,
+        /// Bytes allowed.
+        limit: u64,
+    },
+}
+
+/// What a backend could not do. Everything that core can check before is not among these.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BackendError {
+    /// No device answers to the name.
+    #[error("no device \"{wanted}\"; there are: {}", .found.join(", "))]
+    NoDevice {
+        /// The name asked for.
+        wanted: String,
+        /// Names that would have worked.
+        found: Vec<String>,
+    },
+    /// Memory could not be had.
+    #[error("out of memory: {bytes} bytes for {what}")]
+    OutOfMemory {
+        /// What for.
+        what: &'static str,
+        /// How many bytes.
+        bytes: u64,
+    },
+    /// The device is gone; this session is dead, a new one on a healthy device works.
+    #[error("device {device} is lost")]
+    DeviceLost {
+        /// Its name.
+        device: String,
+        /// What the driver said.
+        source: Option<Box<dyn std::error::Error + Send + Sync>>,
+    },
+    /// The backend or its schedule does not do this.
+    #[error("{schedule} does not do {what}")]
+    Unsupported {
+        /// Backend and schedule.
+        schedule: String,
+        /// What was asked for.
+        what: String,
+    },
+    /// A kernel that the driver would not compile.
+    #[error("kernel {kernel} does not compile:\n{log}")]
+    Compile {
+        /// The kernel.
+        kernel: &'static str,
+        /// The driver's whole log.
+        log: String,
+    },
+    /// A driver call that failed.
+    #[error("{call} failed")]
+    Driver {
+        /// The call.
+        call: &'static str,
+        /// What the driver said.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// An upload past the last control point.
+    #[error("upload of points {first} to {end}, but there are {points}")]
+    UploadRange {
+        /// First point.
+        first: u64,
+        /// One past the last.
+        end: u64,
+        /// How many there are.
+        points: u64,
+    },
+    /// A stage was called before the one that it stands on.
+    #[error("{call} was called before {needed}")]
+    OutOfOrder {
+        /// The call.
+        call: &'static str,
+        /// What has to come first.
+        needed: &'static str,
+    },
+    /// A chunk was read that no stage was run for, or so long ago that its memory has been used again.
+    #[error("chunk {chunk} is not in flight")]
+    NotInFlight {
+        /// The chunk's index.
+        chunk: u64,
+    },
+    /// An output slice that is not exactly as long as planned.
+    #[error("{what} has room for {given}, but the chunk has {planned}")]
+    OutputLength {
+        /// Which slice.
+        what: &'static str,
+        /// Its length.
+        given: u64,
+        /// What the plan says.
+        planned: u64,
+    },
+}
+
+/// What can end a run of the whole pipeline.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PipelineError {
+    /// The settings can't be planned for.
+    #[error("the mesh can't be planned")]
+    Plan(#[from] PlanError),
+    /// The backend failed.
+    #[error("the backend failed")]
+    Backend(#[from] BackendError),
+    /// The progress callback asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+}

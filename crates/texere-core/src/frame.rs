@@ -1,0 +1,108 @@
+//! Frames: which way round a section stands on the centreline.
+
+use glam::Vec3;
+
+use crate::{Turn, atan2_turns};
+
+/// How sections stand along a yarn. Twist turns either of them further.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Frame {
+    /// The section's side lies level (at right angles to z), its up points out of the fabric: right for flat yarns in
+    /// cloth. It is the paper's equation 7 turned by half a turn. It flips where a yarn passes through the vertical.
+    #[default]
+    Upright,
+    /// The section is carried along without turning about the yarn: no twist of its own, no flip where the tangent
+    /// meets z. Double reflection (Wang, Jüttler, Zheng and Liu, 2008), held as a turn against the upright frame.
+    RotationMinimizing,
+}
+
+/// The two unit vectors across a yarn; with the tangent they make a right-handed frame (side, up, tangent).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Basis {
+    /// Where the section's x axis points.
+    pub side: Vec3,
+    /// Where the section's y axis points.
+    pub up: Vec3,
+}
+
+/// The squared sine of the angle to z (1e-6 rad) under which a tangent counts as parallel to z.
+const VERTICAL: f32 = 1e-12;
+
+/// A squared length below which a reflection's mirror has no direction, relative to unit tangents.
+const NO_MIRROR: f32 = 1e-12;
+
+impl Basis {
+    /// The upright basis for a unit `tangent`: side = z × t, normalised (+y where t is within 1e-6 of z), up = t × side.
+    ///
+    /// ```
+    /// use texere_core::Basis;
+    /// use glam::Vec3;
+    /// let basis = Basis::upright(Vec3::X);
+    /// assert_eq!((basis.side, basis.up), (Vec3::Y, Vec3::Z));
+    /// ```
+    #[must_use]
+    pub fn upright(tangent: Vec3) -> Self {
+        let level = tangent.x * tangent.x + tangent.y * tangent.y;
+        let side = if level < VERTICAL {
+            Vec3::Y
+        } else {
+            let inverse = 1.0 / level.sqrt();
+            Vec3::new(-tangent.y * inverse, tangent.x * inverse, 0.0)
+        };
+        let up = Vec3::new(-tangent.z * side.y, tangent.z * side.x, tangent.x * side.y - tangent.y * side.x);
+        Self { side, up }
+    }
+
+    /// This basis turned by `roll` about the tangent, right-handed: side towards up.
+    #[must_use]
+    pub fn rolled(&self, roll: Turn) -> Self {
+        let (sin, cos) = roll.sin_cos();
+        Self { side: self.side * cos + self.up * sin, up: self.up * cos - self.side * sin }
+    }
+}
+
+impl Frame {
+    /// The change of roll from a ring to the next: the turn that keeps the section from turning (rotation minimising
+    /// only) plus `twist` times the length of `chord`.
+    ///
+    /// `twist` is in **turns** per mm; `chord` (mm) leads from one centre to the next; tangents are unit vectors.
+    /// **Source**: Wang, Jüttler, Zheng and Liu, "Computation of rotation minimizing frames", ACM TOG 27(1), 2008,
+    /// table I.
+    #[must_use]
+    pub fn step(self, tangent: Vec3, next_tangent: Vec3, chord: Vec3, twist: f32) -> Turn {
+        let turns = match self {
+            Self::Upright => 0.0,
+            Self::RotationMinimizing => transport_turns(tangent, next_tangent, chord),
+        };
+        Turn::from_turns(turns + twist * chord.length_squared().sqrt())
+    }
+
+    /// Whether every roll is zero, so that there is nothing to scan.
+    #[must_use]
+    pub fn is_level(self, twist: f32) -> bool {
+        self == Self::Upright && twist == 0.0
+    }
+}
+
+/// The angle, as a fraction of a turn, from the next ring's upright side to this ring's upright side carried there.
+fn transport_turns(tangent: Vec3, next_tangent: Vec3, chord: Vec3) -> f32 {
+    let side = Basis::upright(tangent).side;
+    // Where two rings coincide the tangent stands in for the chord: the two reflections are then the smallest turn
+    // from one tangent to the next.
+    let length_squared = chord.length_squared();
+    let (mirror, mirror_squared) =
+        if length_squared > 0.0 { (chord, length_squared) } else { (tangent, 1.0) };
+    let side = reflect(side, mirror, mirror_squared);
+    let reflected_tangent = reflect(tangent, mirror, mirror_squared);
+    // A hairpin leaves nothing for the second reflection to do.
+    let mirror = next_tangent - reflected_tangent;
+    let mirror_squared = mirror.length_squared();
+    let side = if mirror_squared > NO_MIRROR { reflect(side, mirror, mirror_squared) } else { side };
+    let next = Basis::upright(next_tangent);
+    atan2_turns(side.dot(next.up), side.dot(next.side))
+}
+
+/// `v` mirrored in the plane at right angles to `mirror`.
+fn reflect(v: Vec3, mirror: Vec3, mirror_squared: f32) -> Vec3 {
+    v - mirror * (2.0 * v.dot(mirror) / mirror_squared)
+}

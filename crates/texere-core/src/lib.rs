@@ -1,0 +1,54 @@
+//! What every stage and every backend of texere shares: yarns, plans, rings, meshes, and the backend trait.
+//!
+//! ```text
+//! Yarns ──> Plan ──> Trajectory ──> Mesh
+//!           core     backend        backend
+//!                    stage 1        stage 2
+//! ```
+//!
+//! [`Yarns`] hold control points, offsets and what belongs to each yarn. A [`Plan`] works out every count and offset
+//! for one choice of [`Settings`]. A [`Backend`] turns control points into [`Ring`]s and rings into a [`Mesh`];
+//! [`Pipeline`] drives it. The definitions that every backend must agree on are here too: [`Segment`] (the spline),
+//! [`Frame`], [`Turn`] and [`Section`].
+//!
+//! Lengths are in mm, angles in radians unless a name says turns. x runs along the weft or course, y along the warp or
+//! wale, z out of the technical face; right-handed. Triangles are counter-clockwise seen from outside.
+//!
+//! This crate does no I/O, knows no GPU and holds no unsafe code.
+
+mod backend;
+mod error;
+mod frame;
+mod material;
+mod mesh;
+mod null;
+mod padded;
+mod pipeline;
+mod plan;
+mod point;
+mod ring;
+mod sampling;
+mod section;
+mod spline;
+mod turn;
+mod yarns;
+
+pub use backend::{Backend, DeviceInfo, DeviceKind, Session, StageTimings, check_output};
+pub use error::{BackendError, PipelineError, PlanError, SectionError, YarnError};
+pub use frame::{Basis, Frame};
+pub use material::Material;
+pub use mesh::{Draw, End, Mesh, MeshMut, MeshPiece, SHARED_GAPS, Topology, Vertex, index_pattern};
+pub use null::NullBackend;
+pub use padded::{PaddedPoints, zeroed};
+pub use pipeline::{Pipeline, Progress};
+pub use plan::{
+    BLOCK_RINGS, Block, Cap, Chunk, Chunks, Counts, Limits, Part, Plan, RINGS_MAX, Settings, WINDOW_POINTS,
+    YARN_RINGS_MAX,
+};
+pub use point::{COORDINATE_LIMIT, ControlPoint, RADIUS_MAX, RADIUS_MIN};
+pub use ring::{Ring, Trajectory};
+pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
+pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
+pub use spline::{SLOPE_LIMIT, Sample, Segment};
+pub use turn::{Turn, atan2_turns};
+pub use yarns::{Layout, Origin, TWIST_LIMIT, Yarn, Yarns, YarnsBuilder};

@@ -1,0 +1,226 @@
+//! The mesh: vertices, triangles, and how they are told apart.
+
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::{Chunk, Material, Plan};
+
+/// A vertex of a tube.
+///
+/// **Shape**: six `f32`, 24 bytes. **Units**: mm; the normal is a unit vector that points out of the yarn.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct Vertex {
+    /// Position, mm.
+    pub position: [f32; 3],
+    /// Outward unit normal.
+    pub normal: [f32; 3],
+}
+
+const _: () = assert!(size_of::<Vertex>() == 24 && std::mem::offset_of!(Vertex, normal) == 12);
+
+/// One of a yarn's two ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum End {
+    /// Where its rings start.
+    Start,
+    /// Where they finish.
+    Finish,
+}
+
+/// How triangles are told. They are counter-clockwise seen from outside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Topology {
+    /// Three `u32` a triangle, numbered from the start of the vertex's chunk.
+    #[default]
+    Indexed,
+    /// One index pattern for all parts, drawn with a base vertex: halves what has to be written.
+    Shared,
+    /// No indices: for a caller who knows the pattern.
+    None,
+}
+
+/// The most gaps between rings that the shared pattern covers; longer parts are drawn in several goes. With up to seven
+/// sides every index of it fits 16 bits.
+pub const SHARED_GAPS: u64 = 8192;
+
+/// The indices of the quads between a ring and the next, numbered from the ring's first vertex: six for each side.
+///
+/// ```
+/// let quad = &texere_core::index_pattern(6)[..6];
+/// assert_eq!(quad, [0, 1, 6, 1, 7, 6]);
+/// ```
+#[must_use]
+pub fn index_pattern(sides: u32) -> Vec<u32> {
+    (0..sides)
+        .flat_map(|k| {
+            let next = (k + 1) % sides;
+            [k, next, sides + k, next, sides + next, sides + k]
+        })
+        .collect()
+}
+
+/// A range of indices that draws (part of) one yarn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Draw {
+    /// The yarn, from 0 among all.
+    pub yarn: u32,
+    /// Into the mesh's indices.
+    pub indices: std::ops::Range<u64>,
+    /// What to add to an index to get a vertex of the mesh.
+    pub base_vertex: u64,
+    /// How many vertices from `base_vertex` on the draw may refer to.
+    pub vertices: u64,
+}
+
+impl Plan {
+    /// Gaps between rings that the shared pattern covers: those of the longest part, at most [`SHARED_GAPS`].
+    fn shared_gaps(&self) -> u64 {
+        let longest = (0..self.layout().yarns().len()).map(|yarn| u64::from(self.rings(yarn)) - 1).max();
+        longest.unwrap_or(0).min(SHARED_GAPS)
+    }
+
+    pub(crate) fn shared_index_count(&self) -> u64 {
+        let sides = u64::from(self.settings().sides);
+        let caps = if self.settings().caps { self.layout().sections().len() as u64 * 2 } else { 0 };
+        self.shared_gaps() * sides * 6 + caps * (sides - 2) * 3
+    }
+
+    /// The indices of [`Topology::Shared`]: the pattern of the longest part, then, with caps, for each section those of
+    /// its start cap and of its finish cap.
+    #[must_use]
+    pub fn shared_indices(&self) -> Vec<u32> {
+        let sides = self.settings().sides;
+        let pattern = index_pattern(sides);
+        let mut indices: Vec<u32> = (0..self.shared_gaps() as u32)
+            .flat_map(|gap| pattern.iter().map(move |index| gap * sides + index))
+            .collect();
+        if self.settings().caps {
+            for section in 0..self.layout().sections().len() {
+                for end in [End::Start, End::Finish] {
+                    indices.extend(self.cap_indices(section, end));
+                }
+            }
+        }
+        indices
+    }
+
+    /// The indices of a cap of `section`, numbered from the cap's first vertex.
+    pub fn cap_indices(&self, section: usize, end: End) -> impl Iterator<Item = u32> {
+        self.cap_triangles(section).iter().flat_map(move |&[a, b, c]| match end {
+            End::Start => [a, c, b],
+            End::Finish => [a, b, c],
+        })
+    }
+
+    /// How to draw a chunk, yarn by yarn, its caps last. Empty with [`Topology::None`].
+    pub fn draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = Draw> + 'a {
+        let sides = u64::from(self.settings().sides);
+        let topology = self.settings().topology;
+        let tubes = chunk.parts.iter().flat_map(move |part| {
+            let gaps = u64::from(part.rings) - 1;
+            // A shared pattern starts anew at each stretch's first ring; an indexed part is one stretch.
+            let stretch = if topology == Topology::Shared { SHARED_GAPS } else { gaps.max(1) };
+            (0..gaps.div_ceil(stretch)).map(move |number| {
+                let here = stretch.min(gaps - number * stretch);
+                let (indices, base_vertex) = match topology {
+                    Topology::Shared => (0, u64::from(part.first_vertex) + number * stretch * sides),
+                    _ => (chunk.first_index + u64::from(part.first_index), 0),
+                };
+                Draw {
+                    yarn: part.yarn,
+                    indices: indices..indices + here * sides * 6,
+                    base_vertex: chunk.first_vertex + base_vertex,
+                    vertices: if topology == Topology::Shared {
+                        (here + 1) * sides
+                    } else {
+                        chunk.vertices.into()
+                    },
+                }
+            })
+        });
+        let caps = chunk.caps.iter().map(move |cap| {
+            let each = (sides - 2) * 3;
+            let (indices, base_vertex) = match topology {
+                Topology::Shared => {
+                    let section = u64::from(self.yarn(cap.yarn as usize).section);
+                    let before = section * 2 + u64::from(cap.end == End::Finish);
+                    (self.shared_gaps() * sides * 6 + before * each, u64::from(cap.first_vertex))
+                }
+                _ => (chunk.first_index + u64::from(cap.first_index), 0),
+            };
+            Draw {
+                yarn: cap.yarn,
+                indices: indices..indices + each,
+                base_vertex: chunk.first_vertex + base_vertex,
+                vertices: if topology == Topology::Shared { sides } else { chunk.vertices.into() },
+            }
+        });
+        tubes.chain(caps).filter(move |_| topology != Topology::None)
+    }
+}
+
+/// A stretch of a chunk's mesh, lent for the time of a call.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum MeshPiece<'a> {
+    /// Vertices, the first of which is number `first` of its chunk.
+    Vertices {
+        /// Number of the first, from the chunk's start.
+        first: u32,
+        /// The vertices.
+        vertices: &'a [Vertex],
+    },
+    /// Indices, the first of which is number `first` of its chunk.
+    Indices {
+        /// Number of the first, from the chunk's start.
+        first: u32,
+        /// The indices, numbered from the chunk's first vertex.
+        indices: &'a [u32],
+    },
+}
+
+/// Where a caller wants a chunk's mesh: slices exactly as long as planned.
+#[derive(Debug)]
+pub struct MeshMut<'a> {
+    /// `chunk.vertices` long.
+    pub vertices: &'a mut [Vertex],
+    /// `chunk.indices` long.
+    pub indices: &'a mut [u32],
+}
+
+/// A whole fabric's mesh in host memory.
+///
+/// It remembers plan, chunks and materials, so that a writer needs nothing else, and a change of colour never rebuilds
+/// geometry.
+#[derive(Debug, Clone)]
+pub struct Mesh {
+    /// All vertices, chunk after chunk.
+    pub vertices: Vec<Vertex>,
+    /// All indices: chunk after chunk, or the shared pattern.
+    pub indices: Vec<u32>,
+    /// The chunks: which vertices are whose.
+    pub chunks: Vec<Chunk>,
+    /// The plan that it was made by.
+    pub plan: Arc<Plan>,
+    /// The materials that yarns refer to.
+    pub materials: Arc<[Material]>,
+}
+
+impl Mesh {
+    /// How to draw the mesh, yarn by yarn.
+    pub fn draws(&self) -> impl Iterator<Item = Draw> {
+        self.chunks.iter().flat_map(|chunk| self.plan.draws(chunk))
+    }
+
+    /// All triangles as vertex numbers of the mesh.
+    pub fn triangles(&self) -> impl Iterator<Item = [u64; 3]> {
+        self.draws().flat_map(|draw| {
+            let range = draw.indices.start as usize..draw.indices.end as usize;
+            self.indices[range]
+                .chunks_exact(3)
+                .map(move |corners| [0, 1, 2].map(|corner| draw.base_vertex + u64::from(corners[corner])))
+        })
+    }
+}

@@ -1,0 +1,96 @@
+//! Control points as kernels read them: each yarn with its virtual ends.
+
+use std::ops::Range;
+
+use crate::{BackendError, ControlPoint, Plan};
+
+/// The control points of a fabric, padded as [`Plan::padded_offsets`] says, so that no kernel has end cases.
+#[derive(Debug, Clone)]
+pub struct PaddedPoints {
+    points: Vec<ControlPoint>,
+}
+
+impl PaddedPoints {
+    /// Room for the control points of `plan`, all zero.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`].
+    pub fn new(plan: &Plan) -> Result<Self, BackendError> {
+        let count = plan.padded_offsets().last().copied().unwrap_or(0);
+        Ok(Self { points: zeroed("control points", count)? })
+    }
+
+    /// Takes `points`, the first of which is number `first` of the fabric, and renews the virtual ends that they touch.
+    ///
+    /// Gives back the range of padded points that may have changed.
+    ///
+    /// **Errors**: [`BackendError::UploadRange`] past the last control point.
+    pub fn upload(
+        &mut self,
+        plan: &Plan,
+        first: u64,
+        points: &[ControlPoint],
+    ) -> Result<Range<u64>, BackendError> {
+        let offsets = plan.layout().offsets();
+        let (end, total) = (first.saturating_add(points.len() as u64), plan.layout().point_count());
+        if end > total {
+            return Err(BackendError::UploadRange { first, end, points: total });
+        }
+        if points.is_empty() {
+            return Ok(0..0);
+        }
+        let first_yarn = offsets.partition_point(|&start| start <= first) - 1;
+        let mut yarn = first_yarn;
+        while yarn < plan.layout().yarns().len() && offsets[yarn] < end {
+            let (from, to) = (offsets[yarn].max(first), offsets[yarn + 1].min(end));
+            let padded = &mut self.points[yarn_range(plan, yarn)];
+            let inner = 1 + (from - offsets[yarn]) as usize;
+            padded[inner..inner + (to - from) as usize]
+                .copy_from_slice(&points[(from - first) as usize..(to - first) as usize]);
+            renew_ends(padded, plan.yarn(yarn).closed);
+            yarn += 1;
+        }
+        Ok(plan.padded_offsets()[first_yarn]..plan.padded_offsets()[yarn])
+    }
+
+    /// All of them.
+    #[must_use]
+    pub fn points(&self) -> &[ControlPoint] {
+        &self.points
+    }
+
+    /// Those of one yarn.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn yarn(&self, plan: &Plan, yarn: usize) -> &[ControlPoint] {
+        &self.points[yarn_range(plan, yarn)]
+    }
+}
+
+fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
+    plan.padded_offsets()[yarn] as usize..plan.padded_offsets()[yarn + 1] as usize
+}
+
+/// Virtual ends of an open yarn (the paper's equations 3 and 4), wrapped neighbours of a closed one.
+fn renew_ends(padded: &mut [ControlPoint], closed: bool) {
+    let count = padded.len();
+    if closed {
+        padded[0] = padded[count - 4];
+        for k in 0..3 {
+            padded[count - 3 + k] = padded[1 + k];
+        }
+    } else {
+        padded[0] = padded[1].reflected(&padded[2]);
+        padded[count - 1] = padded[count - 2].reflected(&padded[count - 3]);
+    }
+}
+
+/// `count` zeroed values, from pages that are not touched yet.
+///
+/// **Errors**: [`BackendError::OutOfMemory`], naming `what`.
+pub fn zeroed<T: bytemuck::Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, BackendError> {
+    let out_of_memory =
+        || BackendError::OutOfMemory { what, bytes: count.saturating_mul(size_of::<T>() as u64) };
+    let length = usize::try_from(count).map_err(|_| out_of_memory())?;
+    bytemuck::allocation::try_zeroed_vec(length).map_err(|()| out_of_memory())
+}

@@ -1,0 +1,253 @@
+//! The safe way through: checks, plans, and drives any backend.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::{
+    Backend, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PipelineError, Plan, PlanError, Ring, Session,
+    Settings, Topology, Trajectory, Yarns, zeroed,
+};
+
+/// Control points sent in one go: 16 MB, so that progress is told and a cancellation heard in between.
+const UPLOAD_POINTS: usize = 1 << 20;
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// Rings whose mesh (or trajectory) has been handed over.
+    pub rings: u64,
+    /// Rings in all.
+    pub total: u64,
+}
+
+type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
+
+/// From yarns to a mesh on any backend.
+///
+/// ```
+/// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
+/// use texere_core::{Frame, Pipeline};
+/// let mesh = Pipeline::new(yarns).subdivisions(3).sides(12).frame(Frame::RotationMinimizing).mesh(device)?;
+/// # Ok(())
+/// # }
+/// ```
+pub struct Pipeline<'a> {
+    yarns: &'a Yarns,
+    settings: Settings,
+    limits: Limits,
+    progress: Option<OnProgress<'a>>,
+}
+
+impl std::fmt::Debug for Pipeline<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Pipeline")
+            .field("settings", &self.settings)
+            .field("limits", &self.limits)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> Pipeline<'a> {
+    /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, tension 0, upright, indexed, no caps.
+    #[must_use]
+    pub fn new(yarns: &'a Yarns) -> Self {
+        Self { yarns, settings: Settings::default(), limits: Limits::NONE, progress: None }
+    }
+
+    /// Takes all settings at once.
+    #[must_use]
+    pub fn settings(mut self, settings: Settings) -> Self {
+        self.settings = settings;
+        self
+    }
+
+    /// Tension of the spline, in \[0, 1).
+    #[must_use]
+    pub fn tension(mut self, tension: f32) -> Self {
+        self.settings.tension = tension;
+        self
+    }
+
+    /// Points inserted between two control points (K).
+    #[must_use]
+    pub fn subdivisions(mut self, subdivisions: u32) -> Self {
+        self.settings.subdivisions = subdivisions;
+        self
+    }
+
+    /// Sides of the tube (nc).
+    #[must_use]
+    pub fn sides(mut self, sides: u32) -> Self {
+        self.settings.sides = sides;
+        self
+    }
+
+    /// Which way round sections stand.
+    #[must_use]
+    pub fn frame(mut self, frame: Frame) -> Self {
+        self.settings.frame = frame;
+        self
+    }
+
+    /// How triangles are told.
+    #[must_use]
+    pub fn topology(mut self, topology: Topology) -> Self {
+        self.settings.topology = topology;
+        self
+    }
+
+    /// Whether yarn ends are closed.
+    #[must_use]
+    pub fn caps(mut self, caps: bool) -> Self {
+        self.settings.caps = caps;
+        self
+    }
+
+    /// Cuts chunks to `limits` where the device's own are wider: bounds the memory of a [`Pipeline::stream`].
+    #[must_use]
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// Calls `progress` after each chunk; `Break` ends the run with [`PipelineError::Cancelled`].
+    #[must_use]
+    pub fn progress(mut self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
+        self.progress = Some(Box::new(progress));
+        self
+    }
+
+    /// The yarns.
+    #[must_use]
+    pub const fn yarns(&self) -> &'a Yarns {
+        self.yarns
+    }
+
+    /// The plan for these settings.
+    ///
+    /// **Errors**: those of [`Plan::new`].
+    pub fn plan(&self) -> Result<Plan, PlanError> {
+        Plan::new(self.yarns.layout().clone(), self.settings)
+    }
+
+    /// The limits that chunks on `device` are cut to.
+    #[must_use]
+    pub fn limits_on(&self, device: &dyn Backend) -> Limits {
+        self.limits.min(&device.info().limits)
+    }
+
+    /// The whole mesh, in host memory.
+    ///
+    /// **Errors**: [`PipelineError`] where the settings can't be planned for, memory does not suffice, the device fails,
+    /// or progress asked to stop.
+    pub fn mesh(mut self, device: &dyn Backend) -> Result<Mesh, PipelineError> {
+        let (plan, mut session) = self.start(device)?;
+        let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
+        let total = |count: fn(&Chunk) -> u32| chunks.iter().map(|chunk| u64::from(count(chunk))).sum();
+        let mut vertices = zeroed("vertices", total(|chunk| chunk.vertices))?;
+        let mut indices = zeroed("indices", total(|chunk| chunk.indices))?;
+        let (mut vertices_left, mut indices_left) = (&mut vertices[..], &mut indices[..]);
+        for chunk in &chunks {
+            let (chunk_vertices, others) = vertices_left.split_at_mut(chunk.vertices as usize);
+            let (chunk_indices, other_indices) = indices_left.split_at_mut(chunk.indices as usize);
+            (vertices_left, indices_left) = (others, other_indices);
+            session.mesh_into(chunk, MeshMut { vertices: chunk_vertices, indices: chunk_indices })?;
+            self.tell(&plan, chunk)?;
+        }
+        if plan.settings().topology == Topology::Shared {
+            indices = plan.shared_indices();
+        }
+        Ok(Mesh { vertices, indices, chunks, plan, materials: self.yarns.materials().clone() })
+    }
+
+    /// The mesh piece by piece, each with the chunk that it belongs to, in bounded memory: two chunks at a time. A sink
+    /// that answers `Break` ends the run, and its answer comes back.
+    ///
+    /// **Errors**: those of [`Pipeline::mesh`].
+    pub fn stream<B>(
+        mut self,
+        device: &dyn Backend,
+        mut sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, PipelineError> {
+        let (plan, mut session) = self.start(device)?;
+        let mut chunks = plan.chunks(&self.limits_on(device))?;
+        let mut waiting = chunks.next();
+        if let Some(chunk) = &waiting {
+            session.mesh(chunk)?;
+        }
+        while let Some(chunk) = waiting {
+            // The next chunk is worked on while this one is read.
+            waiting = chunks.next();
+            if let Some(next) = &waiting {
+                session.mesh(next)?;
+            }
+            let mut answer = None;
+            let _ = session.read_mesh(&chunk, &mut |piece| match sink(&chunk, piece) {
+                ControlFlow::Continue(()) => ControlFlow::Continue(()),
+                ControlFlow::Break(value) => {
+                    answer = Some(value);
+                    ControlFlow::Break(())
+                }
+            })?;
+            if let Some(value) = answer {
+                return Ok(ControlFlow::Break(value));
+            }
+            self.tell(&plan, &chunk)?;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// The centrelines alone, in host memory.
+    ///
+    /// **Errors**: those of [`Pipeline::mesh`].
+    pub fn trajectory(mut self, device: &dyn Backend) -> Result<Trajectory, PipelineError> {
+        let (plan, mut session) = self.start(device)?;
+        let mut rings: Vec<Ring> = zeroed("rings", plan.counts().rings)?;
+        let mut done = 0;
+        for chunk in plan.chunks(&self.limits_on(device))? {
+            session.trajectory(&chunk)?;
+            // A repeated ring is the first of the next chunk, which overwrites it.
+            let mut at = done;
+            let _ = session.read_trajectory(&chunk, &mut |piece| {
+                rings[at..at + piece.len()].copy_from_slice(piece);
+                at += piece.len();
+                ControlFlow::Continue(())
+            })?;
+            done += chunk.rings as usize - usize::from(chunk.repeats_ring);
+            self.tell(&plan, &chunk)?;
+        }
+        Ok(Trajectory { rings, offsets: plan.ring_offsets().to_vec() })
+    }
+
+    /// Plans, opens a session, uploads and scans.
+    fn start(&mut self, device: &dyn Backend) -> Result<(Arc<Plan>, Box<dyn Session>), PipelineError> {
+        let plan = Arc::new(self.plan()?);
+        let mut session = device.session(plan.clone())?;
+        let mut first = 0;
+        for points in self.yarns.points().chunks(UPLOAD_POINTS) {
+            session.upload(first, points)?;
+            first += points.len() as u64;
+            self.report(Progress { rings: 0, total: plan.counts().rings })?;
+        }
+        if plan.needs_scan() {
+            session.scan()?;
+        }
+        Ok((plan, session))
+    }
+
+    fn tell(&mut self, plan: &Plan, chunk: &Chunk) -> Result<(), PipelineError> {
+        // Rings of the yarns before, and of this one up to the chunk's end.
+        let done = chunk.parts.last().map_or(0, |part| {
+            let own = part.first_ring + part.rings - u32::from(chunk.repeats_ring);
+            plan.ring_offsets()[part.yarn as usize] + u64::from(own)
+        });
+        self.report(Progress { rings: done, total: plan.counts().rings })
+    }
+
+    fn report(&mut self, progress: Progress) -> Result<(), PipelineError> {
+        match self.progress.as_mut().map(|tell| tell(progress)) {
+            Some(ControlFlow::Break(())) => Err(PipelineError::Cancelled),
+            _ => Ok(()),
+        }
+    }
+}

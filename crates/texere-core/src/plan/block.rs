@@ -1,0 +1,34 @@
+//! The block: the unit of work on every backend.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Rings in a full block. 64 rings of six vertices are nine kilobytes: a loop body's worth of cache, a rayon item, a
+/// workgroup.
+pub const BLOCK_RINGS: u32 = 64;
+
+/// Up to [`BLOCK_RINGS`] consecutive rings of one yarn: a row of the table that tells every kernel what it works on,
+/// so that none has to search for its yarn.
+///
+/// **Shape**: eight `u32`, 32 bytes. All but `yarn` and `first_ring` count from the start of the chunk.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct Block {
+    /// The yarn, from 0 among all.
+    pub yarn: u32,
+    /// The first ring, from the yarn's start.
+    pub first_ring: u32,
+    /// Rings whose vertices the block writes, 1 to 64.
+    pub rings: u32,
+    /// Rings whose quads, to the ring after each, the block writes: `rings`, or one less at the end of a part.
+    pub quads: u32,
+    /// Padded control point `P[j-1]` of the first ring's interval, from the start of the chunk's window.
+    pub first_point: u32,
+    /// The first ring among the chunk's.
+    pub chunk_ring: u32,
+    /// The first vertex.
+    pub first_vertex: u32,
+    /// The first index, where the topology has any.
+    pub first_index: u32,
+}
+
+const _: () = assert!(size_of::<Block>() == 32 && std::mem::offset_of!(Block, first_index) == 28);

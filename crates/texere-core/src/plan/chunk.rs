@@ -1,0 +1,331 @@
+//! Chunks: ranges of blocks that fit a device, cut also inside a yarn.
+
+use std::ops::Range;
+
+use super::{BLOCK_RINGS, Block, Limits, Plan};
+use crate::{ControlPoint, End, PlanError, Ring, Topology, Vertex};
+
+/// A run of one yarn's rings in a chunk. All but `yarn` and `first_ring` count from the start of the chunk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// The yarn, from 0 among all.
+    pub yarn: u32,
+    /// The first ring, from the yarn's start.
+    pub first_ring: u32,
+    /// Rings, the one that a cut repeats included.
+    pub rings: u32,
+    /// The first vertex; `rings * sides` follow.
+    pub first_vertex: u32,
+    /// The first index; `(rings - 1) * sides * 6` follow where the topology is indexed.
+    pub first_index: u32,
+}
+
+/// The closed end of a yarn: `sides` vertices after all tube vertices of the chunk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Cap {
+    /// The yarn, from 0 among all.
+    pub yarn: u32,
+    /// Which end.
+    pub end: End,
+    /// The ring that the cap closes, among the chunk's.
+    pub chunk_ring: u32,
+    /// The first vertex, from the start of the chunk.
+    pub first_vertex: u32,
+    /// The first index, from the start of the chunk, where the topology is indexed.
+    pub first_index: u32,
+}
+
+/// A range of blocks that is launched, read and drawn together.
+///
+/// It holds all that a launch needs: the block table, the parts that it makes, and its place in the whole. Where it
+/// ends inside a yarn it repeats the next ring, so that its triangles stand on its own vertices.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chunk {
+    /// Its number, from 0.
+    pub index: u64,
+    /// Its blocks among all blocks; the table has one row more where a ring is repeated.
+    pub block_range: Range<u64>,
+    /// The padded control points that it reads, cut to multiples of [`WINDOW_POINTS`] at the start.
+    pub window: Range<u64>,
+    /// The block table.
+    pub blocks: Vec<Block>,
+    /// Its runs of rings.
+    pub parts: Vec<Part>,
+    /// Its caps.
+    pub caps: Vec<Cap>,
+    /// Whether the last ring is the first of the next chunk.
+    pub repeats_ring: bool,
+    /// Rings, the repeated one included.
+    pub rings: u32,
+    /// Vertices, caps included.
+    pub vertices: u32,
+    /// Indices that it holds; none but with [`Topology::Indexed`].
+    pub indices: u32,
+    /// Vertices of all chunks before it.
+    pub first_vertex: u64,
+    /// Indices of all chunks before it.
+    pub first_index: u64,
+}
+
+/// Windows start at multiples of this many control points: 256 bytes, which every device takes as a binding's offset.
+pub const WINDOW_POINTS: u64 = 16;
+
+/// What a chunk takes, in the units that limits are told in.
+#[derive(Debug, Clone, Copy, Default)]
+struct Size {
+    blocks: u64,
+    rings: u64,
+    vertices: u64,
+    indices: u64,
+    window: u64,
+}
+
+impl Size {
+    fn buffers(&self) -> [(&'static str, u64); 5] {
+        let bytes = |count: u64, each: usize| count * each as u64;
+        [
+            ("vertices", bytes(self.vertices, size_of::<Vertex>())),
+            ("indices", bytes(self.indices, 4)),
+            ("rings", bytes(self.rings, size_of::<Ring>())),
+            ("the block table", bytes(self.blocks, size_of::<Block>())),
+            ("control points", bytes(self.window, size_of::<ControlPoint>())),
+        ]
+    }
+
+    /// The first limit that is broken: buffer, bytes needed, bytes allowed.
+    fn excess(&self, resident: u64, limits: &Limits) -> Option<(&'static str, u64, u64)> {
+        let index_limit = u64::from(u32::MAX);
+        let counts = [("blocks", self.blocks, limits.blocks)]
+            .into_iter()
+            .chain([("vertices", self.vertices, index_limit), ("indices", self.indices, index_limit)]);
+        // Two chunks in flight; the window is part of the resident control points.
+        let each: u64 = self.buffers()[..4].iter().map(|(_, bytes)| bytes).sum();
+        let memory = [("all buffers", resident + 2 * each, limits.memory_bytes)];
+        let bindings = self.buffers().into_iter().map(|(what, bytes)| (what, bytes, limits.binding_bytes));
+        counts.chain(memory).chain(bindings).find(|(_, needed, limit)| needed > limit)
+    }
+}
+
+/// The chunks of a plan, cut as they are asked for.
+#[derive(Debug, Clone)]
+pub struct Chunks<'a> {
+    plan: &'a Plan,
+    limits: Limits,
+    index: u64,
+    next_block: u64,
+    next_yarn: usize,
+    first_vertex: u64,
+    first_index: u64,
+}
+
+impl<'a> Chunks<'a> {
+    pub(super) fn new(plan: &'a Plan, limits: Limits) -> Result<Self, PlanError> {
+        let chunks =
+            Self { plan, limits, index: 0, next_block: 0, next_yarn: 0, first_vertex: 0, first_index: 0 };
+        for yarn in 0..plan.layout().yarns().len() {
+            let offsets = plan.block_offsets();
+            // The first, the last and, standing for those between, the second block of the yarn.
+            let (first, end) = (offsets[yarn], offsets[yarn + 1]);
+            for block in [first, (first + 1).min(end - 1), end - 1] {
+                let size = chunks.extended(&Size::default(), None, yarn, block).1;
+                if let Some((what, needed, limit)) = size.excess(plan.resident_bytes(), &limits) {
+                    return Err(PlanError::BlockTooLarge { rings: size.rings as u32, what, needed, limit });
+                }
+            }
+        }
+        Ok(chunks)
+    }
+
+    /// Rings of block `block` of `yarn`: first, count, and whether the yarn goes on after it.
+    fn block_rings(&self, yarn: usize, block: u64) -> (u32, u32, bool) {
+        let first = (block - self.plan.block_offsets()[yarn]) as u32 * BLOCK_RINGS;
+        let left = self.plan.rings(yarn) - first;
+        (first, left.min(BLOCK_RINGS), left > BLOCK_RINGS)
+    }
+
+    /// The padded control points that `count` rings of `yarn` from `first` read, and the step to the ring after them.
+    fn points_read(&self, yarn: usize, first: u32, count: u32) -> Range<u64> {
+        let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
+        let start = self.plan.padded_offsets()[yarn];
+        let end = self.plan.padded_offsets()[yarn + 1];
+        // The ring after the last one read falls in interval (first + count) / (K + 1), which reads four points.
+        let last = (u64::from(first) + u64::from(count)) / per_interval + 4;
+        start + self.first_interval(yarn, first)..(start + last).min(end)
+    }
+
+    /// The interval whose points ring `ring` of `yarn` is evaluated from: the last ring of an open yarn is t = 1 of the
+    /// interval before.
+    fn first_interval(&self, yarn: usize, ring: u32) -> u64 {
+        let interval = u64::from(ring) / (u64::from(self.plan.settings().subdivisions) + 1);
+        let at_end = !self.plan.yarn(yarn).closed && ring + 1 == self.plan.rings(yarn);
+        if at_end { interval - 1 } else { interval }
+    }
+
+    fn cap_count(&self, yarn: usize, first: u32, goes_on: bool) -> u64 {
+        if self.plan.settings().caps && !self.plan.yarn(yarn).closed {
+            u64::from(first == 0) + u64::from(!goes_on)
+        } else {
+            0
+        }
+    }
+
+    /// `size` with one block more: as it is when others follow, and as it is when the chunk ends there, where a ring
+    /// may have to be repeated. `window` is where the chunk's control points start.
+    fn extended(&self, size: &Size, window: Option<u64>, yarn: usize, block: u64) -> (Size, Size) {
+        let (sides, indexed) =
+            (u64::from(self.plan.settings().sides), self.plan.settings().topology == Topology::Indexed);
+        let (first, rings, goes_on) = self.block_rings(yarn, block);
+        let caps = self.cap_count(yarn, first, goes_on);
+        let quads = u64::from(if goes_on { rings } else { rings - 1 });
+        let points = self.points_read(yarn, first, rings + u32::from(goes_on));
+        // Unless the window is known, it may start as far ahead as aligning it can take it.
+        let window = window.unwrap_or(points.start.saturating_sub(WINDOW_POINTS - 1));
+        let inner = Size {
+            blocks: size.blocks + 1,
+            rings: size.rings + u64::from(rings),
+            vertices: size.vertices + (u64::from(rings) + caps) * sides,
+            indices: size.indices + if indexed { quads * sides * 6 + caps * (sides - 2) * 3 } else { 0 },
+            window: points.end - window,
+        };
+        let repeat = u64::from(goes_on);
+        let ended = Size {
+            blocks: inner.blocks + repeat,
+            rings: inner.rings + repeat,
+            vertices: inner.vertices + repeat * sides,
+            ..inner
+        };
+        (inner, ended)
+    }
+
+    /// The end of the next chunk: one past its last block, and the end of its window.
+    fn cut(&self, window: u64) -> (u64, u64) {
+        let (mut size, mut block, mut yarn) = (Size::default(), self.next_block, self.next_yarn);
+        let mut cut = (block, window);
+        while block < self.plan.block_count() {
+            let (inner, ended) = self.extended(&size, Some(window), yarn, block);
+            if inner.excess(self.plan.resident_bytes(), &self.limits).is_some() {
+                break;
+            }
+            block += 1;
+            if ended.excess(self.plan.resident_bytes(), &self.limits).is_none() {
+                cut = (block, window + ended.window);
+            }
+            if block == self.plan.block_offsets()[yarn + 1] {
+                yarn += 1;
+            }
+            size = inner;
+        }
+        cut
+    }
+}
+
+impl Iterator for Chunks<'_> {
+    type Item = Chunk;
+
+    fn next(&mut self) -> Option<Chunk> {
+        if self.next_block == self.plan.block_count() {
+            return None;
+        }
+        let (first_of_first, ..) = self.block_rings(self.next_yarn, self.next_block);
+        let start =
+            self.plan.padded_offsets()[self.next_yarn] + self.first_interval(self.next_yarn, first_of_first);
+        let window = start / WINDOW_POINTS * WINDOW_POINTS;
+        let (end_block, window_end) = self.cut(window);
+        let mut chunk = Chunk {
+            index: self.index,
+            block_range: self.next_block..end_block,
+            window: window..window_end,
+            blocks: Vec::with_capacity((end_block - self.next_block) as usize + 1),
+            parts: Vec::new(),
+            caps: Vec::new(),
+            repeats_ring: false,
+            rings: 0,
+            vertices: 0,
+            indices: 0,
+            first_vertex: self.first_vertex,
+            first_index: self.first_index,
+        };
+        self.fill(&mut chunk);
+        self.index += 1;
+        self.next_block = end_block;
+        self.first_vertex += u64::from(chunk.vertices);
+        self.first_index += u64::from(chunk.indices);
+        Some(chunk)
+    }
+}
+
+impl Chunks<'_> {
+    /// Writes the block table, the parts and the caps of `chunk`, and moves on to the yarn after it.
+    fn fill(&mut self, chunk: &mut Chunk) {
+        let settings = self.plan.settings();
+        let (sides, indexed) = (settings.sides, settings.topology == Topology::Indexed);
+        let mut yarn = self.next_yarn;
+        for number in chunk.block_range.clone() {
+            let (first, rings, goes_on) = self.block_rings(yarn, number);
+            let starts_part = number == chunk.block_range.start || first == 0;
+            if starts_part {
+                chunk.parts.push(Part {
+                    yarn: yarn as u32,
+                    first_ring: first,
+                    rings: 0,
+                    first_vertex: chunk.rings * sides,
+                    first_index: chunk.indices,
+                });
+            }
+            if settings.caps && !self.plan.yarn(yarn).closed {
+                note_caps(chunk, yarn, first, rings, goes_on);
+            }
+            chunk.repeats_ring = goes_on && number + 1 == chunk.block_range.end;
+            self.push_block(chunk, yarn, first, rings, if goes_on { rings } else { rings - 1 });
+            if chunk.repeats_ring {
+                self.push_block(chunk, yarn, first + rings, 1, 0);
+            }
+            if !goes_on {
+                yarn += 1;
+            }
+        }
+        self.next_yarn = yarn;
+        chunk.vertices = chunk.rings * sides;
+        for cap in &mut chunk.caps {
+            cap.first_vertex = chunk.vertices;
+            cap.first_index = chunk.indices;
+            chunk.vertices += sides;
+            chunk.indices += if indexed { (sides - 2) * 3 } else { 0 };
+        }
+    }
+
+    fn push_block(&self, chunk: &mut Chunk, yarn: usize, first_ring: u32, rings: u32, quads: u32) {
+        let settings = self.plan.settings();
+        // The table names interval and remainder alike for all rings, so it takes the plain interval of its first one.
+        let interval = u64::from(first_ring) / (u64::from(settings.subdivisions) + 1);
+        let point = self.plan.padded_offsets()[yarn] + interval;
+        chunk.blocks.push(Block {
+            yarn: yarn as u32,
+            first_ring,
+            rings,
+            quads,
+            first_point: (point - chunk.window.start) as u32,
+            chunk_ring: chunk.rings,
+            first_vertex: chunk.rings * settings.sides,
+            first_index: chunk.indices,
+        });
+        chunk.rings += rings;
+        if settings.topology == Topology::Indexed {
+            chunk.indices += quads * settings.sides * 6;
+        }
+        if let Some(part) = chunk.parts.last_mut() {
+            part.rings += rings;
+        }
+    }
+}
+
+/// Notes which caps a block brings; where they lie is known only after the last tube vertex.
+fn note_caps(chunk: &mut Chunk, yarn: usize, first: u32, rings: u32, goes_on: bool) {
+    let ends = [(End::Start, first == 0, 0), (End::Finish, !goes_on, rings - 1)];
+    for (end, present, ring) in ends {
+        if present {
+            let chunk_ring = chunk.rings + ring;
+            chunk.caps.push(Cap { yarn: yarn as u32, end, chunk_ring, first_vertex: 0, first_index: 0 });
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Cross-sections: the outline that stands on every ring.
+
+mod outline;
+mod triangulate;
+
+pub use triangulate::triangulate;
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::SectionError;
+
+/// The shape of a yarn's cross-section, in units of the yarn's radius.
+///
+/// Every shape but the polygon encloses the area of the unit circle, so that a yarn keeps its volume, and with it its
+/// weight, whatever its shape. x is the section's side (level in cloth), y its up (out of the fabric).
+///
+/// **Source** of ellipse, power ellipse and lenticular: Sherburn, "Geometric and mechanical modelling of textiles",
+/// PhD thesis, Nottingham, 2007 (the TexGen library).
+///
+/// ```
+/// use texere_core::Section;
+/// let flat = Section::Ellipse { aspect: 2.0 };
+/// flat.validate()?;
+/// assert!((flat.half_width() / flat.half_height() - 2.0).abs() < 1e-5);
+/// assert_eq!(flat.outline(6).len(), 6);
+/// # Ok::<(), texere_core::SectionError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub enum Section {
+    /// A circle.
+    #[default]
+    Circle,
+    /// An ellipse.
+    Ellipse {
+        /// Width over height.
+        aspect: f32,
+    },
+    /// Two arcs that meet in two edges.
+    Lenticular {
+        /// Width over height.
+        aspect: f32,
+        /// How far the edges lie above the middle, in half heights, within (-1, 1).
+        distortion: f32,
+    },
+    /// An ellipse whose height is `|sin θ|^exponent`.
+    PowerEllipse {
+        /// Width over height.
+        aspect: f32,
+        /// 1 is an ellipse; below 1 boxier, above 1 closer to a lens.
+        exponent: f32,
+    },
+    /// The outline of `plies` round plies twisted together.
+    Lobed {
+        /// Number of plies.
+        plies: u32,
+    },
+    /// The caller's own outline: counter-clockwise corners, in radii of the yarn. A plan that uses it must have as many
+    /// sides as it has corners.
+    Polygon(Vec<[f32; 2]>),
+}
+
+/// One point of a section's outline with its outward normal.
+///
+/// **Shape**: four `f32`, 16 bytes. **Units**: radii of the yarn; the normal is a unit vector.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct SectionPoint {
+    /// Along the section's side.
+    pub x: f32,
+    /// Along the section's up.
+    pub y: f32,
+    /// Normal along the side.
+    pub normal_x: f32,
+    /// Normal along up.
+    pub normal_y: f32,
+}
+
+const _: () = assert!(size_of::<SectionPoint>() == 16);
+
+impl SectionPoint {
+    /// Position · normal: how much of the radius' growth this point's surface feels. 1 all round a circle.
+    #[must_use]
+    pub fn reach(&self) -> f32 {
+        self.x * self.normal_x + self.y * self.normal_y
+    }
+}
+
+/// The fewest sides a tube can have.
+pub const SIDES_MIN: u32 = 3;
+
+/// The most sides a tube can have: far beyond what a yarn a few pixels wide can show.
+pub const SIDES_MAX: u32 = 256;
+
+/// Points at which the extent and the area of a section are measured: a polygon of 1,024 sides misses 6e-6 of a
+/// circle's area.
+const MEASURE_POINTS: u32 = 1024;
+
+impl Section {
+    /// Whether the shape's own numbers are sound.
+    ///
+    /// **Errors**: [`SectionError`] names the number and its limits.
+    pub fn validate(&self) -> Result<(), SectionError> {
+        let within = |field, value: f32, low: f32, high: f32| {
+            if (low..=high).contains(&value) {
+                Ok(())
+            } else {
+                Err(SectionError::OutOfRange { field, value, low, high })
+            }
+        };
+        match self {
+            Self::Circle => Ok(()),
+            Self::Ellipse { aspect } => within("aspect", *aspect, 0.05, 20.0),
+            Self::Lenticular { aspect, distortion } => {
+                within("aspect", *aspect, 0.05, 20.0)?;
+                within("distortion", *distortion, -0.9, 0.9)
+            }
+            Self::PowerEllipse { aspect, exponent } => {
+                within("aspect", *aspect, 0.05, 20.0)?;
+                within("exponent", *exponent, 0.1, 4.0)
+            }
+            Self::Lobed { plies } => within("plies", *plies as f32, 2.0, 12.0),
+            Self::Polygon(corners) => outline::validate_polygon(corners),
+        }
+    }
+
+    /// The outline as `sides` points, counter-clockwise seen against the tangent.
+    ///
+    /// A polygon is given back corner by corner, whatever `sides` says: a plan refuses the two when they differ.
+    #[must_use]
+    pub fn outline(&self, sides: u32) -> Vec<SectionPoint> {
+        outline::outline(self, sides)
+    }
+
+    /// Half the width, in radii of the yarn.
+    #[must_use]
+    pub fn half_width(&self) -> f32 {
+        self.outline(MEASURE_POINTS).iter().fold(0.0, |most, point| point.x.abs().max(most))
+    }
+
+    /// Half the height, in radii of the yarn: what yarns that cross have to make room for.
+    #[must_use]
+    pub fn half_height(&self) -> f32 {
+        self.outline(MEASURE_POINTS).iter().fold(0.0, |most, point| point.y.abs().max(most))
+    }
+}

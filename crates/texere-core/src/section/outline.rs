@@ -1,0 +1,189 @@
+//! Outlines of the sections, point by point.
+
+use super::{MEASURE_POINTS, Section, SectionPoint};
+use crate::{SIDES_MAX, SIDES_MIN, SectionError, Turn, atan2_turns};
+
+/// How deep the valley between two plies goes at most, as a share of the yarn's radius.
+///
+/// Two round plies that just touch leave a valley down to the axis; real plies press flat against each other and
+/// their loose fibres fill the rest.
+const VALLEY: f32 = 0.5;
+
+/// A unit circle's sine and cosine at `k / count` of a turn.
+fn sin_cos_at(k: u32, count: u32) -> (f32, f32) {
+    Turn(((u64::from(k) << 32) / u64::from(count)) as u32).sin_cos()
+}
+
+pub(super) fn outline(section: &Section, sides: u32) -> Vec<SectionPoint> {
+    if let Section::Polygon(corners) = section {
+        return polygon(corners);
+    }
+    let shape = |count: u32| (0..count).map(move |k| point(section, k, count));
+    // Equal area: scale by the root of π over the area of the bare shape.
+    let scale = match section {
+        Section::Circle | Section::Ellipse { .. } => 1.0,
+        _ => (std::f32::consts::PI / area(shape(MEASURE_POINTS))).sqrt(),
+    };
+    shape(sides).map(|bare| SectionPoint { x: bare.x * scale, y: bare.y * scale, ..bare }).collect()
+}
+
+/// Point `k` of `count` of a shape, before its area is made that of the unit circle.
+fn point(section: &Section, k: u32, count: u32) -> SectionPoint {
+    let (sin, cos) = sin_cos_at(k, count);
+    match *section {
+        Section::Circle => SectionPoint { x: cos, y: sin, normal_x: cos, normal_y: sin },
+        Section::Ellipse { aspect } => {
+            let (width, height) = (aspect.sqrt(), 1.0 / aspect.sqrt());
+            with_normal(width * cos, height * sin, height * cos, width * sin)
+        }
+        Section::PowerEllipse { aspect, exponent } => {
+            let (width, height) = (aspect, 1.0);
+            // Within a millionth of an edge the outline's tangent is vertical.
+            if sin.abs() < 1e-6 {
+                return with_normal(width * cos, 0.0, cos, 0.0);
+            }
+            let rise = sin.abs().powf(exponent);
+            let steepness = height * exponent * rise / sin.abs();
+            with_normal(width * cos, height * rise.copysign(sin), steepness * cos, width * sin)
+        }
+        Section::Lenticular { aspect, distortion } => lens(aspect, distortion, k, count),
+        Section::Lobed { plies } => lobed(plies, k, count),
+        Section::Polygon(_) => SectionPoint::default(),
+    }
+}
+
+/// Two arcs from edge to edge; the upper takes the first half of the points, the lower the second.
+fn lens(aspect: f32, distortion: f32, k: u32, count: u32) -> SectionPoint {
+    let half_width = aspect;
+    let along = (2 * k) as f32 / count as f32;
+    // The edges are where two arcs meet: there the normal points straight out.
+    if k == 0 {
+        return with_normal(half_width, distortion, 1.0, 0.0);
+    }
+    if 2 * k == count {
+        return with_normal(-half_width, distortion, -1.0, 0.0);
+    }
+    let (up, along) = if along < 1.0 { (1.0, along) } else { (-1.0, 2.0 - along) };
+    let rise = 1.0 - up * distortion;
+    let radius = (half_width * half_width + rise * rise) / (2.0 * rise);
+    let half_angle = atan2_turns(half_width, radius - rise);
+    let (sin, cos) = Turn::from_turns(half_angle * (1.0 - 2.0 * along)).sin_cos();
+    with_normal(radius * sin, distortion + up * (radius * cos - (radius - rise)), sin, up * cos)
+}
+
+/// `1 - depth (1 - cos(plies θ))`: touches the unit circle at each ply and falls to the valley between two.
+fn lobed(plies: u32, k: u32, count: u32) -> SectionPoint {
+    let (sin, cos) = sin_cos_at(k, count);
+    let turn = ((u64::from(k) << 32) / u64::from(count)) as u32;
+    let (lobe_sin, lobe_cos) = Turn(turn.wrapping_mul(plies)).sin_cos();
+    // Valley between two touching round plies whose centres lie `c` from the axis: c cos(π / plies).
+    let (half_sin, half_cos) = sin_cos_at(1, 2 * plies);
+    let valley = (half_cos / (1.0 + half_sin)).max(VALLEY);
+    let depth = (1.0 - valley) / 2.0;
+    let distance = 1.0 - depth * (1.0 - lobe_cos);
+    let change = -depth * plies as f32 * lobe_sin;
+    with_normal(distance * cos, distance * sin, distance * cos + change * sin, distance * sin - change * cos)
+}
+
+/// A point whose normal still has to be made a unit vector.
+fn with_normal(x: f32, y: f32, normal_x: f32, normal_y: f32) -> SectionPoint {
+    let inverse = 1.0 / (normal_x * normal_x + normal_y * normal_y).sqrt();
+    SectionPoint { x, y, normal_x: normal_x * inverse, normal_y: normal_y * inverse }
+}
+
+/// Area inside an outline, by the shoelace formula.
+fn area(outline: impl Iterator<Item = SectionPoint>) -> f32 {
+    let points: Vec<_> = outline.map(|point| [point.x, point.y]).collect();
+    (doubled_area(&points) / 2.0) as f32
+}
+
+/// Twice the signed area of a polygon, positive when counter-clockwise.
+fn doubled_area(corners: &[[f32; 2]]) -> f64 {
+    corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| cross(*a, *b)).sum()
+}
+
+fn cross(a: [f32; 2], b: [f32; 2]) -> f64 {
+    f64::from(a[0]) * f64::from(b[1]) - f64::from(a[1]) * f64::from(b[0])
+}
+
+fn polygon(corners: &[[f32; 2]]) -> Vec<SectionPoint> {
+    let count = corners.len();
+    (0..count)
+        .map(|k| {
+            let [before, here, after] = [k + count - 1, k, k + 1].map(|corner| corners[corner % count]);
+            // Outward normals of the two edges that meet here, added.
+            let edge = |from: [f32; 2], to: [f32; 2]| {
+                let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+                let inverse = 1.0 / (dx * dx + dy * dy).sqrt();
+                (dy * inverse, -dx * inverse)
+            };
+            let ((ax, ay), (bx, by)) = (edge(before, here), edge(here, after));
+            with_normal(here[0], here[1], ax + bx, ay + by)
+        })
+        .collect()
+}
+
+/// The furthest a corner may lie from the axis, in radii of the yarn.
+const CORNER_LIMIT: f32 = 100.0;
+
+pub(super) fn validate_polygon(corners: &[[f32; 2]]) -> Result<(), SectionError> {
+    let count = corners.len();
+    if !(SIDES_MIN as usize..=SIDES_MAX as usize).contains(&count) {
+        return Err(SectionError::Corners { corners: count, low: SIDES_MIN, high: SIDES_MAX });
+    }
+    for value in corners.iter().flatten() {
+        if !(-CORNER_LIMIT..=CORNER_LIMIT).contains(value) {
+            return Err(SectionError::OutOfRange {
+                field: "corner",
+                value: *value,
+                low: -CORNER_LIMIT,
+                high: CORNER_LIMIT,
+            });
+        }
+    }
+    for first in 0..count {
+        let next = (first + 1) % count;
+        if corners[first] == corners[next] {
+            return Err(SectionError::RepeatedCorner { corner: first });
+        }
+        for second in first + 1..count {
+            let after = (second + 1) % count;
+            let apart = next != second && after != first;
+            if apart && intersect(corners[first], corners[next], corners[second], corners[after]) {
+                return Err(SectionError::SelfIntersecting { first, second });
+            }
+            // Two edges that share a corner and lie on one another: the outline turns back on itself.
+            if next == second && folds(corners[first], corners[next], corners[after]) {
+                return Err(SectionError::SelfIntersecting { first, second });
+            }
+        }
+    }
+    if folds(corners[count - 1], corners[0], corners[1]) {
+        return Err(SectionError::SelfIntersecting { first: count - 1, second: 0 });
+    }
+    if doubled_area(corners) <= 0.0 {
+        return Err(SectionError::Clockwise);
+    }
+    Ok(())
+}
+
+fn side_of(a: [f32; 2], b: [f32; 2], point: [f32; 2]) -> f64 {
+    cross([b[0] - a[0], b[1] - a[1]], [point[0] - a[0], point[1] - a[1]])
+}
+
+/// Whether segments a-b and c-d touch or cross.
+fn intersect(a: [f32; 2], b: [f32; 2], c: [f32; 2], d: [f32; 2]) -> bool {
+    let between = |a: [f32; 2], b: [f32; 2], p: [f32; 2]| {
+        side_of(a, b, p) == 0.0
+            && (a[0].min(b[0])..=a[0].max(b[0])).contains(&p[0])
+            && (a[1].min(b[1])..=a[1].max(b[1])).contains(&p[1])
+    };
+    let crossing = side_of(a, b, c) * side_of(a, b, d) < 0.0 && side_of(c, d, a) * side_of(c, d, b) < 0.0;
+    crossing || between(a, b, c) || between(a, b, d) || between(c, d, a) || between(c, d, b)
+}
+
+/// Whether the way a-b-c turns straight back at b.
+fn folds(a: [f32; 2], b: [f32; 2], c: [f32; 2]) -> bool {
+    let (back, on) = ([a[0] - b[0], a[1] - b[1]], [c[0] - b[0], c[1] - b[1]]);
+    cross(back, on) == 0.0 && back[0] * on[0] + back[1] * on[1] > 0.0
+}

@@ -1,0 +1,342 @@
+//! The yarns of a fabric: flat control points, offsets, and what belongs to each yarn.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::{COORDINATE_LIMIT, ControlPoint, Material, RADIUS_MAX, RADIUS_MIN, Section, YarnError};
+
+/// Where in the structure a yarn comes from, counted from 1 as weavers and knitters do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Origin {
+    /// Not said.
+    #[default]
+    Unknown,
+    /// A warp yarn: the end's number from the left.
+    End(u32),
+    /// A weft yarn: the pick's number from the first one woven.
+    Pick(u32),
+    /// A weft-knitted yarn: its course.
+    Course(u32),
+    /// A weft-knitted yarn: its carrier.
+    Carrier(u32),
+    /// A warp-knitted yarn.
+    Guide {
+        /// Guide bar, 1 in front.
+        bar: u32,
+        /// Guide within the bar.
+        guide: u32,
+    },
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown => write!(f, "yarn"),
+            Self::End(end) => write!(f, "end {end}"),
+            Self::Pick(pick) => write!(f, "pick {pick}"),
+            Self::Course(course) => write!(f, "course {course}"),
+            Self::Carrier(carrier) => write!(f, "carrier {carrier}"),
+            Self::Guide { bar, guide } => write!(f, "guide bar {bar}, guide {guide}"),
+        }
+    }
+}
+
+/// What belongs to one yarn beside its control points.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Yarn {
+    /// Index into the materials.
+    pub material: u32,
+    /// Index into the sections.
+    pub section: u32,
+    /// Whether the last control point joins up with the first.
+    pub closed: bool,
+    /// Twist, rad per mm along the yarn; positive is Z twist (right-handed).
+    pub twist: f32,
+    /// Where the yarn comes from.
+    pub origin: Origin,
+}
+
+/// The steepest twist that is taken, rad/mm: 159,000 turns per metre, thirty times the hardest sewing thread.
+pub const TWIST_LIMIT: f32 = 1e3;
+
+/// Everything about the yarns that decides counts and offsets: all but positions and colours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    offsets: Vec<u64>,
+    yarns: Vec<Yarn>,
+    sections: Vec<Section>,
+}
+
+impl Layout {
+    /// Checks and joins `yarns`, `offsets` (where each yarn's control points start, and their total last) and `sections`.
+    ///
+    /// **Errors**: [`YarnError`] for offsets that are not increasing prefix sums, a yarn of fewer than two control
+    /// points (three when closed), an unknown section, a twist that is not finite or beyond [`TWIST_LIMIT`], a section
+    /// whose numbers are not sound.
+    pub fn new(yarns: Vec<Yarn>, offsets: Vec<u64>, sections: Vec<Section>) -> Result<Self, YarnError> {
+        if yarns.is_empty() {
+            return Err(YarnError::NoYarns);
+        }
+        if offsets.len() != yarns.len() + 1 {
+            return Err(YarnError::OffsetCount { offsets: offsets.len(), yarns: yarns.len() });
+        }
+        if offsets[0] != 0 {
+            return Err(YarnError::OffsetOrder { yarn: 0, start: 0, end: offsets[0] });
+        }
+        for (section, shape) in sections.iter().enumerate() {
+            shape.validate().map_err(|source| YarnError::Section { section, source })?;
+        }
+        for (index, yarn) in yarns.iter().enumerate() {
+            let (start, end) = (offsets[index], offsets[index + 1]);
+            if end < start {
+                return Err(YarnError::OffsetOrder { yarn: index, start, end });
+            }
+            let (points, least) = (end - start, if yarn.closed { 3 } else { 2 });
+            if points < least {
+                return Err(YarnError::TooFewPoints { yarn: index, points, least, closed: yarn.closed });
+            }
+            if yarn.section as usize >= sections.len() {
+                return Err(YarnError::UnknownSection {
+                    yarn: index,
+                    section: yarn.section,
+                    sections: sections.len(),
+                });
+            }
+            if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&yarn.twist) {
+                return Err(YarnError::Twist { yarn: index, twist: yarn.twist, limit: TWIST_LIMIT });
+            }
+        }
+        Ok(Self { offsets, yarns, sections })
+    }
+
+    /// Where each yarn's control points start, and their total last (the paper's Ωτ): yarns + 1 values.
+    #[must_use]
+    pub fn offsets(&self) -> &[u64] {
+        &self.offsets
+    }
+
+    /// The yarns.
+    #[must_use]
+    pub fn yarns(&self) -> &[Yarn] {
+        &self.yarns
+    }
+
+    /// The sections that yarns refer to.
+    #[must_use]
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
+    }
+
+    /// Control points of all yarns together.
+    #[must_use]
+    pub fn point_count(&self) -> u64 {
+        self.offsets.last().copied().unwrap_or(0)
+    }
+}
+
+/// The yarns of a fabric, checked: the input of every pipeline.
+///
+/// ```
+/// use texere_core::{ControlPoint, Material, Origin, Section, Yarn, Yarns};
+/// let mut yarns = Yarns::builder();
+/// let cotton = yarns.material(Material::default());
+/// let round = yarns.section(Section::Circle);
+/// let points = [0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1));
+/// yarns.yarn(Yarn { material: cotton, section: round, origin: Origin::Pick(1), ..Yarn::default() }, &points);
+/// let yarns = yarns.build()?;
+/// assert_eq!(yarns.layout().offsets(), [0, 3]);
+/// # Ok::<(), texere_core::YarnError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Yarns {
+    layout: Arc<Layout>,
+    materials: Arc<[Material]>,
+    points: Vec<ControlPoint>,
+    sources: Option<Vec<u32>>,
+}
+
+impl Yarns {
+    /// Starts an empty set of yarns.
+    #[must_use]
+    pub fn builder() -> YarnsBuilder {
+        YarnsBuilder::default()
+    }
+
+    /// Checks and joins a layout, its materials and its control points (as many as the layout says, yarn after yarn).
+    ///
+    /// **Errors**: [`YarnError`] for a wrong number of points or materials, and for the first control point that is not
+    /// finite, lies beyond [`COORDINATE_LIMIT`], or whose radius is outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\].
+    pub fn new(
+        layout: Layout,
+        materials: Vec<Material>,
+        points: Vec<ControlPoint>,
+    ) -> Result<Self, YarnError> {
+        if points.len() as u64 != layout.point_count() {
+            return Err(YarnError::PointCount { points: points.len() as u64, planned: layout.point_count() });
+        }
+        check_materials(&layout, &materials)?;
+        for (yarn, bounds) in layout.offsets.windows(2).enumerate() {
+            check_points(yarn, &points[bounds[0] as usize..bounds[1] as usize])?;
+        }
+        Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, sources: None })
+    }
+
+    /// Adds where each control point comes from (a crossing, a stitch, a source line): one `u32` per control point.
+    ///
+    /// **Errors**: [`YarnError::SourceCount`] when their number differs from that of the control points.
+    pub fn with_sources(mut self, sources: Vec<u32>) -> Result<Self, YarnError> {
+        if sources.len() != self.points.len() {
+            return Err(YarnError::SourceCount { sources: sources.len(), points: self.points.len() });
+        }
+        self.sources = Some(sources);
+        Ok(self)
+    }
+
+    /// Counts, offsets, and what belongs to each yarn.
+    #[must_use]
+    pub fn layout(&self) -> &Arc<Layout> {
+        &self.layout
+    }
+
+    /// The materials that yarns refer to.
+    #[must_use]
+    pub fn materials(&self) -> &Arc<[Material]> {
+        &self.materials
+    }
+
+    /// All control points, yarn after yarn (the paper's τ).
+    #[must_use]
+    pub fn points(&self) -> &[ControlPoint] {
+        &self.points
+    }
+
+    /// Where each control point comes from, if the structure said so.
+    #[must_use]
+    pub fn sources(&self) -> Option<&[u32]> {
+        self.sources.as_deref()
+    }
+
+    /// The place of a yarn's control points among all, or `None` past the last yarn.
+    #[must_use]
+    pub fn range(&self, yarn: usize) -> Option<Range<usize>> {
+        let (first, end) = (self.layout.offsets.get(yarn)?, self.layout.offsets.get(yarn + 1)?);
+        Some(*first as usize..*end as usize)
+    }
+
+    /// A yarn's control points, or `None` past the last yarn.
+    #[must_use]
+    pub fn yarn_points(&self, yarn: usize) -> Option<&[ControlPoint]> {
+        self.points.get(self.range(yarn)?)
+    }
+
+    /// Moves one yarn: replaces its control points by as many others.
+    ///
+    /// **Errors**: [`YarnError`] for an unknown yarn, another number of points, or a point that is not sound; the yarns
+    /// are then as they were.
+    pub fn set_points(&mut self, yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
+        let range =
+            self.range(yarn).ok_or(YarnError::UnknownYarn { yarn, yarns: self.layout.yarns.len() })?;
+        if range.len() != points.len() {
+            return Err(YarnError::PointCount { points: points.len() as u64, planned: range.len() as u64 });
+        }
+        check_points(yarn, points)?;
+        self.points[range].copy_from_slice(points);
+        Ok(())
+    }
+
+    /// Replaces the materials: a change of colour that leaves all geometry as it is.
+    ///
+    /// **Errors**: [`YarnError::UnknownMaterial`] when a yarn refers to one that is missing.
+    pub fn set_materials(&mut self, materials: Vec<Material>) -> Result<(), YarnError> {
+        check_materials(&self.layout, &materials)?;
+        self.materials = materials.into();
+        Ok(())
+    }
+}
+
+fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnError> {
+    for (yarn, each) in layout.yarns.iter().enumerate() {
+        if each.material as usize >= materials.len() {
+            return Err(YarnError::UnknownMaterial {
+                yarn,
+                material: each.material,
+                materials: materials.len(),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
+    for (point, each) in points.iter().enumerate() {
+        for (field, value) in [("x", each.x), ("y", each.y), ("z", each.z), ("radius", each.radius)] {
+            if !value.is_finite() {
+                return Err(YarnError::NotFinite { yarn, point, field, value });
+            }
+            if field != "radius" && value.abs() > COORDINATE_LIMIT {
+                return Err(YarnError::TooFar { yarn, point, field, value, limit: COORDINATE_LIMIT });
+            }
+        }
+        if !(RADIUS_MIN..=RADIUS_MAX).contains(&each.radius) {
+            return Err(YarnError::Radius {
+                yarn,
+                point,
+                radius: each.radius,
+                low: RADIUS_MIN,
+                high: RADIUS_MAX,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Collects yarns one by one; [`YarnsBuilder::build`] checks them all.
+#[derive(Debug, Clone, Default)]
+pub struct YarnsBuilder {
+    offsets: Vec<u64>,
+    yarns: Vec<Yarn>,
+    sections: Vec<Section>,
+    materials: Vec<Material>,
+    points: Vec<ControlPoint>,
+}
+
+impl YarnsBuilder {
+    /// Adds a material and gives its index.
+    pub fn material(&mut self, material: Material) -> u32 {
+        self.materials.push(material);
+        self.materials.len() as u32 - 1
+    }
+
+    /// Adds a section and gives its index.
+    pub fn section(&mut self, section: Section) -> u32 {
+        self.sections.push(section);
+        self.sections.len() as u32 - 1
+    }
+
+    /// Adds a yarn.
+    pub fn yarn(&mut self, yarn: Yarn, points: &[ControlPoint]) -> &mut Self {
+        if self.offsets.is_empty() {
+            self.offsets.push(0);
+        }
+        self.yarns.push(yarn);
+        self.points.extend_from_slice(points);
+        self.offsets.push(self.points.len() as u64);
+        self
+    }
+
+    /// Checks everything. Without a section or a material of its own the set has the circle and undyed yarn.
+    ///
+    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`].
+    pub fn build(mut self) -> Result<Yarns, YarnError> {
+        if self.sections.is_empty() {
+            self.sections.push(Section::Circle);
+        }
+        if self.materials.is_empty() {
+            self.materials.push(Material::default());
+        }
+        let layout = Layout::new(self.yarns, self.offsets, self.sections)?;
+        Yarns::new(layout, self.materials, self.points)
+    }
+}

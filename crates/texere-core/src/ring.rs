@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::{Basis, Sample, Turn};
+use crate::{Basis, Sample, SectionPoint, Turn, Vertex};
 
 /// One place along a yarn: everything of it that a section needs to stand there, but for the slope of the radius.
 ///
@@ -50,6 +50,20 @@ impl Ring {
     pub fn basis(&self) -> Basis {
         let upright = Basis::upright(Vec3::from_array(self.tangent));
         if self.roll == Turn::ZERO { upright } else { upright.rolled(self.roll) }
+    }
+
+    /// The vertex at `point` of the section that stands here with `basis`, where the radius grows by `slope` (dr/ds).
+    ///
+    /// The normal of a section that grows by r' along the axis leans back by r' times the section point's reach: it is
+    /// at right angles both to the outline and to the line along the surface.
+    #[must_use]
+    pub fn vertex(&self, basis: &Basis, slope: f32, point: &SectionPoint) -> Vertex {
+        let outward = basis.side * point.x + basis.up * point.y;
+        let position = Vec3::from_array(self.centre) + outward * self.radius;
+        let lean = slope * point.reach();
+        let across = basis.side * point.normal_x + basis.up * point.normal_y;
+        let normal = (across - Vec3::from_array(self.tangent) * lean) * (1.0 / (1.0 + lean * lean).sqrt());
+        Vertex { position: position.to_array(), normal: normal.to_array() }
     }
 }
 

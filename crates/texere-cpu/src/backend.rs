@@ -1,0 +1,81 @@
+//! The two backends as a caller opens them.
+
+use std::sync::Arc;
+
+use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Limits, Plan, Session};
+
+use crate::parallel::Parallel;
+use crate::serial::Serial;
+use crate::session::CpuSession;
+
+/// One thread, one yarn after the other: the reference.
+#[derive(Debug)]
+pub struct SerialBackend {
+    info: DeviceInfo,
+}
+
+/// All cores, equal ranges of rings: the backend to use where there is no GPU.
+#[derive(Debug)]
+pub struct ParallelBackend {
+    info: DeviceInfo,
+}
+
+fn info(name: &str, schedule: &str, threads: usize) -> DeviceInfo {
+    DeviceInfo {
+        name: name.into(),
+        device: format!("{} processor, {threads} thread{}", std::env::consts::ARCH, if threads == 1 { "" } else { "s" }),
+        driver: concat!("texere ", env!("CARGO_PKG_VERSION")).into(),
+        schedule: schedule.into(),
+        kind: DeviceKind::Cpu,
+        memory_bytes: None,
+        limits: Limits::NONE,
+    }
+}
+
+impl SerialBackend {
+    /// Opens the serial backend.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { info: info("cpu-serial", "yarn by yarn", 1) }
+    }
+}
+
+impl ParallelBackend {
+    /// Opens the parallel backend, which works on rayon's global pool.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { info: info("cpu", "equal ranges of rings", rayon::current_num_threads()) }
+    }
+}
+
+impl Default for SerialBackend {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Default for ParallelBackend {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Backend for SerialBackend {
+    fn info(&self) -> &DeviceInfo {
+        &self.info
+    }
+
+    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
+        Ok(Box::new(CpuSession::<Serial>::new(plan)?))
+    }
+}
+
+impl Backend for ParallelBackend {
+    fn info(&self) -> &DeviceInfo {
+        &self.info
+    }
+
+    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
+        Ok(Box::new(CpuSession::<Parallel>::new(plan)?))
+    }
+}

@@ -1,0 +1,29 @@
+//! The closed ends of yarns.
+
+use texere_core::{Chunk, End, MeshMut, Topology, Vertex};
+
+use crate::session::Work;
+
+/// Writes the caps of `chunk` once its tube vertices stand: the end ring's positions again, with the end's own normal.
+pub(crate) fn caps(work: &Work, chunk: &Chunk, out: MeshMut<'_>) {
+    let plan = &work.plan;
+    let sides = plan.settings().sides as usize;
+    for cap in &chunk.caps {
+        let yarn = cap.yarn as usize;
+        let rings = plan.rings(yarn);
+        let (ring, sign) = if cap.end == End::Start { (0, -1.0) } else { (rings - 1, 1.0) };
+        let end = plan.sampling().sample(work.points.yarn(plan, yarn), ring, rings, false);
+        let normal = (end.sample.tangent * sign).to_array();
+        let ring_vertex = cap.chunk_ring as usize * sides;
+        for k in 0..sides {
+            let position = out.vertices[ring_vertex + k].position;
+            out.vertices[cap.first_vertex as usize + k] = Vertex { position, normal };
+        }
+        if plan.settings().topology == Topology::Indexed {
+            let corners = plan.cap_indices(plan.yarn(yarn).section as usize, cap.end);
+            for (index, corner) in out.indices[cap.first_index as usize..].iter_mut().zip(corners) {
+                *index = cap.first_vertex + corner;
+            }
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Rolls at block starts: what a block needs to know of the yarn before it.
+
+use texere_core::{Plan, Turn};
+
+/// The result of a scan.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rolls {
+    /// The roll at each block's first ring, before a closed yarn's whole turn is spread. Empty where no yarn turns.
+    pub(crate) at_block: Vec<Turn>,
+    /// The whole turn of each yarn. Empty where no yarn turns.
+    pub(crate) whole: Vec<Turn>,
+}
+
+impl Rolls {
+    /// The roll at the first ring of block `block`, counted over all yarns.
+    pub(crate) fn at_block(&self, block: u64) -> Turn {
+        self.at_block.get(block as usize).copied().unwrap_or(Turn::ZERO)
+    }
+
+    /// The roll of ring `ring` of `yarn` whose steps so far add up to `sum`: a closed yarn gives back its share of the
+    /// whole turn, so that its last ring meets its first.
+    pub(crate) fn closed_up(&self, plan: &Plan, yarn: usize, ring: u32, sum: Turn) -> Turn {
+        if !plan.yarn(yarn).closed {
+            return sum;
+        }
+        let steps = plan.rings(yarn) - 1;
+        if ring == steps {
+            return Turn::ZERO;
+        }
+        let whole = self.whole.get(yarn).copied().unwrap_or(Turn::ZERO);
+        sum - whole.share(ring, steps)
+    }
+}

@@ -1,0 +1,29 @@
+//! The paper's serial algorithms: one loop inside the other, nothing clever.
+
+mod mesh;
+mod scan;
+mod trajectory;
+
+use texere_core::{Chunk, MeshMut, PaddedPoints, Plan};
+
+use crate::rolls::Rolls;
+use crate::session::{ChunkRings, Stages, Work};
+
+#[derive(Debug)]
+pub(crate) struct Serial;
+
+impl Stages for Serial {
+    const FUSED: bool = false;
+
+    fn scan(plan: &Plan, points: &PaddedPoints) -> Rolls {
+        scan::scan(plan, points)
+    }
+
+    fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
+        trajectory::trajectory(work, chunk, out);
+    }
+
+    fn mesh(work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>) {
+        mesh::mesh(work, chunk, rings, out);
+    }
+}

@@ -1,1 +1,53 @@
-//! Under way.
+//! What the benchmarks of all stages share: the paper's benchmark cloth, and sessions that are ready to run.
+
+use std::sync::Arc;
+
+use texere::{
+    Backend, BackendError, FabricError, Material, Plan, PlanError, Section, Settings, Thread, Weave, Woven,
+    Yarns,
+};
+use texere_core::{Chunk, Session};
+
+/// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth and its middle one.
+pub const SIZES: [(usize, usize); 2] = [(163, 150), (815, 750)];
+
+/// The devices that are benchmarked.
+pub const DEVICES: [&str; 2] = ["cpu-serial", "cpu"];
+
+/// The paper's cloth: 3/1 twill, pitch of three diameters.
+///
+/// **Errors**: [`FabricError`] for a size that no cloth has.
+pub fn paper_cloth(ends: usize, picks: usize) -> Result<Woven, FabricError> {
+    let thread = Thread::new(0.75, 0.125);
+    let drawdown = Weave::parse("3/1")?.drawdown(ends, picks)?;
+    Woven::new(
+        drawdown,
+        vec![thread; ends],
+        vec![thread; picks],
+        vec![Material::default()],
+        vec![Section::Circle],
+    )
+}
+
+/// The plan for `yarns` with the paper's settings, and its one chunk.
+///
+/// **Errors**: [`PlanError`] for yarns that no plan fits.
+pub fn paper_plan(yarns: &Yarns) -> Result<(Arc<Plan>, Vec<Chunk>), PlanError> {
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
+    let chunks = plan.chunks(&texere::Limits::NONE)?.collect();
+    Ok((plan, chunks))
+}
+
+/// A session on `device` that holds `yarns`, uploaded and scanned.
+///
+/// **Errors**: [`BackendError`] from the device.
+pub fn session(
+    device: &dyn Backend,
+    plan: &Arc<Plan>,
+    yarns: &Yarns,
+) -> Result<Box<dyn Session>, BackendError> {
+    let mut session = device.session(plan.clone())?;
+    session.upload(0, yarns.points())?;
+    session.scan()?;
+    Ok(session)
+}

@@ -1,2 +1,44 @@
-//! Under way.
-fn main() {}
+//! The `texere` program: inspect, mesh and draft textile designs.
+//!
+//! Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line is wrong; 3 the design is wrong.
+
+mod args;
+mod devices;
+mod draft;
+mod fail;
+mod inspect;
+mod mesh;
+mod progress;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use args::{Args, Command};
+use clap::Parser;
+use fail::Fail;
+
+fn main() -> ExitCode {
+    let outcome = match Args::parse().command {
+        Command::Devices(args) => devices::run(&args),
+        Command::Inspect(args) => inspect::run(&args),
+        Command::Mesh(args) => mesh::run(&args),
+        Command::Draft(args) => draft::run(&args),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(fail) => {
+            // Nobody is left to tell when standard error is closed too.
+            let _ = writeln!(std::io::stderr(), "{fail}");
+            fail.exit_code()
+        }
+    }
+}
+
+/// Prints `text` to standard output. A reader that has seen enough and closed the pipe is no failure.
+fn print(text: &str) -> Result<(), Fail> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Fail::output(error)),
+        _ => Ok(()),
+    }
+}

@@ -23,7 +23,11 @@ pub struct ParallelBackend {
 fn info(name: &str, schedule: &str, threads: usize) -> DeviceInfo {
     DeviceInfo {
         name: name.into(),
-        device: format!("{} processor, {threads} thread{}", std::env::consts::ARCH, if threads == 1 { "" } else { "s" }),
+        device: format!(
+            "{} processor, {threads} thread{}",
+            std::env::consts::ARCH,
+            if threads == 1 { "" } else { "s" }
+        ),
         driver: concat!("texere ", env!("CARGO_PKG_VERSION")).into(),
         schedule: schedule.into(),
         kind: DeviceKind::Cpu,

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere_core::{
-    BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, PaddedPoints, Plan, Ring, Session, StageTimings, Vertex,
-    check_output, zeroed,
+    BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, PaddedPoints, Plan, Ring, Session, StageTimings,
+    Vertex, check_output, zeroed,
 };
 
 use crate::rolls::Rolls;
@@ -116,7 +116,11 @@ impl<S: Stages> CpuSession<S> {
 }
 
 /// Makes `buffer` `length` long; what it held is lost. Memory that is large enough is kept.
-fn resize<T: bytemuck::Zeroable>(what: &'static str, buffer: &mut Vec<T>, length: u32) -> Result<(), BackendError> {
+fn resize<T: bytemuck::Zeroable>(
+    what: &'static str,
+    buffer: &mut Vec<T>,
+    length: u32,
+) -> Result<(), BackendError> {
     if buffer.capacity() < length as usize {
         *buffer = zeroed(what, u64::from(length))?;
     }
@@ -159,7 +163,8 @@ impl<S: Stages> Session for CpuSession<S> {
 
     fn mesh(&mut self, chunk: &Chunk) -> Result<(), BackendError> {
         let slot = self.claim(chunk);
-        let (mut vertices, mut indices) = (std::mem::take(&mut slot.vertices), std::mem::take(&mut slot.indices));
+        let (mut vertices, mut indices) =
+            (std::mem::take(&mut slot.vertices), std::mem::take(&mut slot.indices));
         resize("vertices", &mut vertices, chunk.vertices)?;
         resize("indices", &mut indices, chunk.indices)?;
         self.mesh_into(chunk, MeshMut { vertices: &mut vertices, indices: &mut indices })?;

@@ -1,1 +1,43 @@
-//! Under way.
+//! Fabric structures: how threads interlace, and from there the control points of every yarn.
+//!
+//! ```text
+//! Draft ──┐
+//! Weave ──┼──> Drawdown ──> Woven ──> Yarns
+//! image ──┘                 (+ threads)
+//! ```
+//!
+//! A [`Drawdown`] says at each crossing whether the warp lies on top. It comes from a weaver's [`Draft`], from a
+//! [`Weave`] in its usual notation, or straight from a function. [`Woven`] adds what each thread is like and where it
+//! lies, and turns all into [`texere_core::Yarns`].
+//!
+//! Beside structures there are the measures that designers ask for: [`length_mm`] of yarn, and the diameter of a yarn of
+//! known weight ([`diameter_mm`]).
+//!
+//! ```
+//! use texere_core::{Material, Section};
+//! use texere_fabric::{Thread, Weave, Woven};
+//! let twill: Weave = "2/2".parse()?;
+//! let thread = Thread::new(0.5, 0.1); // 20 threads a cm, 0.2 mm thick
+//! let (warp, weft) = (vec![thread; 40], vec![thread; 30]);
+//! let cloth = Woven::new(twill.drawdown(40, 30)?, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+//! assert_eq!(cloth.yarns()?.layout().yarns().len(), 70);
+//! # Ok::<(), texere_fabric::FabricError>(())
+//! ```
+
+mod error;
+mod length;
+mod warning;
+mod woven;
+mod yarn_size;
+
+pub use error::FabricError;
+pub use length::{length_mm, lengths_mm};
+pub use warning::FabricWarning;
+pub use woven::{
+    CROSSINGS_MAX, Draft, Drawdown, NO_CROSSING, POINTS_MAX, REPEAT_MAX, SPACING_MAX, SPACING_MIN, Shedding,
+    THREADS_MAX, Thread, Weave, Woven,
+};
+pub use yarn_size::{
+    COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,
+    tex_from_metric_count,
+};

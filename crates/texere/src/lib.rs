@@ -1,1 +1,41 @@
-//! Under way.
+//! Textile designs to yarn-level 3D geometry.
+//!
+//! ```text
+//! Design ──> Yarns ──> Pipeline on a device ──> Mesh ──> file
+//! read       yarns     open                              write
+//! ```
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = std::env::temp_dir().join(format!("texere-doc-{}", std::process::id()));
+//! # std::fs::create_dir_all(&folder)?;
+//! # let design_path = folder.join("plain.toml");
+//! # std::fs::write(&design_path, "[weave]\nnotation = \"plain\"\nends = 8\npicks = 8\n[yarns.ecru]\ntex = 50.0\n\
+//! # [warp]\nyarns = [\"ecru\"]\nper_cm = 12.0\n[weft]\nyarns = [\"ecru\"]\nper_cm = 12.0\n")?;
+//! # let mesh_path = folder.join("plain.glb");
+//! let design = texere::read(&design_path)?; // .wif or .toml
+//! let yarns = design.yarns()?;
+//! let device = texere::open("auto")?;
+//! let mesh = texere::Pipeline::new(&yarns).subdivisions(1).sides(6).mesh(&*device)?;
+//! texere::write(&mesh, &mesh_path)?; // .glb or .ply
+//! # std::fs::remove_dir_all(&folder)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A cloth too large for memory is written piece by piece with [`stream`]. Yarns of any other origin come from
+//! [`Yarns::builder`].
+
+mod device;
+
+pub use device::{devices, open};
+pub use texere_core::{
+    Backend, BackendError, Chunk, ControlPoint, Counts, DeviceInfo, DeviceKind, Frame, Limits, Material,
+    Mesh, MeshPiece, Origin, Pipeline, PipelineError, Plan, PlanError, Progress, Ring, Section, SectionError,
+    Settings, Topology, Trajectory, Vertex, Yarn, YarnError, Yarns, YarnsBuilder,
+};
+pub use texere_fabric::{
+    Draft, Drawdown, FabricError, FabricWarning, Shedding, Thread, Weave, Woven, length_mm, lengths_mm,
+};
+pub use texere_formats::write::{Format, Written, mesh as write, stream};
+pub use texere_formats::{Design, ReadError, Structure, WriteError, read};

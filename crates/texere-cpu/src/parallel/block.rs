@@ -1,8 +1,8 @@
 //! One block: its rings, then its vertices, from tables and in loops of known length.
 
 use texere_core::{
-    BLOCK_RINGS, Block, ControlPoint, PaddedPoints, Plan, Ring, RingSample, Sampling, SectionPoint, Segment, Turn,
-    Vertex,
+    BLOCK_RINGS, Block, ControlPoint, PaddedPoints, Plan, Ring, RingSample, Sampling, SectionPoint, Segment,
+    Turn, Vertex,
 };
 
 use crate::session::Work;

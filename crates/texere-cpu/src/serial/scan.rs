@@ -20,7 +20,8 @@ pub(super) fn scan(plan: &Plan, points: &PaddedPoints) -> Rolls {
             if ring + 1 < rings {
                 let next = at(ring + 1);
                 let chord = here.chord_to(&next);
-                roll = roll + plan.settings().frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
+                roll =
+                    roll + plan.settings().frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
                 here = next;
             }
         }

@@ -8,7 +8,8 @@ pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
     let plan = &work.plan;
     for (block, number) in chunk.blocks.iter().zip(chunk.block_range.start..) {
         let yarn = block.yarn as usize;
-        let (padded, rings, closed) = (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
+        let (padded, rings, closed) =
+            (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
         let twist = plan.twist_turns(yarn);
         let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
         let level = plan.settings().frame.is_level(twist);
@@ -24,7 +25,8 @@ pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
                 let next = at(ring + 1);
                 if !level {
                     let chord = here.chord_to(&next);
-                    roll = roll + plan.settings().frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
+                    roll = roll
+                        + plan.settings().frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
                 }
                 here = next;
             }

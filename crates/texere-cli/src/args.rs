@@ -1,0 +1,153 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use texere::{Frame, Section, Settings, Topology};
+
+/// Textile designs to yarn-level 3D geometry.
+#[derive(Debug, Parser)]
+#[command(name = "texere", version, after_help = EXIT_CODES)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line is wrong; \
+                          3 the design is wrong.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// List the devices that can do the work
+    Devices(DevicesArgs),
+    /// Say what a design makes: yarns, counts, sizes, lengths, warnings
+    Inspect(InspectArgs),
+    /// Write a design's mesh to a .glb or .ply file
+    Mesh(MeshArgs),
+    /// Print a woven design's drawdown
+    Draft(DraftArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct DevicesArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct InspectArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    #[command(flatten)]
+    pub(crate) settings: SettingsArgs,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct MeshArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    /// The file to write: .glb or .ply
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// The device that does the work, as `texere devices` lists them
+    #[arg(long, default_value = "auto")]
+    pub(crate) device: String,
+    #[command(flatten)]
+    pub(crate) settings: SettingsArgs,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct DraftArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    /// Print a row for each pick, the last pick first: 1 where the warp is up, 0 where the weft is, end 1 on the left
+    #[arg(long, required = true)]
+    pub(crate) text: bool,
+}
+
+/// What can be chosen about a mesh.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SettingsArgs {
+    /// Points inserted between two control points
+    #[arg(long, value_name = "K", default_value_t = Settings::default().subdivisions)]
+    subdivisions: u32,
+    /// Sides of the tube
+    #[arg(long, value_name = "NC", default_value_t = Settings::default().sides)]
+    sides: u32,
+    /// Tension of the spline, 0 to below 1
+    #[arg(long, value_name = "U", default_value_t = Settings::default().tension)]
+    tension: f32,
+    /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT, power-ellipse:ASPECT:EXPONENT, lobed:PLIES
+    #[arg(long, value_parser = section)]
+    pub(crate) section: Option<Section>,
+    /// Which way round sections stand along the yarn
+    #[arg(long, value_enum, default_value_t = FrameArg::Upright)]
+    frame: FrameArg,
+    /// How triangles are told: indexed, or by one shared pattern, which makes smaller GLB files
+    #[arg(long, value_enum, default_value_t = TopologyArg::Shared)]
+    topology: TopologyArg,
+    /// Close the ends of yarns
+    #[arg(long)]
+    caps: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum FrameArg {
+    Upright,
+    RotationMinimizing,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TopologyArg {
+    Indexed,
+    Shared,
+    None,
+}
+
+impl SettingsArgs {
+    pub(crate) fn settings(&self) -> Settings {
+        Settings {
+            tension: self.tension,
+            subdivisions: self.subdivisions,
+            sides: self.sides,
+            frame: match self.frame {
+                FrameArg::Upright => Frame::Upright,
+                FrameArg::RotationMinimizing => Frame::RotationMinimizing,
+            },
+            topology: match self.topology {
+                TopologyArg::Indexed => Topology::Indexed,
+                TopologyArg::Shared => Topology::Shared,
+                TopologyArg::None => Topology::None,
+            },
+            caps: self.caps,
+        }
+    }
+}
+
+/// A section from its name and its numbers, separated by colons.
+fn section(text: &str) -> Result<Section, String> {
+    let mut parts = text.split(':');
+    let name = parts.next().unwrap_or_default();
+    let numbers: Vec<f32> = parts
+        .map(|part| part.parse().map_err(|_| format!("\"{part}\" is not a number")))
+        .collect::<Result<_, _>>()?;
+    let section = match (name, &numbers[..]) {
+        ("circle", []) => Section::Circle,
+        ("ellipse", &[aspect]) => Section::Ellipse { aspect },
+        ("lenticular", &[aspect]) => Section::Lenticular { aspect, distortion: 0.0 },
+        ("lenticular", &[aspect, distortion]) => Section::Lenticular { aspect, distortion },
+        ("power-ellipse", &[aspect, exponent]) => Section::PowerEllipse { aspect, exponent },
+        ("lobed", &[plies]) if plies.fract() == 0.0 && plies >= 0.0 => Section::Lobed { plies: plies as u32 },
+        _ => {
+            return Err("expected circle, ellipse:ASPECT, lenticular:ASPECT[:DISTORTION], \
+                        power-ellipse:ASPECT:EXPONENT or lobed:PLIES"
+                .into());
+        }
+    };
+    section.validate().map_err(|error| error.to_string())?;
+    Ok(section)
+}

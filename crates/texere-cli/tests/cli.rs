@@ -1,0 +1,135 @@
+//! The program as a user runs it: what it prints, what it writes, how it exits.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn texere(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_texere")).args(args).output().unwrap()
+}
+
+fn design(name: &str) -> String {
+    let folder: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "..", "designs"].iter().collect();
+    folder.join(name).to_string_lossy().into_owned()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn inspect(args: &[&str]) -> Value {
+    let output = texere(&[&["inspect", "--json"], args].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    serde_json::from_str(&stdout(&output)).unwrap()
+}
+
+/// The paper's benchmark cloths: yarns, control points, rings, facets. Derived from its text: a yarn has a control point
+/// at each crossing and one at each end, K = 1 inserts one between two, and nc = 6 sides make 12 facets between rings.
+/// They add up to the 254.47 million facets that it states for 2880 x 1840.
+#[test]
+fn the_papers_cloths_have_the_papers_sizes() {
+    for (size, yarns, control_points, rings, facets) in [
+        ("163x150", 313u64, 49_526u64, 98_739u64, 1_181_112u64),
+        ("489x450", 939, 441_978, 883_017, 10_584_936),
+        ("815x750", 1_565, 1_225_630, 2_449_695, 29_377_560),
+        ("1141x1050", 2_191, 2_400_482, 4_798_773, 57_558_984),
+        ("1630x1500", 3_130, 4_896_260, 9_789_390, 117_435_120),
+        ("2880x1840", 4_720, 10_607_840, 21_210_960, 254_474_880),
+    ] {
+        let report = inspect(&[&design(&format!("paper/{size}.toml"))]);
+        assert_eq!(report["yarns"], yarns, "{size}");
+        assert_eq!(report["control_points"], control_points, "{size}");
+        assert_eq!(report["rings"], rings, "{size}");
+        assert_eq!(report["vertices"], rings * 6, "{size}");
+        assert_eq!(report["triangles"], facets, "{size}");
+        assert_eq!(report["warnings"], Value::Array(vec![]), "{size}");
+    }
+}
+
+#[test]
+fn settings_change_what_is_counted() {
+    let plain = design("plain.toml");
+    let report = inspect(&["--subdivisions", "3", "--sides", "8", "--caps", "--topology", "indexed", &plain]);
+    // 64 ends of 50 control points, 48 picks of 66; 4 rings an interval.
+    let rings = 64 * (49 * 4 + 1) + 48 * (65 * 4 + 1);
+    assert_eq!(report["rings"], rings);
+    assert_eq!(report["vertices"], rings * 8 + 112 * 2 * 8);
+    let triangles = (rings - 112) * 16 + 112 * 2 * 6;
+    assert_eq!(report["triangles"], triangles);
+    assert_eq!(report["bytes"], (rings * 8 + 112 * 2 * 8) * 24 + triangles * 3 * 4);
+}
+
+#[test]
+fn a_drafts_text_has_the_last_pick_on_top_and_end_1_on_the_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("twill.toml");
+    let text = "[weave]\nnotation = \"3/1\"\nends = 6\npicks = 4\n[yarns.a]\ndiameter_mm = 0.3\n\
+                [warp]\nyarns = [\"a\"]\nper_cm = 8.0\n[weft]\nyarns = [\"a\"]\nper_cm = 8.0\n";
+    std::fs::write(&path, text).unwrap();
+    let output = texere(&["draft", path.to_str().unwrap(), "--text"]);
+    // Right-hand twill: the weft's float moves one end to the right with each pick, and up the page.
+    assert_eq!(stdout(&output), "110111\n101110\n011101\n111011\n");
+}
+
+#[test]
+fn a_mesh_is_written_and_nothing_is_drawn_on_a_pipe() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, device) in [("plain.glb", "cpu"), ("plain.ply", "cpu-serial")] {
+        let path = folder.path().join(name);
+        let args = ["mesh", &design("plain.toml"), "-o", path.to_str().unwrap(), "--device", device];
+        let output = texere(&args);
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert_eq!(stderr(&output), "");
+        let written = std::fs::metadata(&path).unwrap().len();
+        assert!(stdout(&output).contains(&format!("{written} bytes")), "{}", stdout(&output));
+    }
+}
+
+#[test]
+fn devices_are_listed_by_the_names_that_open_them() {
+    let output = texere(&["devices", "--json"]);
+    let list: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let names: Vec<_> =
+        list.as_array().unwrap().iter().map(|device| device["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["cpu", "cpu-serial"]);
+    assert!(stdout(&texere(&["devices"])).starts_with("cpu (auto)"));
+}
+
+#[test]
+fn exit_codes_say_whose_fault_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let bad = folder.path().join("bad.toml");
+    std::fs::write(&bad, "[weave]\nnotation = \"plain\"\nend = 3\n").unwrap();
+    let (bad, plain) = (bad.to_str().unwrap(), design("plain.toml"));
+    let nowhere = folder.path().join("no").join("folder").join("x.glb");
+    let nowhere = nowhere.to_str().unwrap();
+    for (args, code, said) in [
+        (vec!["inspect", "no-such-file.wif"], 1, "no-such-file.wif"),
+        (vec!["inspect", bad], 3, "line 3: key \"end\" is not known; did you mean \"ends\"?"),
+        (vec!["inspect", "picture.jpeg"], 3, "known endings"),
+        (vec!["inspect", &plain, "--sides", "2"], 2, "2 sides, outside 3 to 256"),
+        (vec!["inspect", &plain, "--tension", "nan"], 2, "tension is NaN"),
+        (vec!["inspect", &plain, "--subdivisions", "1000000000000"], 2, "1000000000000"),
+        (vec!["inspect", &plain, "--subdivisions", "4000000000"], 2, "4000000000 subdivisions"),
+        (vec!["inspect", &plain, "--section", "blob"], 2, "expected circle"),
+        (vec!["inspect", &plain, "--section", "ellipse:900"], 2, "aspect is 900"),
+        (vec!["mesh", &plain, "-o", nowhere], 1, "x.glb"),
+        (vec!["mesh", &plain, "-o", "mesh.obj"], 1, "glb, ply"),
+        (
+            vec!["mesh", &plain, "-o", nowhere, "--device", "abacus"],
+            2,
+            "\"abacus\"; there are: cpu, cpu-serial",
+        ),
+        (vec!["weave", &plain], 2, "unrecognized subcommand"),
+    ] {
+        let output = texere(&args);
+        assert_eq!(output.status.code(), Some(code), "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(said), "{args:?}: {}", stderr(&output));
+    }
+}

@@ -1,0 +1,216 @@
+//! What can go wrong between a design and its yarns.
+
+use texere_core::{Origin, SectionError, YarnError};
+use thiserror::Error;
+
+/// A structure that can't be taken. Threads are counted from 1, as weavers do.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FabricError {
+    /// No threads at all in one direction, or more than are taken.
+    #[error("cloth of {ends} ends and {picks} picks; each must be 1 to {limit}")]
+    Size {
+        /// Ends asked for.
+        ends: usize,
+        /// Picks asked for.
+        picks: usize,
+        /// Most taken of either.
+        limit: usize,
+    },
+    /// More crossings than a `u32` counts.
+    #[error("{ends} ends and {picks} picks cross {crossings} times, more than {limit}")]
+    Crossings {
+        /// Ends asked for.
+        ends: usize,
+        /// Picks asked for.
+        picks: usize,
+        /// Their product.
+        crossings: u64,
+        /// Most taken.
+        limit: u64,
+    },
+    /// The cloth would have more control points than are taken.
+    #[error("{ends} ends and {picks} picks need {points} control points, more than {limit}")]
+    Points {
+        /// Ends of the cloth.
+        ends: usize,
+        /// Picks of the cloth.
+        picks: usize,
+        /// Control points of all yarns.
+        points: u64,
+        /// Most taken.
+        limit: u64,
+    },
+    /// Memory could not be had.
+    #[error("out of memory: {bytes} bytes for {what}")]
+    OutOfMemory {
+        /// What for.
+        what: &'static str,
+        /// How many bytes.
+        bytes: u64,
+    },
+    /// A crossing outside the cloth.
+    #[error("no crossing of end {end} and pick {pick}; the cloth has {ends} ends and {picks} picks")]
+    NoCrossing {
+        /// The end, from 1.
+        end: usize,
+        /// The pick, from 1.
+        pick: usize,
+        /// Ends of the cloth.
+        ends: usize,
+        /// Picks of the cloth.
+        picks: usize,
+    },
+    /// A tie-up too large to be worked out.
+    #[error("{treadles} treadles for {ends} ends; their product must be {limit} at most")]
+    TieUp {
+        /// Treadles in the tie-up.
+        treadles: usize,
+        /// Ends of the cloth.
+        ends: usize,
+        /// Most taken of their product.
+        limit: u64,
+    },
+    /// A weave's notation that can't be read.
+    #[error("weave \"{text}\", character {position}: expected {expected}")]
+    Notation {
+        /// The text, cut short where it is long.
+        text: String,
+        /// Which character, from 1.
+        position: usize,
+        /// What should have stood there.
+        expected: &'static str,
+    },
+    /// A satin's move that would show a twill line or leave ends without a binding point.
+    #[error(
+        "weave \"{text}\", character {position}: a satin of {ends} ends can't have move {step}; \
+         it needs one from 2 to {} that shares no factor with {ends}", .ends.saturating_sub(2)
+    )]
+    SatinMove {
+        /// The text, cut short where it is long.
+        text: String,
+        /// Which character, from 1.
+        position: usize,
+        /// The move.
+        step: i64,
+        /// Ends in the repeat.
+        ends: usize,
+    },
+    /// There is no regular satin on so many ends: none on fewer than 5, and none on 6.
+    #[error("weave \"{text}\", character {position}: no satin has {ends} ends; it takes 5, or 7 and more")]
+    NoSatin {
+        /// The text, cut short where it is long.
+        text: String,
+        /// Which character, from 1.
+        position: usize,
+        /// Ends asked for.
+        ends: usize,
+    },
+    /// A twill's move with which an end would lie on one side of the cloth for ever.
+    #[error("weave \"{text}\", character {position}: with move {step} end {end} never changes sides")]
+    TwillMove {
+        /// The text, cut short where it is long.
+        text: String,
+        /// Which character, from 1.
+        position: usize,
+        /// The move.
+        step: i64,
+        /// The first such end of the repeat, from 1.
+        end: usize,
+    },
+    /// A repeat larger than is taken.
+    #[error("a repeat of {ends} ends and {picks} picks; each may be {limit} at most")]
+    Repeat {
+        /// Ends in the repeat.
+        ends: usize,
+        /// Picks in the repeat.
+        picks: usize,
+        /// Most taken of either.
+        limit: usize,
+    },
+    /// As many threads must be described as the drawdown has.
+    #[error("{threads} {set} described, but the drawdown has {planned}")]
+    ThreadCount {
+        /// `ends` or `picks`.
+        set: &'static str,
+        /// Described.
+        threads: usize,
+        /// In the drawdown.
+        planned: usize,
+    },
+    /// A spacing that is not a number, not positive, or no cloth's.
+    #[error("spacing of {thread} is {spacing_mm} mm, outside {low} to {high} mm")]
+    Spacing {
+        /// The thread.
+        thread: Origin,
+        /// Its spacing, mm.
+        spacing_mm: f64,
+        /// Least taken, mm.
+        low: f64,
+        /// Most taken, mm.
+        high: f64,
+    },
+    /// A radius that is not a number, not positive, or no yarn's.
+    #[error("radius of {thread} is {radius_mm} mm, outside {low} to {high} mm")]
+    Radius {
+        /// The thread.
+        thread: Origin,
+        /// Its radius, mm.
+        radius_mm: f32,
+        /// Thinnest taken, mm.
+        low: f32,
+        /// Thickest taken, mm.
+        high: f32,
+    },
+    /// A twist that is not finite or too steep.
+    #[error("twist of {thread} is {twist} rad/mm, beyond ±{limit}")]
+    Twist {
+        /// The thread.
+        thread: Origin,
+        /// Its twist, rad/mm.
+        twist: f32,
+        /// The steepest taken, rad/mm.
+        limit: f32,
+    },
+    /// A thread refers to a material that is missing.
+    #[error("{thread} is of material {material}, but there are {materials}")]
+    UnknownMaterial {
+        /// The thread.
+        thread: Origin,
+        /// Its material, from 0.
+        material: u32,
+        /// How many there are.
+        materials: usize,
+    },
+    /// A thread refers to a section that is missing.
+    #[error("{thread} has section {section}, but there are {sections}")]
+    UnknownSection {
+        /// The thread.
+        thread: Origin,
+        /// Its section, from 0.
+        section: u32,
+        /// How many there are.
+        sections: usize,
+    },
+    /// A section whose numbers are not sound.
+    #[error("section {section} is not sound")]
+    Section {
+        /// Which one, from 0.
+        section: usize,
+        /// Why.
+        source: SectionError,
+    },
+    /// A cloth further across than coordinates reach.
+    #[error("{set} lie over {extent_mm} mm, more than {limit} mm")]
+    Extent {
+        /// `ends` or `picks`.
+        set: &'static str,
+        /// Sum of their spacings, mm.
+        extent_mm: f64,
+        /// Most taken, mm.
+        limit: f64,
+    },
+    /// The yarns can't be taken.
+    #[error("the cloth's yarns are not sound")]
+    Yarns(#[from] YarnError),
+}

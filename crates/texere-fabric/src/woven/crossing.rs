@@ -1,0 +1,45 @@
+//! How far threads swing out of the cloth's middle where they cross.
+
+/// How far a thread has to swing at a crossing, against the pitch of the threads that it crosses: (pitch over room,
+/// swing as a multiple of half the room).
+///
+/// Two threads that cross at half their room each just touch there. With one control point a crossing, though, the
+/// spline cuts corners on its way from one side to the other, the more so the closer the threads that it crosses; and
+/// the nearest approach is then beside the crossing. These are the smallest multiples with which the centrelines of
+/// round yarns of one size, measured on finely sampled splines, stay 0.992 diameters apart in plain weave, 3/1 and 2/2
+/// twill, satins on 5 and 8 ends, and random weaves.
+const SWING: [(f32, f32); 8] = [
+    (2.0, 1.33),
+    (2.25, 1.17),
+    (2.5, 1.09),
+    (2.75, 1.06),
+    (3.0, 1.04),
+    (3.5, 1.02),
+    (4.0, 1.013),
+    (6.0, 1.0),
+];
+
+/// The closest pitch, in rooms, for which a swing was found that keeps crossing threads clear.
+pub(super) const PITCH_MIN: f32 = SWING[0].0;
+
+/// How far (mm) a thread lies from the cloth's middle at a crossing, up or down.
+///
+/// `room` is half the heights of the two threads together: what their centrelines must be apart; it is split evenly
+/// between them (balanced crimp). `pitch` is the mean distance of the crossed threads there. Both mm.
+pub(super) fn depth(room: f32, pitch: f32) -> f32 {
+    0.5 * room * swing(pitch / room)
+}
+
+/// [`SWING`], linear between its entries and constant outside.
+fn swing(pitch: f32) -> f32 {
+    let mut below = SWING[0];
+    for above in SWING {
+        if pitch < above.0 {
+            // Before the first entry `below` and `above` are the same, and there is nothing between them.
+            let share = if above.0 > below.0 { (pitch - below.0) / (above.0 - below.0) } else { 0.0 };
+            return below.1 + share * (above.1 - below.1);
+        }
+        below = above;
+    }
+    below.1
+}

@@ -1,0 +1,171 @@
+//! The draft: how a weaver writes a weave down, and what the loom makes of it.
+
+use std::collections::HashMap;
+
+use super::drawdown::WORD;
+use crate::{CROSSINGS_MAX, Drawdown, FabricError};
+
+/// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.
+///
+/// All numbers are counted from 1, as weavers write them; 0 stands for none, and a list may be empty.
+///
+/// ```
+/// use texere_fabric::{Draft, Shedding};
+/// // A 2/2 twill on four shafts, straight draft.
+/// let straight: Vec<_> = (0..8).map(|thread| vec![thread % 4 + 1]).collect();
+/// let draft = Draft {
+///     threading: straight.clone(),
+///     shedding: Shedding::TieUp {
+///         tie_up: vec![vec![1, 2], vec![2, 3], vec![3, 4], vec![4, 1]],
+///         treadling: straight,
+///     },
+///     rising_shed: true,
+/// };
+/// let drawdown = draft.drawdown()?;
+/// assert!(drawdown.up(0, 0) && drawdown.up(1, 0) && !drawdown.up(2, 0) && !drawdown.up(3, 0));
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Draft {
+    /// For each end the shafts that carry it.
+    pub threading: Vec<Vec<u32>>,
+    /// What each pick lifts.
+    pub shedding: Shedding,
+    /// Whether lifted shafts carry the warp to the face. Where they don't (a sinking shed), everything is inverted.
+    pub rising_shed: bool,
+}
+
+/// How the picks of a draft lift their shafts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Shedding {
+    /// By treadles.
+    TieUp {
+        /// For each treadle the shafts that are tied to it. A treadle past the last one lifts nothing.
+        tie_up: Vec<Vec<u32>>,
+        /// For each pick the treadles that are pressed.
+        treadling: Vec<Vec<u32>>,
+    },
+    /// Shaft by shaft, as a dobby does: for each pick the shafts that are lifted.
+    LiftPlan(Vec<Vec<u32>>),
+}
+
+impl Shedding {
+    /// One list for each pick: treadles or shafts.
+    fn picks(&self) -> &[Vec<u32>] {
+        match self {
+            Self::TieUp { treadling, .. } => treadling,
+            Self::LiftPlan(lifts) => lifts,
+        }
+    }
+}
+
+impl Draft {
+    /// How many ends are threaded.
+    #[must_use]
+    pub fn ends(&self) -> usize {
+        self.threading.len()
+    }
+
+    /// How many picks are woven.
+    #[must_use]
+    pub fn picks(&self) -> usize {
+        self.shedding.picks().len()
+    }
+
+    /// The cloth that this draft weaves: the warp is up where one of the end's shafts is among those that the pick lifts.
+    ///
+    /// **Errors**: those of [`Drawdown::new`]; [`FabricError::TieUp`] where treadles times ends exceed
+    /// [`CROSSINGS_MAX`].
+    pub fn drawdown(&self) -> Result<Drawdown, FabricError> {
+        let mut drawdown = Drawdown::new(self.ends(), self.picks())?;
+        let shafts = self.shafts();
+        let lifts = match &self.shedding {
+            Shedding::TieUp { tie_up, .. } => self.treadles(tie_up, &shafts)?,
+            Shedding::LiftPlan(_) => shafts,
+        };
+        // Most picks repeat an earlier one.
+        let mut woven: HashMap<&[u32], usize> = HashMap::new();
+        for (pick, list) in self.shedding.picks().iter().enumerate() {
+            if let Some(&same) = woven.get(list.as_slice()) {
+                drawdown.copy_pick(same, pick);
+                continue;
+            }
+            woven.insert(list, pick);
+            let row = drawdown.row_mut(pick);
+            list.iter().filter_map(|number| lifts.get(number)).for_each(|lift| lift.raise(row));
+        }
+        if !self.rising_shed {
+            drawdown.invert();
+        }
+        Ok(drawdown)
+    }
+
+    /// What each shaft lifts, by its number.
+    fn shafts(&self) -> HashMap<u32, Lift> {
+        let mut shafts: HashMap<u32, Vec<u32>> = HashMap::new();
+        for (end, carried_by) in (0..).zip(&self.threading) {
+            for &shaft in carried_by.iter().filter(|&&shaft| shaft > 0) {
+                shafts.entry(shaft).or_default().push(end);
+            }
+        }
+        let words = self.ends().div_ceil(WORD);
+        shafts.into_iter().map(|(shaft, ends)| (shaft, Lift::new(ends, words))).collect()
+    }
+
+    /// What each treadle lifts, by its number.
+    fn treadles(
+        &self,
+        tie_up: &[Vec<u32>],
+        shafts: &HashMap<u32, Lift>,
+    ) -> Result<HashMap<u32, Lift>, FabricError> {
+        let (treadles, ends) = (tie_up.len(), self.ends());
+        if treadles as u64 > CROSSINGS_MAX / ends.max(1) as u64 {
+            return Err(FabricError::TieUp { treadles, ends, limit: CROSSINGS_MAX });
+        }
+        let row = |tied: &[u32]| {
+            let mut row = vec![0; ends.div_ceil(WORD)];
+            tied.iter().filter_map(|shaft| shafts.get(shaft)).for_each(|lift| lift.raise(&mut row));
+            Lift::Many(row)
+        };
+        let tied = (1..).zip(tie_up).filter(|(_, tied)| !tied.is_empty());
+        Ok(tied.map(|(treadle, tied)| (treadle, row(tied))).collect())
+    }
+}
+
+/// The ends that a shaft or a treadle lifts, in the form that is quicker to lift.
+enum Lift {
+    /// A list.
+    Few(Vec<u32>),
+    /// A row of a drawdown.
+    Many(Vec<u64>),
+}
+
+impl Lift {
+    /// `ends` of a cloth whose rows have `words`. A list as long as a row has words takes as long to lift as the row.
+    fn new(ends: Vec<u32>, words: usize) -> Self {
+        let many = ends.len() > words;
+        let few = Self::Few(ends);
+        if !many {
+            return few;
+        }
+        let mut row = vec![0; words];
+        few.raise(&mut row);
+        Self::Many(row)
+    }
+
+    /// Puts these ends up in a row that is long enough for them.
+    fn raise(&self, row: &mut [u64]) {
+        match self {
+            Self::Few(ends) => {
+                for &end in ends {
+                    row[end as usize / WORD] |= 1 << (end as usize % WORD);
+                }
+            }
+            Self::Many(other) => {
+                for (word, other) in row.iter_mut().zip(other) {
+                    *word |= other;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! The drawdown: which thread lies on top at each crossing.
+
+use std::fmt;
+
+use crate::FabricError;
+
+/// The most ends, and the most picks, of a cloth.
+///
+/// The finest silk has 300 ends to the centimetre; a million of them are more than thirty metres across.
+pub const THREADS_MAX: usize = 1_000_000;
+
+/// The most crossings of a drawdown: what a `u32` numbers, and half a gigabyte of bits.
+pub const CROSSINGS_MAX: u64 = 1 << 32;
+
+/// Bits in a word.
+pub(super) const WORD: usize = u64::BITS as usize;
+
+/// Ends × picks, one bit a crossing: whether the warp is up, that is on the face of the cloth.
+///
+/// Ends are counted from 0 at the left, picks from 0 at the first one woven (the bottom).
+///
+/// ```
+/// use texere_fabric::Drawdown;
+/// let plain = Drawdown::from_fn(4, 6, |end, pick| (end + pick) % 2 == 0)?;
+/// assert!(plain.up(0, 0) && !plain.up(1, 0) && plain.up(1, 1));
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Clone, PartialEq, Eq)]
+pub struct Drawdown {
+    ends: usize,
+    picks: usize,
+    /// Words in a pick's row.
+    row: usize,
+    /// Pick after pick, end 0 in the lowest bit; bits past the last end are 0.
+    words: Vec<u64>,
+}
+
+impl fmt::Debug for Drawdown {
+    /// The size alone: a damask's bits would fill books.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Drawdown")
+            .field("ends", &self.ends)
+            .field("picks", &self.picks)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Drawdown {
+    /// A drawdown with every warp down.
+    ///
+    /// **Errors**: [`FabricError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of either;
+    /// [`FabricError::Crossings`] for more than [`CROSSINGS_MAX`]; [`FabricError::OutOfMemory`].
+    pub fn new(ends: usize, picks: usize) -> Result<Self, FabricError> {
+        if !(1..=THREADS_MAX).contains(&ends) || !(1..=THREADS_MAX).contains(&picks) {
+            return Err(FabricError::Size { ends, picks, limit: THREADS_MAX });
+        }
+        let crossings = ends as u64 * picks as u64;
+        if crossings > CROSSINGS_MAX {
+            return Err(FabricError::Crossings { ends, picks, crossings, limit: CROSSINGS_MAX });
+        }
+        let row = ends.div_ceil(WORD);
+        Ok(Self { ends, picks, row, words: super::zeroed("a drawdown", row as u64 * picks as u64)? })
+    }
+
+    /// A drawdown whose warp is up where `up(end, pick)` says so.
+    ///
+    /// **Errors**: those of [`Drawdown::new`].
+    pub fn from_fn(
+        ends: usize,
+        picks: usize,
+        mut up: impl FnMut(usize, usize) -> bool,
+    ) -> Result<Self, FabricError> {
+        let mut drawdown = Self::new(ends, picks)?;
+        for (pick, row) in drawdown.words.chunks_exact_mut(drawdown.row).enumerate() {
+            for end in 0..ends {
+                row[end / WORD] |= u64::from(up(end, pick)) << (end % WORD);
+            }
+        }
+        Ok(drawdown)
+    }
+
+    /// How many ends there are.
+    #[must_use]
+    pub const fn ends(&self) -> usize {
+        self.ends
+    }
+
+    /// How many picks there are.
+    #[must_use]
+    pub const fn picks(&self) -> usize {
+        self.picks
+    }
+
+    /// Whether the warp is up where `end` and `pick` cross, both from 0. Outside the cloth nothing is.
+    #[must_use]
+    pub fn up(&self, end: usize, pick: usize) -> bool {
+        end < self.ends
+            && pick < self.picks
+            && self.words[pick * self.row + end / WORD] >> (end % WORD) & 1 == 1
+    }
+
+    /// Puts the warp up or down where `end` and `pick` cross, both from 0.
+    ///
+    /// **Errors**: [`FabricError::NoCrossing`] outside the cloth.
+    pub fn set(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
+        if end >= self.ends || pick >= self.picks {
+            return Err(FabricError::NoCrossing {
+                end: end.saturating_add(1),
+                pick: pick.saturating_add(1),
+                ends: self.ends,
+                picks: self.picks,
+            });
+        }
+        let word = &mut self.words[pick * self.row + end / WORD];
+        *word = *word & !(1 << (end % WORD)) | u64::from(up) << (end % WORD);
+        Ok(())
+    }
+
+    /// The words of `pick`, which lies within the cloth: end 0 in the lowest bit of the first.
+    pub(super) fn row_mut(&mut self, pick: usize) -> &mut [u64] {
+        &mut self.words[pick * self.row..][..self.row]
+    }
+
+    /// Makes pick `to` as pick `from` is.
+    pub(super) fn copy_pick(&mut self, from: usize, to: usize) {
+        self.words.copy_within(from * self.row..(from + 1) * self.row, to * self.row);
+    }
+
+    /// Turns the cloth over in place, without mirroring it: what was up is down.
+    pub(super) fn invert(&mut self) {
+        let last = u64::MAX >> (self.row * WORD - self.ends);
+        for row in self.words.chunks_exact_mut(self.row) {
+            for word in row.iter_mut() {
+                *word = !*word;
+            }
+            if let Some(word) = row.last_mut() {
+                *word &= last;
+            }
+        }
+    }
+
+    /// This drawdown as a repeat, side by side until it covers `ends` and `picks`.
+    pub(super) fn tiled(&self, ends: usize, picks: usize) -> Result<Self, FabricError> {
+        let mut cloth = Self::new(ends, picks)?;
+        for pick in 0..picks.min(self.picks) {
+            let row = cloth.row_mut(pick);
+            for end in 0..ends {
+                row[end / WORD] |= u64::from(self.up(end % self.ends, pick)) << (end % WORD);
+            }
+        }
+        for pick in self.picks..picks {
+            cloth.copy_pick(pick - self.picks, pick);
+        }
+        Ok(cloth)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn set_changes_one_crossing_alone() {
+        let mut drawdown = Drawdown::new(130, 3).unwrap();
+        for (end, pick) in [(0, 0), (63, 1), (64, 1), (129, 2)] {
+            drawdown.set(end, pick, true).unwrap();
+            let up: Vec<_> = (0..3)
+                .flat_map(|j| (0..130).map(move |i| (i, j)))
+                .filter(|&(i, j)| drawdown.up(i, j))
+                .collect();
+            assert_eq!(up, [(end, pick)]);
+            drawdown.set(end, pick, false).unwrap();
+        }
+        assert_eq!(drawdown, Drawdown::new(130, 3).unwrap());
+    }
+
+    #[test]
+    fn outside_the_cloth_nothing_is_up_and_nothing_can_be_set() {
+        let mut drawdown = Drawdown::from_fn(65, 2, |_, _| true).unwrap();
+        assert!(drawdown.up(64, 1));
+        assert!(!drawdown.up(65, 0) && !drawdown.up(0, 2) && !drawdown.up(usize::MAX, usize::MAX));
+        assert_eq!(
+            drawdown.set(65, 0, true),
+            Err(FabricError::NoCrossing { end: 66, pick: 1, ends: 65, picks: 2 })
+        );
+        assert!(drawdown.set(usize::MAX, usize::MAX, true).is_err());
+    }
+
+    #[test]
+    fn inverting_leaves_nothing_past_the_last_end() {
+        for ends in [1, 63, 64, 65, 128] {
+            let mut drawdown = Drawdown::new(ends, 2).unwrap();
+            drawdown.invert();
+            assert_eq!(drawdown, Drawdown::from_fn(ends, 2, |_, _| true).unwrap());
+        }
+    }
+
+    #[test]
+    fn sizes_are_checked_before_memory_is_taken() {
+        assert!(matches!(Drawdown::new(0, 5), Err(FabricError::Size { ends: 0, .. })));
+        assert!(matches!(Drawdown::new(5, usize::MAX), Err(FabricError::Size { picks: usize::MAX, .. })));
+        assert!(matches!(
+            Drawdown::new(1_000_000, 1_000_000),
+            Err(FabricError::Crossings { crossings: 1_000_000_000_000, .. })
+        ));
+    }
+}

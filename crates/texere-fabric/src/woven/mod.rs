@@ -1,0 +1,284 @@
+//! Woven cloth: warp and weft that cross at right angles.
+
+mod crossing;
+mod draft;
+mod drawdown;
+mod notation;
+mod weave;
+mod yarns;
+
+pub use draft::{Draft, Shedding};
+pub use drawdown::{CROSSINGS_MAX, Drawdown, THREADS_MAX};
+pub use weave::{REPEAT_MAX, Weave};
+pub use yarns::NO_CROSSING;
+
+use bytemuck::Zeroable;
+use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, TWIST_LIMIT};
+
+use self::yarns::Set;
+use crate::{FabricError, FabricWarning};
+
+/// The most control points of a cloth: 64 GiB of them.
+pub const POINTS_MAX: u64 = 1 << 32;
+
+/// The least spacing of a thread, mm: the thinnest radius that is taken for a yarn.
+pub const SPACING_MIN: f64 = RADIUS_MIN as f64;
+
+/// The most spacing of a thread, mm: a kilometre.
+pub const SPACING_MAX: f64 = RADIUS_MAX as f64;
+
+/// The share by which room may fall short before it counts: radii are rounded to `f32`.
+const ROUNDING: f64 = 1e-6;
+
+/// One end or one pick: what it is like, and how far it lies from the one before.
+///
+/// ```
+/// use texere_fabric::Thread;
+/// let red = Thread { material: 1, ..Thread::new(0.5, 0.1) };
+/// assert_eq!(red.section, 0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thread {
+    /// Distance to the thread before, mm; half of it lies outside the first thread.
+    pub spacing_mm: f64,
+    /// Radius, mm.
+    pub radius_mm: f32,
+    /// Index into the materials.
+    pub material: u32,
+    /// Index into the sections.
+    pub section: u32,
+    /// Twist, rad per mm; positive is Z twist.
+    pub twist: f32,
+}
+
+impl Thread {
+    /// An untwisted thread of the first material and the first section.
+    #[must_use]
+    pub const fn new(spacing_mm: f64, radius_mm: f32) -> Self {
+        Self { spacing_mm, radius_mm, material: 0, section: 0, twist: 0.0 }
+    }
+}
+
+/// A woven cloth, checked: how its threads interlace, and what each of them is like.
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::{Thread, Weave, Woven};
+/// let plain = Weave::parse("plain")?;
+/// let thread = Thread::new(1.0, 0.2);
+/// let mut cloth = Woven::new(
+///     plain.drawdown(3, 2)?,
+///     vec![thread; 3],
+///     vec![thread; 2],
+///     vec![Material::default()],
+///     vec![Section::Circle],
+/// )?;
+/// assert_eq!(cloth.size_mm(), [3.0, 2.0]);
+/// let yarns = cloth.yarns()?;
+/// assert_eq!(yarns.layout().offsets(), [0, 4, 8, 12, 17, 22]);
+///
+/// // Flat yarns need less room where they cross.
+/// cloth.set_section(Section::Ellipse { aspect: 2.0 })?;
+/// assert!(cloth.yarns()?.points()[1].z < yarns.points()[1].z);
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Woven {
+    drawdown: Drawdown,
+    warp: Vec<Thread>,
+    weft: Vec<Thread>,
+    materials: Vec<Material>,
+    sections: Vec<Section>,
+}
+
+impl Woven {
+    /// Checks and joins a drawdown, its ends (`warp`) and picks (`weft`), and the materials and sections that they refer
+    /// to.
+    ///
+    /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control points than
+    /// [`POINTS_MAX`], spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii outside \[[`RADIUS_MIN`],
+    /// [`RADIUS_MAX`]\], twists beyond [`TWIST_LIMIT`], unknown materials and sections, sections that are not sound, and
+    /// cloth wider or longer than [`COORDINATE_LIMIT`].
+    pub fn new(
+        drawdown: Drawdown,
+        warp: Vec<Thread>,
+        weft: Vec<Thread>,
+        materials: Vec<Material>,
+        sections: Vec<Section>,
+    ) -> Result<Self, FabricError> {
+        let (ends, picks) = (drawdown.ends(), drawdown.picks());
+        for (set, threads, planned) in [("ends", warp.len(), ends), ("picks", weft.len(), picks)] {
+            if threads != planned {
+                return Err(FabricError::ThreadCount { set, threads, planned });
+            }
+        }
+        for (section, shape) in sections.iter().enumerate() {
+            shape.validate().map_err(|source| FabricError::Section { section, source })?;
+        }
+        let cloth = Self { drawdown, warp, weft, materials, sections };
+        let points = cloth.point_count();
+        if points > POINTS_MAX {
+            return Err(FabricError::Points { ends, picks, points, limit: POINTS_MAX });
+        }
+        cloth.check_threads(&cloth.warp, Origin::End)?;
+        cloth.check_threads(&cloth.weft, Origin::Pick)?;
+        for (set, extent_mm) in ["ends", "picks"].into_iter().zip(cloth.size_mm()) {
+            let limit = f64::from(COORDINATE_LIMIT);
+            if extent_mm > limit {
+                return Err(FabricError::Extent { set, extent_mm, limit });
+            }
+        }
+        Ok(cloth)
+    }
+
+    fn check_threads(&self, threads: &[Thread], origin: fn(u32) -> Origin) -> Result<(), FabricError> {
+        for (number, each) in (1..).zip(threads) {
+            let thread = origin(number);
+            if !(SPACING_MIN..=SPACING_MAX).contains(&each.spacing_mm) {
+                return Err(FabricError::Spacing {
+                    thread,
+                    spacing_mm: each.spacing_mm,
+                    low: SPACING_MIN,
+                    high: SPACING_MAX,
+                });
+            }
+            if !(RADIUS_MIN..=RADIUS_MAX).contains(&each.radius_mm) {
+                return Err(FabricError::Radius {
+                    thread,
+                    radius_mm: each.radius_mm,
+                    low: RADIUS_MIN,
+                    high: RADIUS_MAX,
+                });
+            }
+            if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&each.twist) {
+                return Err(FabricError::Twist { thread, twist: each.twist, limit: TWIST_LIMIT });
+            }
+            if each.material as usize >= self.materials.len() {
+                let materials = self.materials.len();
+                return Err(FabricError::UnknownMaterial { thread, material: each.material, materials });
+            }
+            if each.section as usize >= self.sections.len() {
+                let sections = self.sections.len();
+                return Err(FabricError::UnknownSection { thread, section: each.section, sections });
+            }
+        }
+        Ok(())
+    }
+
+    /// Which thread lies on top at each crossing.
+    #[must_use]
+    pub const fn drawdown(&self) -> &Drawdown {
+        &self.drawdown
+    }
+
+    /// The ends, from the left.
+    #[must_use]
+    pub fn warp(&self) -> &[Thread] {
+        &self.warp
+    }
+
+    /// The picks, from the first one woven.
+    #[must_use]
+    pub fn weft(&self) -> &[Thread] {
+        &self.weft
+    }
+
+    /// The materials that threads refer to.
+    #[must_use]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The sections that threads refer to.
+    #[must_use]
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
+    }
+
+    /// Gives all threads one section.
+    ///
+    /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
+        section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
+        self.sections = vec![section];
+        for thread in self.warp.iter_mut().chain(&mut self.weft) {
+            thread.section = 0;
+        }
+        Ok(())
+    }
+
+    /// Width (along the weft) and height (along the warp) of the cloth, mm: the sums of its threads' spacings, but that
+    /// half of the last thread's spacing counts at its outer side.
+    #[must_use]
+    pub fn size_mm(&self) -> [f64; 2] {
+        [&self.warp, &self.weft].map(|threads| {
+            let half = |thread: Option<&Thread>| thread.map_or(0.0, |thread| thread.spacing_mm / 2.0);
+            threads.iter().map(|thread| thread.spacing_mm).sum::<f64>() - half(threads.first())
+                + half(threads.last())
+        })
+    }
+
+    /// Control points of all yarns: one for each end and each pick at each crossing, and two more for each yarn.
+    #[must_use]
+    pub const fn point_count(&self) -> u64 {
+        let (ends, picks) = (self.drawdown.ends() as u64, self.drawdown.picks() as u64);
+        ends * (picks + 2) + picks * (ends + 2)
+    }
+
+    /// What a designer should know before looking at the cloth: threads without the room that they need.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<FabricWarning> {
+        let (warp, weft) = (Set::new(&self.warp, &self.sections), Set::new(&self.weft, &self.sections));
+        [
+            self.crowded(&self.warp, Origin::End),
+            self.crowded(&self.weft, Origin::Pick),
+            jammed(&warp, &weft, Origin::End),
+            jammed(&weft, &warp, Origin::Pick),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// Threads that are wider, with the thread before, than the distance between the two.
+    fn crowded(&self, threads: &[Thread], origin: fn(u32) -> Origin) -> Option<FabricWarning> {
+        let widths: Vec<f32> = self.sections.iter().map(Section::half_width).collect();
+        let half_width = |thread: &Thread| f64::from(thread.radius_mm * widths[thread.section as usize]);
+        let lacking = (2..).zip(threads.windows(2)).map(|(number, pair)| {
+            (origin(number), half_width(&pair[0]) + half_width(&pair[1]), pair[1].spacing_mm)
+        });
+        let (count, first, (worst, needed_mm, spacing_mm)) = worst(lacking)?;
+        Some(FabricWarning::Crowded { count, first, worst, needed_mm, spacing_mm })
+    }
+}
+
+/// Threads of `set` too close together for the thickest of `crossing` to pass between them.
+fn jammed(set: &Set, crossing: &Set, origin: fn(u32) -> Origin) -> Option<FabricWarning> {
+    let thickest = crossing.half_height.iter().fold(0.0f32, |most, height| height.max(most));
+    let threads = (1..).zip(set.half_height.iter().zip(&set.pitch)).map(|(number, (height, pitch))| {
+        (origin(number), f64::from(crossing::PITCH_MIN * (height + thickest)), f64::from(*pitch))
+    });
+    let (count, first, (worst, needed_mm, pitch_mm)) = worst(threads)?;
+    Some(FabricWarning::Jammed { count, first, worst, needed_mm, pitch_mm })
+}
+
+/// Among threads (which, room needed, room there is): how many lack room, the first, and the one that lacks most.
+fn worst(threads: impl Iterator<Item = (Origin, f64, f64)>) -> Option<(usize, Origin, (Origin, f64, f64))> {
+    threads.filter(|(_, needed, room)| *needed > room * (1.0 + ROUNDING)).fold(None, |found, thread| {
+        Some(match found {
+            None => (1, thread.0, thread),
+            Some((count, first, worst)) => {
+                let more = thread.1 / thread.2 > worst.1 / worst.2;
+                (count + 1, first, if more { thread } else { worst })
+            }
+        })
+    })
+}
+
+/// `count` zeroed values, from pages that are not touched yet.
+fn zeroed<T: Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, FabricError> {
+    let out_of_memory =
+        || FabricError::OutOfMemory { what, bytes: count.saturating_mul(size_of::<T>() as u64) };
+    let length = usize::try_from(count).map_err(|_| out_of_memory())?;
+    bytemuck::allocation::try_zeroed_vec(length).map_err(|()| out_of_memory())
+}

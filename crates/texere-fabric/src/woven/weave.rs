@@ -1,0 +1,103 @@
+//! The weave: one repeat, by its usual notation.
+
+use std::str::FromStr;
+
+use super::notation::{self, Notation};
+use crate::{Drawdown, FabricError};
+
+/// The most ends, and the most picks, in the repeat of a weave.
+///
+/// Notation is for weaves that a weaver can name; what repeats over more threads than this is a picture.
+pub const REPEAT_MAX: usize = 4096;
+
+/// One repeat of a weave, from its usual notation.
+///
+/// ```text
+/// weave  = "plain"
+///        | ratio { "*" ratio } [ "(" move ")" ]               twill
+///        | ratio { "*" ratio } "(" number "+" number ")"      matt (basket, hopsack, rib)
+///        | ( "satin" | "sateen" ) number [ "(" move ")" ]
+/// ratio  = number "/" number                                  warp up "/" warp down
+/// move   = [ "-" ] number
+/// number = 1 to 4096
+/// ```
+///
+/// Spaces may stand between any two parts, and case does not matter. The first pick is the bottom row, the first end the
+/// left column.
+///
+/// - **Twill** `U/D(M)`: in the first pick U ends are up, the next D down; each pick moves that M ends further to the
+///   right (1 where no move is given). A positive move is a right-hand (Z) twill, a negative one left-hand (S).
+///   `U1/D1*U2/D2` strings several floats together.
+/// - **Matt** `U/D(L+R)`: the first L ends are up for U picks, then down for D; the next R ends the other way round.
+///   `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain weave.
+/// - **Satin** `N(M)` is warp-faced, (N-1)/1, **sateen** weft-faced, 1/(N-1). M shares no factor with N and is neither
+///   1 nor N-1; without it the smallest such move is taken.
+///
+/// ```
+/// use texere_fabric::Weave;
+/// let satin: Weave = "satin 8(3)".parse()?;
+/// assert_eq!(satin.repeat(), (8, 8));
+/// let error = "satin 8(2)".parse::<Weave>().unwrap_err();
+/// assert!(error.to_string().contains("character 9: a satin of 8 ends can't have move 2"));
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Weave {
+    repeat: Drawdown,
+}
+
+impl Weave {
+    /// The weave that repeats `repeat`.
+    ///
+    /// **Errors**: [`FabricError::Repeat`] for more than [`REPEAT_MAX`] ends or picks.
+    pub fn new(repeat: Drawdown) -> Result<Self, FabricError> {
+        let (ends, picks) = (repeat.ends(), repeat.picks());
+        if ends > REPEAT_MAX || picks > REPEAT_MAX {
+            return Err(FabricError::Repeat { ends, picks, limit: REPEAT_MAX });
+        }
+        Ok(Self { repeat })
+    }
+
+    /// Reads the notation of a weave.
+    ///
+    /// **Errors**: [`FabricError::Notation`] where the text departs from the grammar, [`FabricError::SatinMove`],
+    /// [`FabricError::NoSatin`] and [`FabricError::TwillMove`] for what can't be woven, [`FabricError::Repeat`].
+    pub fn parse(text: &str) -> Result<Self, FabricError> {
+        Self::new(match notation::parse(text)? {
+            Notation::Shifted { base, step, picks } => {
+                let ends = base.len();
+                Drawdown::from_fn(ends, picks, |end, pick| base[(end + (ends - step) * pick) % ends])
+            }
+            Notation::Matt { base, left, right } => {
+                Drawdown::from_fn(left + right, base.len(), |end, pick| base[pick] == (end < left))
+            }
+        }?)
+    }
+
+    /// Whether the warp is up where `end` and `pick` of an endless cloth cross, both from 0.
+    #[must_use]
+    pub fn up(&self, end: usize, pick: usize) -> bool {
+        self.repeat.up(end % self.repeat.ends(), pick % self.repeat.picks())
+    }
+
+    /// Ends and picks of the repeat.
+    #[must_use]
+    pub const fn repeat(&self) -> (usize, usize) {
+        (self.repeat.ends(), self.repeat.picks())
+    }
+
+    /// A cloth of `ends` and `picks` in this weave.
+    ///
+    /// **Errors**: those of [`Drawdown::new`].
+    pub fn drawdown(&self, ends: usize, picks: usize) -> Result<Drawdown, FabricError> {
+        self.repeat.tiled(ends, picks)
+    }
+}
+
+impl FromStr for Weave {
+    type Err = FabricError;
+
+    fn from_str(text: &str) -> Result<Self, FabricError> {
+        Self::parse(text)
+    }
+}

@@ -1,0 +1,95 @@
+//! How thick a yarn of known weight is, and the other way round.
+//!
+//! A yarn's *count* says how heavy a length of it is. Its diameter follows from how densely its fibres lie: the density
+//! meant here is that of the yarn with the air in it, not that of the fibre.
+
+use std::f64::consts::PI;
+
+/// Density of a cotton yarn, g/cm³: a specific volume of 1.1 cm³/g.
+///
+/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937.
+pub const COTTON_DENSITY: f64 = 1.0 / 1.1;
+
+/// Diameter (mm) of a round yarn of `tex` (g/km) and `density` (g/cm³).
+///
+/// A length of 1 km weighs `tex` g and fills `π d²/4` mm² × 1 km, whence d = √(4 tex / (1000 π density)), or
+/// 0.0357 √(tex / density). With [`COTTON_DENSITY`] it is Peirce's d = 1 / (28 √Ne) inch.
+///
+/// ```
+/// use texere_fabric::{COTTON_DENSITY, diameter_mm};
+/// assert!((diameter_mm(100.0, COTTON_DENSITY) - 0.374).abs() < 1e-3);
+/// ```
+#[must_use]
+pub fn diameter_mm(tex: f64, density: f64) -> f64 {
+    (4.0 * tex / (1000.0 * PI * density)).sqrt()
+}
+
+/// Linear density (tex, g/km) of a round yarn of `diameter_mm` and `density` (g/cm³): the inverse of [`diameter_mm`].
+///
+/// ```
+/// use texere_fabric::{COTTON_DENSITY, diameter_mm, tex_from_diameter};
+/// let tex = tex_from_diameter(diameter_mm(30.0, COTTON_DENSITY), COTTON_DENSITY);
+/// assert!((tex - 30.0).abs() < 1e-9);
+/// ```
+#[must_use]
+pub fn tex_from_diameter(diameter_mm: f64, density: f64) -> f64 {
+    diameter_mm * diameter_mm * (1000.0 * PI * density) / 4.0
+}
+
+/// Tex of a cotton count Ne: hanks of 840 yards to the pound.
+///
+/// ```
+/// assert!((texere_fabric::tex_from_cotton_count(30.0) - 19.68).abs() < 0.01);
+/// ```
+#[must_use]
+pub fn tex_from_cotton_count(ne: f64) -> f64 {
+    // A pound of 453.592 g over 840 yards of 0.9144 m, in g/km.
+    453_592.37 / (840.0 * 0.9144 * ne)
+}
+
+/// Tex of a metric count Nm: kilometres to the kilogram.
+///
+/// ```
+/// assert_eq!(texere_fabric::tex_from_metric_count(50.0), 20.0);
+/// ```
+#[must_use]
+pub fn tex_from_metric_count(nm: f64) -> f64 {
+    1000.0 / nm
+}
+
+/// Tex of a denier: grams to nine kilometres.
+///
+/// ```
+/// assert_eq!(texere_fabric::tex_from_denier(90.0), 10.0);
+/// ```
+#[must_use]
+pub fn tex_from_denier(denier: f64) -> f64 {
+    denier / 9.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cotton_agrees_with_peirce() {
+        // d = 1 / (28 √Ne) inch is Peirce's rounding of a specific volume of 1.1.
+        for ne in [10.0f64, 30.0, 80.0] {
+            let inches = 1.0 / (28.0 * ne.sqrt());
+            let diameter = diameter_mm(tex_from_cotton_count(ne), COTTON_DENSITY);
+            assert!((diameter / (25.4 * inches) - 1.0).abs() < 5e-3, "Ne {ne}: {diameter} mm");
+        }
+    }
+
+    #[test]
+    fn a_kilometre_weighs_its_tex() {
+        let (tex, density) = (59.0, 1.25);
+        let radius_cm = diameter_mm(tex, density) / 20.0;
+        assert!((PI * radius_cm * radius_cm * 1e5 * density - tex).abs() < 1e-9);
+    }
+
+    #[test]
+    fn one_cotton_count_is_590_and_a_half_tex() {
+        assert!((tex_from_cotton_count(1.0) - 590.5).abs() < 0.05);
+    }
+}

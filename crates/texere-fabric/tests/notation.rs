@@ -1,0 +1,161 @@
+//! Weave notation against matrices drawn by hand, and what it refuses.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
+
+use texere_fabric::{FabricError, Weave};
+
+/// Checks a weave against a drawing: `#` warp up, first pick at the bottom, over as many repeats as it shows.
+#[track_caller]
+fn draws(text: &str, repeat: (usize, usize), drawing: &[&str]) {
+    let weave: Weave = text.parse().unwrap();
+    assert_eq!(weave.repeat(), repeat, "repeat of {text}");
+    let (ends, picks) = (drawing[0].len(), drawing.len());
+    let drawdown = weave.drawdown(ends, picks).unwrap();
+    for (row, line) in drawing.iter().enumerate() {
+        let pick = picks - 1 - row;
+        for (end, sign) in line.chars().enumerate() {
+            assert_eq!(drawdown.up(end, pick), sign == '#', "{text}: end {end}, pick {pick}");
+            assert_eq!(weave.up(end, pick), sign == '#', "{text}: end {end}, pick {pick}");
+        }
+    }
+}
+
+#[test]
+fn plain() {
+    draws("plain", (2, 2), &[".#.#.", "#.#.#", ".#.#.", "#.#.#"]);
+    draws("1/1", (2, 2), &[".#.#.", "#.#.#", ".#.#.", "#.#.#"]);
+    draws("1/1(1+1)", (2, 2), &[".#.#.", "#.#.#", ".#.#.", "#.#.#"]);
+}
+
+#[test]
+fn twills() {
+    draws("3/1", (4, 4), &["##.#", "#.##", ".###", "###."]);
+    draws("2/2(1)", (4, 4), &["#..##..#", "..##..##", ".##..##.", "##..##.."]);
+    draws("2/2(-1)", (4, 4), &[".##..##.", "..##..##", "#..##..#", "##..##.."]);
+    draws("2/1*1/2", (6, 6), &["#.#..#", ".#..##", "#..##.", "..##.#", ".##.#.", "##.#.."]);
+    // Elongated: every other pick of the same twill.
+    draws(
+        "4/3(2)",
+        (7, 7),
+        &["..####.", "####...", "##...##", "...####", ".####..", "###...#", "#...###", "..####.", "####..."],
+    );
+    draws("2/2(2)", (4, 2), &["..##", "##..", "..##", "##.."]);
+}
+
+#[test]
+fn right_hand_twills_climb_to_the_right() {
+    // Z and S: each pick is the one below, one end further to the right (left).
+    let (z, s) = (Weave::parse("3/1").unwrap(), Weave::parse("3/1(-1)").unwrap());
+    for pick in 0..8 {
+        for end in 0..8 {
+            assert_eq!(z.up(end, pick), z.up(end + 1, pick + 1));
+            assert_eq!(s.up(end + 1, pick), s.up(end, pick + 1));
+        }
+    }
+}
+
+#[test]
+fn satins() {
+    draws("satin 5(2)", (5, 5), &["##.##", ".####", "###.#", "#.###", "####."]);
+    draws("sateen 5(2)", (5, 5), &["...#.", ".#...", "....#", "..#..", "#...."]);
+    draws(
+        "sateen 8(3)",
+        (8, 8),
+        &[".....#..", "..#.....", ".......#", "....#...", ".#......", "......#.", "...#....", "#......."],
+    );
+    for (short, long) in [
+        ("satin 5", "satin 5(2)"),
+        ("satin 7", "satin 7(2)"),
+        ("satin 8", "satin 8(3)"),
+        ("satin 12", "satin 12(5)"),
+        (" SATIN8 ( 3 ) ", "satin 8(3)"),
+        ("satin 8(-3)", "satin 8(5)"),
+    ] {
+        assert_eq!(Weave::parse(short).unwrap(), Weave::parse(long).unwrap());
+    }
+    // Every legal satin puts one binding point on each end, never beside another.
+    for ends in [5, 7, 8, 9, 10, 11, 12, 13] {
+        let sateen = Weave::parse(&format!("sateen {ends}")).unwrap();
+        for end in 0..ends {
+            let bound: Vec<_> = (0..ends).filter(|&pick| sateen.up(end, pick)).collect();
+            assert_eq!(bound.len(), 1, "end {end} of {ends}");
+            let beside = [(end + 1, bound[0] + 1), (end + ends - 1, bound[0] + 1)];
+            assert!(beside.iter().all(|&(end, pick)| !sateen.up(end, pick)), "end {end} of {ends}");
+        }
+    }
+}
+
+#[test]
+fn matts() {
+    // The second drawing is the published picture of gridpattern's "3/2(4+2)".
+    draws("2/2(2+2)", (4, 4), &["..##", "..##", "##..", "##.."]);
+    draws("3/2(4+2)", (6, 5), &["....##", "....##", "####..", "####..", "####.."]);
+    draws("2/2(1+1)", (2, 4), &[".#", ".#", "#.", "#."]);
+}
+
+#[track_caller]
+fn refuses(text: &str, position: usize, expected: &str) {
+    match Weave::parse(text) {
+        Err(FabricError::Notation { text: shown, position: at, expected: wanted }) => {
+            assert_eq!((shown.as_str(), at, wanted), (text, position, expected));
+        }
+        other => panic!("{text}: {other:?}"),
+    }
+}
+
+#[test]
+fn what_is_no_notation_is_refused_where_it_goes_wrong() {
+    let number = "a number from 1 to 4096";
+    let start = "\"plain\", \"satin\", \"sateen\", or a number from 1 to 4096";
+    refuses("", 1, start);
+    refuses("twill", 1, start);
+    refuses("3", 2, "\"/\"");
+    refuses("3/", 3, number);
+    refuses("3/0", 3, number);
+    refuses("0/3", 1, start);
+    refuses("3/99999999999999999999", 3, number);
+    refuses("3/1(", 5, number);
+    refuses("3/1(1", 6, "\")\"");
+    refuses("3/1(-1+2)", 7, "\")\"");
+    refuses("3/1(2+)", 7, number);
+    refuses("3/1 x", 5, "the end");
+    refuses("3/1(1)*2/2", 7, "the end");
+    refuses("plain weave", 7, "the end");
+    refuses("satin", 6, number);
+    refuses("satin 5 (2) é", 13, "the end");
+    refuses("é/1", 1, start);
+    refuses("2/ü", 3, number);
+}
+
+#[test]
+fn what_can_not_be_woven_is_refused() {
+    for (text, step) in
+        [("satin 8(2)", 2), ("satin 8(1)", 1), ("sateen 8(7)", 7), ("satin 8(-1)", -1), ("satin 8(8)", 8)]
+    {
+        let error = Weave::parse(text).unwrap_err();
+        let shown = text.to_owned();
+        let position = text.find('(').unwrap() + 2;
+        assert_eq!(error, FabricError::SatinMove { text: shown, position, step, ends: 8 });
+    }
+    for ends in [1, 2, 3, 4, 6] {
+        let text = format!("satin {ends}");
+        let error = Weave::parse(&text).unwrap_err();
+        assert_eq!(error, FabricError::NoSatin { text, position: 7, ends });
+    }
+    // With a move of 2 the odd ends of 3/1 never go down; with a move of 4 no end ever changes.
+    for (text, step, end) in [("3/1(2)", 2, 1), ("3/1(4)", 4, 1), ("1/1*3/1(2)", 2, 1), ("2/2(-4)", -4, 1)] {
+        let error = Weave::parse(text).unwrap_err();
+        let position = text.find('(').unwrap() + 2;
+        assert_eq!(error, FabricError::TwillMove { text: text.into(), position, step, end });
+    }
+}
+
+#[test]
+fn hostile_texts_neither_panic_nor_fill_memory() {
+    let long = "1/1*".repeat(1_000_000);
+    assert!(matches!(Weave::parse(&long), Err(FabricError::Repeat { ends: 4098, .. })));
+    assert!(matches!(Weave::parse("4096/4096"), Err(FabricError::Repeat { .. })));
+    assert!(matches!(Weave::parse("2/2(4096+4096)"), Err(FabricError::Repeat { ends: 8192, .. })));
+    let Err(FabricError::Notation { text, .. }) = Weave::parse(&"é".repeat(1_000_000)) else { panic!() };
+    assert_eq!(text.chars().count(), 61);
+}

@@ -1,0 +1,243 @@
+//! What every cloth must satisfy, whatever its weave and its threads, and what is refused.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
+
+use proptest::prelude::*;
+use texere_core::{Material, Origin, Section, YarnError, Yarns};
+use texere_fabric::{Drawdown, FabricError, FabricWarning, NO_CROSSING, Thread, Weave, Woven};
+
+fn woven(drawdown: Drawdown, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Woven, FabricError> {
+    let sections = vec![Section::Circle, Section::Ellipse { aspect: 2.0 }];
+    Woven::new(drawdown, warp, weft, vec![Material::default(); 2], sections)
+}
+
+fn threads() -> impl Strategy<Value = Vec<Thread>> {
+    let thread = (0.3..2.0f64, 0.02..0.2f32, 0..2u32, 0..2u32, -5.0..5.0f32).prop_map(
+        |(spacing_mm, radius_mm, material, section, twist)| Thread {
+            spacing_mm,
+            radius_mm,
+            material,
+            section,
+            twist,
+        },
+    );
+    prop::collection::vec(thread, 1..14)
+}
+
+fn cloths() -> impl Strategy<Value = Woven> {
+    (threads(), threads()).prop_flat_map(|(warp, weft)| {
+        prop::collection::vec(any::<bool>(), warp.len() * weft.len()).prop_map(move |up| {
+            let drawdown =
+                Drawdown::from_fn(warp.len(), weft.len(), |end, pick| up[pick * warp.len() + end]).unwrap();
+            woven(drawdown, warp.clone(), weft.clone()).unwrap()
+        })
+    })
+}
+
+/// Where the threads lie, by the definition: half the first spacing in, then spacing after spacing.
+fn places(threads: &[Thread]) -> Vec<f64> {
+    (0..threads.len())
+        .map(|last| {
+            threads[..=last].iter().map(|thread| thread.spacing_mm).sum::<f64>() - threads[0].spacing_mm / 2.0
+        })
+        .collect()
+}
+
+/// The control points of `yarn` that come from crossing `number`.
+fn at_crossing(yarns: &Yarns, yarn: usize, number: usize) -> Vec<texere_core::ControlPoint> {
+    let sources = &yarns.sources().unwrap()[yarns.range(yarn).unwrap()];
+    let points = yarns.yarn_points(yarn).unwrap();
+    points
+        .iter()
+        .zip(sources)
+        .filter(|(_, source)| **source as usize == number)
+        .map(|(point, _)| *point)
+        .collect()
+}
+
+proptest! {
+    #[test]
+    fn each_end_crosses_each_pick_once_on_the_side_that_the_drawdown_says(cloth in cloths()) {
+        let yarns = cloth.yarns().unwrap();
+        let ends = cloth.warp().len();
+        for (pick, y) in places(cloth.weft()).into_iter().enumerate() {
+            for (end, x) in places(cloth.warp()).into_iter().enumerate() {
+                let number = pick * ends + end;
+                let (warp, weft) = (at_crossing(&yarns, end, number), at_crossing(&yarns, ends + pick, number));
+                prop_assert_eq!((warp.len(), weft.len()), (1, 1));
+                let (warp, weft) = (warp[0], weft[0]);
+                for point in [warp, weft] {
+                    prop_assert!((f64::from(point.x) - x).abs() < 1e-5);
+                    prop_assert!((f64::from(point.y) - y).abs() < 1e-5);
+                }
+                let (upper, lower) = if cloth.drawdown().up(end, pick) { (warp, weft) } else { (weft, warp) };
+                prop_assert!(upper.z > 0.0 && lower.z < 0.0);
+                // Far enough apart for both sections: an ellipse of aspect 2 is 1/√2 of its radius high.
+                let height = |thread: &Thread| thread.radius_mm * if thread.section == 1 { 0.5f32.sqrt() } else { 1.0 };
+                let room = height(&cloth.warp()[end]) + height(&cloth.weft()[pick]);
+                prop_assert!((warp.z - weft.z).abs() > room * 0.9999);
+                prop_assert!((warp.z - weft.z).abs() < room * 1.3301);
+            }
+        }
+    }
+
+    #[test]
+    fn yarns_are_what_their_threads_are(cloth in cloths()) {
+        let yarns = cloth.yarns().unwrap();
+        let (ends, picks) = (cloth.warp().len(), cloth.weft().len());
+        let [width, height] = cloth.size_mm().map(|size| size as f32);
+        prop_assert_eq!(yarns.points().len() as u64, cloth.point_count());
+        prop_assert_eq!(yarns.layout().yarns().len(), ends + picks);
+        for (number, yarn) in yarns.layout().yarns().iter().enumerate() {
+            let points = yarns.yarn_points(number).unwrap();
+            let sources = &yarns.sources().unwrap()[yarns.range(number).unwrap()];
+            let (first, last) = (points[0], points[points.len() - 1]);
+            let (thread, origin, across) = if number < ends {
+                prop_assert_eq!((points.len(), first.y), (picks + 2, 0.0));
+                prop_assert!((last.y - height).abs() < 1e-5 && points.is_sorted_by(|a, b| a.y < b.y));
+                (cloth.warp()[number], Origin::End(number as u32 + 1), points.iter().all(|p| p.x == first.x))
+            } else {
+                prop_assert_eq!((points.len(), first.x), (ends + 2, 0.0));
+                prop_assert!((last.x - width).abs() < 1e-5 && points.is_sorted_by(|a, b| a.x < b.x));
+                let pick = number - ends;
+                (cloth.weft()[pick], Origin::Pick(pick as u32 + 1), points.iter().all(|p| p.y == first.y))
+            };
+            prop_assert!(across, "{} is not straight", origin);
+            prop_assert_eq!((yarn.origin, yarn.material, yarn.section), (origin, thread.material, thread.section));
+            prop_assert_eq!((yarn.closed, yarn.twist), (false, thread.twist));
+            prop_assert!(points.iter().all(|point| point.radius == thread.radius_mm));
+            prop_assert_eq!((first.z, last.z), (0.0, 0.0));
+            let open: Vec<_> = (0..sources.len()).filter(|&k| sources[k] == NO_CROSSING).collect();
+            prop_assert_eq!(open, [0, sources.len() - 1]);
+        }
+    }
+}
+
+fn plain(ends: usize, picks: usize) -> Drawdown {
+    Weave::parse("plain").unwrap().drawdown(ends, picks).unwrap()
+}
+
+const THREAD: Thread = Thread::new(1.0, 0.2);
+
+#[test]
+fn the_papers_cloth_has_the_papers_count() {
+    // 300 ends and 150 picks: 150 + 2 control points an end, 300 + 2 a pick.
+    let cloth = woven(plain(300, 150), vec![THREAD; 300], vec![THREAD; 150]).unwrap();
+    assert_eq!(cloth.point_count(), 300 * 152 + 150 * 302);
+    assert_eq!(cloth.yarns().unwrap().layout().offsets()[300], 300 * 152);
+}
+
+#[test]
+fn what_is_wrong_with_a_thread_is_named() {
+    let with = |change: fn(&mut Thread)| {
+        let mut weft = vec![THREAD; 3];
+        change(&mut weft[1]);
+        woven(plain(2, 3), vec![THREAD; 2], weft).unwrap_err()
+    };
+    let thread = Origin::Pick(2);
+    for spacing in [0.0, -1.0, f64::INFINITY, 1e-7, 1e7] {
+        let mut weft = vec![THREAD; 3];
+        weft[1].spacing_mm = spacing;
+        let error = woven(plain(2, 3), vec![THREAD; 2], weft).unwrap_err();
+        assert!(
+            matches!(error, FabricError::Spacing { thread: t, spacing_mm, .. } if t == thread && spacing_mm == spacing)
+        );
+    }
+    let error = with(|thread| thread.spacing_mm = f64::NAN);
+    assert_eq!(
+        error.to_string(),
+        "spacing of pick 2 is NaN mm, outside 0.0000009999999974752427 to 1000000 mm"
+    );
+    assert!(matches!(with(|t| t.radius_mm = f32::NAN), FabricError::Radius { thread: t, .. } if t == thread));
+    assert!(matches!(with(|t| t.radius_mm = 0.0), FabricError::Radius { thread: t, .. } if t == thread));
+    assert!(matches!(with(|t| t.twist = f32::NAN), FabricError::Twist { thread: t, .. } if t == thread));
+    let missing = with(|t| t.material = 2);
+    assert_eq!(missing, FabricError::UnknownMaterial { thread, material: 2, materials: 2 });
+    let missing = with(|t| t.section = u32::MAX);
+    assert_eq!(missing, FabricError::UnknownSection { thread, section: u32::MAX, sections: 2 });
+}
+
+#[test]
+fn what_is_wrong_with_the_whole_is_named() {
+    let error = woven(plain(2, 3), vec![THREAD; 3], vec![THREAD; 3]).unwrap_err();
+    assert_eq!(error, FabricError::ThreadCount { set: "ends", threads: 3, planned: 2 });
+    let error = woven(plain(2, 3), vec![THREAD; 2], vec![]).unwrap_err();
+    assert_eq!(error, FabricError::ThreadCount { set: "picks", threads: 0, planned: 3 });
+
+    let wide = Thread { spacing_mm: 1e6, ..THREAD };
+    let error = woven(plain(2000, 1), vec![wide; 2000], vec![THREAD]).unwrap_err();
+    assert!(matches!(error, FabricError::Extent { set: "ends", extent_mm: 2e9, .. }));
+
+    let sections = vec![Section::Circle, Section::Ellipse { aspect: f32::NAN }];
+    let error = Woven::new(plain(1, 1), vec![THREAD], vec![THREAD], vec![Material::default()], sections);
+    assert!(matches!(error, Err(FabricError::Section { section: 1, .. })));
+
+    // 2^32 crossings make a drawdown, but twice as many control points.
+    let (ends, picks) = (65_536, 65_536);
+    let error = woven(Drawdown::new(ends, picks).unwrap(), vec![THREAD; ends], vec![THREAD; picks]);
+    assert!(
+        matches!(error, Err(FabricError::Points { points, .. }) if points == 2 * (65_536 * 65_536 + 2 * 65_536))
+    );
+}
+
+#[test]
+fn cloth_at_the_edge_of_what_is_taken_gives_sound_yarns() {
+    for (spacing_mm, radius_mm) in [(1e-6f32.into(), 1e-6), (1e6, 1e6), (1e-6f32.into(), 1e6), (1e6, 1e-6)] {
+        let thread = Thread::new(spacing_mm, radius_mm);
+        let cloth = woven(plain(5, 4), vec![thread; 5], vec![thread; 4]).unwrap();
+        assert!(!matches!(cloth.yarns(), Err(FabricError::Yarns(YarnError::NotFinite { .. }))));
+        assert!(cloth.yarns().is_ok(), "spacing {spacing_mm} mm, radius {radius_mm} mm");
+    }
+}
+
+#[test]
+fn a_section_that_is_not_sound_changes_nothing() {
+    let mut cloth = woven(plain(2, 2), vec![THREAD; 2], vec![Thread { section: 1, ..THREAD }; 2]).unwrap();
+    let before = cloth.clone();
+    assert!(cloth.set_section(Section::Ellipse { aspect: 0.0 }).is_err());
+    assert_eq!(cloth, before);
+    cloth.set_section(Section::Lobed { plies: 3 }).unwrap();
+    assert_eq!(cloth.sections(), [Section::Lobed { plies: 3 }]);
+    assert!(cloth.yarns().is_ok());
+}
+
+#[test]
+fn threads_that_just_fit_are_not_warned_of() {
+    // As thick as they are spaced by twice: the closest that crossing threads pass one another.
+    let thread = Thread::new(0.3, 0.075);
+    assert_eq!(woven(plain(6, 6), vec![thread; 6], vec![thread; 6]).unwrap().warnings(), []);
+}
+
+#[test]
+fn one_warning_stands_for_all_threads_alike() {
+    let mut warp = vec![Thread::new(1.0, 0.1); 1000];
+    for (end, radius) in [(99, 0.95), (100, 0.1), (500, 1.5)] {
+        warp[end].radius_mm = radius;
+    }
+    let warnings = woven(plain(1000, 5), warp, vec![Thread::new(10.0, 0.1); 5]).unwrap().warnings();
+    let crowded: Vec<_> =
+        warnings.iter().filter(|warning| matches!(warning, FabricWarning::Crowded { .. })).collect();
+    // End 100 pierces the ends on both its sides, end 501 likewise; each pair counts for its second thread.
+    assert_eq!(crowded.len(), 1);
+    assert_eq!(
+        crowded[0].to_string(),
+        "threads pierce their neighbours: end 100 and 3 more; worst is end 501, which needs 1.6000 mm and has 1.0000 mm"
+    );
+
+    // Wide sections lie flat: they crowd their neighbours where round ones don't.
+    let flat = Thread { section: 1, ..Thread::new(1.0, 0.4) };
+    let warnings = woven(plain(4, 4), vec![flat; 4], vec![Thread::new(10.0, 0.1); 4]).unwrap().warnings();
+    assert!(
+        matches!(warnings[0], FabricWarning::Crowded { count: 3, first: Origin::End(2), .. }),
+        "{warnings:?}"
+    );
+
+    // Real cloth is mostly denser than round threads can be woven.
+    let denim = Thread::new(0.3, 0.1);
+    let warnings = woven(plain(4, 4), vec![denim; 4], vec![Thread::new(0.6, 0.1); 4]).unwrap().warnings();
+    assert_eq!(warnings.len(), 1);
+    assert!(matches!(
+        warnings[0],
+        FabricWarning::Jammed { count: 4, first: Origin::End(1), worst: Origin::End(1), .. }
+    ));
+}

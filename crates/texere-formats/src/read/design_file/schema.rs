@@ -1,0 +1,177 @@
+//! The keys of a design file, and how to find the line that a fault stands on.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+
+use serde::Deserialize;
+use texere_fabric::FabricError;
+use toml::Spanned;
+
+use crate::read::{Place, ReadError};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DesignFile {
+    pub(super) name: Option<String>,
+    pub(super) weave: WeaveTable,
+    #[serde(default)]
+    pub(super) yarns: BTreeMap<String, YarnSpec>,
+    pub(super) warp: Option<ThreadSet>,
+    pub(super) weft: Option<ThreadSet>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WeaveTable {
+    pub(super) notation: Option<Spanned<String>>,
+    pub(super) wif: Option<Spanned<String>>,
+    pub(super) ends: Option<Spanned<i64>>,
+    pub(super) picks: Option<Spanned<i64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct YarnSpec {
+    pub(super) diameter_mm: Option<Spanned<f64>>,
+    pub(super) tex: Option<Spanned<f64>>,
+    pub(super) color: Option<Spanned<String>>,
+    pub(super) section: Option<Spanned<SectionSpec>>,
+    pub(super) plies: Option<Spanned<i64>>,
+    pub(super) twist_per_m: Option<Spanned<f64>>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(tag = "shape", rename_all = "kebab-case", deny_unknown_fields)]
+pub(super) enum SectionSpec {
+    Circle,
+    Ellipse {
+        aspect: f32,
+    },
+    Lenticular {
+        aspect: f32,
+        #[serde(default)]
+        distortion: f32,
+    },
+    PowerEllipse {
+        aspect: f32,
+        exponent: f32,
+    },
+    Polygon {
+        corners: Vec<[f32; 2]>,
+    },
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ThreadSet {
+    pub(super) yarns: Spanned<Vec<Spanned<String>>>,
+    pub(super) per_cm: Option<Spanned<f64>>,
+    pub(super) spacing_mm: Option<Spanned<f64>>,
+}
+
+/// Most threads of a warp or weft.
+const THREAD_LIMIT: i64 = 1_000_000;
+
+/// A design file's text and where it came from.
+#[derive(Debug)]
+pub(super) struct Source<'a> {
+    pub(super) path: &'a Path,
+    text: &'a str,
+}
+
+impl<'a> Source<'a> {
+    pub(super) fn new(path: &'a Path, bytes: &'a [u8]) -> Result<Self, ReadError> {
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+            ReadError::Syntax { file: path.into(), line, message: "not UTF-8".into() }
+        })?;
+        Ok(Self { path, text })
+    }
+
+    pub(super) fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, ReadError> {
+        toml::from_str(self.text).map_err(|error| {
+            let (line, message) = (self.line(error.span().unwrap_or(0..0)), error.message());
+            match unknown_field(message) {
+                Some((key, nearest)) => ReadError::UnknownKey {
+                    place: Place::new(self.path, line, format!("key \"{key}\"")),
+                    nearest,
+                },
+                None => {
+                    ReadError::Syntax { file: self.path.into(), line, message: message.trim_end().into() }
+                }
+            }
+        })
+    }
+
+    fn line(&self, span: Range<usize>) -> usize {
+        self.text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1
+    }
+
+    pub(super) fn place(&self, field: impl Into<String>, span: Range<usize>) -> Place {
+        Place::new(self.path, self.line(span), field)
+    }
+
+    pub(super) fn bad<T: ToString>(&self, field: &str, value: &Spanned<T>, expected: &str) -> ReadError {
+        let (place, value) = (self.place(field, value.span()), value.as_ref().to_string());
+        ReadError::BadValue { place, value, expected: expected.into() }
+    }
+
+    /// A number above 0 (or of either sign, where `low` is negative) within its limits.
+    pub(super) fn number(
+        &self,
+        field: &str,
+        value: &Spanned<f64>,
+        low: f64,
+        high: f64,
+    ) -> Result<f64, ReadError> {
+        if (low..=high).contains(value.as_ref()) {
+            return Ok(*value.as_ref());
+        }
+        Err(ReadError::OutOfRange {
+            place: self.place(field, value.span()),
+            value: *value.as_ref(),
+            low,
+            high,
+        })
+    }
+
+    /// A number of threads.
+    pub(super) fn count(&self, field: &str, value: &Spanned<i64>) -> Result<usize, ReadError> {
+        self.integer(field, value, 1, THREAD_LIMIT).map(|count| count as usize)
+    }
+
+    pub(super) fn integer(
+        &self,
+        field: &str,
+        value: &Spanned<i64>,
+        low: i64,
+        high: i64,
+    ) -> Result<u32, ReadError> {
+        let number = *value.as_ref();
+        match u32::try_from(number) {
+            Ok(fits) if (low..=high).contains(&number) => Ok(fits),
+            _ => {
+                let (place, value) = (self.place(field, value.span()), number as f64);
+                Err(ReadError::OutOfRange { place, value, low: low as f64, high: high as f64 })
+            }
+        }
+    }
+
+    pub(super) fn fabric(&self, source: FabricError) -> ReadError {
+        ReadError::Fabric { file: self.path.into(), source }
+    }
+}
+
+/// The unknown key that serde complains of, and the known one nearest to it: its message lists them in backquotes.
+fn unknown_field(message: &str) -> Option<(String, Option<String>)> {
+    let mut quoted = message.strip_prefix("unknown field ")?.split('`').skip(1).step_by(2);
+    let key = quoted.next()?;
+    // Further apart than a third of its letters, a key is another word, not a misspelling.
+    let nearest = quoted
+        .map(|known| (strsim::damerau_levenshtein(key, known), known))
+        .min()
+        .filter(|(distance, known)| *distance <= known.len().max(3) / 3 + 1)
+        .map(|(_, known)| known.into());
+    Some((key.into(), nearest))
+}

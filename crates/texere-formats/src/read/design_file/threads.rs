@@ -1,0 +1,180 @@
+//! From the yarns and thread sets of a design file to the threads of a cloth.
+
+use std::collections::BTreeMap;
+
+use texere_core::{Material, Section};
+use texere_fabric::{COTTON_DENSITY, Thread};
+use toml::Spanned;
+
+use super::schema::{SectionSpec, Source, ThreadSet, YarnSpec};
+use crate::read::ReadError;
+
+/// Thinnest and thickest diameter, and narrowest and widest spacing, that a design file may ask for, mm.
+const LENGTH_MM: (f64, f64) = (1e-3, 1e3);
+
+/// Finest and coarsest yarn, tex: a single filament, and a rope.
+const TEX: (f64, f64) = (1e-3, 1e7);
+
+/// Hardest twist, turns per metre either way.
+const TWIST_PER_M: f64 = 1e5;
+
+/// The named yarns, ready to be threaded: yarn k has material k and section k.
+#[derive(Debug)]
+pub(super) struct YarnTable {
+    names: BTreeMap<String, Thread>,
+    pub(super) materials: Vec<Material>,
+    pub(super) sections: Vec<Section>,
+}
+
+impl YarnTable {
+    pub(super) fn new(source: &Source<'_>, specs: &BTreeMap<String, YarnSpec>) -> Result<Self, ReadError> {
+        let mut table = Self { names: BTreeMap::new(), materials: Vec::new(), sections: Vec::new() };
+        for (number, (name, spec)) in (0..).zip(specs) {
+            let field = |key: &str| format!("yarns.{name}.{key}");
+            let tex =
+                spec.tex.as_ref().map(|tex| source.number(&field("tex"), tex, TEX.0, TEX.1)).transpose()?;
+            let diameter_mm = match (&spec.diameter_mm, tex) {
+                (Some(diameter), _) => {
+                    source.number(&field("diameter_mm"), diameter, LENGTH_MM.0, LENGTH_MM.1)?
+                }
+                (None, Some(tex)) => texere_fabric::diameter_mm(tex, COTTON_DENSITY),
+                (None, None) => {
+                    let file = source.path.into();
+                    let needed_for = "a yarn needs a diameter, or tex to work it out from";
+                    return Err(ReadError::MissingKey { file, field: field("diameter_mm"), needed_for });
+                }
+            };
+            let twist_per_m = spec
+                .twist_per_m
+                .as_ref()
+                .map(|twist| source.number(&field("twist_per_m"), twist, -TWIST_PER_M, TWIST_PER_M))
+                .transpose()?
+                .unwrap_or(0.0);
+            table.materials.push(Material {
+                name: name.clone(),
+                srgb: color(source, &field("color"), spec.color.as_ref())?,
+                tex: tex.map(|tex| tex as f32),
+            });
+            table.sections.push(section(source, name, spec)?);
+            table.names.insert(
+                name.clone(),
+                Thread {
+                    spacing_mm: 0.0,
+                    radius_mm: (diameter_mm / 2.0) as f32,
+                    material: number,
+                    section: number,
+                    twist: (twist_per_m * std::f64::consts::TAU / 1000.0) as f32,
+                },
+            );
+        }
+        Ok(table)
+    }
+
+    /// `count` threads of a set: its yarns, repeated.
+    pub(super) fn threads(
+        &self,
+        source: &Source<'_>,
+        set: &str,
+        spec: &ThreadSet,
+        count: usize,
+    ) -> Result<Vec<Thread>, ReadError> {
+        let (low, high) = LENGTH_MM;
+        let spacing_mm = match (&spec.per_cm, &spec.spacing_mm) {
+            (Some(per_cm), None) => {
+                10.0 / source.number(&format!("{set}.per_cm"), per_cm, 10.0 / high, 10.0 / low)?
+            }
+            (None, Some(spacing)) => source.number(&format!("{set}.spacing_mm"), spacing, low, high)?,
+            _ => {
+                let keys = if set == "warp" {
+                    "warp.per_cm and warp.spacing_mm"
+                } else {
+                    "weft.per_cm and weft.spacing_mm"
+                };
+                return Err(ReadError::ExactlyOne { file: source.path.into(), keys });
+            }
+        };
+        let mut repeat = Vec::new();
+        for item in spec.yarns.as_ref() {
+            let (times, thread) = self.item(source, set, item)?;
+            repeat.resize(repeat.len() + times as usize, Thread { spacing_mm, ..thread });
+            // A repeat longer than the cloth is never seen; cut, many long items take no more memory than one.
+            repeat.truncate(count);
+        }
+        if repeat.is_empty() {
+            let (place, value) = (source.place(format!("{set}.yarns"), spec.yarns.span()), "[]".into());
+            return Err(ReadError::BadValue { place, value, expected: "at least one yarn".into() });
+        }
+        Ok(repeat.into_iter().cycle().take(count).collect())
+    }
+
+    /// One item of a repeat: `"indigo"`, or `"3 indigo"` for three in a row.
+    fn item(
+        &self,
+        source: &Source<'_>,
+        set: &str,
+        item: &Spanned<String>,
+    ) -> Result<(u32, Thread), ReadError> {
+        let field = format!("{set}.yarns");
+        let text = item.as_ref().trim();
+        if let Some(thread) = self.names.get(text) {
+            return Ok((1, *thread));
+        }
+        let (times, name) = text.split_once(char::is_whitespace).unwrap_or(("1", text));
+        let Some(thread) = self.names.get(name.trim()) else {
+            let known: Vec<_> = self.names.keys().map(|name| format!("\"{name}\"")).collect();
+            let expected = format!(
+                "a yarn of [yarns], with a number before it or none; there are: {}",
+                known.join(", ")
+            );
+            return Err(source.bad(&field, item, &expected));
+        };
+        match times.parse() {
+            Ok(times @ 1..=1_000_000) => Ok((times, *thread)),
+            _ => Err(source.bad(&field, item, "a number from 1 to 1000000 before the yarn's name")),
+        }
+    }
+}
+
+fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, ReadError> {
+    let plies = spec
+        .plies
+        .as_ref()
+        .map(|plies| source.integer(&format!("yarns.{name}.plies"), plies, 1, 12))
+        .transpose()?;
+    let Some(shape) = &spec.section else {
+        return Ok(match plies {
+            Some(plies) if plies > 1 => Section::Lobed { plies },
+            _ => Section::Circle,
+        });
+    };
+    if plies.is_some() {
+        let keys = "section and plies in a table of [yarns]";
+        return Err(ReadError::ExactlyOne { file: source.path.into(), keys });
+    }
+    let section = match shape.as_ref().clone() {
+        SectionSpec::Circle => Section::Circle,
+        SectionSpec::Ellipse { aspect } => Section::Ellipse { aspect },
+        SectionSpec::Lenticular { aspect, distortion } => Section::Lenticular { aspect, distortion },
+        SectionSpec::PowerEllipse { aspect, exponent } => Section::PowerEllipse { aspect, exponent },
+        SectionSpec::Polygon { corners } => Section::Polygon(corners),
+    };
+    section.validate().map_err(|error| ReadError::Section {
+        place: source.place(format!("yarns.{name}.section"), shape.span()),
+        source: error,
+    })?;
+    Ok(section)
+}
+
+/// `#rrggbb`; undyed where none is given.
+fn color(source: &Source<'_>, field: &str, color: Option<&Spanned<String>>) -> Result<[u8; 3], ReadError> {
+    let Some(color) = color else { return Ok(Material::default().srgb) };
+    let is_hex = |digits: &&str| digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+    let value = color
+        .as_ref()
+        .strip_prefix('#')
+        .filter(is_hex)
+        .and_then(|digits| u32::from_str_radix(digits, 16).ok());
+    let value = value.ok_or_else(|| source.bad(field, color, "a colour like #26406e"))?;
+    let [_, red, green, blue] = value.to_be_bytes();
+    Ok([red, green, blue])
+}

@@ -1,0 +1,99 @@
+//! Readers: from a design file to a [`Design`].
+
+mod design_file;
+mod error;
+mod wif;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use texere_core::{Section, Yarns};
+use texere_fabric::{FabricError, Woven};
+
+pub use error::{Place, ReadError};
+
+/// The structure that a design describes.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Structure {
+    /// Woven cloth.
+    Woven(Woven),
+}
+
+/// A design, read and checked.
+///
+/// ```no_run
+/// let design = texere_formats::read("designs/herringbone.wif")?;
+/// println!("{}: {} yarns", design.name, design.yarns()?.layout().yarns().len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// Its title, or else the name of its file.
+    pub name: String,
+    /// What it describes.
+    pub structure: Structure,
+    /// What the reader had to assume or leave out, for a person to read.
+    pub warnings: Vec<String>,
+}
+
+impl Design {
+    /// A woven design; what its cloth has to say is added to the reader's own `warnings`.
+    fn woven(name: String, woven: Woven, mut warnings: Vec<String>) -> Self {
+        warnings.extend(woven.warnings().iter().map(ToString::to_string));
+        Self { name, structure: Structure::Woven(woven), warnings }
+    }
+
+    /// The yarns of the fabric.
+    ///
+    /// **Errors**: [`FabricError`] where the structure can't be made.
+    pub fn yarns(&self) -> Result<Yarns, FabricError> {
+        match &self.structure {
+            Structure::Woven(woven) => woven.yarns(),
+        }
+    }
+
+    /// Gives every yarn the same section.
+    ///
+    /// **Errors**: [`FabricError`] where the section is not sound.
+    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
+        match &mut self.structure {
+            Structure::Woven(woven) => woven.set_section(section),
+        }
+    }
+}
+
+/// Reads the design in `path`: a WIF draft (`.wif`) or texere's own design file (`.toml`).
+///
+/// **Errors**: [`ReadError`], which names file, line, field, value and limit as far as they apply.
+pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
+    let path = path.as_ref();
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    match ending.as_deref() {
+        Some("wif") => wif::read(path).map(|draft| Design::woven(draft.name, draft.woven, draft.warnings)),
+        Some("toml") => design_file::read(path),
+        _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml" }),
+    }
+}
+
+/// The largest design file that is read: a lift plan of 10,000 picks by 5,000 hooks takes half as much.
+const FILE_LIMIT: u64 = 1 << 28;
+
+/// A file's bytes, at most [`FILE_LIMIT`].
+fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let io = |source| ReadError::Io { file: path.into(), source };
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(io)?;
+    // One byte more than the limit tells a file at the limit from one beyond it, whatever its metadata say.
+    let count = file.take(FILE_LIMIT + 1).read_to_end(&mut bytes).map_err(io)? as u64;
+    if count > FILE_LIMIT {
+        return Err(ReadError::TooLarge { file: path.into(), bytes: count, limit: FILE_LIMIT });
+    }
+    Ok(bytes)
+}
+
+/// The name of a design that has no title.
+fn file_name(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "design".into(), |stem| stem.to_string_lossy().into_owned())
+}

@@ -1,0 +1,115 @@
+//! The colour table of a WIF file.
+
+use std::collections::BTreeMap;
+
+use texere_core::Material;
+
+use super::ini::{Entry, Ini};
+use super::numbers::{bad, list, place};
+use crate::read::ReadError;
+
+/// Colours by number, and the materials that stand for them.
+#[derive(Debug)]
+pub(super) struct Palette {
+    materials: Vec<Material>,
+    /// Material of each colour of the table.
+    by_number: BTreeMap<u32, u32>,
+}
+
+/// Material of threads that no colour is given for.
+pub(super) const NO_COLOR: u32 = 0;
+
+impl Palette {
+    pub(super) fn read(ini: &Ini, warnings: &mut Vec<String>) -> Result<Self, ReadError> {
+        let mut palette = Self { materials: vec![Material::default()], by_number: BTreeMap::new() };
+        let mut table = BTreeMap::new();
+        for (key, entry) in ini.entries("color table").filter(|(_, entry)| !entry.value.is_empty()) {
+            let expected = "red, green and blue, numbered from 1";
+            let number = key.parse().ok().filter(|&number: &u32| number > 0);
+            let number = number.ok_or_else(|| bad(ini, "color table", key, entry, expected))?;
+            let rgb = <[u32; 3]>::try_from(list(ini, "color table", key, entry)?)
+                .map_err(|_| bad(ini, "color table", key, entry, expected))?;
+            table.insert(number, rgb);
+        }
+        let (low, high) = range(ini, &table, warnings)?;
+        let mut clamped = 0;
+        for (number, rgb) in table {
+            let srgb = rgb.map(|channel| {
+                clamped += u32::from(!(low..=high).contains(&channel));
+                scaled(channel, low, high)
+            });
+            palette.by_number.insert(number, palette.materials.len() as u32);
+            palette.materials.push(Material { name: format!("colour {number}"), srgb, tex: None });
+        }
+        if clamped > 0 {
+            warnings.push(format!("{clamped} values of [COLOR TABLE] lie outside the range {low} to {high}"));
+        }
+        Ok(palette)
+    }
+
+    /// The material of the colour that `entry` names: a number of the table, or a number with red, green and blue.
+    /// `None` where it says none.
+    pub(super) fn material(
+        &mut self,
+        ini: &Ini,
+        section: &str,
+        key: &str,
+        entry: &Entry,
+    ) -> Result<Option<u32>, ReadError> {
+        let numbers = list(ini, section, key, entry)?;
+        let Some(&number) = numbers.first() else { return Ok(None) };
+        if number == 0 {
+            return Ok(None);
+        }
+        if let Some(&material) = self.by_number.get(&number) {
+            return Ok(Some(material));
+        }
+        if let [_, red, green, blue] = numbers[..] {
+            let srgb = [red, green, blue].map(|channel| scaled(channel, 0, 255));
+            let material = self.materials.len() as u32;
+            self.by_number.insert(number, material);
+            self.materials.push(Material { name: format!("colour {number}"), srgb, tex: None });
+            return Ok(Some(material));
+        }
+        if self.by_number.is_empty() {
+            return Err(bad(ini, section, key, entry, "no colour, since there is no [COLOR TABLE]"));
+        }
+        let high = self.by_number.keys().max().copied().unwrap_or(0);
+        if number > high {
+            let place = place(ini, section, key, entry);
+            return Err(ReadError::OutOfRange { place, value: number.into(), low: 1.0, high: high.into() });
+        }
+        Err(bad(ini, section, key, entry, "the number of a colour in [COLOR TABLE]"))
+    }
+
+    pub(super) fn into_materials(self) -> Vec<Material> {
+        self.materials
+    }
+}
+
+/// The range of the table's values. Where the file does not say, 0 to 255, or 0 to 999 (Fiberworks) or 0 to 65,535 where
+/// values go beyond.
+fn range(
+    ini: &Ini,
+    table: &BTreeMap<u32, [u32; 3]>,
+    warnings: &mut Vec<String>,
+) -> Result<(u32, u32), ReadError> {
+    if let Some(entry) = ini.get("color palette", "range") {
+        return match list(ini, "color palette", "range", entry)?[..] {
+            [low, high] if low < high => Ok((low, high)),
+            _ => Err(bad(ini, "color palette", "range", entry, "two numbers, the lower one first")),
+        };
+    }
+    let most = table.values().flatten().max().copied().unwrap_or(0);
+    let high = [255, 999, 65_535].into_iter().find(|&high| most <= high).unwrap_or(most);
+    if !table.is_empty() {
+        warnings.push(format!("[COLOR PALETTE] has no Range; 0 to {high} is taken"));
+    }
+    Ok((0, high))
+}
+
+/// `channel` between `low` and `high` as 0 to 255, rounded.
+fn scaled(channel: u32, low: u32, high: u32) -> u8 {
+    let (channel, span) = (u64::from(channel.clamp(low, high) - low), u64::from(high - low));
+    ((channel * 255 + span / 2) / span) as u8
+}

@@ -1,0 +1,126 @@
+//! WIF 1.1, the Weaving Information File: lenient in dialect, firm in substance.
+//!
+//! Sections and keys come in any order and case; sparse lists take defaults; 0 or nothing stands for none; what CONTENTS
+//! claims is not trusted. Refused, with section and key: a treadle or shaft that the loom has not got, a colour that no
+//! table holds, a tie-up, treadling or lift plan that the others need.
+
+mod colors;
+mod ini;
+mod numbers;
+mod threads;
+
+use std::path::Path;
+
+use texere_core::Section;
+use texere_fabric::{Draft, Drawdown, Shedding, Woven};
+
+use super::{ReadError, bytes_of, file_name};
+use ini::Ini;
+use numbers::{integer, lists};
+
+/// Most shafts or treadles of a loom: a Jacquard machine with a hook for each end, in WIF's clothes.
+const LOOM_LIMIT: u32 = 100_000;
+
+/// Most threads of a warp or weft.
+const THREAD_LIMIT: u32 = 1_000_000;
+
+/// A WIF file, read.
+#[derive(Debug)]
+pub(super) struct WifDraft {
+    pub(super) name: String,
+    pub(super) woven: Woven,
+    pub(super) warnings: Vec<String>,
+}
+
+pub(super) fn read(path: &Path) -> Result<WifDraft, ReadError> {
+    let ini = Ini::parse(path, &bytes_of(path)?);
+    let mut warnings = Vec::new();
+    let fabric = |source| ReadError::Fabric { file: path.into(), source };
+
+    let ends = thread_count(&ini, "warp", "WARP")?;
+    let picks = thread_count(&ini, "weft", "WEFT")?;
+    let drawdown = drawdown(&ini, ends, picks, &mut warnings)?;
+    let mut palette = colors::Palette::read(&ini, &mut warnings)?;
+    let (warp, weft) = threads::read(&ini, [ends, picks], &mut palette, &mut warnings)?;
+    let woven =
+        Woven::new(drawdown, warp, weft, palette.into_materials(), vec![Section::Circle]).map_err(fabric)?;
+    let name = ini.get("text", "title").map_or_else(|| file_name(path), |entry| entry.value.clone());
+    Ok(WifDraft { name, woven, warnings })
+}
+
+fn thread_count(ini: &Ini, section: &str, name: &str) -> Result<u32, ReadError> {
+    integer(ini, section, "threads", 1, THREAD_LIMIT)?.ok_or_else(|| ReadError::MissingKey {
+        file: ini.file.clone(),
+        field: format!("[{name}] Threads"),
+        needed_for: "it says how many threads there are",
+    })
+}
+
+fn missing(ini: &Ini, section: &'static str, needed_for: &'static str) -> ReadError {
+    ReadError::MissingSection { file: ini.file.clone(), section, needed_for }
+}
+
+/// The drawdown from threading and tie-up with treadling, or lift plan. Where a file has both and they differ, the tie-up
+/// stands, and a warning says so.
+fn drawdown(ini: &Ini, ends: u32, picks: u32, warnings: &mut Vec<String>) -> Result<Drawdown, ReadError> {
+    if !ini.has("threading") {
+        return Err(missing(ini, "THREADING", "it says which shaft each end is on"));
+    }
+    let fabric = |source| ReadError::Fabric { file: ini.file.clone(), source };
+    let shafts = integer(ini, "weaving", "shafts", 1, LOOM_LIMIT)?.unwrap_or(LOOM_LIMIT);
+    let threading = lists(ini, "threading", ends, shafts, warnings)?;
+    let rising_shed = rising_shed(ini)?;
+    let with = |shedding| Draft { threading: threading.clone(), shedding, rising_shed }.drawdown();
+
+    let treadled = treadled(ini, picks, shafts, warnings)?;
+    let lift_plan =
+        ini.has("liftplan").then(|| lists(ini, "liftplan", picks, shafts, warnings)).transpose()?;
+    match (treadled, lift_plan) {
+        (Some(treadled), Some(lift_plan)) => {
+            let drawdown = with(treadled).map_err(fabric)?;
+            if drawdown != with(Shedding::LiftPlan(lift_plan)).map_err(fabric)? {
+                warnings.push("lift plan and treadling give different cloths; the treadling is taken".into());
+            }
+            Ok(drawdown)
+        }
+        (Some(shedding), None) => with(shedding).map_err(fabric),
+        (None, Some(lift_plan)) => with(Shedding::LiftPlan(lift_plan)).map_err(fabric),
+        (None, None) if ini.has("treadling") => {
+            Err(missing(ini, "TIEUP", "it says what each treadle of TREADLING lifts"))
+        }
+        (None, None) if ini.has("tieup") => {
+            Err(missing(ini, "TREADLING", "it says which treadles of TIEUP each pick uses"))
+        }
+        (None, None) => {
+            Err(missing(ini, "LIFTPLAN", "without TIEUP and TREADLING it says what each pick lifts"))
+        }
+    }
+}
+
+/// Tie-up and treadling, where both are there.
+fn treadled(
+    ini: &Ini,
+    picks: u32,
+    shafts: u32,
+    warnings: &mut Vec<String>,
+) -> Result<Option<Shedding>, ReadError> {
+    if !ini.has("tieup") || !ini.has("treadling") {
+        return Ok(None);
+    }
+    let declared = integer(ini, "weaving", "treadles", 1, LOOM_LIMIT)?.unwrap_or(0);
+    // Some programs write more tie-up rows than treadles.
+    let highest = ini.entries("tieup").filter_map(|(key, _)| key.parse().ok()).max().unwrap_or(0);
+    let treadles = declared.max(highest).min(LOOM_LIMIT);
+    let tie_up = lists(ini, "tieup", treadles, shafts, warnings)?;
+    let treadling = lists(ini, "treadling", picks, treadles, warnings)?;
+    Ok(Some(Shedding::TieUp { tie_up, treadling }))
+}
+
+fn rising_shed(ini: &Ini) -> Result<bool, ReadError> {
+    let Some(entry) = ini.get("weaving", "rising shed") else { return Ok(true) };
+    match entry.value.to_lowercase().as_str() {
+        "true" | "yes" | "on" | "1" => Ok(true),
+        "false" | "no" | "off" | "0" => Ok(false),
+        _ => Err(numbers::bad(ini, "weaving", "rising shed", entry, "true or false")),
+    }
+}

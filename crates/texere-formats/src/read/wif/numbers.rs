@@ -1,0 +1,121 @@
+//! Numbers and lists of numbers in WIF sections.
+
+use super::ini::{Entry, Ini};
+use crate::read::{Place, ReadError};
+
+/// Where an entry stands, as WIF writes it: `[WARP COLORS] 3`.
+pub(super) fn place(ini: &Ini, section: &str, key: &str, entry: &Entry) -> Place {
+    Place::new(&ini.file, entry.line, format!("[{}] {key}", section.to_uppercase()))
+}
+
+pub(super) fn bad(ini: &Ini, section: &str, key: &str, entry: &Entry, expected: &str) -> ReadError {
+    let (place, value) = (place(ini, section, key, entry), entry.value.clone());
+    ReadError::BadValue { place, value, expected: expected.into() }
+}
+
+/// A whole number within `low` and `high`, or `None` where the key is missing or empty.
+pub(super) fn integer(
+    ini: &Ini,
+    section: &str,
+    key: &str,
+    low: u32,
+    high: u32,
+) -> Result<Option<u32>, ReadError> {
+    let Some(entry) = ini.get(section, key) else { return Ok(None) };
+    let value: f64 = entry.value.parse().map_err(|_| bad(ini, section, key, entry, "a whole number"))?;
+    if value.fract() != 0.0 {
+        return Err(bad(ini, section, key, entry, "a whole number"));
+    }
+    if !(f64::from(low)..=f64::from(high)).contains(&value) {
+        let place = place(ini, section, key, entry);
+        return Err(ReadError::OutOfRange { place, value, low: low.into(), high: high.into() });
+    }
+    Ok(Some(value as u32))
+}
+
+/// The numbers of a comma-separated value.
+pub(super) fn list(ini: &Ini, section: &str, key: &str, entry: &Entry) -> Result<Vec<u32>, ReadError> {
+    let value = entry.value.split(';').next().unwrap_or_default();
+    let items = value.split(',').map(str::trim).filter(|item| !item.is_empty());
+    items
+        .map(|item| {
+            item.parse().map_err(|_| bad(ini, section, key, entry, "whole numbers separated by commas"))
+        })
+        .collect()
+}
+
+/// A section of `number=list` lines as one list for each of 1 to `count`; 0 stands for none, numbers above `limit` are
+/// refused. Lines beyond `count` are left out with a warning.
+pub(super) fn lists(
+    ini: &Ini,
+    section: &str,
+    count: u32,
+    limit: u32,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Vec<u32>>, ReadError> {
+    let mut lists = vec![Vec::new(); count as usize];
+    for (number, entry) in numbered(ini, section, count, warnings) {
+        let key = number.to_string();
+        for value in list(ini, section, &key, entry)? {
+            if value > limit {
+                let place = place(ini, section, &key, entry);
+                return Err(ReadError::OutOfRange {
+                    place,
+                    value: value.into(),
+                    low: 0.0,
+                    high: limit.into(),
+                });
+            }
+            if value > 0 {
+                lists[number as usize - 1].push(value);
+            }
+        }
+    }
+    Ok(lists)
+}
+
+/// The lines of a section whose key is a number from 1 to `count`, in order; a warning counts the others.
+pub(super) fn numbered<'a>(
+    ini: &'a Ini,
+    section: &str,
+    count: u32,
+    warnings: &mut Vec<String>,
+) -> Vec<(u32, &'a Entry)> {
+    let (mut lines, mut others) = (Vec::new(), 0);
+    for (key, entry) in ini.entries(section) {
+        match key.parse::<u32>() {
+            Ok(number) if (1..=count).contains(&number) => lines.push((number, entry)),
+            _ => others += 1,
+        }
+    }
+    if others > 0 {
+        let section = section.to_uppercase();
+        warnings.push(format!(
+            "[{section}] has {others} lines that are not numbered 1 to {count}; they are left out"
+        ));
+    }
+    lines.sort_by_key(|&(number, _)| number);
+    lines
+}
+
+/// A length in the file's unit above 0 and up to `limit`, or `None` for 0.
+pub(super) fn length(
+    ini: &Ini,
+    section: &str,
+    key: &str,
+    entry: &Entry,
+    limit: f64,
+) -> Result<Option<f64>, ReadError> {
+    // A decimal comma is what some programs write where their user's language has one.
+    let value: f64 =
+        entry.value.replace(',', ".").parse().map_err(|_| bad(ini, section, key, entry, "a length"))?;
+    if !(0.0..=limit).contains(&value) {
+        return Err(ReadError::OutOfRange {
+            place: place(ini, section, key, entry),
+            value,
+            low: 0.0,
+            high: limit,
+        });
+    }
+    Ok((value > 0.0).then_some(value))
+}

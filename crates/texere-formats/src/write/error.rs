@@ -1,0 +1,81 @@
+//! What can go wrong while a file is written.
+
+use std::io;
+use std::path::PathBuf;
+
+use texere_core::PipelineError;
+use thiserror::Error;
+
+use super::Format;
+
+/// A mesh that can't be written. After any of these there is no new file, and an old one is as it was.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The path ends in no extension that stands for a format. Choose one of those named.
+    #[error("{} has no known extension; there are: {}", .path.display(), Format::ALL.map(Format::extension).join(", "))]
+    UnknownFormat {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The file system refused: no such folder, no permission, no room. A target that is a folder, a device or a
+    /// read-only file is refused before any work is done.
+    #[error("can't {action} {}", .path.display())]
+    Io {
+        /// What was being done: create, write or rename.
+        action: &'static str,
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The mesh could not be made, or progress asked to stop.
+    #[error("the mesh could not be made")]
+    Pipeline(#[from] PipelineError),
+    /// GLB counts its bytes with 32 bits. PLY has no such limit; fewer sides or subdivisions make a smaller file.
+    #[error(
+        "GLB of {bytes} bytes or more, but the format ends at {limit}; write PLY, or fewer sides or subdivisions"
+    )]
+    GlbTooLarge {
+        /// Bytes that the file would have at least.
+        bytes: u64,
+        /// The most that the format can have.
+        limit: u64,
+    },
+    /// PLY numbers vertices with 32 bits. Fewer sides or subdivisions make fewer vertices.
+    #[error(
+        "PLY of {vertices} vertices or more, but the format ends at {limit}; use fewer sides or subdivisions"
+    )]
+    TooManyVertices {
+        /// Vertices that the file would have at least.
+        vertices: u64,
+        /// The most that the format can have.
+        limit: u64,
+    },
+    /// The mesh has another number of vertices than its plan says.
+    #[error("mesh ends or breaks off at vertex {given}; {planned} were planned")]
+    VertexCount {
+        /// Vertices that came, in order.
+        given: u64,
+        /// Vertices that should have come.
+        planned: u64,
+    },
+    /// A vertex with NaN or infinity in it, which would make the file unreadable.
+    #[error("vertex {vertex}, of yarn {yarn}, is not finite")]
+    NotFinite {
+        /// The vertex, from 0 among all.
+        vertex: u64,
+        /// Its yarn, from 0.
+        yarn: u32,
+    },
+    /// A yarn refers to a material that the mesh does not have.
+    #[error("yarn {yarn} is of material {material}, but there are {materials}")]
+    UnknownMaterial {
+        /// The yarn, from 0.
+        yarn: usize,
+        /// Its material.
+        material: u32,
+        /// How many there are.
+        materials: usize,
+    },
+}

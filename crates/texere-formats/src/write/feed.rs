@@ -1,0 +1,115 @@
+//! What a file is fed with: every vertex once, in order, and sound.
+
+use std::borrow::Borrow;
+use std::fmt::Debug;
+use std::io::{Seek, Write};
+use std::ops::Range;
+
+use texere_core::{Cap, Chunk, Material, Part, Plan, Vertex};
+
+use super::glb::GlbWriter;
+use super::ply::PlyWriter;
+use super::target::Target;
+use super::{Format, WriteError};
+
+/// A format's way to write.
+pub(super) trait MeshWriter<W: Write + Seek>: Debug {
+    /// Takes a chunk's vertices from number `first` on. All vertices of all chunks come in order.
+    fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError>;
+
+    /// Completes the file once all vertices have come.
+    fn finish(self: Box<Self>) -> Result<Target<W>, WriteError>;
+}
+
+/// A file under way and how far it has come.
+#[derive(Debug)]
+pub(super) struct Feed<'a, W: Write + Seek> {
+    writer: Box<dyn MeshWriter<W> + 'a>,
+    sides: u32,
+    given: u64,
+    planned: u64,
+}
+
+impl<'a, W: Write + Seek + Debug + 'a> Feed<'a, W> {
+    /// Starts a file for the mesh of `plan`, which is of shared topology, cut into `chunks`.
+    pub(super) fn open(
+        format: Format,
+        target: Target<W>,
+        plan: &'a Plan,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        materials: &'a [Material],
+    ) -> Result<Self, WriteError> {
+        for (yarn, each) in plan.layout().yarns().iter().enumerate() {
+            if each.material as usize >= materials.len() {
+                let (material, materials) = (each.material, materials.len());
+                return Err(WriteError::UnknownMaterial { yarn, material, materials });
+            }
+        }
+        let mut planned = 0;
+        let chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices));
+        let writer: Box<dyn MeshWriter<W> + 'a> = match format {
+            Format::Glb => Box::new(GlbWriter::start(target, plan, chunks, materials)?),
+            Format::Ply => Box::new(PlyWriter::start(target, plan, chunks, materials)?),
+        };
+        Ok(Self { writer, sides: plan.settings().sides, given: 0, planned })
+    }
+
+    /// Passes a chunk's vertices from number `first` on to the writer.
+    pub(super) fn vertices(
+        &mut self,
+        chunk: &Chunk,
+        first: u32,
+        vertices: &[Vertex],
+    ) -> Result<(), WriteError> {
+        if vertices.is_empty() {
+            return Ok(());
+        }
+        if chunk.first_vertex + u64::from(first) != self.given {
+            return Err(WriteError::VertexCount { given: self.given, planned: self.planned });
+        }
+        let floats: &[f32] = bytemuck::cast_slice(vertices);
+        if let Some(float) = floats.iter().position(|float| !float.is_finite()) {
+            let place = float / 6;
+            let mut runs = yarn_runs(chunk, self.sides, first, vertices.len());
+            let yarn = runs.find(|(_, run)| run.contains(&place)).map_or(0, |(yarn, _)| yarn);
+            return Err(WriteError::NotFinite { vertex: self.given + place as u64, yarn });
+        }
+        self.writer.vertices(chunk, first, vertices)?;
+        self.given += vertices.len() as u64;
+        Ok(())
+    }
+
+    /// Vertices passed on so far.
+    pub(super) fn given(&self) -> u64 {
+        self.given
+    }
+
+    /// Completes the file, unless vertices are missing.
+    pub(super) fn finish(self) -> Result<Target<W>, WriteError> {
+        if self.given != self.planned {
+            return Err(WriteError::VertexCount { given: self.given, planned: self.planned });
+        }
+        self.writer.finish()
+    }
+}
+
+/// Which yarn each of `count` vertices of a chunk from number `first` on belongs to: runs of places, counted from
+/// `first`, in order.
+pub(super) fn yarn_runs(
+    chunk: &Chunk,
+    sides: u32,
+    first: u32,
+    count: usize,
+) -> impl Iterator<Item = (u32, Range<usize>)> {
+    let end = u64::from(first) + count as u64;
+    let tube = move |part: &Part| (part.yarn, part.first_vertex..part.first_vertex + part.rings * sides);
+    let cap = move |cap: &Cap| (cap.yarn, cap.first_vertex..cap.first_vertex + sides);
+    // A chunk may hold thousands of parts and be lent in as many pieces.
+    let tubes = &chunk.parts[chunk.parts.partition_point(|part| tube(part).1.end <= first)..];
+    let caps = &chunk.caps[chunk.caps.partition_point(|each| cap(each).1.end <= first)..];
+    let runs = tubes.iter().map(tube).chain(caps.iter().map(cap));
+    runs.take_while(move |(_, run)| u64::from(run.start) < end).map(move |(yarn, run)| {
+        let from = run.start.max(first) - first;
+        (yarn, from as usize..((run.end - first) as usize).min(count))
+    })
+}

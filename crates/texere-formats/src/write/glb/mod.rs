@@ -1,0 +1,81 @@
+//! glTF 2.0 binary: a header, a JSON document, and the buffer that it describes.
+//!
+//! Source: Khronos Group, "glTF 2.0 Specification", section 4.4 for the container.
+
+mod document;
+mod schema;
+
+use std::borrow::Borrow;
+use std::io::{Seek, Write};
+
+use document::Document;
+use texere_core::{Chunk, Material, Plan, Vertex};
+
+use super::WriteError;
+use super::feed::MeshWriter;
+use super::target::Target;
+
+/// What a `u32` counts: the header tells the file's length in one.
+const BYTES_MAX: u64 = u32::MAX as u64;
+
+/// Magic, version and length of the file.
+const HEADER_BYTES: u64 = 12;
+
+/// Length and type of a chunk of the file.
+const CHUNK_HEADER_BYTES: u64 = 8;
+
+/// A GLB file under way.
+///
+/// The document comes first in it, yet tells the bounds of every yarn, which are known last. It has the same length
+/// whatever the bounds are, so it is written twice: first to hold the place, then as it is.
+#[derive(Debug)]
+pub(super) struct GlbWriter<W: Write + Seek> {
+    target: Target<W>,
+    document: Document,
+}
+
+impl<W: Write + Seek> GlbWriter<W> {
+    pub(super) fn start(
+        mut target: Target<W>,
+        plan: &Plan,
+        chunks: impl Iterator<Item = impl Borrow<Chunk>>,
+        materials: &[Material],
+    ) -> Result<Self, WriteError> {
+        // Before chunks are gone through, of which there may be millions.
+        check(plan.counts().bytes())?;
+        let document = Document::new(plan, chunks, materials);
+        check(document.buffer_bytes())?;
+        let json = document.to_json().map_err(|source| target.failed(source))?;
+        let bytes = HEADER_BYTES + 2 * CHUNK_HEADER_BYTES + json.len() as u64 + document.buffer_bytes();
+        check(bytes)?;
+        target.write(b"glTF")?;
+        target.write_words(&[2, bytes as u32, json.len() as u32])?;
+        target.write(b"JSON")?;
+        target.write(&json)?;
+        target.write_words(&[document.buffer_bytes() as u32])?;
+        target.write(b"BIN\0")?;
+        target.write_words(&plan.shared_indices())?;
+        Ok(Self { target, document })
+    }
+}
+
+impl<W: Write + Seek + std::fmt::Debug> MeshWriter<W> for GlbWriter<W> {
+    fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError> {
+        self.document.include(chunk.first_vertex + u64::from(first), vertices);
+        self.target.write_words(bytemuck::cast_slice(vertices))
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<Target<W>, WriteError> {
+        self.target.go_to(HEADER_BYTES + CHUNK_HEADER_BYTES)?;
+        let json = self.document.to_json().map_err(|source| self.target.failed(source))?;
+        self.target.write(&json)?;
+        Ok(self.target)
+    }
+}
+
+fn check(bytes: u64) -> Result<(), WriteError> {
+    if bytes > BYTES_MAX {
+        return Err(WriteError::GlbTooLarge { bytes, limit: BYTES_MAX });
+    }
+    Ok(())
+}

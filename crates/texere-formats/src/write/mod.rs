@@ -1,0 +1,164 @@
+//! Mesh files, written piece by piece and in bounded memory.
+//!
+//! | format | extension | holds |
+//! |---|---|---|
+//! | glTF 2.0 binary | `.glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
+//! | binary PLY, little endian | `.ply` | one point set with normals and colours, and its triangles; millimetres |
+//!
+//! What a file holds does not depend on the mesh's [`Topology`](texere_core::Topology): a plan knows its triangles, so
+//! that no index has to come from a device, and GLB keeps the index pattern that all yarns share once, which halves it.
+//!
+//! A file is written beside its target and renamed when it is whole. After an error, a cancellation or a panic nothing
+//! new is left, and an older file of that name is as it was.
+
+mod error;
+mod feed;
+mod glb;
+mod ply;
+mod target;
+#[cfg(test)]
+mod tests;
+
+pub use error::WriteError;
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use feed::Feed;
+use target::Target;
+use texere_core::{Backend, Mesh, MeshPiece, Pipeline, PipelineError, Plan, Settings, Topology};
+
+/// A kind of mesh file.
+///
+/// ```
+/// use texere_formats::write::Format;
+/// assert_eq!(Format::from_path("damask.GLB")?, Format::Glb);
+/// let error = Format::from_path("damask.obj").unwrap_err();
+/// assert_eq!(error.to_string(), "damask.obj has no known extension; there are: glb, ply");
+/// # Ok::<(), texere_formats::WriteError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Format {
+    /// glTF 2.0 binary, up to 4 GiB.
+    Glb,
+    /// Binary PLY, up to 2³² - 1 vertices.
+    Ply,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 2] = [Self::Glb, Self::Ply];
+
+    /// The extension that stands for the format, without its dot.
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Glb => "glb",
+            Self::Ply => "ply",
+        }
+    }
+
+    /// The format that the extension of `path` stands for, in upper or lower case.
+    ///
+    /// **Errors**: [`WriteError::UnknownFormat`], which names those that there are.
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, WriteError> {
+        let path = path.as_ref();
+        let given = path.extension().unwrap_or_default();
+        Self::ALL
+            .into_iter()
+            .find(|format| given.eq_ignore_ascii_case(format.extension()))
+            .ok_or_else(|| WriteError::UnknownFormat { path: path.to_owned() })
+    }
+}
+
+/// How much was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Written {
+    /// Bytes of the file.
+    pub bytes: u64,
+    /// Vertices in it; a ring that chunks repeat counts twice.
+    pub vertices: u64,
+    /// Triangles in it.
+    pub triangles: u64,
+}
+
+/// Writes a mesh that lies in memory, in the format that the extension of `path` stands for.
+///
+/// Triangles are those of the mesh's plan; its `indices` are not read, so that any topology will do.
+///
+/// **Errors**: [`WriteError`] where the format can't hold the mesh, the mesh is not what its plan says or not finite, or
+/// the file system refuses.
+///
+/// ```
+/// use texere_core::{ControlPoint, NullBackend, Pipeline, Yarn, Yarns};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("yarn.glb");
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// // Any device does; this one leaves all vertices at the origin.
+/// let mesh = Pipeline::new(&yarns.build()?).mesh(&NullBackend::default())?;
+/// texere_formats::write::mesh(&mesh, &path)?;
+/// assert_eq!(std::fs::read(&path)?[..4], *b"glTF");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn mesh(mesh: &Mesh, path: impl AsRef<Path>) -> Result<(), WriteError> {
+    let (path, format) = (path.as_ref(), Format::from_path(path.as_ref())?);
+    let shared = Settings { topology: Topology::Shared, ..*mesh.plan.settings() };
+    let plan = Plan::new(mesh.plan.layout().clone(), shared).map_err(PipelineError::from)?;
+    let mut feed = Feed::open(format, Target::create(path)?, &plan, &mesh.chunks, &mesh.materials)?;
+    let mut left = &mesh.vertices[..];
+    for chunk in &mesh.chunks {
+        let (vertices, others) = left.split_at(left.len().min(chunk.vertices as usize));
+        feed.vertices(chunk, 0, vertices)?;
+        left = others;
+    }
+    feed.finish()?.commit()?;
+    Ok(())
+}
+
+/// Runs a pipeline on `device` and writes its mesh piece by piece, in the format that the extension of `path` stands
+/// for: never is more of it in memory than two chunks.
+///
+/// The pipeline's topology is set aside for [`Topology::Shared`], which saves the device every index.
+///
+/// **Errors**: those of [`mesh`], and [`WriteError::Pipeline`] where the pipeline fails or its progress asks to stop.
+///
+/// ```
+/// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_formats::WriteError> {
+/// use texere_core::{Limits, Pipeline};
+/// // Half a gigabyte for control points and two chunks, however large the fabric.
+/// let limits = Limits { memory_bytes: 1 << 29, ..Limits::NONE };
+/// let written = texere_formats::write::stream(Pipeline::new(yarns).limits(limits), device, "damask.ply")?;
+/// println!("{} triangles in {} bytes", written.triangles, written.bytes);
+/// # Ok(())
+/// # }
+/// ```
+pub fn stream(
+    pipeline: Pipeline<'_>,
+    device: &dyn Backend,
+    path: impl AsRef<Path>,
+) -> Result<Written, WriteError> {
+    let (path, format) = (path.as_ref(), Format::from_path(path.as_ref())?);
+    let pipeline = pipeline.topology(Topology::Shared);
+    let plan = pipeline.plan().map_err(PipelineError::from)?;
+    let chunks = plan.chunks(&pipeline.limits_on(device)).map_err(PipelineError::from)?;
+    let materials = pipeline.yarns().materials().clone();
+    let mut feed = Feed::open(format, Target::create(path)?, &plan, chunks, &materials)?;
+    let answer = pipeline.stream(device, |chunk, piece| {
+        let fed = match piece {
+            MeshPiece::Vertices { first, vertices } => feed.vertices(chunk, first, vertices),
+            _ => Ok(()),
+        };
+        match fed {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => ControlFlow::Break(error),
+        }
+    })?;
+    if let ControlFlow::Break(error) = answer {
+        return Err(error);
+    }
+    let vertices = feed.given();
+    let bytes = feed.finish()?.commit()?;
+    Ok(Written { bytes, vertices, triangles: plan.counts().triangles })
+}

@@ -1,0 +1,59 @@
+//! Steps: commands run one after the other from the repository's root, each with its time.
+
+use std::path::Path;
+use std::process::{Command, ExitCode, Stdio};
+use std::time::{Duration, Instant};
+
+/// The steps run so far. After one fails the others are left out.
+#[derive(Debug, Default)]
+pub(crate) struct Steps {
+    done: Vec<(String, Duration)>,
+    failed: Option<String>,
+}
+
+impl Steps {
+    /// Runs cargo with `args` and extra environment variables.
+    pub(crate) fn cargo(&mut self, name: &str, args: &[&str], env: &[(&str, &str)]) {
+        if self.failed.is_some() {
+            return;
+        }
+        println!("\n==> {name}: cargo {}", args.join(" "));
+        let start = Instant::now();
+        let status = command("cargo", args).envs(env.iter().copied()).status();
+        self.done.push((name.into(), start.elapsed()));
+        match status {
+            Ok(status) if status.success() => {}
+            Ok(status) => self.failed = Some(format!("{name}: {status}")),
+            Err(error) => self.failed = Some(format!("{name}: {error}")),
+        }
+    }
+
+    /// Whether a command runs and succeeds; what it prints is dropped.
+    pub(crate) fn succeeds(&self, program: &str, args: &[&str]) -> bool {
+        let status = command(program, args).stdout(Stdio::null()).stderr(Stdio::null()).status();
+        status.is_ok_and(|status| status.success())
+    }
+
+    /// Prints each step's time, and what failed.
+    pub(crate) fn finish(self) -> ExitCode {
+        println!();
+        for (name, time) in &self.done {
+            println!("{:8.1} s  {name}", time.as_secs_f64());
+        }
+        match self.failed {
+            None => ExitCode::SUCCESS,
+            Some(failure) => {
+                eprintln!("failed: {failure}");
+                ExitCode::FAILURE
+            }
+        }
+    }
+}
+
+/// A command that starts in the repository's root.
+fn command(program: &str, args: &[&str]) -> Command {
+    let mut command = Command::new(program);
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    command.args(args).current_dir(here.parent().unwrap_or(here));
+    command
+}

@@ -66,6 +66,17 @@ pub struct StageTimings {
     pub readback: Duration,
 }
 
+/// Bytes that a session has moved between host and device, so far. A backend that works in the host's own memory lends
+/// its results where they lie, so it reads none back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Traffic {
+    /// Control points, their virtual ends included, sent by [`Session::upload`]. Tables are not counted: they are sent
+    /// once.
+    pub uploaded: u64,
+    /// Rings, vertices and indices that came back.
+    pub read: u64,
+}
+
 /// A device that is open and can start sessions.
 pub trait Backend: fmt::Debug + Send + Sync {
     /// Backend, device, driver, schedule and limits.
@@ -150,6 +161,11 @@ pub trait Session: fmt::Debug + Send {
 
     /// Time spent so far.
     fn timings(&self) -> StageTimings;
+
+    /// Bytes moved so far.
+    fn traffic(&self) -> Traffic {
+        Traffic::default()
+    }
 }
 
 /// Whether `out` is exactly as long as `chunk` needs: for backends that bring their own [`Session::mesh_into`].

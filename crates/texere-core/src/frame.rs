@@ -26,10 +26,10 @@ pub struct Basis {
 }
 
 /// The squared sine of the angle to z (1e-6 rad) under which a tangent counts as parallel to z.
-const VERTICAL: f32 = 1e-12;
+pub const VERTICAL: f32 = 1e-12;
 
 /// A squared length below which a reflection's mirror has no direction, relative to unit tangents.
-const NO_MIRROR: f32 = 1e-12;
+pub const NO_MIRROR: f32 = 1e-12;
 
 impl Basis {
     /// The upright basis for a unit `tangent`: side = z × t, normalised (+y where t is within 1e-6 of z), up = t × side.

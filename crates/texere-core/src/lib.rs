@@ -33,22 +33,22 @@ mod spline;
 mod turn;
 mod yarns;
 
-pub use backend::{Backend, DeviceInfo, DeviceKind, Session, StageTimings, check_output};
+pub use backend::{Backend, DeviceInfo, DeviceKind, Session, StageTimings, Traffic, check_output};
 pub use error::{BackendError, PipelineError, PlanError, SectionError, YarnError};
-pub use frame::{Basis, Frame};
+pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;
 pub use mesh::{Draw, End, Mesh, MeshMut, MeshPiece, SHARED_GAPS, Topology, Vertex, index_pattern};
 pub use null::NullBackend;
 pub use padded::{PaddedPoints, zeroed};
 pub use pipeline::{Pipeline, Progress};
 pub use plan::{
-    BLOCK_RINGS, Block, Cap, Chunk, Chunks, Counts, Limits, Part, Plan, RINGS_MAX, Settings, WINDOW_POINTS,
-    YARN_RINGS_MAX,
+    BLOCK_RINGS, Block, Cap, CapRow, Chunk, Chunks, Counts, Limits, Params, Part, Plan, RINGS_MAX, Settings,
+    WINDOW_POINTS, YARN_RINGS_MAX, YarnRow,
 };
 pub use point::{COORDINATE_LIMIT, ControlPoint, RADIUS_MAX, RADIUS_MIN};
 pub use ring::{Ring, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
-pub use spline::{SLOPE_LIMIT, Sample, Segment};
+pub use spline::{RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};
 pub use turn::{Turn, atan2_turns};
 pub use yarns::{Layout, Origin, TWIST_LIMIT, Yarn, Yarns, YarnsBuilder};

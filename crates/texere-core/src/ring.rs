@@ -47,6 +47,7 @@ impl Ring {
 
     /// Side and up of the section here.
     #[must_use]
+    #[inline]
     pub fn basis(&self) -> Basis {
         let upright = Basis::upright(Vec3::from_array(self.tangent));
         if self.roll == Turn::ZERO { upright } else { upright.rolled(self.roll) }
@@ -57,6 +58,7 @@ impl Ring {
     /// The normal of a section that grows by r' along the axis leans back by r' times the section point's reach: it is
     /// at right angles both to the outline and to the line along the surface.
     #[must_use]
+    #[inline]
     pub fn vertex(&self, basis: &Basis, slope: f32, point: &SectionPoint) -> Vertex {
         let outward = basis.side * point.x + basis.up * point.y;
         let position = Vec3::from_array(self.centre) + outward * self.radius;

@@ -89,8 +89,8 @@ impl Sampling {
             interval -= 1;
             t = 1.0;
         }
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| padded[interval + k]);
-        let segment = Segment::new(&[a, b, c, d], self.s);
+        let window = [padded[interval], padded[interval + 1], padded[interval + 2], padded[interval + 3]];
+        let segment = Segment::new(&window, self.s);
         RingSample {
             sample: segment.sample(t),
             span: segment.span(),

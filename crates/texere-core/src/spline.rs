@@ -50,7 +50,7 @@ pub struct Sample {
 ///
 /// Repeated points and cusps give exact zeros; the share (a millionth of the size) catches their rounded cousins,
 /// whose direction would be noise.
-const ZERO_VELOCITY: f32 = 1e-12;
+pub const ZERO_VELOCITY: f32 = 1e-12;
 
 /// The steepest dr/ds that tilts a normal. At 1e4 the normal is within 1e-4 rad of the axis, and the square of
 /// anything steeper would start to leave the range of `f32`.
@@ -59,7 +59,7 @@ pub const SLOPE_LIMIT: f32 = 1e4;
 /// The radius between two control points never falls below this share of the thinner one.
 ///
 /// A spline overshoots: between a slub and a thin place it can dip below zero, where there is no tube.
-const RADIUS_FLOOR: f32 = 0.5;
+pub const RADIUS_FLOOR: f32 = 0.5;
 
 impl Segment {
     /// The segment between `points[1]` and `points[2]`, with `s = (1 - tension) / 2` (the paper's equation 2).

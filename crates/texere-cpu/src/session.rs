@@ -2,13 +2,13 @@
 
 use std::fmt::Debug;
 use std::marker::PhantomData;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere_core::{
     BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, PaddedPoints, Plan, Ring, Session, StageTimings,
-    Vertex, check_output, zeroed,
+    Traffic, Vertex, check_output, zeroed,
 };
 
 use crate::rolls::Rolls;
@@ -41,7 +41,8 @@ pub(crate) trait Stages: Debug + Send + 'static {
 /// A chunk in flight. Its memory serves the next chunk but one again.
 #[derive(Debug, Default)]
 struct Slot {
-    chunk: Option<u64>,
+    /// The chunk's blocks. Its index would not do: chunks of another cut have the same.
+    blocks: Option<Range<u64>>,
     has_rings: bool,
     has_mesh: bool,
     rings: ChunkRings,
@@ -49,13 +50,20 @@ struct Slot {
     indices: Vec<u32>,
 }
 
+impl Slot {
+    fn holds(&self, chunk: &Chunk) -> bool {
+        self.blocks.as_ref() == Some(&chunk.block_range)
+    }
+}
+
 #[derive(Debug)]
 pub(crate) struct CpuSession<S> {
     work: Work,
     scanned: bool,
-    /// Two in flight, the older one first.
+    /// Two in flight, the one launched first in front.
     slots: [Slot; 2],
     timings: StageTimings,
+    traffic: Traffic,
     stages: PhantomData<S>,
 }
 
@@ -67,6 +75,7 @@ impl<S: Stages> CpuSession<S> {
             scanned: false,
             slots: Default::default(),
             timings: StageTimings::default(),
+            traffic: Traffic::default(),
             stages: PhantomData,
         })
     }
@@ -79,23 +88,22 @@ impl<S: Stages> CpuSession<S> {
         }
     }
 
-    /// The slot of `chunk`, or the oldest one, emptied, if it is new.
+    /// The slot of `chunk`; if it is new, that of the chunk launched longest ago, emptied.
     fn claim(&mut self, chunk: &Chunk) -> &mut Slot {
-        if self.slots[1].chunk != Some(chunk.index) {
+        let place = self.slots.iter().position(|slot| slot.holds(chunk)).unwrap_or_else(|| {
             self.slots.swap(0, 1);
-        }
-        let [_, slot] = &mut self.slots;
-        if slot.chunk != Some(chunk.index) {
-            slot.chunk = Some(chunk.index);
+            let slot = &mut self.slots[1];
+            slot.blocks = Some(chunk.block_range.clone());
             (slot.has_rings, slot.has_mesh) = (false, false);
-        }
-        slot
+            1
+        });
+        &mut self.slots[place]
     }
 
     fn find(&self, chunk: &Chunk, wanted: fn(&Slot) -> bool) -> Result<&Slot, BackendError> {
         self.slots
             .iter()
-            .find(|slot| slot.chunk == Some(chunk.index) && wanted(slot))
+            .find(|slot| slot.holds(chunk) && wanted(slot))
             .ok_or(BackendError::NotInFlight { chunk: chunk.index })
     }
 
@@ -137,11 +145,12 @@ fn timed(total: &mut Duration, work: impl FnOnce()) {
 impl<S: Stages> Session for CpuSession<S> {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), BackendError> {
         let start = Instant::now();
-        self.work.points.upload(&self.work.plan, first, points)?;
+        let padded = self.work.points.upload(&self.work.plan, first, points)?;
+        self.traffic.uploaded += (padded.end - padded.start) * size_of::<ControlPoint>() as u64;
         // What was worked out before belongs to the old points.
         self.scanned = false;
         for slot in &mut self.slots {
-            slot.chunk = None;
+            slot.blocks = None;
         }
         self.timings.upload += start.elapsed();
         Ok(())
@@ -211,5 +220,9 @@ impl<S: Stages> Session for CpuSession<S> {
 
     fn timings(&self) -> StageTimings {
         self.timings
+    }
+
+    fn traffic(&self) -> Traffic {
+        self.traffic
     }
 }

@@ -3,10 +3,12 @@
 mod block;
 mod chunk;
 mod limits;
+mod tables;
 
 pub use block::{BLOCK_RINGS, Block};
 pub use chunk::{Cap, Chunk, Chunks, Part, WINDOW_POINTS};
 pub use limits::Limits;
+pub use tables::{CapRow, Params, YarnRow};
 
 use std::sync::Arc;
 

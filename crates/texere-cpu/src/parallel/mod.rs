@@ -1,8 +1,10 @@
 //! Equal ranges of rings over all cores: inside a yarn as well as across yarns.
 
-mod block;
+mod rings;
 mod runs;
 mod scan;
+mod vertices;
+mod walk;
 
 use rayon::prelude::*;
 use texere_core::{Chunk, MeshMut, PaddedPoints, Plan, Topology, index_pattern};
@@ -10,8 +12,9 @@ use texere_core::{Chunk, MeshMut, PaddedPoints, Plan, Topology, index_pattern};
 use crate::caps::caps;
 use crate::rolls::Rolls;
 use crate::session::{ChunkRings, Stages, Work};
-use block::{BlockRings, block_rings};
+use rings::BlockRings;
 use runs::{mesh_runs, ring_runs};
+use vertices::{indices, vertices};
 
 #[derive(Debug)]
 pub(crate) struct Parallel;
@@ -25,14 +28,13 @@ impl Stages for Parallel {
 
     fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
         ring_runs(chunk, out).into_par_iter().for_each(|run| {
-            let mut block_space = BlockRings::default();
-            let mut done = 0;
+            let mut rings = BlockRings::new();
+            let mut out = run.rings.iter_mut().zip(run.slopes);
             for (block, number) in run.blocks.iter().zip(run.first_block..) {
-                block_rings(work, block, number, &mut block_space);
-                let count = block.rings as usize;
-                run.rings[done..done + count].copy_from_slice(&block_space.rings[..count]);
-                run.slopes[done..done + count].copy_from_slice(&block_space.slopes[..count]);
-                done += count;
+                rings.make(work, block, number);
+                for (k, (ring, slope)) in (0..rings.count).zip(&mut out) {
+                    (*ring, *slope) = (rings.ring(k), rings.slope[k]);
+                }
             }
         });
     }
@@ -43,18 +45,18 @@ impl Stages for Parallel {
         let indexed = plan.settings().topology == Topology::Indexed;
         let pattern = index_pattern(plan.settings().sides);
         mesh_runs(chunk, sides, indexed, &mut out).into_par_iter().for_each(|run| {
-            let mut block_space = BlockRings::default();
-            let (mut vertices, mut indices) = (run.vertices, run.indices);
+            let mut rings = BlockRings::new();
+            let (mut vertices_left, mut indices_left) = (run.vertices, run.indices);
             for (block, number) in run.blocks.iter().zip(run.first_block..) {
-                block_rings(work, block, number, &mut block_space);
+                rings.make(work, block, number);
                 let outline = plan.outline(plan.yarn(block.yarn as usize).section as usize);
-                let (own, others) = vertices.split_at_mut(block.rings as usize * sides);
-                vertices = others;
-                block_space.vertices(block.rings as usize, outline, own);
+                let (own, others) = vertices_left.split_at_mut(rings.count * sides);
+                vertices(&rings, outline, own);
+                vertices_left = others;
                 if indexed {
-                    let (own, others) = indices.split_at_mut(block.quads as usize * pattern.len());
-                    indices = others;
-                    block::indices(block.first_vertex, sides as u32, &pattern, own);
+                    let (own, others) = indices_left.split_at_mut(block.quads as usize * pattern.len());
+                    indices(block.first_vertex, sides as u32, &pattern, own);
+                    indices_left = others;
                 }
             }
         });

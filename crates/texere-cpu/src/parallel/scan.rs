@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use texere_core::{BLOCK_RINGS, PaddedPoints, Plan, Turn};
 
-use super::block::Walk;
+use super::walk::Walk;
 use crate::rolls::Rolls;
 
 /// Blocks that one rayon item adds up: 4,096 rings.

@@ -1,0 +1,157 @@
+//! Tables that cross to a device as they are: what kernels read beside control points and blocks.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{BLOCK_RINGS, Chunk, Plan};
+use crate::{Cap, End, Frame, Topology};
+
+/// A yarn as kernels see it.
+///
+/// **Shape**: five 4-byte values, 20 bytes, 20-byte stride.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct YarnRow {
+    /// Its rings.
+    pub rings: u32,
+    /// Its first block among all of the plan.
+    pub first_block: u32,
+    /// Its section.
+    pub section: u32,
+    /// 1 where it is closed, else 0.
+    pub closed: u32,
+    /// Its twist, turns per mm.
+    pub twist: f32,
+}
+
+const _: () = assert!(size_of::<YarnRow>() == 20 && std::mem::offset_of!(YarnRow, twist) == 16);
+
+/// A cap as kernels see it.
+///
+/// **Shape**: eight `u32`, 32 bytes. All but `yarn` count from the start of the chunk.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct CapRow {
+    /// The yarn, from 0 among all.
+    pub yarn: u32,
+    /// 0 at the yarn's start, 1 at its finish.
+    pub end: u32,
+    /// Padded control point `P[j-1]` of the interval that the end belongs to, from the start of the chunk's window.
+    pub first_point: u32,
+    /// The first vertex of the ring that the cap closes.
+    pub ring_vertex: u32,
+    /// The cap's own first vertex.
+    pub first_vertex: u32,
+    /// The cap's own first index, where the topology has any.
+    pub first_index: u32,
+    /// Where the section's cap triangles start in [`Plan::cap_pattern`].
+    pub first_corner: u32,
+    /// Unused, 0: keeps the row a multiple of 16 bytes.
+    pub padding: u32,
+}
+
+const _: () = assert!(size_of::<CapRow>() == 32 && std::mem::offset_of!(CapRow, padding) == 28);
+
+/// What is the same for a whole launch.
+///
+/// **Shape**: twelve 4-byte values, 48 bytes, a multiple of 16 as a uniform buffer wants.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct Params {
+    /// Rows of the block table.
+    pub blocks: u32,
+    /// Rows of the cap table.
+    pub caps: u32,
+    /// Number, among all of the plan, of the first row's block.
+    pub first_block: u32,
+    /// Yarns of the plan.
+    pub yarns: u32,
+    /// Sides of the tube.
+    pub sides: u32,
+    /// Points inserted between two control points.
+    pub subdivisions: u32,
+    /// 0 upright, 1 rotation minimising.
+    pub frame: u32,
+    /// 1 where indices are written, else 0.
+    pub indexed: u32,
+    /// 1 where rolls have been scanned, else 0: every roll is zero then.
+    pub rolled: u32,
+    /// `s = (1 - tension) / 2`.
+    pub s: f32,
+    /// `1 / (K + 1)`.
+    pub step: f32,
+    /// Unused, 0.
+    pub padding: u32,
+}
+
+const _: () = assert!(size_of::<Params>() == 48 && std::mem::offset_of!(Params, padding) == 44);
+
+impl Plan {
+    /// The yarns as kernels see them.
+    #[must_use]
+    pub fn yarn_rows(&self) -> Vec<YarnRow> {
+        (0..self.layout().yarns().len())
+            .map(|yarn| YarnRow {
+                rings: self.rings(yarn),
+                first_block: self.block_offsets()[yarn] as u32,
+                section: self.yarn(yarn).section,
+                closed: self.yarn(yarn).closed.into(),
+                twist: self.twist_turns(yarn),
+            })
+            .collect()
+    }
+
+    /// The caps of `chunk` as kernels see them.
+    #[must_use]
+    pub fn cap_rows(&self, chunk: &Chunk) -> Vec<CapRow> {
+        let row = |cap: &Cap| {
+            let yarn = cap.yarn as usize;
+            let intervals = (u64::from(self.rings(yarn)) - 1) / (u64::from(self.settings().subdivisions) + 1);
+            let interval = if cap.end == End::Start { 0 } else { intervals - 1 };
+            let corners = 3 * (self.settings().sides - 2);
+            CapRow {
+                yarn: cap.yarn,
+                end: (cap.end == End::Finish).into(),
+                first_point: (self.padded_offsets()[yarn] + interval - chunk.window.start) as u32,
+                ring_vertex: cap.chunk_ring * self.settings().sides,
+                first_vertex: cap.first_vertex,
+                first_index: cap.first_index,
+                first_corner: (2 * self.yarn(yarn).section + u32::from(cap.end == End::Finish)) * corners,
+                padding: 0,
+            }
+        };
+        chunk.caps.iter().map(row).collect()
+    }
+
+    /// Cap indices numbered from the cap's first vertex: for each section those of its start cap, `3 (sides - 2)` values,
+    /// and as many of its finish cap.
+    #[must_use]
+    pub fn cap_pattern(&self) -> Vec<u32> {
+        (0..self.layout().sections().len())
+            .flat_map(|section| [End::Start, End::Finish].map(|end| (section, end)))
+            .flat_map(|(section, end)| self.cap_indices(section, end))
+            .collect()
+    }
+
+    /// What is the same for all launches on `chunk`.
+    #[must_use]
+    pub fn params(&self, chunk: &Chunk) -> Params {
+        let settings = self.settings();
+        Params {
+            blocks: chunk.blocks.len() as u32,
+            caps: chunk.caps.len() as u32,
+            first_block: chunk.block_range.start as u32,
+            yarns: self.layout().yarns().len() as u32,
+            sides: settings.sides,
+            subdivisions: settings.subdivisions,
+            frame: (settings.frame == Frame::RotationMinimizing).into(),
+            indexed: (settings.topology == Topology::Indexed).into(),
+            rolled: self.needs_scan().into(),
+            s: self.sampling().s(),
+            step: self.sampling().step(),
+            padding: 0,
+        }
+    }
+}
+
+// A block's number fits the `u32` of these tables.
+const _: () = assert!(super::RINGS_MAX / (BLOCK_RINGS as u64) <= u32::MAX as u64);

@@ -87,8 +87,9 @@ pub(crate) struct SettingsArgs {
     /// Which way round sections stand along the yarn
     #[arg(long, value_enum, default_value_t = FrameArg::Upright)]
     frame: FrameArg,
-    /// How triangles are told: indexed, or by one shared pattern, which makes smaller GLB files
-    #[arg(long, value_enum, default_value_t = TopologyArg::Shared)]
+    /// How triangles are told in memory, which decides the bytes that `inspect` states; files hold the same triangles
+    /// whichever
+    #[arg(long, value_enum, default_value_t = TopologyArg::Indexed)]
     topology: TopologyArg,
     /// Close the ends of yarns
     #[arg(long)]

@@ -53,7 +53,7 @@ pub enum WriteError {
         limit: u64,
     },
     /// The mesh has another number of vertices than its plan says.
-    #[error("mesh ends or breaks off at vertex {given}; {planned} were planned")]
+    #[error("mesh has {given} vertices in order; {planned} were planned")]
     VertexCount {
         /// Vertices that came, in order.
         given: u64,

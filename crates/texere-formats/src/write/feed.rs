@@ -51,6 +51,9 @@ impl<'a, W: Write + Seek + Debug + 'a> Feed<'a, W> {
             Format::Glb => Box::new(GlbWriter::start(target, plan, chunks, materials)?),
             Format::Ply => Box::new(PlyWriter::start(target, plan, chunks, materials)?),
         };
+        if planned < plan.counts().vertices {
+            return Err(WriteError::VertexCount { given: planned, planned: plan.counts().vertices });
+        }
         Ok(Self { writer, sides: plan.settings().sides, given: 0, planned })
     }
 
@@ -79,9 +82,9 @@ impl<'a, W: Write + Seek + Debug + 'a> Feed<'a, W> {
         Ok(())
     }
 
-    /// Vertices passed on so far.
-    pub(super) fn given(&self) -> u64 {
-        self.given
+    /// Vertices of all chunks together.
+    pub(super) fn planned(&self) -> u64 {
+        self.planned
     }
 
     /// Completes the file, unless vertices are missing.

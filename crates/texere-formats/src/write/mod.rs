@@ -5,8 +5,8 @@
 //! | glTF 2.0 binary | `.glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
 //! | binary PLY, little endian | `.ply` | one point set with normals and colours, and its triangles; millimetres |
 //!
-//! What a file holds does not depend on the mesh's [`Topology`](texere_core::Topology): a plan knows its triangles, so
-//! that no index has to come from a device, and GLB keeps the index pattern that all yarns share once, which halves it.
+//! What a file holds does not depend on the mesh's [`Topology`]: a plan knows its triangles, so that no index has to
+//! come from a device, and GLB keeps the index pattern that all yarns share once, which halves it.
 //!
 //! A file is written beside its target and renamed when it is whole. After an error, a cancellation or a panic nothing
 //! new is left, and an older file of that name is as it was.
@@ -107,9 +107,13 @@ pub fn mesh(mesh: &Mesh, path: impl AsRef<Path>) -> Result<(), WriteError> {
     let shared = Settings { topology: Topology::Shared, ..*mesh.plan.settings() };
     let plan = Plan::new(mesh.plan.layout().clone(), shared).map_err(PipelineError::from)?;
     let mut feed = Feed::open(format, Target::create(path)?, &plan, &mesh.chunks, &mesh.materials)?;
+    let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
+    if given != planned {
+        return Err(WriteError::VertexCount { given, planned });
+    }
     let mut left = &mesh.vertices[..];
     for chunk in &mesh.chunks {
-        let (vertices, others) = left.split_at(left.len().min(chunk.vertices as usize));
+        let (vertices, others) = left.split_at(chunk.vertices as usize);
         feed.vertices(chunk, 0, vertices)?;
         left = others;
     }
@@ -158,7 +162,7 @@ pub fn stream(
     if let ControlFlow::Break(error) = answer {
         return Err(error);
     }
-    let vertices = feed.given();
+    let vertices = feed.planned();
     let bytes = feed.finish()?.commit()?;
     Ok(Written { bytes, vertices, triangles: plan.counts().triangles })
 }

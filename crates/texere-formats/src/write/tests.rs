@@ -1,10 +1,11 @@
-//! Disks that fill up, at any byte.
+//! Disks that fill up at any byte, and meshes that come in pieces of any size.
 
 use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};
 
 use tempfile::NamedTempFile;
-use texere_core::{ControlPoint, Mesh, NullBackend, Pipeline, Topology, Yarn, Yarns};
+use texere_core::{ControlPoint, Limits, Material, Mesh, Pipeline, Topology, Yarn, Yarns};
+use texere_cpu::SerialBackend;
 
 use super::{Feed, Format, Target, WriteError};
 
@@ -36,20 +37,35 @@ impl Seek for Failing {
     }
 }
 
-/// A tube of 8,001 rings, several times what is buffered. All its vertices lie at the origin.
+/// Two capped yarns, one of 8,001 rings: several times what is buffered, and cut over chunks.
 fn mesh() -> Mesh {
     let mut yarns = Yarns::builder();
-    let points: Vec<_> = (0..4001).map(|step| ControlPoint::new(step as f32, 0.0, 0.0, 0.1)).collect();
-    yarns.yarn(Yarn::default(), &points);
+    for (count, material) in [(4001, [200, 30, 30]), (9, [30, 30, 200])] {
+        let srgb = material;
+        let material = yarns.material(Material { srgb, ..Material::default() });
+        let points: Vec<_> =
+            (0..count).map(|step| ControlPoint::new(step as f32, (step % 3) as f32, 0.0, 0.1)).collect();
+        yarns.yarn(Yarn { material, ..Yarn::default() }, &points);
+    }
     let yarns = yarns.build().unwrap();
-    Pipeline::new(&yarns).topology(Topology::Shared).mesh(&NullBackend::default()).unwrap()
+    let limits = Limits { blocks: 50, ..Limits::NONE };
+    let pipeline = Pipeline::new(&yarns).topology(Topology::Shared).caps(true).limits(limits);
+    pipeline.mesh(&SerialBackend::new()).unwrap()
 }
 
-/// Writes `mesh` to `out`, all but the last step: taking the file's place.
-fn write(mesh: &Mesh, format: Format, out: Failing) -> Result<Failing, WriteError> {
+/// Writes `mesh` to `out` in pieces of at most `piece` vertices, empty ones among them: all but the last step, taking the file's place.
+fn write(mesh: &Mesh, format: Format, piece: usize, out: Failing) -> Result<Failing, WriteError> {
     let target = Target::over(out, "fabric".as_ref());
     let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials)?;
-    feed.vertices(&mesh.chunks[0], 0, &mesh.vertices)?;
+    for chunk in &mesh.chunks {
+        let own = &mesh.vertices[chunk.first_vertex as usize..][..chunk.vertices as usize];
+        for (number, vertices) in own.chunks(piece).enumerate() {
+            feed.vertices(chunk, (number * piece) as u32, vertices)?;
+        }
+        if piece < own.len() {
+            feed.vertices(chunk, chunk.vertices, &[])?;
+        }
+    }
     feed.finish()?.into_inner()
 }
 
@@ -60,9 +76,9 @@ fn a_full_disk_is_an_error_at_any_byte() {
     let mesh = mesh();
     for format in Format::ALL {
         let plenty = 1 << 30;
-        let needed = plenty - write(&mesh, format, on_disk(plenty)).unwrap().room;
+        let needed = plenty - write(&mesh, format, usize::MAX, on_disk(plenty)).unwrap().room;
         for room in (0..needed).step_by(100_003).chain([1, 11, 12, needed - 1]) {
-            match write(&mesh, format, on_disk(room)) {
+            match write(&mesh, format, usize::MAX, on_disk(room)) {
                 Err(WriteError::Io { action: "write", source, .. }) => {
                     assert_eq!(source.kind(), io::ErrorKind::StorageFull);
                 }
@@ -71,4 +87,31 @@ fn a_full_disk_is_an_error_at_any_byte() {
             assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{format:?}, {room}");
         }
     }
+}
+
+#[test]
+fn pieces_of_any_size_give_the_same_file() {
+    let mesh = mesh();
+    let folder = tempfile::tempdir().unwrap();
+    for format in Format::ALL {
+        let file = |piece| {
+            let out = Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room: usize::MAX };
+            fs::read(write(&mesh, format, piece, out).unwrap().file.path()).unwrap()
+        };
+        let whole = file(usize::MAX);
+        for piece in [1, 7, 384, 1000] {
+            assert!(file(piece) == whole, "{format:?} in pieces of {piece}");
+        }
+    }
+}
+
+#[test]
+fn a_piece_out_of_order_is_refused() {
+    let mesh = mesh();
+    let out = Failing { file: NamedTempFile::new().unwrap(), room: usize::MAX };
+    let target = Target::over(out, "fabric".as_ref());
+    let mut feed = Feed::open(Format::Ply, target, &mesh.plan, &mesh.chunks, &mesh.materials).unwrap();
+    feed.vertices(&mesh.chunks[0], 0, &mesh.vertices[..6]).unwrap();
+    let error = feed.vertices(&mesh.chunks[0], 12, &mesh.vertices[12..18]).unwrap_err();
+    assert!(matches!(error, WriteError::VertexCount { given: 6, .. }), "{error:?}");
 }

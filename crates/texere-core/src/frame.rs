@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::{Turn, atan2_turns};
+use crate::{NO_LENGTH, Turn, atan2_turns};
 
 /// How sections stand along a yarn. Twist turns either of them further.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -41,6 +41,7 @@ impl Basis {
     /// assert_eq!((basis.side, basis.up), (Vec3::Y, Vec3::Z));
     /// ```
     #[must_use]
+    #[inline]
     pub fn upright(tangent: Vec3) -> Self {
         let level = tangent.x * tangent.x + tangent.y * tangent.y;
         let side = if level < VERTICAL {
@@ -55,6 +56,7 @@ impl Basis {
 
     /// This basis turned by `roll` about the tangent, right-handed: side towards up.
     #[must_use]
+    #[inline]
     pub fn rolled(&self, roll: Turn) -> Self {
         let (sin, cos) = roll.sin_cos();
         Self { side: self.side * cos + self.up * sin, up: self.up * cos - self.side * sin }
@@ -69,6 +71,7 @@ impl Frame {
     /// **Source**: Wang, Jüttler, Zheng and Liu, "Computation of rotation minimizing frames", ACM TOG 27(1), 2008,
     /// table I.
     #[must_use]
+    #[inline]
     pub fn step(self, tangent: Vec3, next_tangent: Vec3, chord: Vec3, twist: f32) -> Turn {
         let turns = match self {
             Self::Upright => 0.0,
@@ -79,19 +82,21 @@ impl Frame {
 
     /// Whether every roll is zero, so that there is nothing to scan.
     #[must_use]
+    #[inline]
     pub fn is_level(self, twist: f32) -> bool {
         self == Self::Upright && twist == 0.0
     }
 }
 
 /// The angle, as a fraction of a turn, from the next ring's upright side to this ring's upright side carried there.
+#[inline]
 fn transport_turns(tangent: Vec3, next_tangent: Vec3, chord: Vec3) -> f32 {
     let side = Basis::upright(tangent).side;
     // Where two rings coincide the tangent stands in for the chord: the two reflections are then the smallest turn
     // from one tangent to the next.
     let length_squared = chord.length_squared();
     let (mirror, mirror_squared) =
-        if length_squared > 0.0 { (chord, length_squared) } else { (tangent, 1.0) };
+        if length_squared > NO_LENGTH { (chord, length_squared) } else { (tangent, 1.0) };
     let side = reflect(side, mirror, mirror_squared);
     let reflected_tangent = reflect(tangent, mirror, mirror_squared);
     // A hairpin leaves nothing for the second reflection to do.
@@ -103,6 +108,7 @@ fn transport_turns(tangent: Vec3, next_tangent: Vec3, chord: Vec3) -> f32 {
 }
 
 /// `v` mirrored in the plane at right angles to `mirror`.
+#[inline]
 fn reflect(v: Vec3, mirror: Vec3, mirror_squared: f32) -> Vec3 {
     v - mirror * (2.0 * v.dot(mirror) / mirror_squared)
 }

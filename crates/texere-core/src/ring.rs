@@ -36,6 +36,7 @@ const _: () = assert!(
 impl Ring {
     /// The ring at `sample` with `roll`.
     #[must_use]
+    #[inline]
     pub fn new(sample: &Sample, roll: Turn) -> Self {
         Self {
             centre: sample.centre.to_array(),
@@ -62,9 +63,13 @@ impl Ring {
     pub fn vertex(&self, basis: &Basis, slope: f32, point: &SectionPoint) -> Vertex {
         let outward = basis.side * point.x + basis.up * point.y;
         let position = Vec3::from_array(self.centre) + outward * self.radius;
-        let lean = slope * point.reach();
         let across = basis.side * point.normal_x + basis.up * point.normal_y;
-        let normal = (across - Vec3::from_array(self.tangent) * lean) * (1.0 / (1.0 + lean * lean).sqrt());
+        let normal = if slope == 0.0 {
+            across
+        } else {
+            let lean = slope * point.reach();
+            (across - Vec3::from_array(self.tangent) * lean) * (1.0 / (1.0 + lean * lean).sqrt())
+        };
         Vertex { position: position.to_array(), normal: normal.to_array() }
     }
 }

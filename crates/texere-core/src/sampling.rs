@@ -59,12 +59,14 @@ impl Sampling {
 
     /// `s = (1 - u) / 2`, the factor in the spline (the paper's equation 2).
     #[must_use]
+    #[inline]
     pub const fn s(&self) -> f32 {
         self.s
     }
 
     /// `1 / (K + 1)` as `f32`: ring k of an interval lies at t = k times this, one rounding on every device.
     #[must_use]
+    #[inline]
     pub const fn step(&self) -> f32 {
         self.step
     }
@@ -81,6 +83,7 @@ impl Sampling {
     /// `rings` is the yarn's ring count. Ring `j (K + 1) + k` lies at t = k / (K + 1) of interval j; the last ring of
     /// an open yarn at t = 1 of its last interval.
     #[must_use]
+    #[inline]
     pub fn sample(&self, padded: &[ControlPoint], ring: u32, rings: u32, closed: bool) -> RingSample {
         let per_interval = self.subdivisions + 1;
         let (mut interval, step) = ((ring / per_interval) as usize, ring % per_interval);
@@ -114,6 +117,7 @@ impl RingSample {
     /// The way from this ring's centre to the next one's, mm, from offsets within the interval, so that it keeps its
     /// digits far from the origin.
     #[must_use]
+    #[inline]
     pub fn chord_to(&self, next: &Self) -> glam::Vec3 {
         let end = if self.ends_interval { self.span } else { next.sample.offset };
         end - self.sample.offset

@@ -27,8 +27,8 @@ pub struct Segment {
     radius: f32,
     radius_terms: [f32; 3],
     radius_floor: f32,
-    /// Sum of the squared differences, mm²: what a velocity is measured against before it counts as none.
-    scale: f32,
+    /// A squared velocity that counts as none.
+    at_rest: f32,
 }
 
 /// The spline at one parameter.
@@ -52,6 +52,10 @@ pub struct Sample {
 /// whose direction would be noise.
 pub const ZERO_VELOCITY: f32 = 1e-12;
 
+/// A squared length, mm², that counts as none whatever there is around it: that of an attometre. The squares of much
+/// shorter ones leave the normal range of `f32`, and some devices flush them to zero.
+pub const NO_LENGTH: f32 = 1e-30;
+
 /// The steepest dr/ds that tilts a normal. At 1e4 the normal is within 1e-4 rad of the axis, and the square of
 /// anything steeper would start to leave the range of `f32`.
 pub const SLOPE_LIMIT: f32 = 1e4;
@@ -64,6 +68,7 @@ pub const RADIUS_FLOOR: f32 = 0.5;
 impl Segment {
     /// The segment between `points[1]` and `points[2]`, with `s = (1 - tension) / 2` (the paper's equation 2).
     #[must_use]
+    #[inline]
     pub fn new(points: &[ControlPoint; 4], s: f32) -> Self {
         let [before, start, end, after] = points;
         let origin = start.position();
@@ -81,12 +86,14 @@ impl Segment {
                 (rc - ra) * s + rb * (s - 2.0),
             ],
             radius_floor: start.radius.min(end.radius) * RADIUS_FLOOR,
-            scale: a.length_squared() + b.length_squared() + c.length_squared(),
+            at_rest: (ZERO_VELOCITY * (a.length_squared() + b.length_squared() + c.length_squared()))
+                .max(NO_LENGTH),
         }
     }
 
     /// `P[j+1] - P[j]`, mm: the offset at the segment's end.
     #[must_use]
+    #[inline]
     pub const fn span(&self) -> Vec3 {
         self.span
     }
@@ -96,6 +103,7 @@ impl Segment {
     /// Where the velocity vanishes the tangent is the direction that the yarn takes right after (right before, at
     /// t = 1, a yarn's end): the first derivative that does not vanish, and +x where all do.
     #[must_use]
+    #[inline]
     pub fn sample(&self, t: f32) -> Sample {
         let [c1, c2, c3] = self.position;
         let [r1, r2, r3] = self.radius_terms;
@@ -105,7 +113,7 @@ impl Segment {
         let growth = r1 + (r2 * 2.0 + r3 * (3.0 * t)) * t;
 
         let speed_squared = velocity.length_squared();
-        let (tangent, slope) = if speed_squared > ZERO_VELOCITY * self.scale {
+        let (tangent, slope) = if speed_squared > self.at_rest {
             let inverse = 1.0 / speed_squared.sqrt();
             (velocity * inverse, (growth * inverse).clamp(-SLOPE_LIMIT, SLOPE_LIMIT))
         } else {
@@ -127,9 +135,9 @@ impl Segment {
         let acceleration = (c2 + c3 * (3.0 * t)) * 2.0;
         let jerk = c3 * 6.0;
         let side = if t < 1.0 { 1.0 } else { -1.0 };
-        if acceleration.length_squared() > ZERO_VELOCITY * self.scale {
+        if acceleration.length_squared() > self.at_rest {
             acceleration * (side / acceleration.length_squared().sqrt())
-        } else if jerk.length_squared() > ZERO_VELOCITY * self.scale {
+        } else if jerk.length_squared() > self.at_rest {
             jerk * (1.0 / jerk.length_squared().sqrt())
         } else {
             Vec3::X

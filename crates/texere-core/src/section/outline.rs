@@ -141,11 +141,12 @@ pub(super) fn validate_polygon(corners: &[[f32; 2]]) -> Result<(), SectionError>
             });
         }
     }
+    // Before edges are compared: the two beside a repeated corner meet in it.
+    if let Some(corner) = (0..count).find(|&corner| corners[corner] == corners[(corner + 1) % count]) {
+        return Err(SectionError::RepeatedCorner { corner });
+    }
     for first in 0..count {
         let next = (first + 1) % count;
-        if corners[first] == corners[next] {
-            return Err(SectionError::RepeatedCorner { corner: first });
-        }
         for second in first + 1..count {
             let after = (second + 1) % count;
             let apart = next != second && after != first;

@@ -5,14 +5,17 @@
 //! function is called for that ring.
 
 use texere_core::{
-    BLOCK_RINGS, Basis, Block, ControlPoint, RADIUS_FLOOR, Ring, SLOPE_LIMIT, Turn, VERTICAL, ZERO_VELOCITY,
+    BLOCK_RINGS, Basis, Block, ControlPoint, NO_LENGTH, PaddedPoints, Plan, RADIUS_FLOOR, Ring, SLOPE_LIMIT,
+    Turn, VERTICAL, ZERO_VELOCITY,
 };
 
-use super::walk::Walk;
 use crate::session::Work;
 
 /// Rings in a full block.
-const N: usize = BLOCK_RINGS as usize;
+pub(super) const FULL: usize = BLOCK_RINGS as usize;
+
+/// Room for the rings of a block and the one after it, in whole vectors.
+pub(super) const N: usize = FULL + 8;
 
 /// One component of all rings of a block.
 pub(super) type Lane = [f32; N];
@@ -26,7 +29,9 @@ pub(super) struct BlockRings {
     pub(super) slope: Lane,
     pub(super) side: [Lane; 3],
     pub(super) up: [Lane; 3],
-    roll: [Turn; N],
+    pub(super) roll: [Turn; N],
+    /// From each centre to the next one.
+    pub(super) chord: [Lane; 3],
     /// While a block is made: what counts as no velocity, and as too thin.
     still: Lane,
     floor: Lane,
@@ -44,23 +49,38 @@ impl BlockRings {
             side: [ZERO; 3],
             up: [ZERO; 3],
             roll: [Turn::ZERO; N],
+            chord: [ZERO; 3],
             still: ZERO,
             floor: ZERO,
         }
     }
 
     /// Makes the rings of `block`, whose number among all of the plan is `number`.
+    #[inline(always)]
     pub(super) fn make(&mut self, work: &Work, block: &Block, number: u64) {
-        self.count = block.rings as usize;
-        self.evaluate(work, block);
-        self.tangents(work, block);
-        self.bases();
-        let frame = work.plan.settings().frame;
-        if frame.is_level(work.plan.twist_turns(block.yarn as usize)) {
+        let yarn = block.yarn as usize;
+        self.upright(&work.plan, &work.points, yarn, block.first_ring, block.rings as usize);
+        if work.plan.settings().frame.is_level(work.plan.twist_turns(yarn)) {
             self.roll = [Turn::ZERO; N];
         } else {
-            self.rolls(work, block, number);
+            self.turn(work, block, number);
         }
+    }
+
+    /// Makes `count` rings of `yarn` from `first` on, without rolls.
+    #[inline(always)]
+    pub(super) fn upright(
+        &mut self,
+        plan: &Plan,
+        points: &PaddedPoints,
+        yarn: usize,
+        first: u32,
+        count: usize,
+    ) {
+        self.count = count;
+        self.evaluate(plan, points, yarn, first);
+        self.tangents(plan, points, yarn, first);
+        self.bases();
     }
 
     /// Ring `k` of the block.
@@ -74,37 +94,45 @@ impl BlockRings {
         }
     }
 
-    /// Centre, radius, velocity (in `tangent`) and growth (in `slope`): each interval's cubic, at each of its rings.
-    fn evaluate(&mut self, work: &Work, block: &Block) {
-        let (plan, yarn) = (&work.plan, block.yarn as usize);
-        let points: &[[f32; 4]] = bytemuck::cast_slice::<ControlPoint, _>(work.points.yarn(plan, yarn));
+    /// Centre, radius, velocity (in `tangent`), growth (in `slope`) and chord: each interval's cubic, at each of its rings.
+    #[inline(always)]
+    fn evaluate(&mut self, plan: &Plan, points: &PaddedPoints, yarn: usize, first: u32) {
+        let points: &[[f32; 4]] = bytemuck::cast_slice::<ControlPoint, _>(points.yarn(plan, yarn));
         let (s, step, per_interval) =
             (plan.sampling().s(), plan.sampling().step(), plan.settings().subdivisions + 1);
         // The last ring of an open yarn is t = 1 of the interval before.
         let last = if plan.yarn(yarn).closed { u32::MAX } else { plan.rings(yarn) - 1 };
-        let mut interval = (block.first_ring / per_interval) as usize - usize::from(block.first_ring == last);
-        let mut place = block.first_ring % per_interval;
+        let mut interval = (first / per_interval) as usize - usize::from(first == last);
+        let mut place = first % per_interval;
         let mut cubic = Cubic::new(points, interval, s);
         for k in 0..self.count {
-            let at_end = block.first_ring + k as u32 == last;
+            let at_end = first + k as u32 == last;
             if k > 0 && place == 0 && !at_end {
                 interval += 1;
                 cubic = Cubic::new(points, interval, s);
             }
             let t = if at_end { 1.0 } else { place as f32 * step };
-            let (value, velocity) = cubic.at(t);
+            let (offset, velocity) = cubic.at(t);
+            let ends_interval = place + 1 == per_interval;
             for axis in 0..3 {
-                self.centre[axis][k] = value[axis];
+                self.centre[axis][k] = cubic.start[axis] + offset[axis];
                 self.tangent[axis][k] = velocity[axis];
+                // Within an interval the next ring completes the chord.
+                self.chord[axis][k] =
+                    if ends_interval { cubic.span[axis] - offset[axis] } else { -offset[axis] };
+                if k > 0 && place > 0 {
+                    self.chord[axis][k - 1] += offset[axis];
+                }
             }
-            (self.radius[k], self.slope[k]) = (value[3], velocity[3]);
+            (self.radius[k], self.slope[k]) = (cubic.start[3] + offset[3], velocity[3]);
             (self.still[k], self.floor[k]) = (cubic.still, cubic.floor);
-            place = if place + 1 == per_interval { 0 } else { place + 1 };
+            place = if ends_interval { 0 } else { place + 1 };
         }
     }
 
     /// Unit tangents from velocities, slopes from growths, radii held above their floor.
-    fn tangents(&mut self, work: &Work, block: &Block) {
+    #[inline(always)]
+    fn tangents(&mut self, plan: &Plan, points: &PaddedPoints, yarn: usize, first: u32) {
         let [vx, vy, vz] = &mut self.tangent;
         let mut at_rest = false;
         for k in 0..N {
@@ -119,7 +147,7 @@ impl BlockRings {
             self.still[k] -= speed_squared;
         }
         if at_rest {
-            self.mend_rest(work, block);
+            self.mend_rest(plan, points, yarn, first);
         }
         for k in 0..N {
             let held = self.radius[k] < self.floor[k];
@@ -130,12 +158,10 @@ impl BlockRings {
 
     /// Rings without velocity: the core knows their direction.
     #[cold]
-    fn mend_rest(&mut self, work: &Work, block: &Block) {
-        let (plan, yarn) = (&work.plan, block.yarn as usize);
-        let (padded, rings, closed) =
-            (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
+    fn mend_rest(&mut self, plan: &Plan, points: &PaddedPoints, yarn: usize, first: u32) {
+        let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
         for k in (0..self.count).filter(|&k| self.still[k] >= 0.0) {
-            let sample = plan.sampling().sample(padded, block.first_ring + k as u32, rings, closed).sample;
+            let sample = plan.sampling().sample(padded, first + k as u32, rings, closed).sample;
             for axis in 0..3 {
                 self.tangent[axis][k] = sample.tangent[axis];
             }
@@ -144,6 +170,7 @@ impl BlockRings {
     }
 
     /// Upright sides and ups.
+    #[inline(always)]
     fn bases(&mut self) {
         let ([tx, ty, tz], [sx, sy, sz], [ux, uy, uz]) = (&self.tangent, &mut self.side, &mut self.up);
         let mut vertical = false;
@@ -175,30 +202,12 @@ impl BlockRings {
             self.up[axis][k] = basis.up[axis];
         }
     }
-
-    /// Rolls from the block's start on, and the bases turned by them.
-    fn rolls(&mut self, work: &Work, block: &Block, number: u64) {
-        let (plan, yarn) = (&work.plan, block.yarn as usize);
-        let (twist, frame) = (plan.twist_turns(yarn), plan.settings().frame);
-        let mut walk = Walk::new(plan, &work.points, yarn, block.first_ring);
-        let mut sum = work.rolls.at_block(number);
-        let mut here = walk.step();
-        for k in 0..self.count {
-            self.roll[k] = work.rolls.closed_up(plan, yarn, block.first_ring + k as u32, sum);
-            self.set_basis(k, &self.ring(k).basis());
-            if k + 1 < self.count {
-                let next = walk.step();
-                let chord = here.chord_to(&next);
-                sum = sum + frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
-                here = next;
-            }
-        }
-    }
 }
 
 /// One interval of the spline: the coefficients of `Segment`, four components at a time.
 struct Cubic {
     start: [f32; 4],
+    span: [f32; 4],
     terms: [[f32; 4]; 3],
     still: f32,
     floor: f32,
@@ -211,6 +220,7 @@ fn each(f: impl FnMut(usize) -> f32) -> [f32; 4] {
 }
 
 impl Cubic {
+    #[inline(always)]
     fn new(points: &[[f32; 4]], interval: usize, s: f32) -> Self {
         let [before, start, end, after] =
             [points[interval], points[interval + 1], points[interval + 2], points[interval + 3]];
@@ -221,23 +231,24 @@ impl Cubic {
         let squared = |v: [f32; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         Self {
             start,
+            span: b,
             terms: [
                 each(|k| (b[k] - a[k]) * s),
                 each(|k| a[k] * doubled + b[k] * rest - c[k] * s),
                 each(|k| (c[k] - a[k]) * s + b[k] * less),
             ],
-            still: ZERO_VELOCITY * (squared(a) + squared(b) + squared(c)),
+            still: (ZERO_VELOCITY * (squared(a) + squared(b) + squared(c))).max(NO_LENGTH),
             floor: start[3].min(end[3]) * RADIUS_FLOOR,
         }
     }
 
-    /// Value and derivative at `t`.
-    #[inline]
+    /// Offset from the start, and derivative, at `t`.
+    #[inline(always)]
     fn at(&self, t: f32) -> ([f32; 4], [f32; 4]) {
         let [c1, c2, c3] = &self.terms;
         let thrice = 3.0 * t;
         (
-            each(|k| self.start[k] + (c1[k] + (c2[k] + c3[k] * t) * t) * t),
+            each(|k| (c1[k] + (c2[k] + c3[k] * t) * t) * t),
             each(|k| c1[k] + (c2[k] * 2.0 + c3[k] * thrice) * t),
         )
     }

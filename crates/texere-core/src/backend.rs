@@ -91,7 +91,31 @@ pub trait Backend: fmt::Debug + Send + Sync {
 /// One fabric on one device: upload, scan, then the stages chunk by chunk.
 ///
 /// Chunks come from [`Plan::chunks`] with the device's limits or stricter ones. Two may be in flight; running a stage
-/// for a third may use the memory of the oldest again.
+/// for a third may use the memory of the oldest again. [`Pipeline`](crate::Pipeline) does all this; by hand it reads
+///
+/// ```
+/// use std::{ops::ControlFlow, sync::Arc};
+/// use texere_core::{Backend, ControlPoint, MeshPiece, NullBackend, Plan, Settings, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let yarns = yarns.build()?;
+/// let device = NullBackend::default(); // any backend
+/// let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
+/// let mut session = device.session(plan.clone())?;
+/// session.upload(0, yarns.points())?;
+/// session.scan()?;
+/// let mut triangles = 0;
+/// for chunk in plan.chunks(&device.info().limits)? {
+///     session.mesh(&chunk)?;
+///     let _ = session.read_mesh(&chunk, &mut |piece| {
+///         if let MeshPiece::Indices { indices, .. } = piece {
+///             triangles += indices.len() / 3;
+///         }
+///         ControlFlow::Continue(())
+///     })?;
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Session: fmt::Debug + Send {
     /// Takes control points, the first of which is number `first` of the fabric: any range, so that a generator can feed
     /// block by block and an edit send one yarn.

@@ -194,6 +194,21 @@ pub struct MeshMut<'a> {
 ///
 /// It remembers plan, chunks and materials, so that a writer needs nothing else, and a change of colour never rebuilds
 /// geometry.
+///
+/// ```
+/// use texere_core::{ControlPoint, NullBackend, Pipeline, Topology, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let yarns = yarns.build()?;
+/// // Any device does; this one leaves all vertices at the origin.
+/// let mesh = Pipeline::new(&yarns).topology(Topology::Shared).mesh(&NullBackend::default())?;
+/// for draw in mesh.draws() {
+///     let colour = mesh.materials[mesh.plan.yarn(draw.yarn as usize).material as usize].srgb;
+///     println!("yarn {}: indices {:?} from vertex {}, {colour:?}", draw.yarn, draw.indices, draw.base_vertex);
+/// }
+/// assert_eq!(mesh.triangles().count() as u64, mesh.plan.counts().triangles);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Mesh {
     /// All vertices, chunk after chunk.

@@ -5,6 +5,18 @@ use std::ops::Range;
 use crate::{BackendError, ControlPoint, Plan};
 
 /// The control points of a fabric, padded as [`Plan::padded_offsets`] says, so that no kernel has end cases.
+///
+/// ```
+/// use texere_core::{ControlPoint, PaddedPoints, Plan, Settings, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let yarns = yarns.build()?;
+/// let plan = Plan::new(yarns.layout().clone(), Settings::default())?; // one open yarn at x = 0, 1, 2
+/// let mut padded = PaddedPoints::new(&plan)?;
+/// assert_eq!(padded.upload(&plan, 0, yarns.points())?, 0..5);
+/// assert_eq!(padded.yarn(&plan, 0).iter().map(|point| point.x).collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0, 3.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct PaddedPoints {
     points: Vec<ControlPoint>,

@@ -199,6 +199,15 @@ impl<'a> Pipeline<'a> {
 
     /// The centrelines alone, in host memory.
     ///
+    /// ```
+    /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
+    /// let trajectory = texere_core::Pipeline::new(yarns).subdivisions(7).trajectory(device)?;
+    /// let first_yarn = trajectory.yarn(0).unwrap_or_default();
+    /// println!("{} rings, the first at {:?}", first_yarn.len(), first_yarn[0].centre);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// **Errors**: those of [`Pipeline::mesh`].
     pub fn trajectory(mut self, device: &dyn Backend) -> Result<Trajectory, PipelineError> {
         let (plan, mut session) = self.start(device)?;

@@ -39,6 +39,20 @@ pub struct Cap {
 ///
 /// It holds all that a launch needs: the block table, the parts that it makes, and its place in the whole. Where it
 /// ends inside a yarn it repeats the next ring, so that its triangles stand on its own vertices.
+///
+/// ```
+/// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+/// let points: Vec<_> = (0..100).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &points);
+/// let plan = Plan::new(yarns.build()?.layout().clone(), Settings::default())?;
+/// // 199 rings: three full blocks of 64 and one of 7. Two rows of the block table have room for one block and the ring
+/// // that it repeats, or for the last two blocks.
+/// let chunks: Vec<_> = plan.chunks(&Limits { blocks: 2, ..Limits::NONE })?.collect();
+/// let rings: Vec<_> = chunks.iter().map(|chunk| (chunk.parts[0].first_ring, chunk.rings)).collect();
+/// assert_eq!(rings, [(0, 65), (64, 65), (128, 71)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Chunk {
     /// Its number, from 0.

@@ -28,8 +28,11 @@ pub struct Basis {
 /// The squared sine of the angle to z (1e-6 rad) under which a tangent counts as parallel to z.
 pub const VERTICAL: f32 = 1e-12;
 
-/// A squared length below which a reflection's mirror has no direction, relative to unit tangents.
-pub const NO_MIRROR: f32 = 1e-12;
+/// A squared length below which the second reflection's mirror has no direction: a hairpin to within a milliradian.
+///
+/// On a smooth curve the mirror is two tangents long. At a hairpin's tip it vanishes but for the rounding of the last
+/// chord, whose direction is off by some (K + 1)² units in the last place: up to K = 90 the bound is clear of that.
+pub const NO_MIRROR: f32 = 1e-6;
 
 impl Basis {
     /// The upright basis for a unit `tangent`: side = z × t, normalised (+y where t is within 1e-6 of z), up = t × side.

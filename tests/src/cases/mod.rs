@@ -1,0 +1,201 @@
+//! The cases that every backend has to get right.
+
+mod fabrics;
+mod shapes;
+
+use std::fmt;
+use std::sync::Arc;
+
+use texere_core::{Frame, Section, Settings, Topology, Yarn, Yarns};
+
+/// Yarns and what is asked of them, with a name.
+#[derive(Clone)]
+pub struct Case {
+    /// What it is about, and its frame: `helix-closed::rotation-minimizing`.
+    pub name: String,
+    /// What is asked for.
+    pub settings: Settings,
+    build: Arc<dyn Fn() -> Yarns + Send + Sync>,
+}
+
+impl fmt::Debug for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Case")
+            .field("name", &self.name)
+            .field("settings", &self.settings)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Both frames, as trial names have them.
+const FRAMES: [(&str, Frame); 2] =
+    [("upright", Frame::Upright), ("rotation-minimizing", Frame::RotationMinimizing)];
+
+/// What cases ask for unless they are about just that.
+const USUAL: Settings = Settings {
+    tension: 0.0,
+    subdivisions: 3,
+    sides: 6,
+    frame: Frame::Upright,
+    topology: Topology::Indexed,
+    caps: true,
+};
+
+impl Case {
+    /// One for each frame.
+    fn framed(
+        name: impl fmt::Display,
+        settings: Settings,
+        build: impl Fn() -> Yarns + Send + Sync + 'static,
+    ) -> [Self; 2] {
+        let build: Arc<dyn Fn() -> Yarns + Send + Sync> = Arc::new(build);
+        FRAMES.map(|(frame_name, frame)| Self {
+            name: format!("{name}::{frame_name}"),
+            settings: Settings { frame, ..settings },
+            build: build.clone(),
+        })
+    }
+
+    /// Its yarns. Built on each call, so that listing cases costs nothing.
+    #[must_use]
+    pub fn yarns(&self) -> Yarns {
+        (self.build)()
+    }
+}
+
+/// All cases.
+#[must_use]
+pub fn all() -> Vec<Case> {
+    let mut cases = each_shape();
+    cases.extend(settings_swept());
+    cases.extend(sections_swept());
+    cases.extend(long_and_many());
+    cases
+}
+
+/// Fabrics of a few hundred rings that between them have open and closed, twisted and standing, long and short yarns.
+#[must_use]
+pub fn menagerie() -> Yarns {
+    fabrics::menagerie(Section::Circle)
+}
+
+/// [`menagerie`] with several materials and sections.
+#[must_use]
+pub fn mixed() -> Yarns {
+    fabrics::mixed()
+}
+
+/// One open or closed yarn of `points` points without any awkward place: the tube of a fabric that lies as it should.
+#[must_use]
+pub fn winding(points: u32, yarn: Yarn) -> Yarns {
+    fabrics::winding(points, yarn)
+}
+
+/// Every section that takes any number of sides, named.
+#[must_use]
+pub fn sections() -> Vec<(&'static str, Section)> {
+    fabrics::sections()
+}
+
+/// Every shape alone.
+fn each_shape() -> Vec<Case> {
+    shapes::all()
+        .into_iter()
+        .flat_map(|shape| Case::framed(shape.name, USUAL, move || fabrics::alone(&shape)))
+        .collect()
+}
+
+/// Every shape at once, through the range of each setting.
+fn settings_swept() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for sides in [3, 4, 5, 7, 8, 9, 12, 15, 16, 17, 24, 31, 32, 33, 48, 63, 64] {
+        let settings = Settings { sides, ..USUAL };
+        cases.extend(Case::framed(format!("sides-{sides}"), settings, menagerie));
+    }
+    for subdivisions in 0..=8 {
+        let settings = Settings { subdivisions, ..USUAL };
+        cases.extend(Case::framed(format!("subdivisions-{subdivisions}"), settings, menagerie));
+    }
+    for tenths in 0..=9u8 {
+        let settings = Settings { tension: f32::from(tenths) / 10.0, ..USUAL };
+        cases.extend(Case::framed(format!("tension-0.{tenths}"), settings, menagerie));
+    }
+    for (name, topology) in
+        [("indexed", Topology::Indexed), ("shared", Topology::Shared), ("unindexed", Topology::None)]
+    {
+        for (caps_name, caps) in [("capped", true), ("uncapped", false)] {
+            let settings = Settings { topology, caps, ..USUAL };
+            cases.extend(Case::framed(format!("{name}-{caps_name}"), settings, mixed));
+        }
+    }
+    cases
+}
+
+/// Every section on every shape.
+fn sections_swept() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (name, section) in sections() {
+        for sides in [3, 8, 21] {
+            let (settings, section) = (Settings { sides, ..USUAL }, section.clone());
+            let build = move || fabrics::menagerie(section.clone());
+            cases.extend(Case::framed(format!("section-{name}-{sides}"), settings, build));
+        }
+    }
+    for (name, corners) in fabrics::polygons() {
+        let settings = Settings { sides: corners.len() as u32, ..USUAL };
+        let build = move || fabrics::menagerie(Section::Polygon(corners.clone()));
+        cases.extend(Case::framed(format!("section-polygon-{name}"), settings, build));
+    }
+    cases
+}
+
+fn long_and_many() -> Vec<Case> {
+    let mut cases = Vec::new();
+    // Round the size of a block, where one ring is left over or missing.
+    for points in [63, 64, 65, 66, 128, 129, 193] {
+        let settings = Settings { subdivisions: 0, ..USUAL };
+        let open = move || fabrics::winding(points, Yarn { twist: 0.3, ..Yarn::default() });
+        let closed = move || fabrics::winding(points, Yarn { closed: true, twist: 0.3, ..Yarn::default() });
+        cases.extend(Case::framed(format!("rings-{points}"), settings, open));
+        cases.extend(Case::framed(format!("rings-{}-closed", points + 1), settings, closed));
+    }
+    let million = Settings { subdivisions: 999, sides: 3, caps: false, ..USUAL };
+    let yarn = Yarn { twist: 2.0, ..Yarn::default() };
+    cases.extend(Case::framed("million-rings", million, move || fabrics::winding(1001, yarn)));
+    let yarn = Yarn { closed: true, ..yarn };
+    cases.extend(Case::framed("million-rings-closed", million, move || fabrics::winding(1000, yarn)));
+    let short = Settings { subdivisions: 1, ..USUAL };
+    cases.extend(Case::framed("many-short", short, fabrics::many_short));
+    cases.extend(Case::framed("wandering", USUAL, fabrics::wandering));
+    cases.extend(Case::framed("mixed", Settings { sides: 10, ..USUAL }, mixed));
+    for (name, scale) in [("micrometres", 1e-3), ("metres", 1e3)] {
+        let build = move || fabrics::scaled(&fabrics::winding(50, Yarn::default()), scale);
+        cases.extend(Case::framed(format!("scale-{name}"), USUAL, build));
+    }
+    cases
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::Oracle;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn names_are_unique() {
+        let cases = all();
+        let names: BTreeSet<_> = cases.iter().map(|case| &case.name).collect();
+        assert_eq!(names.len(), cases.len());
+    }
+
+    /// Near half a turn, rounding would decide which way round a closed yarn is spread, and no two backends would agree.
+    #[test]
+    fn no_closed_yarn_is_near_half_a_turn_off() {
+        for case in all() {
+            let excess = Oracle::new(&case.yarns(), &case.settings).yarns.into_iter().map(|yarn| yarn.excess);
+            for (yarn, excess) in excess.enumerate() {
+                assert!(excess.abs() < 0.499, "{}, yarn {yarn}: {excess}", case.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,319 @@
+//! The comparer: one output against the oracle, or against another output.
+
+mod assemble;
+mod report;
+
+pub use assemble::{Assembled, AssembledCap, assemble};
+pub use report::{Fault, Mismatch, Place, Quantity, Report, Worst};
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use texere_core::{End, Frame, Plan, Ring, Vertex};
+
+use crate::drive::is_poison;
+use crate::oracle::{Oracle, OracleRing};
+
+/// How far a centre or a vertex may lie from where it should, in radii of the yarn.
+pub const POSITION: f64 = 1e-4;
+
+/// What is allowed on top of that, in units in the last place of the largest coordinate of the control points it comes
+/// from: far from the origin f32 has no more to give.
+pub const COORDINATE_ULPS: f64 = 4.0;
+
+/// How far a unit vector may lie from its direction, rad; and, relative to it, a radius from its length.
+pub const DIRECTION: f64 = 1e-4;
+
+/// How far roll may drift with each ring, and with each radian of twist, from the yarn's start, rad.
+pub const ROLL_DRIFT: f64 = 1e-7;
+
+/// How far roll may be off from the start, rad: what one rounding of a step costs.
+pub const ROLL_FLOOR: f64 = 1e-6;
+
+/// How far roll may be off within a control interval, as a share of the interval's twist: f32 says where between its two
+/// control points a ring lies to eight roundings. It does not add up, since the ends are certain again.
+pub const INTERVAL_TWIST: f64 = 5e-7;
+
+/// The angle to z, rad, under which the upright frame turns faster than a tangent's last bits can say.
+pub const NEAR_VERTICAL: f64 = 1e-3;
+
+/// The angle to z, rad, under which every backend takes the tangent for vertical, and the frame is certain again.
+pub const SURELY_VERTICAL: f64 = 1e-7;
+
+/// What a ring may be off by.
+struct Allowance {
+    /// mm, for a centre.
+    position: f64,
+    /// rad, about the tangent.
+    roll: f64,
+    /// Whether the frame is certain enough to be compared.
+    framed: bool,
+}
+
+impl Allowance {
+    fn new(ring: &OracleRing, number: usize) -> Self {
+        let tilt = ring.tangent.x.hypot(ring.tangent.y);
+        Self {
+            position: POSITION * ring.radius + COORDINATE_ULPS * ulp(ring.extent),
+            roll: ROLL_FLOOR
+                + ROLL_DRIFT * (number as f64 + ring.twist)
+                + INTERVAL_TWIST * ring.interval_twist,
+            framed: !(SURELY_VERTICAL..NEAR_VERTICAL).contains(&tilt),
+        }
+    }
+}
+
+/// The distance from `value` to the next f32.
+fn ulp(value: f64) -> f64 {
+    let value = value as f32;
+    f64::from(value.next_up()) - f64::from(value)
+}
+
+/// Whether two values are the same to the bit. Unlike `==` it takes a NaN for itself, and tells 0 from -0.
+pub(crate) fn same_bits<T: bytemuck::Pod>(a: &T, b: &T) -> bool {
+    bytemuck::bytes_of(a) == bytemuck::bytes_of(b)
+}
+
+fn wide(value: [f32; 3]) -> DVec3 {
+    DVec3::from_array(value.map(f64::from))
+}
+
+/// Compares the counts that a plan promises.
+pub fn compare_counts(oracle: &Oracle, plan: &Plan, report: &mut Report) {
+    let (expected, actual) = (oracle.counts(), plan.counts());
+    for (what, expected, actual) in [
+        ("yarns", oracle.yarns.len() as u64, actual.yarns),
+        ("rings", expected.rings, actual.rings),
+        ("vertices", expected.vertices, actual.vertices),
+        ("triangles", expected.triangles, actual.triangles),
+        ("indices", expected.indices, actual.indices),
+    ] {
+        report.note_count(what, Place::default(), expected, actual);
+    }
+}
+
+/// What an output is held against.
+trait Expected {
+    fn ring(&self, yarn: usize, number: usize) -> OracleRing;
+    /// Position and normal.
+    fn vertex(&self, yarn: usize, number: usize, point: usize) -> (DVec3, DVec3);
+}
+
+impl Expected for Oracle {
+    fn ring(&self, yarn: usize, number: usize) -> OracleRing {
+        self.yarns[yarn].rings[number]
+    }
+
+    fn vertex(&self, yarn: usize, number: usize, point: usize) -> (DVec3, DVec3) {
+        Self::vertex(self, yarn, number, point)
+    }
+}
+
+/// Another backend's output; what an output does not tell (slope, twist so far) comes from the oracle.
+struct Gold<'a> {
+    oracle: &'a Oracle,
+    output: &'a Assembled,
+}
+
+impl Expected for Gold<'_> {
+    fn ring(&self, yarn: usize, number: usize) -> OracleRing {
+        let gold = &self.output.rings[self.output.offsets[yarn] + number];
+        let (tangent, roll) = (wide(gold.tangent), turns(gold));
+        let side = side(tangent, roll);
+        OracleRing {
+            centre: wide(gold.centre),
+            radius: gold.radius.into(),
+            tangent,
+            roll,
+            side,
+            up: tangent.cross(side),
+            ..self.oracle.yarns[yarn].rings[number]
+        }
+    }
+
+    fn vertex(&self, yarn: usize, number: usize, point: usize) -> (DVec3, DVec3) {
+        let sides = self.oracle.settings.sides as usize;
+        let gold = &self.output.vertices[(self.output.offsets[yarn] + number) * sides + point];
+        (wide(gold.position), wide(gold.normal))
+    }
+}
+
+/// Compares every ring, vertex and cap of `output` with what the oracle says.
+pub fn compare_with_oracle(oracle: &Oracle, output: &Assembled, report: &mut Report) {
+    compare(oracle, oracle, output, report);
+}
+
+/// Compares every ring and vertex of `output` with `gold`, within the same bounds, and the triangles of every cap to the
+/// bit.
+pub fn compare_with_gold(oracle: &Oracle, gold: &Assembled, output: &Assembled, report: &mut Report) {
+    compare(oracle, &Gold { oracle, output: gold }, output, report);
+    for (old, new) in gold.caps.iter().zip(&output.caps) {
+        if !same_triangles(old, new) {
+            let place = Place { yarn: old.yarn as u64, ..Place::default() };
+            report.note(Fault::Index, place, &old.triangles, &new.triangles);
+        }
+    }
+}
+
+fn compare(oracle: &Oracle, expected: &impl Expected, output: &Assembled, report: &mut Report) {
+    let sides = oracle.settings.sides as usize;
+    for yarn in 0..oracle.yarns.len() {
+        for (number, at) in output.rings_of(yarn).enumerate() {
+            let place = Place { yarn: yarn as u64, ring: number as u64, point: None };
+            let ring = expected.ring(yarn, number);
+            let allowed = Allowance::new(&ring, number);
+            compare_ring(oracle, &ring, &output.rings[at], &allowed, place, report);
+            for (point, vertex) in output.vertices[at * sides..(at + 1) * sides].iter().enumerate() {
+                let (place, vertex_expected) =
+                    (Place { point: Some(point as u64), ..place }, expected.vertex(yarn, number, point));
+                compare_vertex(&ring, vertex_expected, vertex, &allowed, place, report);
+            }
+        }
+    }
+    for cap in &output.caps {
+        compare_cap(oracle, expected, cap, report);
+    }
+}
+
+/// Notes values that are no numbers; what was never written is told apart from what was reckoned wrong.
+fn is_finite(values: &[f32], place: Place, report: &mut Report) -> bool {
+    let finite = values.iter().all(|value| value.is_finite());
+    if !finite {
+        let unwritten = values.iter().any(|&value| is_poison(value));
+        report.note(if unwritten { Fault::Missing } else { Fault::NotFinite }, place, "numbers", values);
+    }
+    finite
+}
+
+fn compare_ring(
+    oracle: &Oracle,
+    expected: &OracleRing,
+    actual: &Ring,
+    allowed: &Allowance,
+    place: Place,
+    report: &mut Report,
+) {
+    let [x, y, z] = actual.centre;
+    let [tx, ty, tz] = actual.tangent;
+    if !is_finite(&[x, y, z, actual.radius, tx, ty, tz], place, report) {
+        return;
+    }
+    let (centre, radius, tangent) = (wide(actual.centre), f64::from(actual.radius), wide(actual.tangent));
+    let error = [(centre - expected.centre).length(), allowed.position, expected.radius];
+    report.check(Quantity::Centre, place, error, (expected.centre, centre));
+    let error = [(radius - expected.radius).abs(), DIRECTION * expected.radius, expected.radius];
+    report.check(Quantity::Radius, place, error, (expected.radius, radius));
+    let error = [(tangent - expected.tangent).length(), DIRECTION, 1.0];
+    if !report.check(Quantity::Tangent, place, error, (expected.tangent, tangent)) {
+        // A roll about another tangent says nothing.
+        return;
+    }
+    // Between two rings near the vertical the upright frame may turn either way round, and so may a roll against it: the
+    // direction that the two make together is certain, and is what is compared. Twist alone is a roll by itself.
+    let roll = turns(actual);
+    let turn = match oracle.settings.frame {
+        Frame::Upright => (roll - expected.roll) * TAU,
+        Frame::RotationMinimizing if allowed.framed => {
+            let side = side(tangent, roll);
+            side.dot(expected.up).atan2(side.dot(expected.side))
+        }
+        Frame::RotationMinimizing => 0.0,
+    };
+    let turn = turn - (turn / TAU).round() * TAU;
+    let values = ((expected.roll, expected.side), roll);
+    report.check(Quantity::Roll, place, [turn.abs(), allowed.roll, 1.0], values);
+}
+
+/// A ring's roll, in turns.
+fn turns(ring: &Ring) -> f64 {
+    f64::from(ring.roll.0) / 4_294_967_296.0
+}
+
+/// The side that a tangent and a roll (in turns) make: of the upright frame, turned about the tangent.
+fn side(tangent: DVec3, roll: f64) -> DVec3 {
+    let level = DVec3::new(-tangent.y, tangent.x, 0.0);
+    let side = if level.length() < 1e-6 { DVec3::Y } else { level.normalize() };
+    side * (roll * TAU).cos() + tangent.cross(side) * (roll * TAU).sin()
+}
+
+fn compare_vertex(
+    ring: &OracleRing,
+    (position, normal): (DVec3, DVec3),
+    actual: &Vertex,
+    allowed: &Allowance,
+    place: Place,
+    report: &mut Report,
+) {
+    let ([x, y, z], [nx, ny, nz]) = (actual.position, actual.normal);
+    if !is_finite(&[x, y, z, nx, ny, nz], place, report) {
+        return;
+    }
+    let (actual_position, actual_normal) = (wide(actual.position), wide(actual.normal));
+    let (arm, actual_arm) = (position - ring.centre, actual_position - ring.centre);
+    let room = allowed.position;
+    if allowed.framed {
+        let error = (actual_position - position).length();
+        let room = [error, room + arm.length() * allowed.roll, ring.radius];
+        report.check(Quantity::Vertex, place, room, (position, actual_position));
+        let error = [(actual_normal - normal).length(), DIRECTION + allowed.roll, 1.0];
+        report.check(Quantity::Normal, place, error, (normal, actual_normal));
+    } else {
+        // In the ring's plane, as far from its centre as it should, its normal leaning as far out and along.
+        let off_plane = actual_arm.dot(ring.tangent).abs();
+        let off_distance = (actual_arm.length() - arm.length()).abs();
+        let error = [off_plane.max(off_distance), room + arm.length() * DIRECTION, ring.radius];
+        report.check(Quantity::Vertex, place, error, (position, actual_position));
+        let lean = |normal: DVec3, arm: DVec3| {
+            [normal.dot(ring.tangent), normal.dot(arm.normalize()), normal.length()]
+        };
+        let (expected, actual) = (lean(normal, arm), lean(actual_normal, actual_arm));
+        let error = (0..3).map(|k| (expected[k] - actual[k]).abs()).fold(0.0, f64::max);
+        report.check(Quantity::Normal, place, [error, DIRECTION, 1.0], (expected, actual));
+    }
+}
+
+/// A cap lies on its yarn's end; its normals point straight out.
+fn compare_cap(oracle: &Oracle, expected: &impl Expected, cap: &AssembledCap, report: &mut Report) {
+    let last = oracle.yarns[cap.yarn].rings.len() - 1;
+    let (number, sign) = if cap.end == End::Start { (0, -1.0) } else { (last, 1.0) };
+    let ring = expected.ring(cap.yarn, number);
+    let allowed = Allowance::new(&ring, number);
+    for (point, vertex) in cap.vertices.iter().enumerate() {
+        let place = Place { yarn: cap.yarn as u64, ring: number as u64, point: Some(point as u64) };
+        let (position, _) = expected.vertex(cap.yarn, number, point);
+        compare_vertex(&ring, (position, ring.tangent * sign), vertex, &allowed, place, report);
+    }
+}
+
+/// Whether two caps are cut alike. What was never written has been told of as missing.
+fn same_triangles(old: &AssembledCap, new: &AssembledCap) -> bool {
+    new.triangles.is_empty() || old.triangles == new.triangles
+}
+
+/// Compares two outputs that must be the same to the bit: other chunks, another way, or a backend that promises it.
+pub fn compare_bits(oracle: &Oracle, expected: &Assembled, actual: &Assembled, report: &mut Report) {
+    let sides = oracle.settings.sides as usize;
+    for yarn in 0..oracle.yarns.len() {
+        let range = expected.rings_of(yarn);
+        for (ring, at) in range.enumerate() {
+            let place = Place { yarn: yarn as u64, ring: ring as u64, point: None };
+            let (old, new) = (&expected.rings[at], &actual.rings[at]);
+            if !same_bits(old, new) {
+                report.note(Fault::Bits, place, old, new);
+            }
+            for point in 0..sides {
+                let (old, new) =
+                    (&expected.vertices[at * sides + point], &actual.vertices[at * sides + point]);
+                if !same_bits(old, new) {
+                    report.note(Fault::Bits, Place { point: Some(point as u64), ..place }, old, new);
+                }
+            }
+        }
+    }
+    for (old, new) in expected.caps.iter().zip(&actual.caps) {
+        let same = old.vertices.iter().zip(&new.vertices).all(|(old, new)| same_bits(old, new));
+        if !same || !same_triangles(old, new) {
+            report.note(Fault::Bits, Place { yarn: old.yarn as u64, ..Place::default() }, old, new);
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! What a comparison found: faults by name, the first few in full, and how near the rest came.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::{DIRECTION, POSITION};
+
+/// What can be wrong with an output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Fault {
+    /// More or fewer rings, vertices, indices or caps than there should be, or pieces out of order.
+    Count,
+    /// Memory that was never written.
+    Missing,
+    /// NaN or infinity.
+    NotFinite,
+    /// A ring's centre or a vertex out of place.
+    Position,
+    /// A vertex normal off its direction.
+    Normal,
+    /// A ring's radius.
+    Radius,
+    /// A ring's tangent off its direction.
+    Tangent,
+    /// A ring's turn about the tangent.
+    Roll,
+    /// An index that makes another triangle, or a cap that does not close.
+    Index,
+    /// Two outputs that should be equal to the bit are not.
+    Bits,
+}
+
+/// Where in a fabric.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Place {
+    /// The yarn, from 0.
+    pub yarn: u64,
+    /// The ring, from the yarn's start.
+    pub ring: u64,
+    /// The point of the section, where it is about a vertex or its index.
+    pub point: Option<u64>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "yarn {}, ring {}", self.yarn, self.ring)?;
+        self.point.map_or(Ok(()), |point| write!(f, ", point {point}"))
+    }
+}
+
+/// One thing that is wrong.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mismatch {
+    /// What.
+    pub fault: Fault,
+    /// Where.
+    pub place: Place,
+    /// What should be there.
+    pub expected: String,
+    /// What is there.
+    pub actual: String,
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { fault, place, expected, actual } = self;
+        write!(f, "{fault:?} at {place}: expected {expected}, found {actual}")
+    }
+}
+
+/// What is measured, each against what is allowed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Ring centres, in radii of the yarn.
+    Centre,
+    /// Radii, relative.
+    Radius,
+    /// Tangents, rad.
+    Tangent,
+    /// Turn about the tangent, rad.
+    Roll,
+    /// Vertex positions, in radii of the yarn.
+    Vertex,
+    /// Vertex normals, rad.
+    Normal,
+}
+
+impl Quantity {
+    /// All of them, in the order of the table.
+    pub const ALL: [Self; 6] =
+        [Self::Centre, Self::Radius, Self::Tangent, Self::Roll, Self::Vertex, Self::Normal];
+
+    /// What is allowed in the quantity's unit where neither digits nor drift ask for more; no such bound for roll.
+    const fn bound(self) -> f64 {
+        match self {
+            Self::Centre | Self::Vertex => POSITION,
+            Self::Radius | Self::Tangent | Self::Normal => DIRECTION,
+            Self::Roll => f64::INFINITY,
+        }
+    }
+
+    const fn fault(self) -> Fault {
+        match self {
+            Self::Centre | Self::Vertex => Fault::Position,
+            Self::Radius => Fault::Radius,
+            Self::Tangent => Fault::Tangent,
+            Self::Roll => Fault::Roll,
+            Self::Normal => Fault::Normal,
+        }
+    }
+}
+
+/// The worst of one quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Worst {
+    /// The largest error, in the quantity's unit, among those that are allowed no more than twice the plain bound:
+    /// neither far from the origin nor after much drift.
+    pub error: f64,
+    /// The largest share of what was allowed; above 1 is a fault.
+    pub share: f64,
+}
+
+/// What a comparison found.
+#[derive(Debug, Clone, Default)]
+pub struct Report {
+    counts: BTreeMap<Fault, u64>,
+    first: Vec<Mismatch>,
+    worst: BTreeMap<Quantity, Worst>,
+}
+
+/// Mismatches that a report keeps in full.
+const KEPT: usize = 5;
+
+impl Report {
+    /// Whether nothing is wrong.
+    #[must_use]
+    pub fn is_clean(&self) -> bool {
+        self.counts.is_empty()
+    }
+
+    /// How often `fault` was found.
+    #[must_use]
+    pub fn count(&self, fault: Fault) -> u64 {
+        self.counts.get(&fault).copied().unwrap_or(0)
+    }
+
+    /// The first few mismatches.
+    #[must_use]
+    pub fn first(&self) -> &[Mismatch] {
+        &self.first
+    }
+
+    /// The worst of `quantity`, zeros where it was not measured.
+    #[must_use]
+    pub fn worst(&self, quantity: Quantity) -> Worst {
+        self.worst.get(&quantity).copied().unwrap_or_default()
+    }
+
+    /// Takes over the faults that `other` found; what it measured stays its own.
+    pub fn absorb(&mut self, other: Self) {
+        for (fault, count) in other.counts {
+            *self.counts.entry(fault).or_default() += count;
+        }
+        let room = KEPT.saturating_sub(self.first.len());
+        self.first.extend(other.first.into_iter().take(room));
+    }
+
+    /// Notes that something is wrong.
+    pub fn note(&mut self, fault: Fault, place: Place, expected: impl fmt::Debug, actual: impl fmt::Debug) {
+        *self.counts.entry(fault).or_default() += 1;
+        if self.first.len() < KEPT {
+            let (expected, actual) = (format!("{expected:?}"), format!("{actual:?}"));
+            self.first.push(Mismatch { fault, place, expected, actual });
+        }
+    }
+
+    /// Notes that two counts differ, if they do, and gives back whether they agree.
+    pub fn note_count(&mut self, what: &str, place: Place, expected: u64, actual: u64) -> bool {
+        if expected != actual {
+            self.note(Fault::Count, place, format_args!("{expected} {what}"), actual);
+        }
+        expected == actual
+    }
+
+    /// Measures `error` in units of `unit`, of which `allowed` are too few to matter; more is a fault.
+    fn measure(&mut self, quantity: Quantity, error: f64, allowed: f64, unit: f64) -> bool {
+        let worst = self.worst.entry(quantity).or_default();
+        if allowed <= 2.0 * quantity.bound() * unit {
+            worst.error = worst.error.max(error / unit);
+        }
+        worst.share = worst.share.max(error / allowed);
+        error <= allowed
+    }
+
+    /// [`Report::measure`], and notes the fault; gives back whether all is well.
+    pub(super) fn check(
+        &mut self,
+        quantity: Quantity,
+        place: Place,
+        [error, allowed, unit]: [f64; 3],
+        values: (impl fmt::Debug, impl fmt::Debug),
+    ) -> bool {
+        let good = self.measure(quantity, error, allowed, unit);
+        if !good {
+            self.note(quantity.fault(), place, values.0, values.1);
+        }
+        good
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for mismatch in &self.first {
+            writeln!(f, "{mismatch}")?;
+        }
+        let total: u64 = self.counts.values().sum();
+        write!(f, "{total} mismatches:")?;
+        for (fault, count) in &self.counts {
+            write!(f, " {count} {fault:?}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,229 @@
+//! Drives a backend's session by hand, into poisoned memory, and keeps all that it hands over.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use texere_core::{
+    Backend, BackendError, Chunk, Limits, MeshMut, MeshPiece, Plan, PlanError, Ring, Session, Turn, Vertex,
+    Yarns,
+};
+use thiserror::Error;
+
+use crate::compare::{Fault, Place, Report};
+
+/// What keeps a case from being run at all.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum DriveError {
+    /// The case's settings can't be planned for, or its chunks don't fit the device.
+    #[error("the case can't be planned")]
+    Plan(#[from] PlanError),
+    /// The backend failed.
+    #[error("the backend failed")]
+    Backend(#[from] BackendError),
+}
+
+/// A NaN that no arithmetic makes: what it covers was never written.
+const POISON: f32 = f32::from_bits(0x7fc0_bad1);
+
+/// A vertex that was never written.
+pub(crate) const POISONED_VERTEX: Vertex = Vertex { position: [POISON; 3], normal: [POISON; 3] };
+
+/// A ring that was never written.
+pub(crate) const POISONED_RING: Ring =
+    Ring { centre: [POISON; 3], radius: POISON, tangent: [POISON; 3], roll: Turn(0x7fc0_bad1) };
+
+/// An index that was never written; no chunk has so many vertices.
+pub(crate) const POISONED_INDEX: u32 = u32::MAX;
+
+/// Whether `value` is what memory was filled with before the backend ran.
+pub(crate) fn is_poison(value: f32) -> bool {
+    value.to_bits() == POISON.to_bits()
+}
+
+/// The ways through a session; all of them must give the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Straight into the caller's memory, both stages in one; rings from a stage of their own afterwards.
+    Into,
+    /// Two chunks in flight: one is worked on while the one before is read. Control points come in pieces.
+    Streamed,
+    /// Stage 1, read, stage 2, read; control points come in pieces, the last piece first.
+    Staged,
+}
+
+/// All that a backend handed over, chunk by chunk.
+#[derive(Debug)]
+pub struct Output {
+    /// The plan that it was asked for.
+    pub plan: Arc<Plan>,
+    /// The chunks.
+    pub chunks: Vec<Chunk>,
+    /// What came for each of them.
+    pub meshes: Vec<ChunkOutput>,
+}
+
+/// All that a backend handed over for a chunk, as long as planned.
+#[derive(Debug)]
+pub struct ChunkOutput {
+    /// Its rings.
+    pub rings: Vec<Ring>,
+    /// Its vertices.
+    pub vertices: Vec<Vertex>,
+    /// Its indices.
+    pub indices: Vec<u32>,
+}
+
+impl ChunkOutput {
+    fn poisoned(chunk: &Chunk) -> Self {
+        Self {
+            rings: vec![POISONED_RING; chunk.rings as usize],
+            vertices: vec![POISONED_VERTEX; chunk.vertices as usize],
+            indices: vec![POISONED_INDEX; chunk.indices as usize],
+        }
+    }
+}
+
+/// Control points that a piecewise upload sends at a time: many pieces even for a small fabric, and never whole yarns.
+const PIECE_POINTS: usize = 7;
+
+/// Pieces that a piecewise upload is cut into at most.
+const PIECES: usize = 100;
+
+/// Runs `yarns` through a new session of `device`, chunks cut to `limits` and the device's own, by `way`.
+///
+/// What breaks the rules of a session (too many pieces, or out of order) goes to `report`; what the output is worth is
+/// for a comparison to say.
+///
+/// **Errors**: [`DriveError`] where plan or backend give up.
+pub fn drive(
+    device: &dyn Backend,
+    plan: &Arc<Plan>,
+    yarns: &Yarns,
+    limits: &Limits,
+    way: Way,
+    report: &mut Report,
+) -> Result<Output, DriveError> {
+    let mut session = device.session(plan.clone())?;
+    upload(&mut *session, yarns, way)?;
+    if plan.needs_scan() {
+        session.scan()?;
+    }
+    let chunks: Vec<Chunk> = plan.chunks(&limits.min(&device.info().limits))?.collect();
+    let mut meshes: Vec<_> = chunks.iter().map(ChunkOutput::poisoned).collect();
+    if let (Way::Streamed, Some(first)) = (way, chunks.first()) {
+        session.mesh(first)?;
+    }
+    for (number, (chunk, output)) in chunks.iter().zip(&mut meshes).enumerate() {
+        match way {
+            Way::Into => {
+                let out = MeshMut { vertices: &mut output.vertices, indices: &mut output.indices };
+                session.mesh_into(chunk, out)?;
+                session.trajectory(chunk)?;
+                read_rings(&mut *session, chunk, output, report)?;
+            }
+            Way::Streamed => {
+                if let Some(next) = chunks.get(number + 1) {
+                    session.mesh(next)?;
+                }
+                read_mesh(&mut *session, chunk, output, report)?;
+                read_rings(&mut *session, chunk, output, report)?;
+            }
+            Way::Staged => {
+                session.trajectory(chunk)?;
+                read_rings(&mut *session, chunk, output, report)?;
+                session.mesh(chunk)?;
+                read_mesh(&mut *session, chunk, output, report)?;
+            }
+        }
+    }
+    Ok(Output { plan: plan.clone(), chunks, meshes })
+}
+
+fn upload(session: &mut dyn Session, yarns: &Yarns, way: Way) -> Result<(), BackendError> {
+    let points = yarns.points();
+    if way == Way::Into {
+        return session.upload(0, points);
+    }
+    let size = PIECE_POINTS.max(points.len().div_ceil(PIECES));
+    let pieces = points.chunks(size).enumerate().map(|(number, piece)| ((number * size) as u64, piece));
+    let pieces: Vec<_> = if way == Way::Streamed { pieces.collect() } else { pieces.rev().collect() };
+    pieces.into_iter().try_for_each(|(first, piece)| session.upload(first, piece))
+}
+
+/// Copies `piece` to `out` from `at` on, where it must follow what came before; gives back whether it fits.
+fn take<T: Copy>(
+    what: &str,
+    done: &mut usize,
+    at: usize,
+    piece: &[T],
+    out: &mut [T],
+    report: &mut Report,
+) -> bool {
+    let follows = report.note_count(
+        &format!("{what} before the next piece"),
+        Place::default(),
+        *done as u64,
+        at as u64,
+    );
+    if !follows {
+        return false;
+    }
+    let Some(room) = out.get_mut(at..at + piece.len()) else {
+        report.note(Fault::Count, Place::default(), format_args!("{} {what}", out.len()), at + piece.len());
+        return false;
+    };
+    room.copy_from_slice(piece);
+    *done += piece.len();
+    true
+}
+
+fn read_rings(
+    session: &mut dyn Session,
+    chunk: &Chunk,
+    output: &mut ChunkOutput,
+    report: &mut Report,
+) -> Result<(), BackendError> {
+    let mut done = 0;
+    let answer = session.read_trajectory(chunk, &mut |piece| {
+        let at = done;
+        proceed(take("rings", &mut done, at, piece, &mut output.rings, report))
+    })?;
+    note_end("rings", answer, done, output.rings.len(), report);
+    Ok(())
+}
+
+fn read_mesh(
+    session: &mut dyn Session,
+    chunk: &Chunk,
+    output: &mut ChunkOutput,
+    report: &mut Report,
+) -> Result<(), BackendError> {
+    let ChunkOutput { vertices: all_vertices, indices: all_indices, .. } = output;
+    let (mut vertices_done, mut indices_done) = (0, 0);
+    let answer = session.read_mesh(chunk, &mut |piece| match piece {
+        MeshPiece::Vertices { first, vertices } => {
+            report.note_count("indices before the last vertex", Place::default(), 0, indices_done as u64);
+            let (done, at) = (&mut vertices_done, first as usize);
+            proceed(take("vertices", done, at, vertices, all_vertices, report))
+        }
+        MeshPiece::Indices { first, indices } => {
+            proceed(take("indices", &mut indices_done, first as usize, indices, all_indices, report))
+        }
+        _ => ControlFlow::Continue(()),
+    })?;
+    note_end("vertices", answer, vertices_done, all_vertices.len(), report);
+    note_end("indices", answer, indices_done, all_indices.len(), report);
+    Ok(())
+}
+
+fn proceed(fits: bool) -> ControlFlow<()> {
+    if fits { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+}
+
+/// Notes what never came. After a sink has broken off, that is its own doing.
+fn note_end(what: &str, answer: ControlFlow<()>, done: usize, planned: usize, report: &mut Report) {
+    if answer.is_continue() && done < planned {
+        report.note(Fault::Missing, Place::default(), format_args!("{planned} {what}"), done);
+    }
+}

@@ -1,0 +1,57 @@
+//! Frames in f64: the upright one, and the one that is carried along without turning.
+
+use glam::DVec3;
+
+/// Side and up of the upright frame: side = z × t, level; up = t × side. Within 1e-6 of z the side is +y.
+pub(super) fn upright(tangent: DVec3) -> (DVec3, DVec3) {
+    let level = DVec3::Z.cross(tangent);
+    let side = if level.length() < 1e-6 { DVec3::Y } else { level.normalize() };
+    (side, tangent.cross(side))
+}
+
+/// `side` of the ring with `tangent`, carried over `chord` to the ring with `next` as tangent.
+///
+/// **Source**: double reflection, Wang, Jüttler, Zheng and Liu, ACM TOG 27(1), 2008. The first reflection maps one
+/// centre to the other, the second the reflected tangent to the next tangent. Rings that coincide have no chord: the
+/// tangent stands in for it. Where a yarn turns straight back any second reflection across the tangent would do: since
+/// rolls are turns of the upright frame, it is the one that leaves the upright side where it is.
+pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) -> DVec3 {
+    let across = if chord.length_squared() <= 1e-30 { tangent } else { chord.normalize() };
+    let (side, reflected) = (mirror(side, across), mirror(tangent, across));
+    let between = next - reflected;
+    let between = if between.length_squared() <= 1e-6 { upright(tangent).1 } else { between.normalize() };
+    let side = mirror(side, between);
+    // What rounding leaves along the tangent must not add up over a million rings.
+    (side - next * side.dot(next)).normalize()
+}
+
+fn mirror(v: DVec3, normal: DVec3) -> DVec3 {
+    v - normal * (2.0 * v.dot(normal))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn upright_frames_are_right_handed_and_level() {
+        for tangent in [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::Z, DVec3::new(1.0, -2.0, 3.0).normalize()] {
+            let (side, up) = upright(tangent);
+            assert!((side.cross(up) - tangent).length() < 1e-12, "{tangent}");
+            assert_eq!(side.z, 0.0, "{tangent}");
+        }
+    }
+
+    /// Along a circle, carried without turning, the part across the circle's plane stays, and the part in it follows
+    /// the radius.
+    #[test]
+    fn transport_round_an_arc_turns_with_the_radius() {
+        let at = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let tangent = |angle: f64| DVec3::new(-angle.sin(), angle.cos(), 0.0);
+        for angle in [1e-6, 0.1, 1.0, 3.0] {
+            let start = (at(0.0) + DVec3::Z * 2.0).normalize();
+            let carried = transport(start, tangent(0.0), tangent(angle), at(angle) - at(0.0));
+            assert!((carried - (at(angle) + DVec3::Z * 2.0).normalize()).length() < 1e-12, "{angle}");
+        }
+    }
+}

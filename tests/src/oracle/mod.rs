@@ -1,0 +1,221 @@
+//! What is right: the whole pipeline in f64, slow and plain.
+//!
+//! It is written from the definitions (the paper's equations, the documents of the core's types) and calls none of the
+//! core's geometry, so that an error in the one is not an error in the other. Control points are taken as exact.
+//!
+//! Where there is a choice it takes another road than the core: the spline is the paper's basis instead of powers of t,
+//! the rotation-minimising frame is a vector carried along instead of a sum of turns, areas of sections are closed
+//! forms instead of polygons.
+
+mod frame;
+mod section;
+mod spline;
+mod triangles;
+
+pub use section::{OutlinePoint, outline};
+pub use triangles::{Flaw, cap_flaw, quad_indices};
+
+use glam::DVec3;
+use texere_core::{ControlPoint, Frame, Settings, Topology, Yarn, Yarns};
+
+use frame::{transport, upright};
+use spline::Curve;
+
+/// One ring as it should be.
+#[derive(Debug, Clone, Copy)]
+pub struct OracleRing {
+    /// Centre, mm.
+    pub centre: DVec3,
+    /// Radius, mm.
+    pub radius: f64,
+    /// Unit tangent.
+    pub tangent: DVec3,
+    /// dr/ds, mm per mm.
+    pub slope: f64,
+    /// Turn against the upright frame, in turns; what twist adds to it is not reduced to one turn.
+    pub roll: f64,
+    /// Twist from the yarn's start up to here, rad, without regard to sign: what the allowed drift grows with.
+    pub twist: f64,
+    /// Twist over the whole control interval that the ring lies in, rad, without regard to sign.
+    pub interval_twist: f64,
+    /// The largest coordinate, without regard to sign, of the four control points that it comes from, mm: what f32 has
+    /// to share its digits with.
+    pub extent: f64,
+    /// Where the section's x axis points.
+    pub side: DVec3,
+    /// Where the section's y axis points.
+    pub up: DVec3,
+}
+
+/// One yarn as it should be.
+#[derive(Debug, Clone)]
+pub struct OracleYarn {
+    /// Its rings; the last of a closed yarn is a copy of the first.
+    pub rings: Vec<OracleRing>,
+    /// Which of the outlines stands on them.
+    pub section: usize,
+    /// Whether its ends join.
+    pub closed: bool,
+    /// What a closed yarn's whole turn exceeds a whole number of turns by, in \[-1/2, 1/2): near either end, rounding
+    /// decides which way round it is spread.
+    pub excess: f64,
+}
+
+/// A fabric as it should be.
+///
+/// ```
+/// use texere_conformance::oracle::Oracle;
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 2.0, 4.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.5)));
+/// let oracle = Oracle::new(&yarns.build()?, &Settings::default());
+/// // Five rings; the fourth one's side points to +y, half a radius off the yarn's axis.
+/// assert_eq!(oracle.counts().rings, 5);
+/// assert_eq!(oracle.vertex(0, 3, 0).0.to_array(), [3.0, 0.5, 0.0]);
+/// # Ok::<(), texere_core::YarnError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Oracle {
+    /// The yarns.
+    pub yarns: Vec<OracleYarn>,
+    /// The outline of each section, in radii.
+    pub outlines: Vec<Vec<OutlinePoint>>,
+    /// What was asked for.
+    pub settings: Settings,
+}
+
+/// How many of everything there should be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OracleCounts {
+    /// Rings of all yarns.
+    pub rings: u64,
+    /// Vertices, caps included.
+    pub vertices: u64,
+    /// Triangles, caps included.
+    pub triangles: u64,
+    /// Stored indices: three a triangle, the shared pattern's, or none.
+    pub indices: u64,
+}
+
+impl Oracle {
+    /// Works out `yarns` under `settings`.
+    #[must_use]
+    pub fn new(yarns: &Yarns, settings: &Settings) -> Self {
+        let layout = yarns.layout();
+        let all_points =
+            layout.offsets().windows(2).map(|bounds| &yarns.points()[bounds[0] as usize..bounds[1] as usize]);
+        Self {
+            yarns: layout
+                .yarns()
+                .iter()
+                .zip(all_points)
+                .map(|(yarn, points)| follow(yarn, points, settings))
+                .collect(),
+            outlines: layout.sections().iter().map(|section| outline(section, settings.sides)).collect(),
+            settings: *settings,
+        }
+    }
+
+    /// How many of everything there should be.
+    #[must_use]
+    pub fn counts(&self) -> OracleCounts {
+        let sides = u64::from(self.settings.sides);
+        let mut counts = OracleCounts { rings: 0, vertices: 0, triangles: 0, indices: 0 };
+        let mut most_gaps = 0;
+        for yarn in &self.yarns {
+            let rings = yarn.rings.len() as u64;
+            let caps = if self.settings.caps && !yarn.closed { 2 } else { 0 };
+            counts.rings += rings;
+            counts.vertices += (rings + caps) * sides;
+            counts.triangles += (rings - 1) * sides * 2 + caps * (sides - 2);
+            most_gaps = most_gaps.max(rings - 1);
+        }
+        counts.indices = match self.settings.topology {
+            Topology::Indexed => 3 * counts.triangles,
+            // The longest yarn's quads, but no more than the pattern covers; both caps of each section.
+            Topology::Shared => {
+                let caps = if self.settings.caps { 2 * self.outlines.len() as u64 } else { 0 };
+                most_gaps.min(8192) * sides * 6 + caps * (sides - 2) * 3
+            }
+            Topology::None => 0,
+        };
+        counts
+    }
+
+    /// Position (mm) and unit normal of vertex `point` of `ring` of `yarn`.
+    #[must_use]
+    pub fn vertex(&self, yarn: usize, ring: usize, point: usize) -> (DVec3, DVec3) {
+        let OracleYarn { rings, section, .. } = &self.yarns[yarn];
+        let (ring, at) = (&rings[ring], &self.outlines[*section][point]);
+        let position = ring.centre + (ring.side * at.x + ring.up * at.y) * ring.radius;
+        // Where the yarn grows thicker the surface leans back by the slope times how far out along its normal it lies.
+        let lean = ring.slope * (at.x * at.normal_x + at.y * at.normal_y);
+        (position, (ring.side * at.normal_x + ring.up * at.normal_y - ring.tangent * lean).normalize())
+    }
+}
+
+/// All rings of a yarn.
+fn follow(yarn: &Yarn, points: &[ControlPoint], settings: &Settings) -> OracleYarn {
+    let curve = Curve::new(points, yarn.closed, settings);
+    let places: Vec<_> = (0..curve.ring_count()).map(|ring| curve.at(ring)).collect();
+    let (mut carried, mut turned, mut twisted) = (upright(places[0].tangent).0, 0.0, 0.0);
+    let mut rings = Vec::with_capacity(places.len());
+    for (number, place) in places.iter().enumerate() {
+        let (side, up) = upright(place.tangent);
+        let own = match settings.frame {
+            Frame::Upright => 0.0,
+            Frame::RotationMinimizing => carried.dot(up).atan2(carried.dot(side)) / std::f64::consts::TAU,
+        };
+        rings.push(OracleRing {
+            centre: place.centre,
+            radius: place.radius,
+            tangent: place.tangent,
+            slope: place.slope,
+            roll: own + turned,
+            twist: twisted,
+            interval_twist: 0.0,
+            extent: place.extent,
+            side,
+            up,
+        });
+        if let Some(next) = places.get(number + 1) {
+            let chord = curve.chord(number as u64);
+            carried = transport(carried, place.tangent, next.tangent, chord);
+            let twist = f64::from(yarn.twist) * chord.length();
+            turned += twist / std::f64::consts::TAU;
+            twisted += twist.abs();
+        }
+    }
+    note_interval_twist(&mut rings, settings.subdivisions as usize + 1);
+    let excess = if yarn.closed { close(&mut rings) } else { 0.0 };
+    for ring in &mut rings {
+        let (sin, cos) = (ring.roll * std::f64::consts::TAU).sin_cos();
+        (ring.side, ring.up) = (ring.side * cos + ring.up * sin, ring.up * cos - ring.side * sin);
+    }
+    OracleYarn { rings, section: yarn.section as usize, closed: yarn.closed, excess }
+}
+
+/// Notes the twist of each control interval, from its first ring to the next one's, at all of its rings.
+fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
+    let starts: Vec<_> = rings.iter().step_by(per_interval).map(|ring| ring.twist).collect();
+    for (interval, bounds) in starts.windows(2).enumerate() {
+        let first = interval * per_interval;
+        // The knot at the end belongs to the next interval, but for a yarn's last one.
+        for ring in &mut rings[first..=first + per_interval] {
+            ring.interval_twist = bounds[1] - bounds[0];
+        }
+    }
+}
+
+/// Spreads what is missing to a whole number of turns over a closed yarn, and closes it with a copy of its first ring.
+fn close(rings: &mut [OracleRing]) -> f64 {
+    let gaps = rings.len() - 1;
+    let whole = rings[gaps].roll;
+    let excess = whole - (whole + 0.5).floor();
+    for (number, ring) in rings.iter_mut().enumerate() {
+        ring.roll -= excess * number as f64 / gaps as f64;
+    }
+    let twist = rings[gaps].twist;
+    rings[gaps] = OracleRing { twist, ..rings[0] };
+    excess
+}

@@ -1,0 +1,178 @@
+//! The cardinal spline in f64: the paper's equations 1 to 4, as they stand there.
+
+use glam::DVec3;
+use texere_core::{ControlPoint, Settings};
+
+/// A yarn's centreline.
+pub(super) struct Curve<'a> {
+    points: &'a [ControlPoint],
+    closed: bool,
+    /// K + 1.
+    per_interval: u64,
+    s: f64,
+}
+
+/// The centreline at one ring.
+pub(super) struct Place {
+    /// Centre, mm.
+    pub(super) centre: DVec3,
+    /// Radius, mm.
+    pub(super) radius: f64,
+    /// Unit tangent.
+    pub(super) tangent: DVec3,
+    /// dr/ds.
+    pub(super) slope: f64,
+    /// Largest coordinate of the four control points, mm.
+    pub(super) extent: f64,
+}
+
+/// Four control points and the weights that an order of derivative gives them.
+struct Interval {
+    /// Relative to the interval's first point, which keeps coinciding points exactly coinciding.
+    positions: [DVec3; 4],
+    radii: [f64; 4],
+    start: DVec3,
+}
+
+/// The weights of the four points at t (equation 1), and their first three derivatives.
+fn weights(s: f64, t: f64) -> [[f64; 4]; 4] {
+    let (t2, t3) = (t * t, t * t * t);
+    [
+        [
+            -s * t + 2.0 * s * t2 - s * t3,
+            1.0 + (s - 3.0) * t2 + (2.0 - s) * t3,
+            s * t + (3.0 - 2.0 * s) * t2 + (s - 2.0) * t3,
+            -s * t2 + s * t3,
+        ],
+        [
+            -s + 4.0 * s * t - 3.0 * s * t2,
+            2.0 * (s - 3.0) * t + 3.0 * (2.0 - s) * t2,
+            s + 2.0 * (3.0 - 2.0 * s) * t + 3.0 * (s - 2.0) * t2,
+            -2.0 * s * t + 3.0 * s * t2,
+        ],
+        [
+            4.0 * s - 6.0 * s * t,
+            2.0 * (s - 3.0) + 6.0 * (2.0 - s) * t,
+            2.0 * (3.0 - 2.0 * s) + 6.0 * (s - 2.0) * t,
+            -2.0 * s + 6.0 * s * t,
+        ],
+        [-6.0 * s, 6.0 * (2.0 - s), 6.0 * (s - 2.0), 6.0 * s],
+    ]
+}
+
+impl Interval {
+    fn position(&self, weights: [f64; 4]) -> DVec3 {
+        self.positions.iter().zip(weights).map(|(point, weight)| *point * weight).sum()
+    }
+
+    fn radius(&self, weights: [f64; 4]) -> f64 {
+        self.radii.iter().zip(weights).map(|(radius, weight)| radius * weight).sum()
+    }
+
+    /// The square under which a derivative counts as none, mm²: a millionth of the interval's size, and never less than
+    /// what f32 can square.
+    fn at_rest(&self) -> f64 {
+        let size: f64 = self.positions.iter().map(|point| point.length_squared()).sum();
+        (1e-12 * size).max(1e-30)
+    }
+
+    fn extent(&self) -> f64 {
+        let furthest = |point: &DVec3| (self.start + *point).abs().max_element();
+        self.positions.iter().map(furthest).fold(0.0, f64::max)
+    }
+
+    /// The tangent at t: along the first derivative that does not vanish, +x where all do. The way that a yarn takes
+    /// right after, but at t = 1, where a yarn ends, the way it took right before: then odd orders keep their sign and
+    /// the second changes it.
+    fn tangent(&self, orders: [[f64; 4]; 4], t: f64) -> DVec3 {
+        let before = if t < 1.0 { 1.0 } else { -1.0 };
+        for (order, sign) in [(1, 1.0), (2, before), (3, 1.0)] {
+            let derivative = self.position(orders[order]);
+            if derivative.length_squared() > self.at_rest() {
+                return derivative.normalize() * sign;
+            }
+        }
+        DVec3::X
+    }
+
+    /// dr/ds, none where the yarn stands still.
+    fn slope(&self, orders: [[f64; 4]; 4]) -> f64 {
+        let velocity = self.position(orders[1]);
+        if velocity.length_squared() > self.at_rest() {
+            (self.radius(orders[1]) / velocity.length()).clamp(-1e4, 1e4)
+        } else {
+            0.0
+        }
+    }
+}
+
+impl<'a> Curve<'a> {
+    pub(super) fn new(points: &'a [ControlPoint], closed: bool, settings: &Settings) -> Self {
+        let s = (1.0 - f64::from(settings.tension)) / 2.0;
+        Self { points, closed, per_interval: u64::from(settings.subdivisions) + 1, s }
+    }
+
+    /// One for each control interval's start and inserted points, and one for the end.
+    pub(super) fn ring_count(&self) -> u64 {
+        let intervals = self.points.len() as u64 - u64::from(!self.closed);
+        intervals * self.per_interval + 1
+    }
+
+    /// Control point `index`, which may be the virtual one before the first or after the last.
+    fn point(&self, index: i64) -> (DVec3, f64) {
+        let count = self.points.len() as i64;
+        let exact = |at: i64| {
+            let point = &self.points[at as usize];
+            (DVec3::new(point.x.into(), point.y.into(), point.z.into()), f64::from(point.radius))
+        };
+        let reflect = |end: i64, inner: i64| {
+            let ((end, end_radius), (inner, inner_radius)) = (exact(end), exact(inner));
+            (end * 2.0 - inner, end_radius * 2.0 - inner_radius)
+        };
+        match index {
+            _ if self.closed => exact(index.rem_euclid(count)),
+            -1 => reflect(0, 1),
+            _ if index == count => reflect(count - 1, count - 2),
+            _ => exact(index),
+        }
+    }
+
+    fn interval(&self, number: u64) -> Interval {
+        let points = [-1, 0, 1, 2].map(|step| self.point(number as i64 + step));
+        let start = points[1].0;
+        Interval { positions: points.map(|point| point.0 - start), radii: points.map(|point| point.1), start }
+    }
+
+    /// The interval that a ring is evaluated in, and t: an open yarn ends at t = 1 of its last interval.
+    fn locate(&self, ring: u64) -> (u64, f64) {
+        let (interval, step) = (ring / self.per_interval, ring % self.per_interval);
+        if !self.closed && ring + 1 == self.ring_count() {
+            (interval - 1, 1.0)
+        } else {
+            (interval, step as f64 / self.per_interval as f64)
+        }
+    }
+
+    pub(super) fn at(&self, ring: u64) -> Place {
+        let (number, t) = self.locate(ring);
+        let (interval, orders) = (self.interval(number), weights(self.s, t));
+        let radius = interval.radius(orders[0]);
+        // The tube never gets thinner than half the thinner of the two places that it joins.
+        let least = 0.5 * interval.radii[1].min(interval.radii[2]);
+        Place {
+            centre: interval.start + interval.position(orders[0]),
+            radius: radius.max(least),
+            tangent: interval.tangent(orders, t),
+            slope: if radius < least { 0.0 } else { interval.slope(orders) },
+            extent: interval.extent(),
+        }
+    }
+
+    /// From a ring's centre to the next one's.
+    pub(super) fn chord(&self, ring: u64) -> DVec3 {
+        let (number, step) = (ring / self.per_interval, ring % self.per_interval);
+        let interval = self.interval(number);
+        let at = |step: u64| interval.position(weights(self.s, step as f64 / self.per_interval as f64)[0]);
+        at(step + 1) - at(step)
+    }
+}

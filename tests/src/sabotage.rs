@@ -1,0 +1,298 @@
+//! Broken backends: each does one thing wrong, and the suite has to notice.
+
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use glam::Vec3;
+use texere_core::{
+    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Limits, MeshMut, MeshPiece, Plan, Ring, Session,
+    StageTimings, Turn, Vertex,
+};
+use texere_cpu::SerialBackend;
+
+use crate::compare::Fault;
+use crate::drive::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+
+/// What a broken backend does wrong. Unless it says otherwise it does so once, in its second chunk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Sabotage {
+    /// Nothing.
+    None,
+    /// One vertex lies a thousandth of the radius beside its place.
+    ShiftedVertex,
+    /// Two indices have changed places.
+    SwappedIndices,
+    /// Nothing but zeros, as from a device that lost its launch.
+    Zeros,
+    /// One coordinate is NaN.
+    NotANumber,
+    /// One normal is infinite.
+    Infinity,
+    /// One chunk is never written.
+    MissingChunk,
+    /// The last piece never comes.
+    MissingPiece,
+    /// A piece comes under the wrong number.
+    MisplacedPiece,
+    /// One ring's section is turned by a hundredth of a radian.
+    RolledSection,
+    /// Two yarns of the same length have changed places, in the first chunk.
+    SwappedYarns,
+    /// One ring is a thousandth too thick.
+    ThickRing,
+    /// One tangent points backward.
+    ReversedTangent,
+    /// One normal points inward.
+    InwardNormal,
+    /// The ring that a cut repeats differs in the last bit.
+    LooseSeam,
+    /// One vertex differs in the last bit: a fault only of a backend that promises equal bits.
+    LastBit,
+    /// A cap covers a part of itself twice, in every chunk that has one.
+    OpenCap,
+}
+
+impl Sabotage {
+    /// All that no backend may do.
+    pub const ALL: [Self; 15] = [
+        Self::ShiftedVertex,
+        Self::SwappedIndices,
+        Self::Zeros,
+        Self::NotANumber,
+        Self::Infinity,
+        Self::MissingChunk,
+        Self::MissingPiece,
+        Self::MisplacedPiece,
+        Self::RolledSection,
+        Self::SwappedYarns,
+        Self::ThickRing,
+        Self::ReversedTangent,
+        Self::InwardNormal,
+        Self::LooseSeam,
+        Self::OpenCap,
+    ];
+
+    /// The faults that must be found, and no others.
+    #[must_use]
+    pub const fn faults(self) -> &'static [Fault] {
+        match self {
+            Self::None | Self::LastBit => &[],
+            Self::ShiftedVertex => &[Fault::Position],
+            Self::SwappedIndices | Self::OpenCap => &[Fault::Index],
+            // Bits, since the rings that it shares with the chunks beside it differ.
+            Self::Zeros => {
+                &[Fault::Position, Fault::Normal, Fault::Radius, Fault::Tangent, Fault::Index, Fault::Bits]
+            }
+            Self::NotANumber | Self::Infinity => &[Fault::NotFinite],
+            Self::MissingChunk => &[Fault::Missing, Fault::Bits],
+            Self::MissingPiece => &[Fault::Missing],
+            // What follows the misplaced piece is not taken.
+            Self::MisplacedPiece => &[Fault::Count, Fault::Missing, Fault::Bits],
+            Self::RolledSection => &[Fault::Position, Fault::Normal, Fault::Roll],
+            Self::SwappedYarns => &[Fault::Position],
+            Self::ThickRing => &[Fault::Radius],
+            Self::ReversedTangent => &[Fault::Tangent],
+            Self::InwardNormal => &[Fault::Normal],
+            Self::LooseSeam => &[Fault::Bits],
+        }
+    }
+}
+
+/// The serial backend with a fault built in. Its chunks are one block each.
+#[derive(Debug)]
+pub struct SabotagedBackend {
+    info: DeviceInfo,
+    serial: SerialBackend,
+    sabotage: Sabotage,
+}
+
+impl SabotagedBackend {
+    /// Breaks the serial backend.
+    #[must_use]
+    pub fn new(sabotage: Sabotage) -> Self {
+        let serial = SerialBackend::new();
+        let limits = Limits { blocks: 2, ..Limits::NONE };
+        let info = DeviceInfo { name: format!("{sabotage:?}"), limits, ..serial.info().clone() };
+        Self { info, serial, sabotage }
+    }
+}
+
+impl Backend for SabotagedBackend {
+    fn info(&self) -> &DeviceInfo {
+        &self.info
+    }
+
+    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
+        let serial = self.serial.session(plan.clone())?;
+        Ok(Box::new(SabotagedSession { plan, serial, sabotage: self.sabotage }))
+    }
+}
+
+#[derive(Debug)]
+struct SabotagedSession {
+    plan: Arc<Plan>,
+    serial: Box<dyn Session>,
+    sabotage: Sabotage,
+}
+
+/// The chunk that most sabotage happens in.
+const VICTIM: u64 = 1;
+
+impl SabotagedSession {
+    fn spoil_rings(&self, chunk: &Chunk, rings: &mut [Ring]) {
+        let victim = chunk.index == VICTIM;
+        match self.sabotage {
+            Sabotage::Zeros if victim => rings.fill(Ring::default()),
+            Sabotage::MissingChunk if victim => rings.fill(POISONED_RING),
+            Sabotage::RolledSection if victim => {
+                rings[10].roll = rings[10].roll + Turn::from_turns((0.01 / TAU) as f32);
+            }
+            Sabotage::ThickRing if victim => rings[10].radius *= 1.001,
+            Sabotage::ReversedTangent if victim => {
+                rings[10].tangent = (-Vec3::from(rings[10].tangent)).into();
+            }
+            Sabotage::SwappedYarns => swap_yarns(chunk, 1, rings),
+            _ => {}
+        }
+    }
+
+    fn spoil_mesh(&self, chunk: &Chunk, vertices: &mut [Vertex], indices: &mut [u32]) {
+        let sides = self.plan.settings().sides as usize;
+        let victim = chunk.index == VICTIM;
+        match self.sabotage {
+            Sabotage::ShiftedVertex if victim => {
+                let centre = ring_centre(&vertices[10 * sides..11 * sides]);
+                let vertex = &mut vertices[10 * sides + 2];
+                let shift = (Vec3::from(vertex.position) - centre) * 1e-3;
+                vertex.position = (Vec3::from(vertex.position) + shift).into();
+            }
+            Sabotage::SwappedIndices if victim => indices.swap(100, 101),
+            Sabotage::Zeros if victim => {
+                vertices.fill(Vertex::default());
+                indices.fill(0);
+            }
+            Sabotage::NotANumber if victim => vertices[70].position[1] = f32::NAN,
+            Sabotage::Infinity if victim => vertices[70].normal[2] = f32::NEG_INFINITY,
+            Sabotage::MissingChunk if victim => {
+                vertices.fill(POISONED_VERTEX);
+                indices.fill(POISONED_INDEX);
+            }
+            Sabotage::RolledSection if victim => roll(&mut vertices[10 * sides..11 * sides]),
+            Sabotage::SwappedYarns => swap_yarns(chunk, sides, vertices),
+            Sabotage::InwardNormal if victim => {
+                vertices[70].normal = (-Vec3::from(vertices[70].normal)).into();
+            }
+            Sabotage::LastBit if victim => {
+                let first = &mut vertices[0].position[0];
+                *first = first.next_up();
+            }
+            Sabotage::LooseSeam if victim && chunk.repeats_ring => {
+                let last = &mut vertices[chunk.rings as usize * sides - 1].position[0];
+                *last = last.next_up();
+            }
+            Sabotage::OpenCap => {
+                for cap in &chunk.caps {
+                    let first = cap.first_index as usize;
+                    indices.copy_within(first..first + 3, first + 3);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The middle of a ring of vertices.
+fn ring_centre(ring: &[Vertex]) -> Vec3 {
+    ring.iter().map(|vertex| Vec3::from(vertex.position)).sum::<Vec3>() / ring.len() as f32
+}
+
+/// Turns a ring of vertices by a hundredth of a radian.
+fn roll(ring: &mut [Vertex]) {
+    let centre = ring_centre(ring);
+    let arms = [0, 1].map(|k: usize| Vec3::from(ring[k].position) - centre);
+    let axis = arms[0].cross(arms[1]).normalize();
+    let turned = |v: Vec3| glam::Quat::from_axis_angle(axis, 0.01) * v;
+    for vertex in ring {
+        vertex.position = (centre + turned(Vec3::from(vertex.position) - centre)).into();
+        vertex.normal = turned(vertex.normal.into()).into();
+    }
+}
+
+/// Exchanges the first two parts of a chunk that are equally long; `per_ring` values belong to each ring.
+fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
+    if let [first, second, ..] = &chunk.parts[..]
+        && first.rings == second.rings
+    {
+        let (one, other) = values.split_at_mut(first.rings as usize * per_ring);
+        one.swap_with_slice(&mut other[..second.rings as usize * per_ring]);
+    }
+}
+
+impl Session for SabotagedSession {
+    fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), BackendError> {
+        self.serial.upload(first, points)
+    }
+
+    fn scan(&mut self) -> Result<(), BackendError> {
+        self.serial.scan()
+    }
+
+    fn trajectory(&mut self, chunk: &Chunk) -> Result<(), BackendError> {
+        self.serial.trajectory(chunk)
+    }
+
+    fn mesh(&mut self, chunk: &Chunk) -> Result<(), BackendError> {
+        self.serial.mesh(chunk)
+    }
+
+    fn read_trajectory(
+        &mut self,
+        chunk: &Chunk,
+        sink: &mut dyn FnMut(&[Ring]) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let mut rings = Vec::new();
+        let _ = self.serial.read_trajectory(chunk, &mut |piece| {
+            rings.extend_from_slice(piece);
+            ControlFlow::Continue(())
+        })?;
+        self.spoil_rings(chunk, &mut rings);
+        Ok(sink(&rings))
+    }
+
+    fn read_mesh(
+        &mut self,
+        chunk: &Chunk,
+        sink: &mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let (mut vertices, mut indices) = (Vec::new(), Vec::new());
+        let _ = self.serial.read_mesh(chunk, &mut |piece| {
+            match piece {
+                MeshPiece::Vertices { vertices: piece, .. } => vertices.extend_from_slice(piece),
+                MeshPiece::Indices { indices: piece, .. } => indices.extend_from_slice(piece),
+                _ => {}
+            }
+            ControlFlow::Continue(())
+        })?;
+        self.spoil_mesh(chunk, &mut vertices, &mut indices);
+        let first = u32::from(self.sabotage == Sabotage::MisplacedPiece && chunk.index == VICTIM);
+        let flow = sink(MeshPiece::Vertices { first, vertices: &vertices });
+        let withheld = self.sabotage == Sabotage::MissingPiece && chunk.index == VICTIM;
+        if flow.is_break() || withheld {
+            return Ok(flow);
+        }
+        Ok(sink(MeshPiece::Indices { first: 0, indices: &indices }))
+    }
+
+    fn mesh_into(&mut self, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
+        let MeshMut { vertices, indices } = out;
+        self.serial.mesh_into(chunk, MeshMut { vertices, indices })?;
+        self.spoil_mesh(chunk, vertices, indices);
+        Ok(())
+    }
+
+    fn timings(&self) -> StageTimings {
+        self.serial.timings()
+    }
+}

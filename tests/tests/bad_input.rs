@@ -1,0 +1,381 @@
+//! Whatever comes in, a named error comes out: never a panic, never a great deal of memory first.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use texere_conformance::REGISTRY;
+use texere_core::{
+    Backend, BackendError, Chunk, ControlPoint, Frame, Layout, Limits, Material, MeshMut, NullBackend,
+    Pipeline, PipelineError, Plan, PlanError, Section, SectionError, Session, Settings, Topology, Vertex,
+    Yarn, YarnError, Yarns,
+};
+
+fn straight(count: u16) -> Vec<ControlPoint> {
+    (0..count).map(|k| ControlPoint::new(k.into(), 0.0, 0.0, 0.1)).collect()
+}
+
+fn one_yarn(yarn: Yarn, points: &[ControlPoint]) -> Result<Yarns, YarnError> {
+    let mut yarns = Yarns::builder();
+    yarns.yarn(yarn, points);
+    yarns.build()
+}
+
+/// A good yarn, then one with `point` in the middle.
+fn with_point(point: ControlPoint) -> YarnError {
+    let mut yarns = Yarns::builder();
+    let mut spoilt = straight(5);
+    spoilt[2] = point;
+    yarns.yarn(Yarn::default(), &straight(3)).yarn(Yarn::default(), &spoilt);
+    yarns.build().unwrap_err()
+}
+
+fn with_section(section: Section) -> SectionError {
+    let mut yarns = Yarns::builder();
+    yarns.section(section);
+    yarns.yarn(Yarn::default(), &straight(3));
+    match yarns.build().unwrap_err() {
+        YarnError::Section { section: 0, source } => source,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn with_settings(settings: Settings) -> PlanError {
+    let yarns = one_yarn(Yarn::default(), &straight(100)).unwrap();
+    let planned = Pipeline::new(&yarns).settings(settings).mesh(&NullBackend::default()).unwrap_err();
+    match planned {
+        PipelineError::Plan(error) => error,
+        other => panic!("{other:?}"),
+    }
+}
+
+const NOT_NUMBERS: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+
+#[test]
+fn control_points_that_are_not_finite() {
+    for bad in NOT_NUMBERS {
+        for field in ["x", "y", "z", "radius"] {
+            let mut point = ControlPoint::new(2.0, 0.0, 0.0, 0.1);
+            match field {
+                "x" => point.x = bad,
+                "y" => point.y = bad,
+                "z" => point.z = bad,
+                _ => point.radius = bad,
+            }
+            let YarnError::NotFinite { yarn: 1, point: 2, field: named, value } = with_point(point) else {
+                panic!("{field} = {bad}");
+            };
+            assert_eq!((named, value.to_bits()), (field, bad.to_bits()));
+        }
+    }
+}
+
+#[test]
+fn control_points_out_of_range() {
+    for far in [1.1e9, -1.1e9, f32::MAX] {
+        let error = with_point(ControlPoint::new(2.0, far, 0.0, 0.1));
+        assert!(matches!(error, YarnError::TooFar { yarn: 1, point: 2, field: "y", .. }), "{error:?}");
+    }
+    for radius in [0.0, -0.0, -0.1, 1e-7, f32::MIN_POSITIVE, 1.1e6] {
+        let error = with_point(ControlPoint::new(2.0, 0.0, 0.0, radius));
+        assert!(matches!(error, YarnError::Radius { yarn: 1, point: 2, .. }), "{radius}: {error:?}");
+    }
+}
+
+#[test]
+fn too_few_points() {
+    assert_eq!(Yarns::builder().build().unwrap_err(), YarnError::NoYarns);
+    for (closed, points, least) in [(false, 0, 2), (false, 1, 2), (true, 0, 3), (true, 1, 3), (true, 2, 3)] {
+        let error = one_yarn(Yarn { closed, ..Yarn::default() }, &straight(points)).unwrap_err();
+        assert_eq!(error, YarnError::TooFewPoints { yarn: 0, points: points.into(), least, closed });
+    }
+}
+
+#[test]
+fn offsets_that_are_no_prefix_sums() {
+    let layout = |yarns: usize, offsets: Vec<u64>| {
+        Layout::new(vec![Yarn::default(); yarns], offsets, vec![Section::Circle]).unwrap_err()
+    };
+    assert_eq!(layout(2, vec![0, 5]), YarnError::OffsetCount { offsets: 2, yarns: 2 });
+    assert_eq!(layout(1, vec![]), YarnError::OffsetCount { offsets: 0, yarns: 1 });
+    assert!(matches!(layout(1, vec![3, 5]), YarnError::OffsetOrder { yarn: 0, .. }));
+    assert_eq!(layout(2, vec![0, 5, 2]), YarnError::OffsetOrder { yarn: 1, start: 5, end: 2 });
+}
+
+#[test]
+fn references_to_what_is_not_there() {
+    let error = one_yarn(Yarn { material: 3, ..Yarn::default() }, &straight(3)).unwrap_err();
+    assert_eq!(error, YarnError::UnknownMaterial { yarn: 0, material: 3, materials: 1 });
+    let error = one_yarn(Yarn { section: u32::MAX, ..Yarn::default() }, &straight(3)).unwrap_err();
+    assert_eq!(error, YarnError::UnknownSection { yarn: 0, section: u32::MAX, sections: 1 });
+    let mut yarns = one_yarn(Yarn::default(), &straight(3)).unwrap();
+    assert_eq!(
+        yarns.set_materials(vec![]),
+        Err(YarnError::UnknownMaterial { yarn: 0, material: 0, materials: 0 })
+    );
+    assert_eq!(yarns.set_points(1, &straight(3)), Err(YarnError::UnknownYarn { yarn: 1, yarns: 1 }));
+    assert_eq!(yarns.set_points(0, &straight(4)), Err(YarnError::PointCount { points: 4, planned: 3 }));
+    let error = yarns.with_sources(vec![0; 4]).unwrap_err();
+    assert_eq!(error, YarnError::SourceCount { sources: 4, points: 3 });
+}
+
+#[test]
+fn fewer_points_than_the_layout_says() {
+    let layout = Layout::new(vec![Yarn::default()], vec![0, 1 << 40], vec![Section::Circle]).unwrap();
+    let error = Yarns::new(layout, vec![Material::default()], straight(3)).unwrap_err();
+    assert_eq!(error, YarnError::PointCount { points: 3, planned: 1 << 40 });
+}
+
+#[test]
+fn twists_out_of_range() {
+    for twist in [f32::NAN, f32::INFINITY, 1001.0, -1001.0] {
+        let error = one_yarn(Yarn { twist, ..Yarn::default() }, &straight(3)).unwrap_err();
+        assert!(matches!(error, YarnError::Twist { yarn: 0, .. }), "{twist}: {error:?}");
+    }
+}
+
+#[test]
+fn sections_out_of_range() {
+    let named = |section: Section, expected: &str| {
+        let error = with_section(section.clone());
+        assert!(
+            matches!(error, SectionError::OutOfRange { field, .. } if field == expected),
+            "{section:?}: {error:?}"
+        );
+    };
+    for bad in [0.0, -1.0, 1e6, f32::NAN, f32::INFINITY] {
+        named(Section::Ellipse { aspect: bad }, "aspect");
+        named(Section::Lenticular { aspect: bad, distortion: 0.0 }, "aspect");
+        named(Section::PowerEllipse { aspect: bad, exponent: 1.0 }, "aspect");
+        named(Section::PowerEllipse { aspect: 1.0, exponent: bad }, "exponent");
+    }
+    for distortion in [1.0, -1.0, f32::NAN] {
+        named(Section::Lenticular { aspect: 2.0, distortion }, "distortion");
+    }
+    for plies in [0, 1, 13, u32::MAX] {
+        named(Section::Lobed { plies }, "plies");
+    }
+    for bad in NOT_NUMBERS.into_iter().chain([1e9]) {
+        named(Section::Polygon(vec![[0.0, 0.0], [1.0, 0.0], [bad, 1.0]]), "corner");
+    }
+}
+
+#[test]
+fn polygons_that_enclose_nothing() {
+    let polygon = |corners: &[[f32; 2]]| with_section(Section::Polygon(corners.to_vec()));
+    assert!(matches!(polygon(&[]), SectionError::Corners { corners: 0, .. }));
+    assert!(matches!(polygon(&[[0.0, 0.0], [1.0, 0.0]]), SectionError::Corners { corners: 2, .. }));
+    assert!(matches!(polygon(&vec![[0.0, 0.0]; 300]), SectionError::Corners { corners: 300, .. }));
+    assert_eq!(
+        polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
+        SectionError::RepeatedCorner { corner: 1 }
+    );
+    assert_eq!(polygon(&[[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]), SectionError::Clockwise);
+    let crossed = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+    assert_eq!(polygon(&crossed), SectionError::SelfIntersecting { first: 0, second: 2 });
+    let flat = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]];
+    assert!(matches!(polygon(&flat), SectionError::SelfIntersecting { .. } | SectionError::Clockwise));
+}
+
+#[test]
+fn settings_out_of_range() {
+    let usual = Settings::default();
+    for tension in [-0.1, 1.0, 2.0, f32::NAN, f32::INFINITY] {
+        let error = with_settings(Settings { tension, ..usual });
+        assert!(matches!(error, PlanError::Tension { .. }), "{tension}: {error:?}");
+    }
+    for sides in [0, 1, 2, 257, u32::MAX] {
+        let error = with_settings(Settings { sides, ..usual });
+        assert_eq!(error, PlanError::Sides { sides, low: 3, high: 256 });
+    }
+    for subdivisions in [1024, u32::MAX] {
+        let error = with_settings(Settings { subdivisions, ..usual });
+        assert_eq!(error, PlanError::Subdivisions { subdivisions, limit: 1023 });
+    }
+}
+
+#[test]
+fn a_polygon_needs_its_own_number_of_sides() {
+    let mut yarns = Yarns::builder();
+    yarns.section(Section::Polygon(vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]));
+    yarns.yarn(Yarn::default(), &straight(3));
+    let error = Pipeline::new(&yarns.build().unwrap()).sides(6).plan().unwrap_err();
+    assert_eq!(error, PlanError::PolygonSides { section: 0, corners: 4, sides: 6 });
+}
+
+/// A layout is all that a plan needs, so these ask for no memory at all.
+#[test]
+fn more_rings_than_can_be_counted() {
+    let plan = |offsets: Vec<u64>, subdivisions| {
+        let yarns = vec![Yarn::default(); offsets.len() - 1];
+        let layout = Layout::new(yarns, offsets, vec![Section::Circle]).unwrap();
+        Plan::new(Arc::new(layout), Settings { subdivisions, ..Settings::default() }).unwrap_err()
+    };
+    let rings = (1_000_000_000 - 1) * 1000 + 1;
+    assert_eq!(
+        plan(vec![0, 1_000_000_000], 999),
+        PlanError::YarnRings { yarn: 0, rings, limit: u32::MAX.into() }
+    );
+    assert!(matches!(plan(vec![0, u64::MAX], 0), PlanError::YarnRings { yarn: 0, .. }));
+    assert!(matches!(plan(vec![0, 2, u64::MAX], 1023), PlanError::YarnRings { yarn: 1, .. }));
+    // Each yarn can be counted, all together can't.
+    let many = (0..=40).map(|yarn| yarn * 4_000_000).collect();
+    assert!(matches!(plan(many, 1000), PlanError::Rings { limit, .. } if limit == 1 << 36));
+}
+
+#[test]
+fn limits_that_hold_no_block() {
+    let yarns = one_yarn(Yarn::default(), &straight(100)).unwrap();
+    for topology in [Topology::Indexed, Topology::Shared, Topology::None] {
+        let settings = Settings { topology, caps: true, ..Settings::default() };
+        let plan = Plan::new(yarns.layout().clone(), settings).unwrap();
+        for limits in [
+            Limits { blocks: 0, ..Limits::NONE },
+            Limits { blocks: 1, ..Limits::NONE },
+            Limits { binding_bytes: 0, ..Limits::NONE },
+            Limits { binding_bytes: 1000, ..Limits::NONE },
+            Limits { memory_bytes: 0, ..Limits::NONE },
+            Limits { memory_bytes: plan.resident_bytes(), ..Limits::NONE },
+        ] {
+            let error = plan.chunks(&limits).unwrap_err();
+            let PlanError::BlockTooLarge { needed, limit, .. } = error else { panic!("{error:?}") };
+            assert!(needed > limit, "{limits:?}");
+            let error = Pipeline::new(&yarns).settings(settings).limits(limits).mesh(&NullBackend::default());
+            assert!(matches!(error, Err(PipelineError::Plan(PlanError::BlockTooLarge { .. }))));
+        }
+    }
+}
+
+/// A twisted yarn of several blocks, on every device: with a session that has its points but no scan yet.
+fn on_every_device(check: impl Fn(&dyn Backend, &Arc<Plan>, &[Chunk], Box<dyn Session>)) {
+    let points = straight(200);
+    let yarns = one_yarn(Yarn { twist: 1.0, ..Yarn::default() }, &points).unwrap();
+    let settings = Settings { frame: Frame::RotationMinimizing, ..Settings::default() };
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
+    for device in REGISTRY.iter().flat_map(|entry| (entry.open)().unwrap_or_default()) {
+        let limits = device.info().limits.min(&Limits { blocks: 2, ..Limits::NONE });
+        let chunks: Vec<_> = plan.chunks(&limits).unwrap().collect();
+        let mut session = device.session(plan.clone()).unwrap();
+        session.upload(0, &points).unwrap();
+        check(&*device, &plan, &chunks, session);
+    }
+}
+
+fn read_nothing(session: &mut dyn Session, chunk: &Chunk) -> [Result<ControlFlow<()>, BackendError>; 2] {
+    [
+        session.read_trajectory(chunk, &mut |_| panic!("lent rings")),
+        session.read_mesh(chunk, &mut |_| panic!("lent a mesh")),
+    ]
+}
+
+#[test]
+fn an_upload_past_the_last_point() {
+    on_every_device(|device, _, _, mut session| {
+        for (first, count) in [(0, 201), (199, 2), (200, 1), (u64::MAX, 2), (1 << 40, 1)] {
+            let error = session.upload(first, &straight(count)).unwrap_err();
+            assert!(
+                matches!(error, BackendError::UploadRange { first: named, points: 200, .. } if named == first),
+                "{}: {error:?}",
+                device.info().name
+            );
+        }
+        session.upload(200, &[]).unwrap();
+    });
+}
+
+#[test]
+fn a_stage_before_its_scan() {
+    on_every_device(|device, _, chunks, mut session| {
+        let name = &device.info().name;
+        let mut vertices = vec![Vertex::default(); chunks[0].vertices as usize];
+        let mut indices = vec![0; chunks[0].indices as usize];
+        let out = MeshMut { vertices: &mut vertices, indices: &mut indices };
+        let calls = [
+            ("trajectory", session.trajectory(&chunks[0])),
+            ("mesh", session.mesh(&chunks[0])),
+            ("mesh", session.mesh_into(&chunks[0], out)),
+        ];
+        for (named, result) in calls {
+            let error = result.unwrap_err();
+            assert!(
+                matches!(error, BackendError::OutOfOrder { call, needed: "scan" } if call == named),
+                "{name}: {error:?}"
+            );
+        }
+        // New points make the old scan worthless.
+        session.scan().unwrap();
+        session.mesh(&chunks[0]).unwrap();
+        session.upload(3, &straight(2)).unwrap();
+        let error = session.mesh(&chunks[0]).unwrap_err();
+        assert!(matches!(error, BackendError::OutOfOrder { needed: "scan", .. }), "{name}: {error:?}");
+    });
+}
+
+#[test]
+fn a_chunk_that_is_not_in_flight() {
+    on_every_device(|device, _, chunks, mut session| {
+        let name = &device.info().name;
+        session.scan().unwrap();
+        for result in read_nothing(&mut *session, &chunks[1]) {
+            assert!(matches!(result, Err(BackendError::NotInFlight { chunk: 1 })), "{name}: {result:?}");
+        }
+        // Rings alone are no mesh.
+        session.trajectory(&chunks[2]).unwrap();
+        let result = session.read_mesh(&chunks[2], &mut |_| panic!("lent a mesh"));
+        assert!(matches!(result, Err(BackendError::NotInFlight { chunk: 2 })), "{name}: {result:?}");
+    });
+}
+
+#[test]
+fn slices_of_another_length() {
+    on_every_device(|device, _, chunks, mut session| {
+        session.scan().unwrap();
+        let (chunk, name) = (&chunks[0], &device.info().name);
+        let (right_vertices, right_indices) = (chunk.vertices as usize, chunk.indices as usize);
+        for (vertices, indices, wrong) in [
+            (right_vertices - 1, right_indices, "vertices"),
+            (right_vertices + 1, right_indices, "vertices"),
+            (0, right_indices, "vertices"),
+            (right_vertices, right_indices - 1, "indices"),
+            (right_vertices, right_indices + 1, "indices"),
+        ] {
+            let (mut vertices, mut indices) = (vec![Vertex::default(); vertices], vec![7; indices]);
+            let out = MeshMut { vertices: &mut vertices, indices: &mut indices };
+            let error = session.mesh_into(chunk, out).unwrap_err();
+            assert!(
+                matches!(error, BackendError::OutputLength { what, .. } if what == wrong),
+                "{name}: {error:?}"
+            );
+            let untouched = vertices.iter().all(|&vertex| vertex == Vertex::default());
+            assert!(untouched && indices.iter().all(|&index| index == 7), "{name}: half-written");
+        }
+    });
+}
+
+/// The largest and smallest numbers that are taken make finite output, and normals of length 1.
+#[test]
+fn the_edges_of_what_is_taken() {
+    let line = |points: &[(f32, f32)]| -> Vec<ControlPoint> {
+        points.iter().map(|&(at, radius)| ControlPoint::new(at, -at, at, radius)).collect()
+    };
+    let vast = line(&[(1e9, 1e6), (-1e9, 1e6), (1e9, 1e-6), (1e9, 1e6), (-1e9, 1e6)]);
+    let tiny = line(&[(0.0, 1e-6), (1e-30, 1e-6), (1e-20, 1e-6), (1.0, 1e-6)]);
+    // A cliff: dr/ds of 1e21, whose square f32 can't hold.
+    let steep = line(&[(0.0, 1e-6), (1e-15, 1e6), (2e-15, 1e-6), (3e-15, 1e6)]);
+    for points in [vast, tiny, steep] {
+        for twist in [1e3, -1e3] {
+            let yarns = one_yarn(Yarn { twist, ..Yarn::default() }, &points).unwrap();
+            for device in REGISTRY.iter().flat_map(|entry| (entry.open)().unwrap_or_default()) {
+                let pipeline =
+                    Pipeline::new(&yarns).subdivisions(7).frame(Frame::RotationMinimizing).caps(true);
+                let mesh = pipeline.mesh(&*device).unwrap();
+                for vertex in &mesh.vertices {
+                    let [x, y, z] = vertex.normal.map(f64::from);
+                    let length = (x * x + y * y + z * z).sqrt();
+                    let sound =
+                        vertex.position.iter().all(|at| at.is_finite()) && (length - 1.0).abs() < 1e-5;
+                    assert!(sound, "{}: {vertex:?}", device.info().name);
+                }
+            }
+        }
+    }
+}

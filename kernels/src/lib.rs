@@ -1,1 +1,101 @@
-//! Under way.
+//! The OpenCL C sources of texere, as text, and what a host has to know to launch them. No GPU interface is used here.
+//!
+//! Each stage is a file, and the WGSL stages of texere-shaders are its twins: the same names, the same order of
+//! operations. A [`Program`] is the list of files that are compiled together, shared ones first.
+//!
+//! ```
+//! use texere_kernels::{MESH, PER_RING};
+//! assert!(PER_RING.entries.contains(&MESH));
+//! assert!(PER_RING.sources.concat().contains("void mesh("));
+//! ```
+
+/// An entry point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entry {
+    /// The kernel function.
+    pub name: &'static str,
+    /// Lanes in a workgroup: the source requires just so many.
+    pub group: usize,
+}
+
+/// Turns of all blocks: a workgroup a block. The first half of the scan.
+pub const BLOCK_TURNS: Entry = Entry { name: "block_turns", group: 64 };
+
+/// Rolls from turns, in place: a workgroup a yarn. The second half of the scan.
+pub const YARN_ROLLS: Entry = Entry { name: "yarn_rolls", group: 256 };
+
+/// Stage 1: a workgroup a row of the chunk's block table.
+pub const TRAJECTORY: Entry = Entry { name: "trajectory", group: 64 };
+
+/// Stage 2 with stage 1 in it: a workgroup a row of the chunk's block table.
+pub const MESH: Entry = Entry { name: "mesh", group: 128 };
+
+/// The chunk's caps, after [`MESH`]: a lane a cap vertex.
+pub const CAPS: Entry = Entry { name: "caps", group: 64 };
+
+/// The paper's algorithm 2: a lane a part of the chunk.
+pub const TRAJECTORY_PER_YARN: Entry = Entry { name: "trajectory_per_yarn", group: 64 };
+
+/// The paper's algorithm 4, on what [`TRAJECTORY_PER_YARN`] left: a lane a part of the chunk.
+pub const MESH_PER_YARN: Entry = Entry { name: "mesh_per_yarn", group: 64 };
+
+/// Sources that are compiled together, and the entry points in them.
+#[derive(Debug, Clone, Copy)]
+pub struct Program {
+    /// What to call it in a message.
+    pub name: &'static str,
+    /// The files, in order.
+    pub sources: &'static [&'static str],
+    /// The entry points.
+    pub entries: &'static [Entry],
+}
+
+/// The schedule per-ring: does everything.
+pub const PER_RING: Program = Program {
+    name: "per-ring",
+    sources: &[
+        include_str!("common.cl"),
+        include_str!("rings.cl"),
+        include_str!("scan.cl"),
+        include_str!("trajectory.cl"),
+        include_str!("mesh.cl"),
+        include_str!("caps.cl"),
+    ],
+    entries: &[BLOCK_TURNS, YARN_ROLLS, TRAJECTORY, MESH, CAPS],
+};
+
+/// The schedule per-yarn: the paper's, for upright, untwisted, open yarns without caps.
+pub const PER_YARN: Program = Program {
+    name: "per-yarn",
+    sources: &[include_str!("common.cl"), include_str!("per_yarn.cl")],
+    entries: &[TRAJECTORY_PER_YARN, MESH_PER_YARN],
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn workgroups_are_what_the_sources_require() {
+        for program in [PER_RING, PER_YARN] {
+            let source = program.sources.concat();
+            for entry in program.entries {
+                let head = source.split_once(&format!("void {}(", entry.name)).unwrap().0;
+                let macro_name =
+                    head.rsplit_once("reqd_work_group_size(").unwrap().1.split(',').next().unwrap();
+                let defined = source.split_once(&format!("#define {macro_name} ")).unwrap().1;
+                assert_eq!(defined.lines().next().unwrap(), entry.group.to_string(), "{}", entry.name);
+            }
+        }
+    }
+
+    #[test]
+    fn no_function_of_lower_accuracy_is_called() {
+        for program in [PER_RING, PER_YARN] {
+            let source = program.sources.concat();
+            for word in ["native_", "half_", "fast_", "mad("] {
+                assert!(!source.contains(word), "{word} in {}", program.name);
+            }
+        }
+    }
+}

@@ -1,1 +1,32 @@
-//! Under way.
+//! The OpenCL backend of texere: GPUs of any maker, and CPUs through PoCL.
+//!
+//! It needs OpenCL 1.2 and no extension. The OpenCL library is loaded at run time, so a program that links this crate
+//! builds and starts without one; [`OpenClBackend::devices`] then says what is missing.
+//!
+//! ```
+//! use texere_opencl::OpenClBackend;
+//! match OpenClBackend::devices() {
+//!     Ok(devices) => devices.iter().for_each(|device| println!("{}: {}", device.name, device.device)),
+//!     Err(error) => println!("{error}: {:?}", std::error::Error::source(&error).map(|source| source.to_string())),
+//! }
+//! ```
+//!
+//! A program that has an OpenCL queue of its own works on it with [`OpenClBackend::on_queue`], and takes the mesh where
+//! it lies with [`OpenClSession::device_mesh`].
+
+mod backend;
+mod buffers;
+mod clock;
+mod device;
+mod faults;
+mod handles;
+mod kernel;
+mod per_yarn;
+mod resident;
+mod session;
+mod slot;
+mod stages;
+
+pub use backend::{OpenClBackend, Schedule};
+pub use faults::OpenClError;
+pub use session::{DeviceMesh, OpenClSession};

@@ -1,6 +1,7 @@
 //! The plan: every count, offset and byte size, worked out on the host before anything is launched.
 
 mod block;
+mod bounds;
 mod chunk;
 mod limits;
 mod tables;

@@ -1,0 +1,284 @@
+//! The backend: a device with its context, its queues and its compiled kernels.
+
+use std::ffi::{CString, c_void};
+use std::fmt;
+use std::ptr;
+use std::sync::Arc;
+
+use opencl3::command_queue::{
+    CL_QUEUE_CONTEXT, CL_QUEUE_DEVICE, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, CL_QUEUE_PROFILING_ENABLE,
+    CL_QUEUE_PROPERTIES, create_command_queue, get_command_queue_info, retain_command_queue,
+};
+use opencl3::context::context::{create_context, retain_context};
+use opencl3::device::Device;
+use opencl3::error_codes::{CL_BUILD_PROGRAM_FAILURE, ClError};
+use opencl3::platform::Platform;
+use opencl3::program::{
+    CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
+};
+use texere_core::{Backend, BackendError, DeviceInfo, Limits, Plan, Session};
+use texere_kernels::{PER_RING, PER_YARN, Program};
+
+use crate::OpenClSession;
+use crate::device::{self, listed};
+use crate::faults::failed;
+use crate::handles::Handle;
+
+/// How the work is mapped onto a device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Schedule {
+    /// A workgroup a block of 64 rings: does everything.
+    #[default]
+    PerRing,
+    /// A lane a yarn, the paper's algorithms 2 and 4: the yardstick. Upright, untwisted, open, uncapped yarns only.
+    PerYarn,
+}
+
+impl fmt::Display for Schedule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.program().name)
+    }
+}
+
+impl Schedule {
+    fn program(self) -> Program {
+        match self {
+            Self::PerRing => PER_RING,
+            Self::PerYarn => PER_YARN,
+        }
+    }
+}
+
+/// What all sessions of a backend share.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    pub(crate) name: String,
+    pub(crate) schedule: Schedule,
+    pub(crate) context: Handle,
+    /// Kernels, and control points, in the order of the calls.
+    pub(crate) queue: Handle,
+    /// Whether the queue takes the time of its commands.
+    pub(crate) profiled: bool,
+    /// Tables to the device and results to the host, beside the kernels of another chunk.
+    pub(crate) transfers: Handle,
+    pub(crate) program: Handle,
+}
+
+impl Opened {
+    /// The error that `call` ended in.
+    pub(crate) fn failed(&self, call: &'static str) -> impl Fn(i32) -> BackendError {
+        failed(&self.name, call)
+    }
+}
+
+/// An OpenCL device, ready to start sessions.
+///
+/// ```no_run
+/// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+/// use texere_opencl::{OpenClBackend, Schedule};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, x * x, 0.0, 0.1)));
+/// let yarns = yarns.build()?;
+/// let device = OpenClBackend::open(0, Schedule::PerRing)?;
+/// let mesh = Pipeline::new(&yarns).mesh(&device)?;
+/// assert_eq!(mesh.vertices.len(), 30);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct OpenClBackend {
+    info: DeviceInfo,
+    opened: Arc<Opened>,
+}
+
+/// The largest workgroup that a kernel asks for.
+const LARGEST_GROUP: usize = 256;
+
+impl OpenClBackend {
+    /// All devices of all platforms, in the order that [`OpenClBackend::open`] counts them. Nothing is opened.
+    ///
+    /// **Errors**: [`BackendError::Driver`] with an [`OpenClError`](crate::OpenClError) as its source where there is no
+    /// loader or no platform.
+    pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
+        Ok(listed(Schedule::PerRing)?.into_iter().map(|device| device.info).collect())
+    }
+
+    /// Opens device number `index` of [`OpenClBackend::devices`] and compiles the kernels of `schedule` for it.
+    ///
+    /// **Errors**: those of [`OpenClBackend::devices`]; [`BackendError::NoDevice`] past the last;
+    /// [`BackendError::Compile`] with the driver's log; [`BackendError::Unsupported`] for a device without workgroups of
+    /// 256.
+    pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
+        let mut devices = listed(schedule)?;
+        if index >= devices.len() {
+            return Err(BackendError::NoDevice {
+                wanted: device::name(Some(index), schedule),
+                found: devices.into_iter().map(|device| device.info.name).collect(),
+            });
+        }
+        let chosen = devices.swap_remove(index);
+        let failed = |call| failed(&chosen.info.name, call);
+        let context = Handle::context(create_context(&[chosen.id], ptr::null(), None, ptr::null_mut()))
+            .map_err(failed("clCreateContext"))?;
+        // SAFETY: the context is of this device.
+        let queue = unsafe { create_command_queue(context.raw(), chosen.id, CL_QUEUE_PROFILING_ENABLE) };
+        let queue = Handle::queue(queue).map_err(failed("clCreateCommandQueue"))?;
+        Self::with(chosen.id, context, queue, true, chosen.info, schedule)
+    }
+
+    /// Works on a queue of the caller's, in its context and on its device; all three are retained for as long as the
+    /// backend or a session of it lives. Kernels and uploads go to this queue in the order of the calls; results are
+    /// read through a queue of our own.
+    ///
+    /// A queue without profiling takes no times of its commands: each stage is then waited for, and timed by the host's
+    /// clock.
+    ///
+    /// **Errors**: [`BackendError::Unsupported`] for a queue that runs out of order, and those of
+    /// [`OpenClBackend::open`].
+    ///
+    /// # Safety
+    ///
+    /// `queue` is a valid `cl_command_queue`.
+    pub unsafe fn on_queue(queue: *mut c_void, schedule: Schedule) -> Result<Self, BackendError> {
+        let name = device::name(None, schedule);
+        let ask = |what| get_command_queue_info(queue, what).map_err(failed(&name, "clGetCommandQueueInfo"));
+        let properties = ask(CL_QUEUE_PROPERTIES)?.to_ulong();
+        if properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE != 0 {
+            return Err(BackendError::Unsupported {
+                schedule: name,
+                what: "queues that run out of order".into(),
+            });
+        }
+        let context = ask(CL_QUEUE_CONTEXT)?.to_ptr() as *mut c_void;
+        let id = ask(CL_QUEUE_DEVICE)?.to_ptr() as *mut c_void;
+        // SAFETY: the queue is valid by this function's contract, and so is its context.
+        let retained = unsafe { retain_context(context) };
+        let context =
+            Handle::context(retained.map(|()| context)).map_err(failed(&name, "clRetainContext"))?;
+        // SAFETY: as above.
+        let retained = unsafe { retain_command_queue(queue) };
+        let queue = Handle::queue(retained.map(|()| queue)).map_err(failed(&name, "clRetainCommandQueue"))?;
+
+        let known = listed(schedule)?.into_iter().find(|device| device.id == id);
+        let info = match known {
+            Some(device) => device.info,
+            // A part of a device is in no list.
+            None => {
+                let part = Device::new(id);
+                let platform =
+                    part.platform().map_err(|ClError(code)| failed(&name, "clGetDeviceInfo")(code))?;
+                device::info(&part, &Platform::new(platform), name, schedule)?
+            }
+        };
+        Self::with(id, context, queue, properties & CL_QUEUE_PROFILING_ENABLE != 0, info, schedule)
+    }
+
+    fn with(
+        device: *mut c_void,
+        context: Handle,
+        queue: Handle,
+        profiled: bool,
+        info: DeviceInfo,
+        schedule: Schedule,
+    ) -> Result<Self, BackendError> {
+        let failed = |call| failed(&info.name, call);
+        let largest = Device::new(device)
+            .max_work_group_size()
+            .map_err(|ClError(code)| failed("clGetDeviceInfo")(code))?;
+        if largest < LARGEST_GROUP {
+            return Err(BackendError::Unsupported {
+                schedule: info.name.clone(),
+                what: format!("devices with workgroups of {largest}, fewer than {LARGEST_GROUP}"),
+            });
+        }
+        // SAFETY: the context is of this device.
+        let transfers = unsafe { create_command_queue(context.raw(), device, CL_QUEUE_PROFILING_ENABLE) };
+        let transfers = Handle::queue(transfers).map_err(failed("clCreateCommandQueue"))?;
+        let program = build(device, &context, &info.name, schedule.program())?;
+        let opened = Arc::new(Opened {
+            name: info.name.clone(),
+            schedule,
+            context,
+            queue,
+            profiled,
+            transfers,
+            program,
+        });
+        Ok(Self { info, opened })
+    }
+
+    /// The same device, held to `limits` where its own are wider.
+    #[must_use]
+    pub fn with_limits(mut self, limits: Limits) -> Self {
+        self.info.limits = self.info.limits.min(&limits);
+        self
+    }
+
+    /// Whether [`timings`](Session::timings) come from the device's own clock, which is so on every queue but a caller's
+    /// without profiling.
+    #[must_use]
+    pub fn is_timed_by_device(&self) -> bool {
+        self.opened.profiled
+    }
+
+    /// Starts work on a plan, as [`Backend::session`] does, and keeps what OpenCL can do beyond [`Session`]: see
+    /// [`OpenClSession::device_mesh`].
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`], also where the control points exceed one buffer;
+    /// [`BackendError::Unsupported`] for what [`Schedule::PerYarn`] does not do.
+    pub fn session_on_device(&self, plan: Arc<Plan>) -> Result<OpenClSession, BackendError> {
+        OpenClSession::new(self.opened.clone(), self.info.limits, plan)
+    }
+}
+
+impl Backend for OpenClBackend {
+    fn info(&self) -> &DeviceInfo {
+        &self.info
+    }
+
+    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
+        Ok(Box::new(self.session_on_device(plan)?))
+    }
+}
+
+/// Compiles `program` for `device`.
+fn build(
+    device: *mut c_void,
+    context: &Handle,
+    name: &str,
+    program: Program,
+) -> Result<Handle, BackendError> {
+    // One string: cl3 0.13 hands over several as if slices were pointers.
+    let source = program.sources.concat();
+    let built = Handle::program(create_program_with_source(context.raw(), &[&source]))
+        .map_err(failed(name, "clCreateProgramWithSource"))?;
+    let options = CString::from(c"-cl-std=CL1.2");
+    match build_program(built.raw(), &[device], &options, None, ptr::null_mut()) {
+        Ok(()) => Ok(built),
+        Err(CL_BUILD_PROGRAM_FAILURE) => Err(BackendError::Compile {
+            kernel: program.name,
+            log: get_program_build_info(built.raw(), device, CL_PROGRAM_BUILD_LOG)
+                .map_or_else(|code| ClError(code).to_string(), |log| log.to_string()),
+        }),
+        Err(code) => Err(failed(name, "clBuildProgram")(code)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kernel_that_does_not_compile_comes_with_the_drivers_log() {
+        let chosen = listed(Schedule::PerRing).unwrap().swap_remove(0);
+        let context = create_context(&[chosen.id], ptr::null(), None, ptr::null_mut());
+        let context = Handle::context(context).unwrap();
+        let broken =
+            Program { name: "broken", sources: &["__kernel void broken() { undeclared(); }"], entries: &[] };
+        match build(chosen.id, &context, &chosen.info.name, broken) {
+            Err(BackendError::Compile { kernel: "broken", log }) => {
+                assert!(log.contains("undeclared"), "{log}")
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}

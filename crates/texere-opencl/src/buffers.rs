@@ -1,0 +1,346 @@
+//! Device memory, and pinned host memory that results are read through.
+
+use std::ffi::c_void;
+use std::ops::ControlFlow;
+use std::ptr;
+use std::sync::Arc;
+
+use bytemuck::Pod;
+use opencl3::command_queue::{
+    CL_BLOCKING, CL_NON_BLOCKING, enqueue_fill_buffer, enqueue_map_buffer, enqueue_migrate_mem_object,
+    enqueue_read_buffer, enqueue_unmap_mem_object, enqueue_write_buffer, flush,
+};
+use opencl3::event::wait_for_events;
+use opencl3::memory::{
+    CL_MAP_READ, CL_MEM_ALLOC_HOST_PTR, CL_MEM_READ_WRITE, CL_MIGRATE_MEM_OBJECT_CONTENT_UNDEFINED,
+    create_buffer,
+};
+use texere_core::{BackendError, Traffic};
+
+use crate::OpenClError;
+use crate::backend::Opened;
+use crate::clock::{Clock, Stage};
+use crate::faults::not_allocated;
+use crate::handles::Handle;
+
+/// Device memory, which may be none.
+#[derive(Debug, Default)]
+pub(crate) struct Buffer {
+    memory: Option<Handle>,
+    bytes: u64,
+}
+
+impl Buffer {
+    /// `bytes` of memory for `what`, not yet written.
+    pub(crate) fn new(opened: &Opened, what: &'static str, bytes: u64) -> Result<Self, BackendError> {
+        if bytes == 0 {
+            return Ok(Self::default());
+        }
+        let refused = not_allocated(&opened.name, "clCreateBuffer", what, bytes);
+        let size = usize::try_from(bytes).map_err(|_| BackendError::OutOfMemory { what, bytes })?;
+        // SAFETY: no host memory is handed over.
+        let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
+        let memory = Handle::memory(memory).map_err(&refused)?;
+        // Drivers put memory off until its first use; asked for it now, they say now that there is none.
+        let list = memory.raw();
+        // SAFETY: a list of one memory object of this context, and no event.
+        let moved = unsafe {
+            enqueue_migrate_mem_object(
+                opened.transfers.raw(),
+                1,
+                &raw const list,
+                CL_MIGRATE_MEM_OBJECT_CONTENT_UNDEFINED,
+                0,
+                ptr::null(),
+            )
+        };
+        Handle::event(moved).map_err(&refused)?;
+        Ok(Self { memory: Some(memory), bytes })
+    }
+
+    /// `bytes` of zeros for `what`.
+    pub(crate) fn zeroed(opened: &Opened, what: &'static str, bytes: u64) -> Result<Self, BackendError> {
+        let buffer = Self::new(opened, what, bytes)?;
+        if bytes > 0 {
+            let zero = 0u32;
+            // SAFETY: the pattern is a u32 that the call copies; `bytes`, a multiple of 4, is all of the buffer.
+            let filled = unsafe {
+                let (queue, pattern) = (opened.queue.raw(), (&raw const zero).cast());
+                enqueue_fill_buffer(queue, buffer.raw(), pattern, 4, 0, bytes as usize, 0, ptr::null())
+            };
+            Handle::event(filled).map_err(opened.failed("clEnqueueFillBuffer"))?;
+        }
+        Ok(buffer)
+    }
+
+    /// `data` in memory of its own.
+    pub(crate) fn holding<T: Pod>(
+        opened: &Opened,
+        what: &'static str,
+        data: &[T],
+    ) -> Result<Self, BackendError> {
+        let mut buffer = Self::new(opened, what, size_of_val(data) as u64)?;
+        buffer.write(opened, &opened.queue, 0, data, None)?;
+        Ok(buffer)
+    }
+
+    /// At least `bytes`, for a chunk that is larger than those before; what the buffer held is lost then. Commands that
+    /// still use the smaller memory keep it until they end.
+    pub(crate) fn reserve(
+        &mut self,
+        opened: &Opened,
+        what: &'static str,
+        bytes: u64,
+    ) -> Result<(), BackendError> {
+        if bytes > self.bytes {
+            // First the old one goes, so that the two never need room together.
+            *self = Self::default();
+            *self = Self::new(opened, what, bytes)?;
+        }
+        Ok(())
+    }
+
+    /// The `cl_mem`; null where there is no memory.
+    pub(crate) fn raw(&self) -> *mut c_void {
+        self.memory.as_ref().map_or(ptr::null_mut(), Handle::raw)
+    }
+
+    /// Sends `data` to byte `offset` through `queue`, after `after`, and waits until `data` may change again. None where
+    /// there is nothing to send.
+    pub(crate) fn write<T: Pod>(
+        &mut self,
+        opened: &Opened,
+        queue: &Handle,
+        offset: u64,
+        data: &[T],
+        after: Option<&Handle>,
+    ) -> Result<Option<Arc<Handle>>, BackendError> {
+        if data.is_empty() {
+            return Ok(None);
+        }
+        debug_assert!(offset + size_of_val(data) as u64 <= self.bytes, "a write stays in its buffer");
+        let after = after.map(Handle::raw);
+        let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
+        // SAFETY: the pointer is to as many bytes as told, and blocking keeps them borrowed until they are copied. A
+        // range past the buffer's end comes back as an error.
+        let event = unsafe {
+            enqueue_write_buffer(
+                queue.raw(),
+                self.raw(),
+                CL_BLOCKING,
+                offset as usize,
+                size_of_val(data),
+                data.as_ptr().cast(),
+                events,
+                list,
+            )
+        };
+        let event = Handle::event(event).map_err(opened.failed("clEnqueueWriteBuffer"))?;
+        Ok(Some(Arc::new(event)))
+    }
+
+    /// Reads from the start into `out`, after `after`.
+    pub(crate) fn read_into<T: Pod>(
+        &self,
+        opened: &Opened,
+        out: &mut [T],
+        after: Option<&Handle>,
+        meter: &mut Meter<'_>,
+    ) -> Result<(), BackendError> {
+        if out.is_empty() {
+            return Ok(());
+        }
+        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as long as told.
+        let event = unsafe {
+            self.enqueue_read(opened, CL_BLOCKING, 0, size_of_val(out), out.as_mut_ptr().cast(), after)
+        }?;
+        meter.note(&event, size_of_val(out));
+        Ok(())
+    }
+
+    /// # Safety
+    ///
+    /// `out` points at `bytes` bytes of writable memory, which nothing else touches until the command has ended.
+    unsafe fn enqueue_read(
+        &self,
+        opened: &Opened,
+        blocking: u32,
+        offset: usize,
+        bytes: usize,
+        out: *mut c_void,
+        after: Option<&Handle>,
+    ) -> Result<Arc<Handle>, BackendError> {
+        let after = after.map(Handle::raw);
+        let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
+        // SAFETY: this function's contract; a range past the buffer's end comes back as an error.
+        let event = unsafe {
+            enqueue_read_buffer(
+                opened.transfers.raw(),
+                self.raw(),
+                blocking,
+                offset,
+                bytes,
+                out,
+                events,
+                list,
+            )
+        };
+        Ok(Arc::new(Handle::event(event).map_err(opened.failed("clEnqueueReadBuffer"))?))
+    }
+}
+
+/// Where what is read back gets counted.
+#[derive(Debug)]
+pub(crate) struct Meter<'a> {
+    pub(crate) clock: &'a mut Clock,
+    pub(crate) traffic: &'a mut Traffic,
+}
+
+impl Meter<'_> {
+    fn note(&mut self, event: &Arc<Handle>, bytes: usize) {
+        self.clock.note(Stage::Readback, event);
+        self.traffic.read += bytes as u64;
+    }
+}
+
+/// Host memory that the device writes at full speed, mapped for good.
+#[derive(Debug)]
+struct Pinned {
+    opened: Arc<Opened>,
+    memory: Handle,
+    start: *mut c_void,
+    bytes: usize,
+}
+
+// SAFETY: the mapped memory belongs to this value alone, and OpenCL lets any thread use it.
+unsafe impl Send for Pinned {}
+
+impl Pinned {
+    fn new(opened: &Arc<Opened>, bytes: usize) -> Result<Self, BackendError> {
+        let what = "reading results back";
+        let refused = |call| not_allocated(&opened.name, call, what, bytes as u64);
+        // SAFETY: no host memory is handed over.
+        let memory = unsafe {
+            let flags = CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR;
+            create_buffer(opened.context.raw(), flags, bytes, ptr::null_mut())
+        };
+        let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
+        let mut start = ptr::null_mut();
+        // SAFETY: the whole of a buffer of this context, and no event.
+        let mapped = unsafe {
+            let (queue, blocking) = (opened.transfers.raw(), CL_BLOCKING);
+            enqueue_map_buffer(
+                queue,
+                memory.raw(),
+                blocking,
+                CL_MAP_READ,
+                0,
+                bytes,
+                &mut start,
+                0,
+                ptr::null(),
+            )
+        };
+        Handle::event(mapped).map_err(refused("clEnqueueMapBuffer"))?;
+        Ok(Self { opened: opened.clone(), memory, start, bytes })
+    }
+
+    /// The first `count` values.
+    ///
+    /// # Safety
+    ///
+    /// No command that writes here is running, and `count` values fit.
+    unsafe fn values<T: Pod>(&self, count: usize) -> Result<&[T], BackendError> {
+        if self.start.is_null() || !self.start.cast::<T>().is_aligned() {
+            let source = Box::new(OpenClError::Misaligned { needed: align_of::<T>() });
+            return Err(BackendError::Driver { call: "clEnqueueMapBuffer", source });
+        }
+        // SAFETY: aligned, mapped for as long as `self`, of a type that takes any bits; the rest is the contract.
+        Ok(unsafe { std::slice::from_raw_parts(self.start.cast(), count) })
+    }
+}
+
+impl Drop for Pinned {
+    fn drop(&mut self) {
+        // SAFETY: mapped once, in `new`, and no slice of it is left. In order, so after every read into it.
+        let unmapped = unsafe {
+            enqueue_unmap_mem_object(
+                self.opened.transfers.raw(),
+                self.memory.raw(),
+                self.start,
+                0,
+                ptr::null(),
+            )
+        };
+        // Where even this fails the device is gone, and the memory with it.
+        drop(Handle::event(unmapped));
+    }
+}
+
+/// Bytes of a piece that a sink is lent: whole vertices (24 bytes) and rings (32), large enough that the transfer's
+/// start does not matter.
+const PIECE_BYTES: usize = (16 << 20) / 96 * 96;
+
+/// Two pieces of pinned memory: while the sink has one, the other is filled.
+#[derive(Debug, Default)]
+pub(crate) struct Staging {
+    pieces: [Option<Pinned>; 2],
+}
+
+/// Takes values, the first of which has the number given.
+pub(crate) type Sink<'a, T> = &'a mut dyn FnMut(u32, &[T]) -> ControlFlow<()>;
+
+impl Staging {
+    /// Reads `count` values from the start of `buffer`, after `after`, and lends them piece by piece.
+    pub(crate) fn read<T: Pod>(
+        &mut self,
+        opened: &Arc<Opened>,
+        buffer: &Buffer,
+        count: u32,
+        after: Option<&Handle>,
+        meter: &mut Meter<'_>,
+        sink: Sink<'_, T>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let (count, each) = (count as usize, size_of::<T>());
+        let per_piece = PIECE_BYTES / each;
+        let mut launch = |pieces: &mut [Option<Pinned>; 2], first: usize| {
+            let here = per_piece.min(count - first);
+            let piece = &mut pieces[first / per_piece % 2];
+            let pinned = match piece.take().filter(|pinned| pinned.bytes >= here * each) {
+                Some(pinned) => pinned,
+                None => Pinned::new(opened, here * each)?,
+            };
+            let start = pinned.start;
+            *piece = Some(pinned);
+            // SAFETY: the pinned memory is large enough and, in order on the queue, not written by another command; it is
+            // not looked at before this command has ended.
+            let event = unsafe {
+                buffer.enqueue_read(opened, CL_NON_BLOCKING, first * each, here * each, start, after)
+            }?;
+            meter.note(&event, here * each);
+            flush(opened.transfers.raw()).map_err(opened.failed("clFlush"))?;
+            Ok(event)
+        };
+        let mut running = if count > 0 { Some(launch(&mut self.pieces, 0)?) } else { None };
+        let mut first = 0;
+        while let Some(event) = running {
+            let next = first + per_piece;
+            running = if next < count { Some(launch(&mut self.pieces, next)?) } else { None };
+            wait(opened, &event)?;
+            if let Some(pinned) = &self.pieces[first / per_piece % 2] {
+                // SAFETY: the command that wrote this piece has ended, and the one that is running writes the other.
+                let values = unsafe { pinned.values(per_piece.min(count - first)) }?;
+                if sink(first as u32, values).is_break() {
+                    return Ok(ControlFlow::Break(()));
+                }
+            }
+            first = next;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+/// Waits until `event`'s command has ended.
+pub(crate) fn wait(opened: &Opened, event: &Handle) -> Result<(), BackendError> {
+    wait_for_events(&[event.raw()]).map_err(opened.failed("clWaitForEvents"))
+}

@@ -1,0 +1,101 @@
+//! The devices that there are, and what each can hold.
+
+use std::ffi::c_void;
+use std::sync::Mutex;
+
+use opencl3::device::{CL_DEVICE_TYPE_ALL, CL_DEVICE_TYPE_CPU, CL_DEVICE_TYPE_GPU, Device};
+use opencl3::error_codes::{CL_DEVICE_NOT_FOUND, CL_PLATFORM_NOT_FOUND_KHR, ClError};
+use opencl3::platform::{Platform, get_platforms};
+use texere_core::{BackendError, DeviceInfo, DeviceKind, Limits};
+
+use crate::Schedule;
+use crate::faults::failed;
+
+/// A device of the list, with the name that opens it.
+pub(crate) struct Listed {
+    pub(crate) id: *mut c_void,
+    pub(crate) info: DeviceInfo,
+}
+
+/// All devices of all platforms, platform by platform.
+pub(crate) fn listed(schedule: Schedule) -> Result<Vec<Listed>, BackendError> {
+    // Loader and drivers set themselves up on the first call of each kind, and some mind a second thread that calls
+    // meanwhile: ocl-icd then answers that there is no platform, PoCL reads a device that is half made.
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+    let _alone = ONE_AT_A_TIME.lock();
+    let mut devices = Vec::new();
+    for platform in platforms().map_err(failed("opencl", "clGetPlatformIDs"))? {
+        let ids = match platform.get_devices(CL_DEVICE_TYPE_ALL) {
+            Ok(ids) => ids,
+            Err(ClError(CL_DEVICE_NOT_FOUND)) => continue,
+            Err(ClError(code)) => return Err(failed("opencl", "clGetDeviceIDs")(code)),
+        };
+        for id in ids {
+            let name = name(Some(devices.len()), schedule);
+            devices.push(Listed { id, info: info(&Device::new(id), &platform, name, schedule)? });
+        }
+    }
+    Ok(devices)
+}
+
+/// All platforms; at least one.
+fn platforms() -> Result<Vec<Platform>, i32> {
+    match get_platforms() {
+        Ok(platforms) if platforms.is_empty() => Err(CL_PLATFORM_NOT_FOUND_KHR),
+        Ok(platforms) => Ok(platforms),
+        Err(ClError(code)) => Err(code),
+    }
+}
+
+/// `opencl:0`, `opencl:0/per-yarn`.
+pub(crate) fn name(index: Option<usize>, schedule: Schedule) -> String {
+    let index = index.map_or_else(String::new, |index| format!(":{index}"));
+    match schedule {
+        Schedule::PerRing => format!("opencl{index}"),
+        Schedule::PerYarn => format!("opencl{index}/per-yarn"),
+    }
+}
+
+/// What `device`, opened by `name`, says of itself.
+pub(crate) fn info(
+    device: &Device,
+    platform: &Platform,
+    name: String,
+    schedule: Schedule,
+) -> Result<DeviceInfo, BackendError> {
+    let ask = |call: &'static str| {
+        let failed = failed(&name, call);
+        move |ClError(code)| failed(code)
+    };
+    let shared = device.host_unified_memory().map_err(ask("clGetDeviceInfo"))?;
+    let memory = device.global_mem_size().map_err(ask("clGetDeviceInfo"))?;
+    // A device may be of several types at once, such as CPU and default.
+    let types = device.dev_type().map_err(ask("clGetDeviceInfo"))?;
+    let kind = if types & CL_DEVICE_TYPE_GPU != 0 {
+        if shared { DeviceKind::IntegratedGpu } else { DeviceKind::DiscreteGpu }
+    } else if types & CL_DEVICE_TYPE_CPU != 0 {
+        DeviceKind::Cpu
+    } else {
+        DeviceKind::Other
+    };
+    Ok(DeviceInfo {
+        device: device.name().map_err(ask("clGetDeviceInfo"))?,
+        driver: format!(
+            "{} {}, {}",
+            platform.name().map_err(ask("clGetPlatformInfo"))?,
+            device.driver_version().map_err(ask("clGetDeviceInfo"))?,
+            device.version().map_err(ask("clGetDeviceInfo"))?.trim_end(),
+        ),
+        schedule: schedule.to_string(),
+        kind,
+        memory_bytes: Some(memory),
+        limits: Limits {
+            binding_bytes: device.max_mem_alloc_size().map_err(ask("clGetDeviceInfo"))?,
+            // The driver, other programs and our small tables want some too; where the memory is the host's, so does
+            // the mesh that is read into it.
+            memory_bytes: if shared { memory / 2 } else { memory / 8 * 7 },
+            ..Limits::NONE
+        },
+        name,
+    })
+}

@@ -1,0 +1,101 @@
+//! A kernel with its arguments.
+
+use std::ffi::{CString, c_void};
+use std::ptr;
+use std::sync::Arc;
+
+use opencl3::command_queue::enqueue_nd_range_kernel;
+use opencl3::error_codes::CL_INVALID_KERNEL_NAME;
+use opencl3::kernel::{create_kernel, set_kernel_arg};
+use texere_core::BackendError;
+use texere_kernels::Entry;
+
+use crate::backend::Opened;
+use crate::buffers::Buffer;
+use crate::handles::Handle;
+
+/// An entry point of the program. It carries its arguments, so each session has kernels of its own.
+#[derive(Debug)]
+pub(crate) struct Kernel {
+    handle: Handle,
+    group: usize,
+}
+
+/// What a kernel's parameter is set to.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Arg<'a> {
+    /// A `__global` pointer; null where the buffer is empty.
+    Memory(&'a Buffer),
+    /// A value, byte for byte.
+    Value(&'a [u8]),
+}
+
+/// Workgroups of one launch at most: 16 million rings, a few milliseconds on a GPU, so that no launch of a large chunk
+/// runs into a watchdog.
+pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
+
+impl Kernel {
+    pub(crate) fn new(opened: &Opened, entry: Entry) -> Result<Self, BackendError> {
+        let failed = opened.failed("clCreateKernel");
+        let name = CString::new(entry.name).map_err(|_| failed(CL_INVALID_KERNEL_NAME))?;
+        let handle = Handle::kernel(create_kernel(opened.program.raw(), &name)).map_err(failed)?;
+        Ok(Self { handle, group: entry.group })
+    }
+
+    /// Lanes in a workgroup.
+    pub(crate) fn group(&self) -> usize {
+        self.group
+    }
+
+    /// Sets all arguments, in the order of the source, and runs `groups` workgroups after what is in the queue and after
+    /// `after`; in several launches where they are many. Gives back the launches' events, in order.
+    ///
+    /// # Safety
+    ///
+    /// `args` are those of the kernel's source, in order, and every buffer among them is as large as the kernel's reads
+    /// and writes of `groups` workgroups need.
+    pub(crate) unsafe fn run(
+        &mut self,
+        opened: &Opened,
+        args: &[Arg<'_>],
+        groups: usize,
+        after: Option<&Handle>,
+    ) -> Result<Vec<Arc<Handle>>, BackendError> {
+        for (number, arg) in args.iter().enumerate() {
+            let memory;
+            let (bytes, value) = match arg {
+                Arg::Memory(buffer) => {
+                    memory = buffer.raw();
+                    (size_of::<*mut c_void>(), (&raw const memory).cast::<c_void>())
+                }
+                Arg::Value(value) => (value.len(), value.as_ptr().cast()),
+            };
+            // SAFETY: `value` points at `bytes` bytes, which the call copies; that they suit the parameter is this
+            // function's contract.
+            unsafe { set_kernel_arg(self.handle.raw(), number as u32, bytes, value) }
+                .map_err(opened.failed("clSetKernelArg"))?;
+        }
+        let after = after.map(Handle::raw);
+        let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
+        let mut launches = Vec::with_capacity(groups.div_ceil(LAUNCH_GROUPS));
+        for first in (0..groups).step_by(LAUNCH_GROUPS) {
+            let offset = first * self.group;
+            let lanes = (groups - first).min(LAUNCH_GROUPS) * self.group;
+            // SAFETY: one dimension, each pointer to one value; the event is alive; the rest is this function's contract.
+            let event = unsafe {
+                enqueue_nd_range_kernel(
+                    opened.queue.raw(),
+                    self.handle.raw(),
+                    1,
+                    &raw const offset,
+                    &raw const lanes,
+                    &raw const self.group,
+                    events,
+                    list,
+                )
+            };
+            launches.push(Arc::new(Handle::event(event).map_err(opened.failed("clEnqueueNDRangeKernel"))?));
+        }
+        Ok(launches)
+    }
+}

@@ -1,0 +1,114 @@
+//! The schedule per-yarn: the paper's algorithms 2 and 4.
+
+use bytemuck::bytes_of;
+use texere_core::{BackendError, Block, Chunk, Frame, Params, Plan};
+use texere_kernels::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
+
+use crate::backend::Opened;
+use crate::kernel::{Arg, Kernel};
+use crate::slot::Slot;
+use crate::stages::{Launches, Stages, Work};
+
+/// A lane a part.
+#[derive(Debug)]
+pub(crate) struct PerYarn {
+    trajectory: Kernel,
+    mesh: Kernel,
+}
+
+impl PerYarn {
+    /// **Errors**: [`BackendError::Unsupported`] for a plan that asks for more than the paper does.
+    pub(crate) fn new(opened: &Opened, plan: &Plan) -> Result<Self, BackendError> {
+        if let Some(what) = beyond(plan) {
+            return Err(BackendError::Unsupported { schedule: opened.name.clone(), what });
+        }
+        Ok(Self {
+            trajectory: Kernel::new(opened, TRAJECTORY_PER_YARN)?,
+            mesh: Kernel::new(opened, MESH_PER_YARN)?,
+        })
+    }
+}
+
+/// What `plan` asks for that the paper does not do.
+fn beyond(plan: &Plan) -> Option<String> {
+    if plan.settings().frame != Frame::Upright {
+        return Some("the rotation-minimising frame".into());
+    }
+    if plan.settings().caps {
+        return Some("caps".into());
+    }
+    plan.layout().yarns().iter().enumerate().find_map(|(number, yarn)| match yarn {
+        _ if yarn.closed => Some(format!("closed yarns, such as yarn {number}")),
+        _ if yarn.twist != 0.0 => Some(format!("twist, such as that of yarn {number}")),
+        _ => None,
+    })
+}
+
+/// One row a part: its first block's, with all of the part's rings and quads.
+pub(crate) fn part_rows(blocks: &[Block]) -> Vec<Block> {
+    let mut parts: Vec<Block> = Vec::new();
+    for block in blocks {
+        match parts.last_mut() {
+            Some(part) if part.yarn == block.yarn => {
+                part.rings += block.rings;
+                part.quads += block.quads;
+            }
+            _ => parts.push(*block),
+        }
+    }
+    parts
+}
+
+/// The parameters of a launch whose table has one row a part.
+fn part_params(plan: &Plan, chunk: &Chunk, slot: &Slot) -> Params {
+    Params { blocks: slot.rows as u32, ..plan.params(chunk) }
+}
+
+impl Stages for PerYarn {
+    fn mesh_reads_rings(&self) -> bool {
+        true
+    }
+
+    /// There is nothing to scan: a plan with rolls is refused.
+    fn scan(&mut self, _: Work<'_>) -> Result<Launches, BackendError> {
+        Ok(Vec::new())
+    }
+
+    fn trajectory(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
+        let Work { opened, plan, resident } = work;
+        let (params, window) = (part_params(plan, chunk, slot), chunk.window.start);
+        let args = [
+            Arg::Value(bytes_of(&params)),
+            Arg::Value(bytes_of(&window)),
+            Arg::Memory(&resident.points),
+            Arg::Memory(&resident.yarns),
+            Arg::Memory(&slot.table),
+            Arg::Memory(&slot.rings),
+            Arg::Memory(&slot.slopes),
+        ];
+        let groups = slot.rows.div_ceil(self.trajectory.group());
+        // SAFETY: the arguments are those of `trajectory_per_yarn`; a lane reads its part and what that names, and writes
+        // the part's rings and slopes, for which the slot has room. Lanes past the last part do nothing.
+        unsafe { self.trajectory.run(opened, &args, groups, slot.ready.as_deref()) }
+    }
+
+    fn mesh(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
+        let Work { opened, plan, resident } = work;
+        let params = part_params(plan, chunk, slot);
+        let args = [
+            Arg::Value(bytes_of(&params)),
+            Arg::Memory(&resident.yarns),
+            Arg::Memory(&slot.table),
+            Arg::Memory(&slot.rings),
+            Arg::Memory(&slot.slopes),
+            Arg::Memory(&resident.outlines),
+            Arg::Memory(&resident.pattern),
+            Arg::Memory(&slot.vertices),
+            Arg::Memory(&slot.indices),
+        ];
+        let groups = slot.rows.div_ceil(self.mesh.group());
+        // SAFETY: the arguments are those of `mesh_per_yarn`; a lane reads its part and what that names, and writes the
+        // part's vertices and indices, for which the slot has room. Lanes past the last part do nothing.
+        unsafe { self.mesh.run(opened, &args, groups, slot.ready.as_deref()) }
+    }
+}

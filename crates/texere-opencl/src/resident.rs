@@ -1,0 +1,49 @@
+//! What stays on the device for a session's whole life.
+
+use texere_core::{BackendError, Limits, Plan, Turn, index_pattern};
+
+use crate::backend::Opened;
+use crate::buffers::Buffer;
+
+/// What every stage reads.
+#[derive(Debug)]
+pub(crate) struct Resident {
+    pub(crate) points: Buffer,
+    pub(crate) yarns: Buffer,
+    pub(crate) outlines: Buffer,
+    /// Indices of a ring's quads, and of the next ring's, so that four in a row can be taken from anywhere in the first.
+    pub(crate) pattern: Buffer,
+    pub(crate) cap_pattern: Buffer,
+    /// The roll at each block's start. Empty where no yarn turns.
+    pub(crate) rolls: Buffer,
+    /// The whole turn of each yarn. Empty where no yarn turns.
+    pub(crate) whole: Buffer,
+}
+
+impl Resident {
+    /// **Errors**: [`BackendError::OutOfMemory`], also for control points beyond what one buffer holds.
+    pub(crate) fn new(opened: &Opened, limits: &Limits, plan: &Plan) -> Result<Self, BackendError> {
+        let (what, bytes) = ("control points, all in one buffer", plan.resident_bytes());
+        // The scan numbers points by u32.
+        let points = plan.padded_offsets().last().copied().unwrap_or(0);
+        if bytes > limits.binding_bytes || points > u64::from(u32::MAX) {
+            return Err(BackendError::OutOfMemory { what, bytes });
+        }
+        let sides = plan.settings().sides;
+        let ring = index_pattern(sides);
+        let pattern: Vec<u32> = ring.iter().copied().chain(ring.iter().map(|index| index + sides)).collect();
+        let cap_pattern = if plan.settings().caps { plan.cap_pattern() } else { Vec::new() };
+        let (blocks, yarns) =
+            if plan.needs_scan() { (plan.block_count(), plan.counts().yarns) } else { (0, 0) };
+        Ok(Self {
+            // Zeros, as on every backend, until they are uploaded.
+            points: Buffer::zeroed(opened, what, bytes)?,
+            yarns: Buffer::holding(opened, "the yarn table", &plan.yarn_rows())?,
+            outlines: Buffer::holding(opened, "outlines", plan.outlines())?,
+            pattern: Buffer::holding(opened, "the index pattern", &pattern)?,
+            cap_pattern: Buffer::holding(opened, "the caps' index pattern", &cap_pattern)?,
+            rolls: Buffer::new(opened, "rolls", blocks * size_of::<Turn>() as u64)?,
+            whole: Buffer::new(opened, "whole turns", yarns * size_of::<Turn>() as u64)?,
+        })
+    }
+}

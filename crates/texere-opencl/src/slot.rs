@@ -1,0 +1,129 @@
+//! A chunk in flight: its tables and its results on the device.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use texere_core::{BackendError, Chunk, Plan, Ring, Topology, Vertex};
+
+use crate::Schedule;
+use crate::backend::Opened;
+use crate::buffers::Buffer;
+use crate::handles::Handle;
+use crate::per_yarn::part_rows;
+
+/// All of a chunk that a launch or a read takes from the host, once its tables are on the device. Its index is none of
+/// it: chunks of another cut have the same.
+#[derive(Debug, PartialEq, Eq)]
+struct Extent {
+    block_range: Range<u64>,
+    window: Range<u64>,
+    rows: usize,
+    parts: usize,
+    caps: usize,
+    rings: u32,
+    vertices: u32,
+    indices: u32,
+}
+
+impl Extent {
+    fn of(chunk: &Chunk) -> Self {
+        Self {
+            block_range: chunk.block_range.clone(),
+            window: chunk.window.clone(),
+            rows: chunk.blocks.len(),
+            parts: chunk.parts.len(),
+            caps: chunk.caps.len(),
+            rings: chunk.rings,
+            vertices: chunk.vertices,
+            indices: chunk.indices,
+        }
+    }
+}
+
+/// Memory of a chunk in flight, which serves the next chunk but one again.
+#[derive(Debug, Default)]
+pub(crate) struct Slot {
+    /// The chunk whose tables are here.
+    held: Option<Extent>,
+    pub(crate) has_rings: bool,
+    pub(crate) has_mesh: bool,
+    pub(crate) table: Buffer,
+    /// Rows of `table`.
+    pub(crate) rows: usize,
+    pub(crate) caps: Buffer,
+    pub(crate) rings: Buffer,
+    /// The growth of the radius at each ring; the schedule per-yarn only.
+    pub(crate) slopes: Buffer,
+    pub(crate) vertices: Buffer,
+    pub(crate) indices: Buffer,
+    /// The last command that writes here.
+    pub(crate) ready: Option<Arc<Handle>>,
+}
+
+impl Slot {
+    pub(crate) fn holds(&self, chunk: &Chunk) -> bool {
+        self.held.as_ref() == Some(&Extent::of(chunk))
+    }
+
+    /// Lets go of rings and mesh; tables and memory stay.
+    pub(crate) fn forget_results(&mut self) {
+        (self.has_rings, self.has_mesh) = (false, false);
+    }
+
+    /// Takes `chunk`: sends its tables, beside the kernels of the other chunk in flight but after this slot's own.
+    ///
+    /// **Errors**: [`BackendError::Unsupported`] for a chunk that `plan` did not cut: no kernel checks its bounds.
+    pub(crate) fn take(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
+        if !plan.holds(chunk) {
+            let what = "chunks of another plan than the session's".into();
+            return Err(BackendError::Unsupported { schedule: opened.name.clone(), what });
+        }
+        self.held = None;
+        self.forget_results();
+        let used = self.ready.take();
+        let parts;
+        let rows = match opened.schedule {
+            Schedule::PerRing => &chunk.blocks,
+            Schedule::PerYarn => {
+                parts = part_rows(&chunk.blocks);
+                &parts
+            }
+        };
+        let caps = plan.cap_rows(chunk);
+        self.table.reserve(opened, "the block table", size_of_val(&rows[..]) as u64)?;
+        self.caps.reserve(opened, "the cap table", size_of_val(&caps[..]) as u64)?;
+        let sent = [
+            self.table.write(opened, &opened.transfers, 0, rows, used.as_deref())?,
+            self.caps.write(opened, &opened.transfers, 0, &caps, used.as_deref())?,
+        ];
+        // In order, so the last stands for both.
+        self.ready = sent.into_iter().flatten().last();
+        self.rows = rows.len();
+        self.held = Some(Extent::of(chunk));
+        Ok(())
+    }
+
+    /// Makes room for the rings of `chunk`.
+    pub(crate) fn reserve_rings(&mut self, opened: &Opened, chunk: &Chunk) -> Result<(), BackendError> {
+        let rings = u64::from(chunk.rings);
+        self.rings.reserve(opened, "rings", rings * size_of::<Ring>() as u64)?;
+        if opened.schedule == Schedule::PerYarn {
+            self.slopes.reserve(opened, "slopes", rings * size_of::<f32>() as u64)?;
+        }
+        Ok(())
+    }
+
+    /// Makes room for the vertices and indices of `chunk`.
+    pub(crate) fn reserve_mesh(
+        &mut self,
+        opened: &Opened,
+        plan: &Plan,
+        chunk: &Chunk,
+    ) -> Result<(), BackendError> {
+        self.vertices.reserve(opened, "vertices", u64::from(chunk.vertices) * size_of::<Vertex>() as u64)?;
+        if plan.settings().topology == Topology::Indexed {
+            self.indices.reserve(opened, "indices", u64::from(chunk.indices) * size_of::<u32>() as u64)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,362 @@
+//! Sessions on a device: order, chunks in flight, edits, traffic, times, and what is refused.
+
+use std::ops::ControlFlow;
+use std::process::Command;
+use std::time::Duration;
+
+use crate::support::{device, plan, read, waves};
+use texere_conformance::cases;
+use texere_core::{
+    Backend, BackendError, Chunk, Frame, Limits, MeshMut, MeshPiece, PaddedPoints, Pipeline, Ring, Settings,
+    Topology, Vertex, Yarn,
+};
+use texere_cpu::SerialBackend;
+use texere_opencl::{OpenClBackend, OpenClError, Schedule};
+
+const TURNING: Settings = Settings {
+    tension: 0.0,
+    subdivisions: 3,
+    sides: 6,
+    frame: Frame::RotationMinimizing,
+    topology: Topology::Indexed,
+    caps: true,
+};
+
+fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt()
+}
+
+fn chunks(plan: &texere_core::Plan, blocks: u64) -> Vec<Chunk> {
+    plan.chunks(&Limits { blocks, ..Limits::NONE }).unwrap().collect()
+}
+
+#[test]
+fn stages_wait_for_what_they_stand_on() {
+    let yarns = waves();
+    let plan = plan(&yarns, TURNING);
+    let chunk = &chunks(&plan, u64::MAX)[0];
+    let mut session = device(Schedule::PerRing).session(plan.clone()).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    let early = session.mesh(chunk);
+    assert!(matches!(early, Err(BackendError::OutOfOrder { call: "mesh", needed: "scan" })), "{early:?}");
+    session.scan().unwrap();
+    let unread = session.read_mesh(chunk, &mut |_| ControlFlow::Continue(()));
+    assert!(matches!(unread, Err(BackendError::NotInFlight { chunk: 0 })), "{unread:?}");
+    session.mesh(chunk).unwrap();
+    session.upload(0, &yarns.points()[..1]).unwrap();
+    let outdated = session.read_mesh(chunk, &mut |_| ControlFlow::Continue(()));
+    assert!(matches!(outdated, Err(BackendError::NotInFlight { chunk: 0 })), "{outdated:?}");
+    let late = session.trajectory(chunk);
+    assert!(matches!(late, Err(BackendError::OutOfOrder { call: "trajectory", .. })), "{late:?}");
+}
+
+#[test]
+fn two_chunks_are_in_flight_and_a_third_takes_the_oldest_place() {
+    let yarns = waves();
+    let plan = plan(&yarns, TURNING);
+    let chunks = chunks(&plan, 3);
+    let mut session = device(Schedule::PerRing).session(plan).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.scan().unwrap();
+    session.mesh(&chunks[0]).unwrap();
+    session.mesh(&chunks[1]).unwrap();
+    let first = read(&mut *session, &chunks[0]);
+    let second = read(&mut *session, &chunks[1]);
+    // Reading does not make a chunk younger, so it is the first that goes.
+    read(&mut *session, &chunks[0]);
+    session.mesh(&chunks[2]).unwrap();
+    assert_eq!(read(&mut *session, &chunks[1]), second);
+    let gone = session.read_mesh(&chunks[0], &mut |_| ControlFlow::Continue(()));
+    assert!(matches!(gone, Err(BackendError::NotInFlight { chunk: 0 })), "{gone:?}");
+    // Launched again, it is the same to the bit.
+    session.mesh(&chunks[0]).unwrap();
+    assert_eq!(read(&mut *session, &chunks[0]), first);
+}
+
+#[test]
+fn an_edit_moves_one_yarn_and_no_other_bytes() {
+    let mut yarns = waves();
+    let plan = plan(&yarns, TURNING);
+    let device = device(Schedule::PerRing);
+    let chunk = &chunks(&plan, u64::MAX)[0];
+    let mut session = device.session(plan.clone()).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    assert_eq!(session.traffic().uploaded, plan.resident_bytes());
+    session.scan().unwrap();
+    session.mesh(chunk).unwrap();
+    let before = read(&mut *session, chunk).0;
+    assert_eq!(session.traffic().read, plan.counts().bytes());
+
+    let edited = 7;
+    let moved: Vec<_> = yarns
+        .yarn_points(edited)
+        .unwrap()
+        .iter()
+        .map(|point| texere_core::ControlPoint { z: point.z + 1.0, ..*point })
+        .collect();
+    yarns.set_points(edited, &moved).unwrap();
+    let sent = session.traffic().uploaded;
+    session.upload(yarns.range(edited).unwrap().start as u64, &moved).unwrap();
+    let padded = plan.padded_offsets()[edited + 1] - plan.padded_offsets()[edited];
+    assert_eq!(session.traffic().uploaded - sent, padded * 16);
+    session.scan().unwrap();
+    session.mesh(chunk).unwrap();
+    let after = read(&mut *session, chunk).0;
+
+    let whole = Pipeline::new(&yarns)
+        .subdivisions(TURNING.subdivisions)
+        .frame(TURNING.frame)
+        .caps(true)
+        .mesh(&device)
+        .unwrap();
+    assert_eq!(after, whole.vertices);
+    let part = chunk.parts[edited];
+    let own = part.first_vertex as usize..(part.first_vertex + part.rings * 6) as usize;
+    let is_own = |vertex: usize| {
+        own.contains(&vertex)
+            || chunk.caps.iter().any(|cap| {
+                cap.yarn as usize == edited
+                    && (cap.first_vertex..cap.first_vertex + 6).contains(&(vertex as u32))
+            })
+    };
+    for (number, (old, new)) in before.iter().zip(&after).enumerate() {
+        assert_eq!(old != new, is_own(number), "vertex {number}");
+    }
+}
+
+#[test]
+fn a_long_yarn_comes_in_pieces_and_equals_the_serial_backend() {
+    // 100,001 rings, 14.4 MB of vertices and as much of indices: two pieces of both.
+    let yarns = cases::winding(12_501, Yarn { twist: 0.3, ..Yarn::default() });
+    let settings = Settings { subdivisions: 7, sides: 7, ..TURNING };
+    let plan = plan(&yarns, settings);
+    assert_eq!(plan.counts().rings, 100_001);
+    let device = device(Schedule::PerRing);
+    let chunk = &chunks(&plan, u64::MAX)[0];
+    let mut session = device.session(plan.clone()).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.scan().unwrap();
+    session.mesh(chunk).unwrap();
+    let (vertices, indices, pieces) = read(&mut *session, chunk);
+    assert_eq!(pieces, 4);
+
+    let nan = Vertex { position: [f32::NAN; 3], normal: [f32::NAN; 3] };
+    let mut direct = (vec![nan; vertices.len()], vec![u32::MAX; indices.len()]);
+    session.mesh_into(chunk, MeshMut { vertices: &mut direct.0, indices: &mut direct.1 }).unwrap();
+    assert_eq!(direct, (vertices.clone(), indices.clone()));
+
+    let mut gold = SerialBackend::new().session(plan.clone()).unwrap();
+    gold.upload(0, yarns.points()).unwrap();
+    gold.scan().unwrap();
+    gold.mesh(chunk).unwrap();
+    let (gold_vertices, gold_indices, _) = read(&mut *gold, chunk);
+    assert_eq!(indices, gold_indices);
+    let worst = vertices.iter().zip(&gold_vertices).flat_map(|(a, b)| {
+        a.position.into_iter().chain(a.normal).zip(b.position.into_iter().chain(b.normal))
+    });
+    for (found, expected) in worst {
+        // Four units in the last place of a coordinate of 2,100 mm.
+        assert!((found - expected).abs() < 1e-3, "{found} for {expected}");
+    }
+}
+
+#[test]
+fn more_rings_than_one_launch_takes_come_out_as_one() {
+    // 2^24 rings fill a launch; these need a second one.
+    let yarns = cases::winding(16_500, Yarn::default());
+    let plan = plan(&yarns, Settings { subdivisions: 1023, ..Settings::default() });
+    let rings = plan.counts().rings as usize;
+    assert!(rings > 1 << 24);
+    let chunk = &chunks(&plan, u64::MAX)[0];
+    let mut session = device(Schedule::PerRing).session(plan.clone()).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.trajectory(chunk).unwrap();
+
+    let mut padded = PaddedPoints::new(&plan).unwrap();
+    padded.upload(&plan, 0, yarns.points()).unwrap();
+    let mut seen = 0;
+    let _ = session
+        .read_trajectory(chunk, &mut |piece| {
+            for (number, ring) in (seen..).zip(piece).filter(|(number, _)| number % 997 == 0) {
+                let expected =
+                    plan.sampling().sample(padded.points(), number as u32, rings as u32, false).sample;
+                let off = distance(ring.centre, expected.centre.to_array());
+                assert!(off < 1e-2, "ring {number}: {ring:?} for {expected:?}");
+            }
+            seen += piece.len();
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(seen, rings);
+}
+
+#[test]
+fn control_points_are_zero_until_they_are_uploaded() {
+    let yarns = cases::winding(100, Yarn::default());
+    let plan = plan(&yarns, Settings::default());
+    let chunk = &chunks(&plan, u64::MAX)[0];
+    let mut session = device(Schedule::PerRing).session(plan).unwrap();
+    session.mesh(chunk).unwrap();
+    let (vertices, ..) = read(&mut *session, chunk);
+    assert!(vertices.iter().all(|vertex| vertex.position == [0.0; 3]));
+}
+
+#[test]
+fn a_sink_may_break_off_at_any_piece() {
+    let yarns = cases::winding(12_501, Yarn::default());
+    let plan = plan(&yarns, Settings { subdivisions: 7, sides: 8, frame: Frame::Upright, ..TURNING });
+    let chunk = &chunks(&plan, u64::MAX)[0];
+    let mut session = device(Schedule::PerRing).session(plan).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.mesh(chunk).unwrap();
+    let (vertices, indices, pieces) = read(&mut *session, chunk);
+    for last in 1..=pieces {
+        let mut seen = 0;
+        let flow = session.read_mesh(chunk, &mut |_| {
+            seen += 1;
+            if seen == last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert_eq!((flow.unwrap(), seen), (ControlFlow::Break(()), last));
+    }
+    let mut rings = 0;
+    let flow = session.read_trajectory(chunk, &mut |piece: &[Ring]| {
+        rings += piece.len();
+        ControlFlow::Break(())
+    });
+    assert!(flow.unwrap().is_break() && rings > 0);
+    // What is read afterwards is whole.
+    let again = read(&mut *session, chunk);
+    assert_eq!((again.0, again.1), (vertices, indices));
+}
+
+#[test]
+fn each_stage_takes_time_on_the_device() {
+    let yarns = cases::winding(10_000, Yarn { twist: 1.0, ..Yarn::default() });
+    let plan = plan(&yarns, TURNING);
+    let chunk = &chunks(&plan, u64::MAX)[0];
+    let device = device(Schedule::PerRing);
+    assert!(device.is_timed_by_device());
+    let mut session = device.session(plan).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.scan().unwrap();
+    session.mesh(chunk).unwrap();
+    let _ = session.read_trajectory(chunk, &mut |_| ControlFlow::Continue(())).unwrap();
+    let times = session.timings();
+    for (name, time) in [
+        ("upload", times.upload),
+        ("scan", times.scan),
+        ("trajectory", times.trajectory),
+        ("mesh", times.mesh),
+        ("readback", times.readback),
+    ] {
+        assert!(time > Duration::ZERO && time < Duration::from_secs(60), "{name}: {time:?}");
+    }
+}
+
+#[test]
+fn chunks_of_another_plan_are_refused() {
+    let yarns = waves();
+    let device = device(Schedule::PerRing);
+    let own = plan(&yarns, Settings { frame: Frame::Upright, ..TURNING });
+    let other = plan(&yarns, Settings { sides: 7, frame: Frame::Upright, ..TURNING });
+    let yarns = cases::winding(100, Yarn::default());
+    let mut session = device.session(own.clone()).unwrap();
+    session.scan().unwrap();
+    session.mesh(&chunks(&own, 3)[0]).unwrap();
+    let mut forged = chunks(&own, 3)[0].clone();
+    forged.caps.extend_from_within(..);
+    for chunk in [&chunks(&other, 3)[0], chunks(&plan(&yarns, TURNING), 3).last().unwrap(), &forged] {
+        for refused in [session.mesh(chunk), session.trajectory(chunk)] {
+            assert!(matches!(refused, Err(BackendError::Unsupported { .. })), "{refused:?}");
+        }
+    }
+}
+
+#[test]
+fn outputs_of_another_length_are_refused() {
+    let yarns = cases::winding(10, Yarn::default());
+    let plan = plan(&yarns, Settings::default());
+    let chunk = &chunks(&plan, u64::MAX)[0];
+    let mut session = device(Schedule::PerRing).session(plan).unwrap();
+    let (mut vertices, mut indices) = (vec![Vertex::default(); 1], vec![0; chunk.indices as usize]);
+    let refused = session.mesh_into(chunk, MeshMut { vertices: &mut vertices, indices: &mut indices });
+    assert!(
+        matches!(refused, Err(BackendError::OutputLength { what: "vertices", given: 1, .. })),
+        "{refused:?}"
+    );
+    let refused = session.upload(9, &yarns.points()[..2]);
+    assert!(
+        matches!(refused, Err(BackendError::UploadRange { first: 9, end: 11, points: 10 })),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn control_points_beyond_one_buffer_are_refused() {
+    let yarns = cases::winding(100, Yarn::default());
+    let plan = plan(&yarns, Settings::default());
+    let small = Limits { binding_bytes: plan.resident_bytes() - 1, ..Limits::NONE };
+    let device = device(Schedule::PerRing).with_limits(small);
+    assert_eq!(device.info().limits.binding_bytes, small.binding_bytes);
+    let refused = device.session(plan).map(|_| ());
+    assert!(
+        matches!(
+            refused,
+            Err(BackendError::OutOfMemory { what: "control points, all in one buffer", bytes: 1632 })
+        ),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn devices_have_names_that_open_them() {
+    let devices = OpenClBackend::devices().unwrap();
+    for (index, info) in devices.iter().enumerate() {
+        assert_eq!(info.name, format!("opencl:{index}"));
+        assert!(info.limits.binding_bytes <= info.memory_bytes.unwrap());
+        assert_eq!(OpenClBackend::open(index, Schedule::PerRing).unwrap().info(), info);
+    }
+    let missing = OpenClBackend::open(devices.len(), Schedule::PerYarn).map(|_| ());
+    let Err(BackendError::NoDevice { wanted, found }) = missing else { panic!("{missing:?}") };
+    assert_eq!(wanted, format!("opencl:{}/per-yarn", devices.len()));
+    assert!(found.contains(&"opencl:0/per-yarn".to_owned()));
+}
+
+#[test]
+fn no_platform_is_an_error_with_a_name() {
+    let child = Command::new(std::env::current_exe().unwrap())
+        .args(["--ignored", "--exact", "session::without_a_platform"])
+        .env("OCL_ICD_VENDORS", "/nowhere")
+        .env("OCL_ICD_FILENAMES", "")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&child.stdout);
+    assert!(child.status.success() && said.contains("1 passed"), "{said}");
+}
+
+#[test]
+#[ignore = "run by no_platform_is_an_error_with_a_name, in a process without a platform"]
+fn without_a_platform() {
+    let Err(BackendError::Driver { call: "clGetPlatformIDs", source }) = OpenClBackend::devices() else {
+        panic!("a platform was found");
+    };
+    assert_eq!(source.downcast_ref(), Some(&OpenClError::NoPlatform));
+}
+
+#[test]
+fn pieces_hold_vertices_first() {
+    let yarns = cases::winding(10, Yarn::default());
+    for topology in [Topology::Shared, Topology::None] {
+        let plan = plan(&yarns, Settings { topology, ..Settings::default() });
+        let chunk = &chunks(&plan, u64::MAX)[0];
+        let mut session = device(Schedule::PerRing).session(plan).unwrap();
+        session.upload(0, yarns.points()).unwrap();
+        session.mesh(chunk).unwrap();
+        let _ = session
+            .read_mesh(chunk, &mut |piece| {
+                assert!(matches!(piece, MeshPiece::Vertices { .. }), "{piece:?}");
+                ControlFlow::Continue(())
+            })
+            .unwrap();
+    }
+}

@@ -1,0 +1,35 @@
+// The closed ends of yarns, once the tube vertices stand. After common.cl.
+//
+// The twin of caps.wgsl and of texere-cpu's caps.rs.
+
+#define CAPS_GROUP 64
+
+// A lane a cap vertex: the end ring's position again, with the end's own normal; and, of the cap's sides - 2
+// triangles, one a lane.
+__kernel __attribute__((reqd_work_group_size(CAPS_GROUP, 1, 1)))
+void caps(const Params params, const ulong window, __global const float4 *points, __global const CapRow *rows,
+          __global const uint *cap_pattern, __global float *vertices, __global uint *indices) {
+    size_t number = get_global_id(0);
+    if (number >= (size_t)params.caps * params.sides) {
+        return;
+    }
+    CapRow cap = rows[number / params.sides];
+    uint corner = number % params.sides;
+
+    // The start is t = 0 of the first interval, the finish t = 1 of the last.
+    __global const float4 *end = points + window + cap.first_point;
+    Segment segment = segment_new(end[0], end[1], end[2], end[3], params.s);
+    Sample sample = segment_sample(&segment, cap.end == 0u ? 0.0f : 1.0f);
+    float3 normal = sample.tangent * (cap.end == 0u ? -1.0f : 1.0f);
+
+    float3 position = vload3(0, vertices + 6 * (size_t)(cap.ring_vertex + corner));
+    __global float *out = vertices + 6 * (size_t)(cap.first_vertex + corner);
+    vstore3(position, 0, out);
+    vstore3(normal, 0, out + 3);
+
+    if (params.indexed != 0u && corner < params.sides - 2u) {
+        for (uint k = 3u * corner; k < 3u * corner + 3u; k++) {
+            indices[cap.first_index + k] = cap.first_vertex + cap_pattern[cap.first_corner + k];
+        }
+    }
+}

@@ -1,0 +1,79 @@
+// The paper's algorithms 2 and 4, one lane a yarn: the yardstick that the schedule per-ring is measured against. After
+// common.cl.
+//
+// The twin of per_yarn.wgsl. Only what the paper does: upright, untwisted, open yarns without caps. A lane's share is a
+// part, a run of one yarn's rings in a chunk, so that a fabric larger than a device's buffers can be made at all. Here
+// `blocks` has one row a part: its first block's, with all of the part's rings.
+
+#define PER_YARN_GROUP 64
+
+// Algorithm 2: for each control interval, K + 1 rings. The growth of the radius, for which a ring has no room, goes to
+// `slopes`.
+__kernel __attribute__((reqd_work_group_size(PER_YARN_GROUP, 1, 1)))
+void trajectory_per_yarn(const Params params, const ulong window, __global const float4 *points,
+                         __global const YarnRow *yarns, __global const Block *blocks, __global uint4 *rings,
+                         __global float *slopes) {
+    size_t number = get_global_id(0);
+    if (number >= params.blocks) {
+        return;
+    }
+    Block part = blocks[number];
+    uint per_interval = params.subdivisions + 1u;
+    uint intervals = (yarns[part.yarn].rings - 1u) / per_interval;
+    uint interval = part.first_ring / per_interval;
+    uint place = part.first_ring % per_interval;
+    __global const float4 *point = points + window + part.first_point;
+    // The yarn's last ring is t = 1 of the last interval.
+    if (interval == intervals) {
+        interval -= 1u;
+        point -= 1;
+        place = per_interval;
+    }
+    for (uint ring = 0u; ring < part.rings; interval++, point++) {
+        Segment segment = segment_new(point[0], point[1], point[2], point[3], params.s);
+        uint end = interval + 1u == intervals ? per_interval + 1u : per_interval;
+        for (; place < end && ring < part.rings; place++, ring++) {
+            float t = place == per_interval ? 1.0f : (float)place * params.step;
+            Sample sample = segment_sample(&segment, t);
+            size_t at = (size_t)part.chunk_ring + ring;
+            rings[2 * at] = as_uint4((float4)(sample.centre, sample.radius));
+            rings[2 * at + 1] = as_uint4((float4)(sample.tangent, 0.0f));
+            slopes[at] = sample.slope;
+        }
+        place = 0u;
+    }
+}
+
+// Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.
+__kernel __attribute__((reqd_work_group_size(PER_YARN_GROUP, 1, 1)))
+void mesh_per_yarn(const Params params, __global const YarnRow *yarns, __global const Block *blocks,
+                   __global const uint4 *rings, __global const float *slopes, __global const float4 *outlines,
+                   __global const uint *pattern, __global float *vertices, __global uint *indices) {
+    size_t number = get_global_id(0);
+    if (number >= params.blocks) {
+        return;
+    }
+    Block part = blocks[number];
+    uint sides = params.sides;
+    __global const float4 *outline = outlines + yarns[part.yarn].section * sides;
+    for (uint ring = 0u; ring < part.rings; ring++) {
+        size_t at = (size_t)part.chunk_ring + ring;
+        float4 centre = as_float4(rings[2 * at]);
+        float4 tangent = as_float4(rings[2 * at + 1]);
+        tangent.w = slopes[at];
+        Basis basis = basis_upright(tangent.xyz);
+        uint first_vertex = part.first_vertex + ring * sides;
+        for (uint k = 0u; k < sides; k++) {
+            Vertex vertex = vertex_at(centre, tangent, basis.side, basis.up, outline[k]);
+            __global float *out = vertices + 6 * (size_t)(first_vertex + k);
+            vstore3(vertex.position, 0, out);
+            vstore3(vertex.normal, 0, out + 3);
+        }
+        if (params.indexed != 0u && ring + 1u < part.rings) {
+            uint first_index = part.first_index + ring * 6u * sides;
+            for (uint k = 0u; k < 6u * sides; k++) {
+                indices[first_index + k] = first_vertex + pattern[k];
+            }
+        }
+    }
+}

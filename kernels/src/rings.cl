@@ -1,0 +1,62 @@
+// A block's rings in local memory: what the stages of the schedule per-ring begin with. After common.cl.
+//
+// rings.wgsl is the twin of this file.
+
+// The rings of a block, each with its basis and its roll.
+typedef struct {
+    // Centre, radius.
+    float4 centre[BLOCK_RINGS];
+    // Unit tangent, slope.
+    float4 tangent[BLOCK_RINGS];
+    float4 side[BLOCK_RINGS];
+    float4 up[BLOCK_RINGS];
+    uint roll[BLOCK_RINGS];
+} BlockRings;
+
+// Makes the rings of `block`, the yarn's turns before which add up to `start` and in all to `whole`: one lane a ring.
+// Every lane of the workgroup, which has at least BLOCK_RINGS, must come here.
+void block_rings(__global const float4 *points, const Params *params, const YarnRow *yarn, const Block *block,
+                 uint start, uint whole, uint lane, __local BlockRings *rings) {
+    RingSample here;
+    uint roll = 0u;
+    if (lane < block->rings) {
+        here = ring_sample(points, params, yarn, block, lane);
+        rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.slope);
+        // The step from the ring before wants the offset; the side takes its place afterwards.
+        rings->side[lane] = (float4)(here.sample.offset, 0.0f);
+    }
+    if (params->rolled != 0u) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        uint turn = 0u;
+        if (lane + 1u < block->rings) {
+            float3 chord = chord_to(&here, rings->side[lane + 1u].xyz);
+            turn = frame_step(params->frame, here.sample.tangent, rings->tangent[lane + 1u].xyz, chord, yarn->twist);
+        }
+        if (lane < BLOCK_RINGS) {
+            rings->roll[lane] = turn;
+        }
+        // An inclusive scan of the steps: each pass adds the sum that lies `reach` lanes before.
+        for (uint reach = 1u; reach < BLOCK_RINGS; reach *= 2u) {
+            barrier(CLK_LOCAL_MEM_FENCE);
+            uint before = lane < BLOCK_RINGS && lane >= reach ? rings->roll[lane - reach] : 0u;
+            barrier(CLK_LOCAL_MEM_FENCE);
+            if (lane < BLOCK_RINGS) {
+                rings->roll[lane] += before;
+            }
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (lane < block->rings) {
+            uint sum = lane == 0u ? start : start + rings->roll[lane - 1u];
+            roll = closed_up(yarn, block->first_ring + lane, sum, whole);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (lane < block->rings) {
+        Basis basis = basis_standing(here.sample.tangent, roll);
+        rings->centre[lane] = (float4)(here.sample.centre, here.sample.radius);
+        rings->side[lane] = (float4)(basis.side, 0.0f);
+        rings->up[lane] = (float4)(basis.up, 0.0f);
+        rings->roll[lane] = roll;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+}

@@ -1,0 +1,70 @@
+// Rolls at block starts: what a block needs to know of the yarn before it. After common.cl.
+//
+// The twin of scan.wgsl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps; a running sum over a
+// yarn's blocks then gives the roll at each block's first ring. Turns wrap, so the order of the sums does not matter.
+
+#define TURNS_GROUP 64
+#define ROLLS_GROUP 256
+
+// A workgroup of TURNS_GROUP a block, over all blocks of the plan; their first points count from the first of all.
+__kernel __attribute__((reqd_work_group_size(TURNS_GROUP, 1, 1)))
+void block_turns(const Params params, __global const float4 *points, __global const YarnRow *yarns,
+                 __global const Block *blocks, __global uint *rolls) {
+    __local uint sums[TURNS_GROUP];
+    size_t row = get_global_id(0) / TURNS_GROUP;
+    uint lane = get_local_id(0);
+    Block block = blocks[row];
+    YarnRow yarn = yarns[block.yarn];
+
+    // The steps to the ring after each: as many as quads, so the last leads to the next block's first ring.
+    uint turn = 0u;
+    if (lane < block.quads) {
+        RingSample here = ring_sample(points, &params, &yarn, &block, lane);
+        RingSample next = ring_sample(points, &params, &yarn, &block, lane + 1u);
+        float3 chord = chord_to(&here, next.sample.offset);
+        turn = frame_step(params.frame, here.sample.tangent, next.sample.tangent, chord, yarn.twist);
+    }
+    sums[lane] = turn;
+    for (uint reach = TURNS_GROUP / 2; reach > 0u; reach /= 2u) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (lane < reach) {
+            sums[lane] += sums[lane + reach];
+        }
+    }
+    if (lane == 0u) {
+        rolls[row] = sums[0];
+    }
+}
+
+// A workgroup of ROLLS_GROUP a yarn: turns become rolls in place, tile by tile, and their total the yarn's whole turn.
+__kernel __attribute__((reqd_work_group_size(ROLLS_GROUP, 1, 1)))
+void yarn_rolls(__global const YarnRow *yarns, __global uint *rolls, __global uint *whole) {
+    __local uint sums[ROLLS_GROUP];
+    size_t number = get_global_id(0) / ROLLS_GROUP;
+    uint lane = get_local_id(0);
+    YarnRow yarn = yarns[number];
+    uint blocks = (yarn.rings - 1u) / BLOCK_RINGS + 1u;
+    __global uint *own = rolls + yarn.first_block;
+
+    uint before = 0u;
+    for (uint tile = 0u; tile < blocks; tile += ROLLS_GROUP) {
+        uint block = tile + lane;
+        uint turn = block < blocks ? own[block] : 0u;
+        sums[lane] = turn;
+        for (uint reach = 1u; reach < ROLLS_GROUP; reach *= 2u) {
+            barrier(CLK_LOCAL_MEM_FENCE);
+            uint further = lane >= reach ? sums[lane - reach] : 0u;
+            barrier(CLK_LOCAL_MEM_FENCE);
+            sums[lane] += further;
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (block < blocks) {
+            own[block] = before + sums[lane] - turn;
+        }
+        before += sums[ROLLS_GROUP - 1];
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (lane == 0u) {
+        whole[number] = before;
+    }
+}

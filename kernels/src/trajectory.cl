@@ -1,0 +1,32 @@
+// Stage 1: the rings of a chunk. After common.cl and rings.cl.
+//
+// The twin of trajectory.wgsl and of texere-cpu's serial/trajectory.rs.
+
+#define TRAJECTORY_GROUP 64
+
+// A workgroup of TRAJECTORY_GROUP a row of the chunk's block table.
+__kernel __attribute__((reqd_work_group_size(TRAJECTORY_GROUP, 1, 1)))
+void trajectory(const Params params, const ulong window, __global const float4 *points,
+                __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
+                __global const uint *whole, __global uint4 *rings) {
+    __local BlockRings standing;
+    size_t row = get_global_id(0) / TRAJECTORY_GROUP;
+    uint lane = get_local_id(0);
+    Block block = blocks[row];
+    YarnRow yarn = yarns[block.yarn];
+    uint start = params.rolled != 0u ? rolls[params.first_block + row] : 0u;
+    uint turned = params.rolled != 0u ? whole[block.yarn] : 0u;
+    block_rings(points + window, &params, &yarn, &block, start, turned, lane, &standing);
+
+    // Two stores of 16 bytes a ring, contiguous across lanes.
+    __global uint4 *out = rings + 2 * (size_t)block.chunk_ring;
+    for (uint piece = lane; piece < 2u * block.rings; piece += TRAJECTORY_GROUP) {
+        uint ring = piece / 2u;
+        if (piece % 2u == 0u) {
+            out[piece] = as_uint4(standing.centre[ring]);
+        } else {
+            float4 tangent = standing.tangent[ring];
+            out[piece] = (uint4)(as_uint(tangent.x), as_uint(tangent.y), as_uint(tangent.z), standing.roll[ring]);
+        }
+    }
+}

@@ -1,1 +1,214 @@
-//! Under way.
+//! The WGSL shaders of texere: sources, entry points, workgroup sizes and bindings. It knows no GPU programming
+//! interface; `texere-wgpu` runs them.
+//!
+//! | file | entry points | work |
+//! |---|---|---|
+//! | `common.wgsl` | | tables, turn, spline, frame, vertex: stands before each of the others |
+//! | `rings.wgsl` | | a block's rings in workgroup memory: stands before `trajectory` and `mesh` |
+//! | `scan.wgsl` | `block_turns`, `yarn_rolls` | the roll at each block's start |
+//! | `trajectory.wgsl` | `trajectory` | stage 1 |
+//! | `mesh.wgsl` | `mesh`, `mesh_odd` | stage 2 with stage 1 in it |
+//! | `caps.wgsl` | `caps` | closed ends |
+//! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
+//!
+//! The OpenCL C twins are in `texere-kernels`, file by file.
+//!
+//! ```
+//! use texere_shaders::{MESH, Resource};
+//! assert!(MESH.source.contains("fn mesh("));
+//! assert!(MESH.bindings.iter().any(|binding| binding.resource == Resource::Vertices));
+//! ```
+
+/// Workgroups in a row of a launch's grid: what every device allows in a dimension. A launch of n workgroups is
+/// `min(n, GRID_WIDTH)` by `n / GRID_WIDTH`, rounded up.
+pub const GRID_WIDTH: u32 = 65_535;
+
+/// What a shader reads or writes; the number is that of its binding in group 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum Resource {
+    /// `Params` of `texere-core`.
+    Params = 0,
+    /// Control points, from the start of the chunk's window.
+    Points = 1,
+    /// `YarnRow`s.
+    Yarns = 2,
+    /// `Block`s of a chunk; for the schedule per-yarn one row a part.
+    Blocks = 3,
+    /// The whole turn of each yarn, then the roll at each block's start: `u32`s.
+    Rolls = 4,
+    /// `SectionPoint`s of all sections.
+    Outlines = 5,
+    /// The indices of the quads between a ring and the next.
+    Pattern = 6,
+    /// `Vertex`es of a chunk.
+    Vertices = 7,
+    /// Indices of a chunk.
+    Indices = 8,
+    /// `Ring`s of a chunk.
+    Rings = 9,
+    /// `CapRow`s of a chunk.
+    CapRows = 10,
+    /// Cap indices, as `Plan::cap_pattern` has them.
+    CapPattern = 11,
+    /// The growth of the radius at each ring of a chunk: `f32`s.
+    Slopes = 12,
+}
+
+/// How a shader uses a resource.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Access {
+    /// A uniform buffer.
+    Uniform,
+    /// A storage buffer that is only read.
+    Read,
+    /// A storage buffer that is written, too.
+    Write,
+}
+
+/// A resource that a shader uses, and how.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Binding {
+    /// The resource; its number is the binding's.
+    pub resource: Resource,
+    /// How it is used.
+    pub access: Access,
+}
+
+/// A compute shader.
+#[derive(Debug, Clone, Copy)]
+pub struct Shader {
+    /// Its entry point.
+    pub entry_point: &'static str,
+    /// The WGSL source, complete.
+    pub source: &'static str,
+    /// Lanes of a workgroup, in one dimension.
+    pub workgroup: u32,
+    /// All that it uses, by number; all in group 0. At most eight are storage buffers, which is what WebGPU promises.
+    pub bindings: &'static [Binding],
+}
+
+const fn uniform(resource: Resource) -> Binding {
+    Binding { resource, access: Access::Uniform }
+}
+
+const fn read(resource: Resource) -> Binding {
+    Binding { resource, access: Access::Read }
+}
+
+const fn write(resource: Resource) -> Binding {
+    Binding { resource, access: Access::Write }
+}
+
+const SCAN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("scan.wgsl"));
+const MESH_SOURCE: &str =
+    concat!(include_str!("common.wgsl"), include_str!("rings.wgsl"), include_str!("mesh.wgsl"));
+const PER_YARN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("per_yarn.wgsl"));
+
+/// Turns of each block of a chunk: a workgroup a row.
+pub const BLOCK_TURNS: Shader = Shader {
+    entry_point: "block_turns",
+    source: SCAN_SOURCE,
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Points),
+        read(Resource::Yarns),
+        read(Resource::Blocks),
+        write(Resource::Rolls),
+    ],
+};
+
+/// Turns to rolls, in place: a workgroup a yarn.
+pub const YARN_ROLLS: Shader = Shader {
+    entry_point: "yarn_rolls",
+    source: SCAN_SOURCE,
+    workgroup: 256,
+    bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::Rolls)],
+};
+
+/// Rings of a chunk: a workgroup a row.
+pub const TRAJECTORY: Shader = Shader {
+    entry_point: "trajectory",
+    source: concat!(include_str!("common.wgsl"), include_str!("rings.wgsl"), include_str!("trajectory.wgsl")),
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Points),
+        read(Resource::Yarns),
+        read(Resource::Blocks),
+        read(Resource::Rolls),
+        write(Resource::Rings),
+    ],
+};
+
+const MESH_BINDINGS: &[Binding] = &[
+    uniform(Resource::Params),
+    read(Resource::Points),
+    read(Resource::Yarns),
+    read(Resource::Blocks),
+    read(Resource::Rolls),
+    read(Resource::Outlines),
+    read(Resource::Pattern),
+    write(Resource::Vertices),
+    write(Resource::Indices),
+];
+
+/// Vertices and indices of a chunk's tubes for an even number of sides: a workgroup a row.
+pub const MESH: Shader =
+    Shader { entry_point: "mesh", source: MESH_SOURCE, workgroup: 128, bindings: MESH_BINDINGS };
+
+/// The same for an odd number of sides.
+pub const MESH_ODD: Shader = Shader { entry_point: "mesh_odd", ..MESH };
+
+/// Vertices and indices of a chunk's caps: a lane a vertex.
+pub const CAPS: Shader = Shader {
+    entry_point: "caps",
+    source: concat!(include_str!("common.wgsl"), include_str!("caps.wgsl")),
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Points),
+        write(Resource::Vertices),
+        write(Resource::Indices),
+        read(Resource::CapRows),
+        read(Resource::CapPattern),
+    ],
+};
+
+/// The paper's algorithm 2: a lane a part.
+pub const TRAJECTORY_PER_YARN: Shader = Shader {
+    entry_point: "trajectory_per_yarn",
+    source: PER_YARN_SOURCE,
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Points),
+        read(Resource::Yarns),
+        read(Resource::Blocks),
+        write(Resource::Rings),
+        write(Resource::Slopes),
+    ],
+};
+
+/// The paper's algorithm 4: a lane a part.
+pub const MESH_PER_YARN: Shader = Shader {
+    entry_point: "mesh_per_yarn",
+    source: PER_YARN_SOURCE,
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Yarns),
+        read(Resource::Blocks),
+        read(Resource::Outlines),
+        read(Resource::Pattern),
+        write(Resource::Vertices),
+        write(Resource::Indices),
+        write(Resource::Rings),
+        write(Resource::Slopes),
+    ],
+};
+
+/// All shaders.
+pub const ALL: [&Shader; 8] =
+    [&BLOCK_TURNS, &YARN_ROLLS, &TRAJECTORY, &MESH, &MESH_ODD, &CAPS, &TRAJECTORY_PER_YARN, &MESH_PER_YARN];

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use texere_core::{Backend, BackendError};
+use texere_core::{Backend, BackendError, Schedule};
 use texere_cpu::{ParallelBackend, SerialBackend};
+use texere_opencl::OpenClBackend;
+use texere_wgpu::WgpuBackend;
 
 use crate::DeferredBackend;
 
@@ -48,4 +50,14 @@ impl Entry {
 pub const REGISTRY: &[Entry] = &[
     Entry::exact("cpu", || Ok(vec![Arc::new(SerialBackend::new()), Arc::new(ParallelBackend::new())])),
     Entry::exact("deferred", || Ok(vec![Arc::new(DeferredBackend::new())])),
+    Entry::near("opencl", || open_each(OpenClBackend::devices()?.len(), OpenClBackend::open)),
+    Entry::near("wgpu", || open_each(WgpuBackend::devices()?.len(), WgpuBackend::open)),
 ];
+
+/// Opens devices 0 to `count`.
+fn open_each<B: Backend + 'static>(
+    count: usize,
+    open: fn(usize, Schedule) -> Result<B, BackendError>,
+) -> Result<Vec<Arc<dyn Backend>>, BackendError> {
+    (0..count).map(|index| Ok(Arc::new(open(index, Schedule::PerRing)?) as Arc<dyn Backend>)).collect()
+}

@@ -1,6 +1,6 @@
 //! The suite's own proof: each broken backend is caught, by the name of its fault and no other.
 
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 use std::sync::Arc;
 
 use texere_conformance::compare::{Fault, Report};
@@ -80,47 +80,53 @@ fn a_report_names_the_place_and_both_values() {
     assert!(told.ends_with("2 mismatches: 2 Position"), "{told}");
 }
 
-/// The exit code of a whole run, as a test program has it.
-fn failed(code: ExitCode) -> bool {
-    format!("{code:?}") != format!("{:?}", ExitCode::SUCCESS)
+const BROKEN: &[Entry] =
+    &[Entry::near("broken", || Ok(vec![Arc::new(SabotagedBackend::new(Sabotage::Zeros))]))];
+
+const MISSING: &[Entry] = &[
+    Entry::near("absent", || Err(BackendError::NoDevice { wanted: "absent".into(), found: Vec::new() })),
+    Entry::near("empty", || Ok(Vec::new())),
+];
+
+/// Whether a run of the trials with `filter` in their names passes.
+fn passes(filter: &str, registry: &[Entry]) -> bool {
+    let code = run(["suite", "--quiet", filter], registry);
+    format!("{code:?}") == format!("{:?}", ExitCode::SUCCESS)
+}
+
+/// Whether one of the tests below passes in a process of its own, which keeps its output to itself and has
+/// `TEXERE_REQUIRE` set to `required`.
+fn passes_alone(test: &str, required: &str) -> bool {
+    let mut program = Command::new(std::env::current_exe().unwrap());
+    program.args(["--exact", test, "--ignored"]).env("TEXERE_REQUIRE", required);
+    let output = program.output().unwrap();
+    let ran = String::from_utf8_lossy(&output.stdout).contains("running 1 test");
+    assert!(ran, "there is no {test}");
+    output.status.success()
+}
+
+#[test]
+#[ignore = "started by another test"]
+fn run_a_broken_backend() {
+    assert!(passes("rings-193::upright", BROKEN));
+}
+
+#[test]
+#[ignore = "started by another test"]
+fn run_without_backends() {
+    assert!(passes("missing", MISSING));
 }
 
 #[test]
 fn a_broken_backend_fails_the_run() {
-    const BROKEN: &[Entry] =
-        &[Entry::near("broken", || Ok(vec![Arc::new(SabotagedBackend::new(Sabotage::Zeros))]))];
-    assert!(failed(run(["suite", "--quiet", "rings-193::upright"], BROKEN)));
+    assert!(!passes_alone("run_a_broken_backend", ""));
 }
 
 #[test]
 fn a_missing_backend_is_ignored_unless_it_is_required() {
-    const MISSING: &[Entry] = &[
-        Entry::near("absent", || Err(BackendError::NoDevice { wanted: "absent".into(), found: Vec::new() })),
-        Entry::near("empty", || Ok(Vec::new())),
-    ];
-    assert!(!failed(run(["suite", "--quiet"], MISSING)));
-    let required = |name: &str| {
-        let program = std::env::current_exe().unwrap();
-        let run = std::process::Command::new(program)
-            .args(["--exact", "runs_what_the_environment_requires", "--ignored", "--nocapture"])
-            .env("TEXERE_REQUIRE", name)
-            .output()
-            .unwrap();
-        !run.status.success()
-    };
-    assert!(!required(""));
-    assert!(required("absent"));
-    assert!(required("empty, cpu"));
-    assert!(required("unheard-of"));
-}
-
-/// Run by [`a_missing_backend_is_ignored_unless_it_is_required`] in a process of its own, whose environment it can set.
-#[test]
-#[ignore = "started by another test"]
-fn runs_what_the_environment_requires() {
-    const MISSING: &[Entry] = &[
-        Entry::near("absent", || Err(BackendError::NoDevice { wanted: "absent".into(), found: Vec::new() })),
-        Entry::near("empty", || Ok(Vec::new())),
-    ];
-    assert!(!failed(run(["suite", "--quiet"], MISSING)));
+    let passes = |required| passes_alone("run_without_backends", required);
+    assert!(passes(""));
+    assert!(!passes("absent"));
+    assert!(!passes("cpu, empty"));
+    assert!(!passes("unheard-of"));
 }

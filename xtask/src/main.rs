@@ -7,8 +7,22 @@ use std::process::ExitCode;
 use steps::Steps;
 
 /// Crates that go to crates.io.
-const PUBLISHED: [&str; 6] =
-    ["texere-core", "texere-fabric", "texere-formats", "texere-cpu", "texere", "texere-cli"];
+const PUBLISHED: [&str; 10] = [
+    "texere-core",
+    "texere-fabric",
+    "texere-formats",
+    "texere-cpu",
+    "texere-kernels",
+    "texere-opencl",
+    "texere-shaders",
+    "texere-wgpu",
+    "texere",
+    "texere-cli",
+];
+
+/// Debian's packages that run both GPU backends on a CPU: an OpenCL loader with PoCL, a Vulkan loader with lavapipe.
+const SOFTWARE_DEVICES: [&str; 4] =
+    ["ocl-icd-libopencl1", "pocl-opencl-icd", "libvulkan1", "mesa-vulkan-drivers"];
 
 fn main() -> ExitCode {
     let task = std::env::args().nth(1);
@@ -31,8 +45,28 @@ fn main() -> ExitCode {
 
 /// All tests: units, integration, conformance, doctests.
 fn test(steps: &mut Steps) {
+    install_software_devices(steps);
     steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
+}
+
+/// Where Debian's packages can be installed, sees to it that the tests find an OpenCL and a Vulkan device. Elsewhere the
+/// suite shows a backend without a device as ignored, or failed where `TEXERE_REQUIRE` names it.
+fn install_software_devices(steps: &mut Steps) {
+    let installed = |package: &str| steps.succeeds("dpkg", &["--status", package]);
+    if !cfg!(target_os = "linux") || !steps.succeeds("apt-get", &["--version"]) {
+        return;
+    }
+    let missing: Vec<_> = SOFTWARE_DEVICES.into_iter().filter(|package| !installed(package)).collect();
+    if missing.is_empty() {
+        return;
+    }
+    let sudo = !steps.succeeds("test", &["-w", "/var/lib/dpkg"]);
+    let apt = if sudo { ["sudo", "apt-get"].as_slice() } else { ["apt-get"].as_slice() };
+    let environment = [("DEBIAN_FRONTEND", "noninteractive")];
+    steps.run("package lists", &[apt, &["update", "--quiet"]].concat(), &environment);
+    let install = [apt, &["install", "--quiet", "--yes", "--no-install-recommends"], &missing].concat();
+    steps.run("software devices", &install, &environment);
 }
 
 /// What needs no test run.

@@ -14,12 +14,17 @@ pub(crate) struct Steps {
 impl Steps {
     /// Runs cargo with `args` and extra environment variables.
     pub(crate) fn cargo(&mut self, name: &str, args: &[&str], env: &[(&str, &str)]) {
+        self.run(name, &[&["cargo"], args].concat(), env);
+    }
+
+    /// Runs a program with its arguments and extra environment variables.
+    pub(crate) fn run(&mut self, name: &str, program: &[&str], env: &[(&str, &str)]) {
         if self.failed.is_some() {
             return;
         }
-        println!("\n==> {name}: cargo {}", args.join(" "));
+        println!("\n==> {name}: {}", program.join(" "));
         let start = Instant::now();
-        let status = command("cargo", args).envs(env.iter().copied()).status();
+        let status = command(program[0], &program[1..]).envs(env.iter().copied()).status();
         self.done.push((name.into(), start.elapsed()));
         match status {
             Ok(status) if status.success() => {}

@@ -24,7 +24,7 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     /// Write a design's mesh to a .glb or .ply file
     Mesh(MeshArgs),
-    /// Print a woven design's drawdown
+    /// Draw a woven design's draft, or print its drawdown
     Draft(DraftArgs),
 }
 
@@ -53,7 +53,7 @@ pub(crate) struct MeshArgs {
     /// The file to write: .glb or .ply
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// The device that does the work, as `texere devices` lists them
+    /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl, wgpu:nvidia, opencl:0/per-yarn
     #[arg(long, default_value = "auto")]
     pub(crate) device: String,
     #[command(flatten)]
@@ -64,9 +64,16 @@ pub(crate) struct MeshArgs {
 pub(crate) struct DraftArgs {
     /// A .wif draft or a .toml design
     pub(crate) design: PathBuf,
-    /// Print a row for each pick, the last pick first: 1 where the warp is up, 0 where the weft is, end 1 on the left
-    #[arg(long, required = true)]
+    /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point paper where there is no
+    /// shaft draft
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left
+    #[arg(long, required_unless_present = "output")]
     pub(crate) text: bool,
+    /// Show the back of the cloth, turned over sideways: end 1 on the right
+    #[arg(long)]
+    pub(crate) back: bool,
 }
 
 /// What can be chosen about a mesh.

@@ -1,5 +1,6 @@
 //! `texere devices`
 
+use std::error::Error;
 use std::fmt::Write;
 
 use serde_json::json;
@@ -9,29 +10,45 @@ use crate::fail::Fail;
 
 pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     let devices = texere::devices();
+    let (auto, why) = devices.auto();
+    let missing = devices.missing.iter().map(|(family, error)| (*family, causes(error)));
     if args.json {
-        let list: Vec<_> = devices
-            .iter()
-            .map(|device| {
-                json!({
-                    "name": device.name,
-                    "device": device.device,
-                    "kind": device.kind.to_string(),
-                    "driver": device.driver,
-                    "schedule": device.schedule,
-                    "memory_bytes": device.memory_bytes,
-                })
+        let found = devices.found.iter().map(|device| {
+            json!({
+                "name": device.name,
+                "device": device.device,
+                "kind": device.kind.to_string(),
+                "driver": device.driver,
+                "schedule": device.schedule,
+                "memory_bytes": device.memory_bytes,
+                "binding_bytes": device.limits.binding_bytes,
             })
-            .collect();
-        return crate::print(&format!("{:#}\n", json!(list)));
+        });
+        let missing: Vec<_> = missing.map(|(family, why)| json!({ "family": family, "why": why })).collect();
+        let all = json!({ "auto": auto, "why": why, "found": found.collect::<Vec<_>>(), "missing": missing });
+        return crate::print(&format!("{all:#}\n"));
     }
     let mut text = String::new();
-    for (number, device) in devices.iter().enumerate() {
-        let auto = if number == 0 { " (auto)" } else { "" };
-        let (name, schedule) = (&device.name, &device.schedule);
+    for device in &devices.found {
+        let (name, kind, driver) = (&device.name, &device.kind, &device.driver);
+        let memory = device.memory_bytes.map(|bytes| format!(", {} MiB", bytes >> 20)).unwrap_or_default();
         // Writing to a string can't fail.
-        let _ =
-            writeln!(text, "{name}{auto}: {}, {}, {}, {schedule}", device.kind, device.device, device.driver);
+        let _ = writeln!(text, "{name}: {kind}, {}{memory}, {driver}, {}", device.device, device.schedule);
+    }
+    let _ = writeln!(text, "auto is {auto}: {why}");
+    for (family, why) in missing {
+        let _ = writeln!(text, "no {family} device: {why}");
     }
     crate::print(&text)
+}
+
+/// An error and its causes in one line.
+fn causes(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        let _ = write!(text, ", because {error}");
+        cause = error.source();
+    }
+    text
 }

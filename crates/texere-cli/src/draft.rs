@@ -1,6 +1,6 @@
 //! `texere draft`
 
-use texere::Structure;
+use texere::{Drawdown, Side, Structure};
 
 use crate::args::DraftArgs;
 use crate::fail::Fail;
@@ -10,8 +10,27 @@ pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
     let Structure::Woven(woven) = &design.structure else {
         return Err(Fail::not_woven(&args.design));
     };
-    let drawdown = woven.drawdown();
-    let row = |pick| (0..drawdown.ends()).map(move |end| if drawdown.up(end, pick) { '1' } else { '0' });
-    let text: String = (0..drawdown.picks()).rev().flat_map(|pick| row(pick).chain(['\n'])).collect();
-    crate::print(&text)
+    let side = if args.back { Side::Back } else { Side::Face };
+    if args.text {
+        crate::print(&text(woven.drawdown(), side))?;
+    }
+    if let Some(output) = &args.output {
+        let [width, height] = texere::write_draft(woven, design.draft.as_ref(), side, output)?;
+        // With --text, standard output is the drawdown alone.
+        if !args.text {
+            crate::print(&format!("{}: {width} × {height} pixels\n", output.display()))?;
+        }
+    }
+    Ok(())
+}
+
+/// A row for each pick, the last one on top.
+fn text(drawdown: &Drawdown, side: Side) -> String {
+    let (ends, picks) = (drawdown.ends(), drawdown.picks());
+    let on_top = |column: usize, pick| match side {
+        Side::Face => drawdown.up(column, pick),
+        Side::Back => !drawdown.up(ends - 1 - column, pick),
+    };
+    let row = |pick| (0..ends).map(move |column| if on_top(column, pick) { '1' } else { '0' });
+    (0..picks).rev().flat_map(|pick| row(pick).chain(['\n'])).collect()
 }

@@ -94,11 +94,39 @@ fn a_mesh_is_written_and_nothing_is_drawn_on_a_pipe() {
 #[test]
 fn devices_are_listed_by_the_names_that_open_them() {
     let output = texere(&["devices", "--json"]);
-    let list: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let all: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let names: Vec<_> =
-        list.as_array().unwrap().iter().map(|device| device["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["cpu", "cpu-serial"]);
-    assert!(stdout(&texere(&["devices"])).starts_with("cpu (auto)"));
+        all["found"].as_array().unwrap().iter().map(|device| device["name"].as_str().unwrap()).collect();
+    assert!(names.ends_with(&["cpu", "cpu-serial"]), "{names:?}");
+    assert!(names.contains(&all["auto"].as_str().unwrap()), "{all}");
+    // A family is either found or said to be missing, with a reason.
+    for family in ["opencl", "wgpu"] {
+        let found = names.iter().any(|name| name.starts_with(family));
+        let missing = all["missing"].as_array().unwrap().iter().any(|each| each["family"] == family);
+        assert!(found != missing, "{all}");
+    }
+    let text = stdout(&texere(&["devices"]));
+    assert!(names.iter().all(|name| text.contains(&format!("{name}: "))), "{text}");
+}
+
+/// The loaders hidden: what is left is listed, what was not found is said.
+#[test]
+#[cfg(target_os = "linux")]
+fn hidden_loaders_are_said_to_be_missing() {
+    let output = Command::new(env!("CARGO_BIN_EXE_texere"))
+        .args(["devices"])
+        .env("OCL_ICD_VENDORS", "/nowhere")
+        .env("OCL_ICD_FILENAMES", "")
+        .env("VK_DRIVER_FILES", "/nowhere.json")
+        .env("VK_ICD_FILENAMES", "/nowhere.json")
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let text = stdout(&output);
+    assert!(
+        text.contains("cpu: ") && text.contains("no opencl device: ") && text.contains("no wgpu device: "),
+        "{text}"
+    );
 }
 
 #[test]
@@ -121,11 +149,7 @@ fn exit_codes_say_whose_fault_it_is() {
         (vec!["inspect", &plain, "--section", "ellipse:900"], 2, "aspect is 900"),
         (vec!["mesh", &plain, "-o", nowhere], 1, "x.glb"),
         (vec!["mesh", &plain, "-o", "mesh.obj"], 1, "glb, ply"),
-        (
-            vec!["mesh", &plain, "-o", nowhere, "--device", "abacus"],
-            2,
-            "\"abacus\"; there are: cpu, cpu-serial",
-        ),
+        (vec!["mesh", &plain, "-o", nowhere, "--device", "abacus"], 2, "\"abacus\"; there are: "),
         (vec!["weave", &plain], 2, "unrecognized subcommand"),
     ] {
         let output = texere(&args);

@@ -33,7 +33,7 @@ mod spline;
 mod turn;
 mod yarns;
 
-pub use backend::{Backend, DeviceInfo, DeviceKind, Session, StageTimings, Traffic, check_output};
+pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule, Session, StageTimings, Traffic, check_output};
 pub use error::{BackendError, PipelineError, PlanError, SectionError, YarnError};
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;

@@ -93,6 +93,90 @@ fn matts() {
     draws("2/2(1+1)", (2, 4), &[".#", ".#", "#.", "#."]);
 }
 
+#[test]
+fn matts_by_name() {
+    for (name, notation) in [
+        ("matt 2", "2/2(2+2)"),
+        ("basket 2", "2/2(2+2)"),
+        ("hopsack 2/2", "2/2(2+2)"),
+        ("Hopsack 3 / 2", "3/2(3+2)"),
+        ("twill 2/2", "2/2"),
+        ("twill 3/1(-1)", "3/1(-1)"),
+    ] {
+        assert_eq!(Weave::parse(name).unwrap(), Weave::parse(notation).unwrap(), "{name}");
+    }
+    draws("hopsack 3/2", (5, 5), &["...##", "...##", "###..", "###..", "###.."]);
+}
+
+#[test]
+fn herringbones() {
+    // Drawn from their threading, by what each pick lifts: 12, 23, 34, 41. Here it is 123412 432143.
+    draws("herringbone 2/2(6)", (12, 4), &["#..##.#..##.", "..##..##..##", ".##..#.##..#", "##..##..##.."]);
+    // 1234 2143.
+    draws("herringbone 2/2(4)", (8, 4), &["#..#.##.", "..##..##", ".##.#..#", "##..##.."]);
+    // 12 43, the broken twill of denim, lifted by 123, 234, 341, 412.
+    draws("herringbone 3/1(2)", (4, 4), &["###.", "#.##", ".###", "##.#"]);
+    // 123 132: three ends have no half, so the cuts are one and two ends on. Lifted by 12, 23, 31.
+    draws("herringbone 2/1(3)", (6, 3), &["#.###.", ".##.##", "##.#.#"]);
+}
+
+#[test]
+fn pointed_twills() {
+    // 1234 32, lifted by 12, 23, 34, 41; and 12341 432, lifted by 1, 2, 3, 4.
+    draws("pointed 2/2(4)", (6, 4), &["#..#..", "..###.", ".##.##", "##...#"]);
+    draws("pointed 1/3(5)", (8, 4), &["...#.#..", "..#...#.", ".#.....#", "#...#..."]);
+}
+
+#[test]
+fn honeycomb() {
+    draws(
+        "honeycomb",
+        (8, 8),
+        &[".#.....#", "#.#...#.", "##.#.#.#", "###.#.##", "##.#.#.#", "#.#...#.", ".#.....#", "#......."],
+    );
+    // Its longest floats, of which the Britannica tells: five of warp, seven of weft, round a plain hollow.
+    let weave = Weave::parse("honeycomb").unwrap();
+    let longest = |up: bool, along_pick: bool| {
+        let float = |thread: usize| {
+            let same = |at: usize| up == if along_pick { weave.up(at, thread) } else { weave.up(thread, at) };
+            (0..8).map(|from| (0..8).take_while(|&more| same(from + more)).count()).max().unwrap()
+        };
+        (0..8).map(float).max().unwrap()
+    };
+    assert_eq!((longest(true, false), longest(false, true)), (5, 7));
+    assert_eq!((longest(true, true), longest(false, false)), (5, 7));
+}
+
+#[test]
+fn crepe() {
+    let weave = Weave::parse("crepe").unwrap();
+    assert_eq!(weave.repeat(), (8, 8));
+    // Every third end of the twill; no end floats over three picks, no pick over more than three ends.
+    let twill = Weave::parse("2/2*1/1*1/1").unwrap();
+    for pick in 0..8 {
+        for end in 0..8 {
+            assert_eq!(weave.up(end, pick), twill.up(3 * end, pick), "end {end}, pick {pick}");
+            assert!((0..3).any(|more| weave.up(end, pick + more) != weave.up(end, pick)));
+            assert!((0..4).any(|more| weave.up(end + more, pick) != weave.up(end, pick)));
+        }
+    }
+}
+
+#[test]
+fn every_thread_of_a_reversed_twill_changes_sides() {
+    for base in ["2/2", "3/1", "1/3", "1/2", "3/2*1/2", "1/4"] {
+        for (name, ways) in [("herringbone", 4..20), ("pointed", 8..20)] {
+            for way in ways {
+                let weave = Weave::parse(&format!("{name} {base}({way})")).unwrap();
+                let (ends, picks) = weave.repeat();
+                let changes = |line: Vec<bool>| line.contains(&true) && line.contains(&false);
+                assert!((0..ends).all(|end| changes((0..picks).map(|pick| weave.up(end, pick)).collect())));
+                assert!((0..picks).all(|pick| changes((0..ends).map(|end| weave.up(end, pick)).collect())));
+            }
+        }
+    }
+}
+
 #[track_caller]
 fn refuses(text: &str, position: usize, expected: &str) {
     match Weave::parse(text) {
@@ -106,9 +190,20 @@ fn refuses(text: &str, position: usize, expected: &str) {
 #[test]
 fn what_is_no_notation_is_refused_where_it_goes_wrong() {
     let number = "a number from 1 to 4096";
-    let start = "\"plain\", \"satin\", \"sateen\", or a number from 1 to 4096";
+    let start = "the name of a weave or a number from 1 to 4096";
     refuses("", 1, start);
-    refuses("twill", 1, start);
+    refuses("twill", 6, number);
+    refuses("tweed", 1, start);
+    refuses("matt", 5, number);
+    refuses("matt 2/", 8, number);
+    refuses("hopsack 2(2)", 10, "the end");
+    refuses("herringbone", 12, number);
+    refuses("herringbone 2/2", 16, "\"(\"");
+    refuses("herringbone 2/2(16", 19, "\")\"");
+    refuses("herringbone 2/2(-16)", 17, number);
+    refuses("herringbone 2/2(1)", 17, "a number of at least half the ends of the twill's repeat");
+    refuses("pointed 2/2(3)", 13, "a number of at least the ends of the twill's repeat");
+    refuses("honeycomb 8", 11, "the end");
     refuses("3", 2, "\"/\"");
     refuses("3/", 3, number);
     refuses("3/0", 3, number);
@@ -156,6 +251,9 @@ fn hostile_texts_neither_panic_nor_fill_memory() {
     assert!(matches!(Weave::parse(&long), Err(FabricError::Repeat { ends: 4098, .. })));
     assert!(matches!(Weave::parse("4096/4096"), Err(FabricError::Repeat { .. })));
     assert!(matches!(Weave::parse("2/2(4096+4096)"), Err(FabricError::Repeat { ends: 8192, .. })));
+    assert!(matches!(Weave::parse("matt 4096"), Err(FabricError::Repeat { ends: 8192, .. })));
+    assert!(matches!(Weave::parse("herringbone 2/2(4096)"), Err(FabricError::Repeat { ends: 8192, .. })));
+    assert!(matches!(Weave::parse("pointed 2/2(4096)"), Err(FabricError::Repeat { ends: 8190, .. })));
     let Err(FabricError::Notation { text, .. }) = Weave::parse(&"é".repeat(1_000_000)) else { panic!() };
     assert_eq!(text.chars().count(), 61);
 }

@@ -1,7 +1,6 @@
 //! The backend: a device with its context, its queues and its compiled kernels.
 
 use std::ffi::{CString, c_void};
-use std::fmt;
 use std::ptr;
 use std::sync::Arc;
 
@@ -19,33 +18,16 @@ use opencl3::program::{
 use texere_core::{Backend, BackendError, DeviceInfo, Limits, Plan, Session};
 use texere_kernels::{PER_RING, PER_YARN, Program};
 
-use crate::OpenClSession;
 use crate::device::{self, listed};
 use crate::faults::failed;
 use crate::handles::Handle;
+use crate::{OpenClSession, Schedule};
 
-/// How the work is mapped onto a device.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Schedule {
-    /// A workgroup a block of 64 rings: does everything.
-    #[default]
-    PerRing,
-    /// A lane a yarn, the paper's algorithms 2 and 4: the yardstick. Upright, untwisted, open, uncapped yarns only.
-    PerYarn,
-}
-
-impl fmt::Display for Schedule {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.program().name)
-    }
-}
-
-impl Schedule {
-    fn program(self) -> Program {
-        match self {
-            Self::PerRing => PER_RING,
-            Self::PerYarn => PER_YARN,
-        }
+/// The kernels of a schedule.
+fn program(schedule: Schedule) -> Program {
+    match schedule {
+        Schedule::PerRing => PER_RING,
+        Schedule::PerYarn => PER_YARN,
     }
 }
 
@@ -193,7 +175,7 @@ impl OpenClBackend {
         // SAFETY: the context is of this device.
         let transfers = unsafe { create_command_queue(context.raw(), device, CL_QUEUE_PROFILING_ENABLE) };
         let transfers = Handle::queue(transfers).map_err(failed("clCreateCommandQueue"))?;
-        let program = build(device, &context, &info.name, schedule.program())?;
+        let program = build(device, &context, &info.name, program(schedule))?;
         let opened = Arc::new(Opened {
             name: info.name.clone(),
             schedule,

@@ -27,6 +27,7 @@ mod session;
 mod slot;
 mod stages;
 
-pub use backend::{OpenClBackend, Schedule};
+pub use backend::OpenClBackend;
 pub use faults::OpenClError;
 pub use session::{DeviceMesh, OpenClSession};
+pub use texere_core::Schedule;

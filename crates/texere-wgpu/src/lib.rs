@@ -1,1 +1,38 @@
-//! Under way.
+//! The wgpu backend of texere: Vulkan, Metal and Direct3D 12.
+//!
+//! ```no_run
+//! use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+//! use texere_wgpu::{Schedule, WgpuBackend};
+//! let mut yarns = Yarns::builder();
+//! yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, x * x, 0.0, 0.1)));
+//! let yarns = yarns.build()?;
+//! let device = WgpuBackend::open(0, Schedule::PerRing)?;
+//! let mesh = Pipeline::new(&yarns).mesh(&device)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A viewer that has a wgpu device of its own gives it to [`WgpuBackend::from_device`], starts a
+//! [`WgpuSession`](WgpuBackend::wgpu_session) and draws from the very buffers that the mesh was written to.
+//!
+//! What is worth knowing:
+//!
+//! - A fresh buffer is cleared by wgpu before its first use, so the first chunk of a session takes longer than those
+//!   after it, which use its memory again.
+//! - wgpu does not tell how much memory a device has, so chunks are cut to what one binding may hold. Where that is
+//!   more than the memory, give stricter limits: [`WgpuBackend::with_limits`].
+//! - The shaders run without bounds checks. A chunk that does not belong to the session's plan is therefore refused
+//!   before it is launched.
+
+mod buffers;
+mod clock;
+mod device;
+mod gpu;
+mod per_yarn;
+mod readback;
+mod session;
+mod stages;
+
+pub use clock::TimedBy;
+pub use device::WgpuBackend;
+pub use session::WgpuSession;
+pub use texere_core::Schedule;

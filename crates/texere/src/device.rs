@@ -1,38 +1,137 @@
 //! Devices by name.
 
-use texere_core::{Backend, BackendError, DeviceInfo};
+use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Schedule};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-type Open = fn() -> Box<dyn Backend>;
+/// A family of devices behind one programming interface.
+struct Family {
+    /// What its devices' names start with.
+    name: &'static str,
+    list: fn() -> Result<Vec<DeviceInfo>, BackendError>,
+    open: fn(index: usize, schedule: Schedule) -> Result<Box<dyn Backend>, BackendError>,
+}
 
-/// Every device by the name that opens it, the best one first.
-const DEVICES: [(&str, Open); 2] =
-    [("cpu", || Box::new(ParallelBackend::new())), ("cpu-serial", || Box::new(SerialBackend::new()))];
+/// The families that this build has, the one to prefer first.
+const FAMILIES: &[Family] = &[
+    #[cfg(feature = "wgpu")]
+    Family {
+        name: "wgpu",
+        list: texere_wgpu::WgpuBackend::devices,
+        open: |index, schedule| Ok(Box::new(texere_wgpu::WgpuBackend::open(index, schedule)?)),
+    },
+    #[cfg(feature = "opencl")]
+    Family {
+        name: "opencl",
+        list: texere_opencl::OpenClBackend::devices,
+        open: |index, schedule| Ok(Box::new(texere_opencl::OpenClBackend::open(index, schedule)?)),
+    },
+];
 
-/// Opens the device of that name: `cpu` (all cores), `cpu-serial` (the reference, one thread), or `auto`, the best one
-/// there is.
+/// The schedule that a name may end in: the paper's mapping, kept as the yardstick.
+const PER_YARN: &str = "/per-yarn";
+
+/// What there is to work on, and what was looked for in vain.
+#[derive(Debug)]
+pub struct Devices {
+    /// All devices that can be opened; the CPU's come last.
+    pub found: Vec<DeviceInfo>,
+    /// Families without a device, each with the reason.
+    pub missing: Vec<(&'static str, BackendError)>,
+}
+
+impl Devices {
+    /// The device that `auto` stands for, and why: a discrete GPU before an integrated one before the CPU.
+    ///
+    /// A GPU interface that runs on the CPU is never chosen: texere's own CPU backend is faster there.
+    #[must_use]
+    pub fn auto(&self) -> (&str, &'static str) {
+        let first =
+            |kind| self.found.iter().find(|device| device.kind == kind).map(|device| device.name.as_str());
+        if let Some(name) = first(DeviceKind::DiscreteGpu) {
+            (name, "the first discrete GPU")
+        } else if let Some(name) = first(DeviceKind::IntegratedGpu) {
+            (name, "the first integrated GPU, since there is no discrete one")
+        } else {
+            ("cpu", "all cores, since no GPU was found")
+        }
+    }
+}
+
+/// Looks for all devices that this build can use.
 ///
 /// ```
-/// let device = texere::open("auto")?;
+/// let devices = texere::devices();
+/// assert!(devices.found.iter().any(|device| device.name == "cpu-serial"));
+/// let (name, why) = devices.auto();
+/// println!("auto is {name}: {why}");
+/// ```
+#[must_use]
+pub fn devices() -> Devices {
+    let mut devices = Devices { found: Vec::new(), missing: Vec::new() };
+    for family in FAMILIES {
+        match (family.list)() {
+            Ok(list) => devices.found.extend(list),
+            Err(error) => devices.missing.push((family.name, error)),
+        }
+    }
+    devices.found.push(ParallelBackend::new().info().clone());
+    devices.found.push(SerialBackend::new().info().clone());
+    devices
+}
+
+/// Opens a device by its name.
+///
+/// | name | device |
+/// |---|---|
+/// | `auto` | a discrete GPU, else an integrated one, else the CPU: [`Devices::auto`] |
+/// | `cpu`, `cpu-serial` | all cores; the serial reference |
+/// | `wgpu`, `wgpu:1`, `wgpu:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `wgpu`) |
+/// | `opencl`, `opencl:1`, `opencl:nvidia` | likewise (feature `opencl`) |
+/// | `opencl:0/per-yarn` | the same device with the paper's mapping, one thread a yarn |
+///
+/// ```
+/// let device = texere::open("cpu")?;
 /// assert_eq!(device.info().name, "cpu");
+/// assert!(texere::open("abacus").unwrap_err().to_string().contains("cpu-serial"));
 /// # Ok::<(), texere::BackendError>(())
 /// ```
 ///
-/// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked.
+/// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked, and what the device says when
+/// it is opened.
 pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
-    let wanted = if name == "auto" { DEVICES[0].0 } else { name };
-    let names = DEVICES.iter().map(|(known, _)| (*known).to_owned());
-    DEVICES.iter().find(|(known, _)| *known == wanted).map(|(_, open)| open()).ok_or_else(|| {
-        BackendError::NoDevice { wanted: name.into(), found: names.chain(["auto".into()]).collect() }
-    })
+    match name {
+        "auto" => {
+            let devices = devices();
+            match devices.auto().0 {
+                "cpu" => Ok(Box::new(ParallelBackend::new())),
+                chosen => open(chosen),
+            }
+        }
+        "cpu" => Ok(Box::new(ParallelBackend::new())),
+        "cpu-serial" => Ok(Box::new(SerialBackend::new())),
+        _ => open_in_family(name),
+    }
 }
 
-/// All devices that can be opened, the best one first.
-///
-/// ```
-/// assert!(texere::devices().iter().any(|device| device.name == "cpu-serial"));
-/// ```
-#[must_use]
-pub fn devices() -> Vec<DeviceInfo> {
-    DEVICES.iter().map(|(_, open)| open().info().clone()).collect()
+fn open_in_family(name: &str) -> Result<Box<dyn Backend>, BackendError> {
+    let (device, schedule) =
+        name.strip_suffix(PER_YARN).map_or((name, Schedule::PerRing), |device| (device, Schedule::PerYarn));
+    let (family, which) = device.split_once(':').unwrap_or((device, "0"));
+    let Some(family) = FAMILIES.iter().find(|known| known.name == family) else {
+        return Err(no_device(name));
+    };
+    let list = (family.list)()?;
+    let index = which.parse().ok().or_else(|| {
+        let which = which.to_lowercase();
+        list.iter().position(|device| device.device.to_lowercase().contains(&which))
+    });
+    match index {
+        Some(index) if index < list.len() => (family.open)(index, schedule),
+        _ => Err(no_device(name)),
+    }
+}
+
+fn no_device(wanted: &str) -> BackendError {
+    let names = devices().found.into_iter().map(|device| device.name);
+    BackendError::NoDevice { wanted: wanted.into(), found: names.chain(["auto".into()]).collect() }
 }

@@ -23,19 +23,21 @@
 //! # }
 //! ```
 //!
+//! Features: `opencl` and `wgpu` add GPU backends; without them the CPU does the work alone.
+//!
 //! A cloth too large for memory is written piece by piece with [`stream`]. Yarns of any other origin come from
 //! [`Yarns::builder`].
 
 mod device;
 
-pub use device::{devices, open};
+pub use device::{Devices, devices, open};
 pub use texere_core::{
     Backend, BackendError, Chunk, ControlPoint, Counts, DeviceInfo, DeviceKind, Frame, Limits, Material,
-    Mesh, MeshPiece, Origin, Pipeline, PipelineError, Plan, PlanError, Progress, Ring, Section, SectionError,
-    Settings, Topology, Trajectory, Vertex, Yarn, YarnError, Yarns, YarnsBuilder,
+    Mesh, MeshPiece, Origin, Pipeline, PipelineError, Plan, PlanError, Progress, Ring, Schedule, Section,
+    SectionError, Settings, Topology, Trajectory, Vertex, Yarn, YarnError, Yarns, YarnsBuilder,
 };
 pub use texere_fabric::{
     Draft, Drawdown, FabricError, FabricWarning, Shedding, Thread, Weave, Woven, length_mm, lengths_mm,
 };
-pub use texere_formats::write::{Format, Written, mesh as write, stream};
+pub use texere_formats::write::{Format, Side, Written, draft as write_draft, mesh as write, stream};
 pub use texere_formats::{Design, ReadError, Structure, WriteError, read};

@@ -142,6 +142,8 @@ fn turning_back() -> Vec<Shape> {
         open("hairpin-askew", listed(&[[0.1, 0.2, 0.3], [0.7, 1.6, -0.1], [0.1, 0.2, 0.3]])),
         open("hairpin-up", listed(&[[0.0; 3], [0.0, 0.0, 2.0], [0.0; 3]])),
         closed("hairpin-closed", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]])),
+        // At tension 0 velocity and acceleration vanish at the second point.
+        open("cusp-flat", listed(&[[1.0, 0.5, 0.0], [0.0; 3], [1.0, 0.5, 0.0], [6.0, 3.0, 0.0]])),
         // At tension 0 the velocity vanishes half way between the middle points.
         open("cusp", listed(&[[-5.0, 2.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [6.0, 2.0, 0.0]])),
         open(

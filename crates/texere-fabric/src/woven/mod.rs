@@ -3,6 +3,7 @@
 mod crossing;
 mod draft;
 mod drawdown;
+mod library;
 mod notation;
 mod weave;
 mod yarns;

@@ -1,6 +1,7 @@
 //! Reads the notation of weaves; [`super::Weave`] has its grammar.
 
 use super::REPEAT_MAX;
+use super::library::{CREPE, HONEYCOMB, Reversal};
 use crate::FabricError;
 
 /// A weave as it is written.
@@ -9,6 +10,10 @@ pub(super) enum Notation {
     Shifted { base: Vec<bool>, step: usize, picks: usize },
     /// A column of picks, upright for `left` ends and upside down for `right`.
     Matt { base: Vec<bool>, left: usize, right: usize },
+    /// A twill of move 1 whose line goes one way for `way` ends and back again.
+    Reversed { base: Vec<bool>, reversal: Reversal, way: usize },
+    /// A drawing, the last pick on top.
+    Drawn(&'static [&'static str; 8]),
 }
 
 /// Characters of a text that an error shows: more than any sensible notation has.
@@ -19,6 +24,9 @@ const NUMBER: &str = "a number from 1 to 4096";
 
 const _: () = assert!(REPEAT_MAX == 4096);
 
+/// What is expected where a weave may start.
+const WEAVE: &str = "the name of a weave or a number from 1 to 4096";
+
 pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
     let mut cursor = Cursor { text, rest: text };
     let notation = if cursor.word("plain") {
@@ -27,8 +35,20 @@ pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
         satin(&mut cursor, true)?
     } else if cursor.word("sateen") {
         satin(&mut cursor, false)?
+    } else if cursor.word("matt") || cursor.word("hopsack") || cursor.word("basket") {
+        matt(&mut cursor)?
+    } else if cursor.word("herringbone") {
+        reversed(&mut cursor, Reversal::Cut, "a number of at least half the ends of the twill's repeat")?
+    } else if cursor.word("pointed") {
+        reversed(&mut cursor, Reversal::Point, "a number of at least the ends of the twill's repeat")?
+    } else if cursor.word("honeycomb") {
+        Notation::Drawn(&HONEYCOMB)
+    } else if cursor.word("crepe") {
+        Notation::Drawn(&CREPE)
+    } else if cursor.word("twill") {
+        floats(&mut cursor, NUMBER)?
     } else {
-        floats(&mut cursor)?
+        floats(&mut cursor, WEAVE)?
     };
     if cursor.rest.trim_start().is_empty() { Ok(notation) } else { Err(cursor.fail("the end")) }
 }
@@ -59,10 +79,55 @@ fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, FabricEr
     Ok(Notation::Shifted { base, step, picks: ends })
 }
 
+/// A matt weave by its name: as many ends together as picks.
+fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
+    let left = cursor.number(NUMBER)?;
+    let right = if cursor.sign('/') { cursor.number(NUMBER)? } else { left };
+    let mut base = vec![true; left];
+    base.resize(left + right, false);
+    Ok(Notation::Matt { base, left, right })
+}
+
+/// A twill's floats and the ends after which its line reverses.
+fn reversed(
+    cursor: &mut Cursor<'_>,
+    reversal: Reversal,
+    expected: &'static str,
+) -> Result<Notation, FabricError> {
+    let base = row(cursor, NUMBER)?;
+    if !cursor.sign('(') {
+        return Err(cursor.fail("\"(\""));
+    }
+    let before = cursor.rest;
+    let way = cursor.number(NUMBER)?;
+    if way < reversal.least(base.len()) {
+        cursor.rest = before;
+        return Err(cursor.fail(expected));
+    }
+    cursor.close()?;
+    Ok(Notation::Reversed { base, reversal, way })
+}
+
 /// A twill or a matt weave.
-fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
+fn floats(cursor: &mut Cursor<'_>, expected: &'static str) -> Result<Notation, FabricError> {
+    let base = row(cursor, expected)?;
+    if !cursor.sign('(') {
+        return twill(cursor, cursor.position(), base, 1);
+    }
+    let position = cursor.position();
+    let written = cursor.step()?;
+    if written > 0 && cursor.sign('+') {
+        let (left, right) = (written as usize, cursor.number(NUMBER)?);
+        cursor.close()?;
+        return Ok(Notation::Matt { base, left, right });
+    }
+    cursor.close()?;
+    twill(cursor, position, base, written)
+}
+
+/// Floats up and down in turn, thread by thread.
+fn row(cursor: &mut Cursor<'_>, expected: &'static str) -> Result<Vec<bool>, FabricError> {
     let mut base = Vec::new();
-    let expected = "\"plain\", \"satin\", \"sateen\", or a number from 1 to 4096";
     let mut up = cursor.number(expected)?;
     loop {
         if !cursor.sign('/') {
@@ -76,22 +141,10 @@ fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
         base.resize(base.len() + up, true);
         base.resize(ends, false);
         if !cursor.sign('*') {
-            break;
+            return Ok(base);
         }
         up = cursor.number(NUMBER)?;
     }
-    if !cursor.sign('(') {
-        return twill(cursor, cursor.position(), base, 1);
-    }
-    let position = cursor.position();
-    let written = cursor.step()?;
-    if written > 0 && cursor.sign('+') {
-        let (left, right) = (written as usize, cursor.number(NUMBER)?);
-        cursor.close()?;
-        return Ok(Notation::Matt { base, left, right });
-    }
-    cursor.close()?;
-    twill(cursor, position, base, written)
 }
 
 /// A twill of move `written`, which stands at `position`.

@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use super::library::drawn;
 use super::notation::{self, Notation};
 use crate::{Drawdown, FabricError};
 
@@ -13,11 +14,13 @@ pub const REPEAT_MAX: usize = 4096;
 /// One repeat of a weave, from its usual notation.
 ///
 /// ```text
-/// weave  = "plain"
-///        | ratio { "*" ratio } [ "(" move ")" ]               twill
-///        | ratio { "*" ratio } "(" number "+" number ")"      matt (basket, hopsack, rib)
+/// weave  = "plain" | "honeycomb" | "crepe"
+///        | [ "twill" ] floats [ "(" move ")" ]
+///        | floats "(" number "+" number ")"                       matt (basket, hopsack, rib)
+///        | ( "matt" | "hopsack" | "basket" ) number [ "/" number ]
 ///        | ( "satin" | "sateen" ) number [ "(" move ")" ]
-/// ratio  = number "/" number                                  warp up "/" warp down
+///        | ( "herringbone" | "pointed" ) floats "(" number ")"
+/// floats = number "/" number { "*" number "/" number }            warp up "/" warp down
 /// move   = [ "-" ] number
 /// number = 1 to 4096
 /// ```
@@ -29,9 +32,17 @@ pub const REPEAT_MAX: usize = 4096;
 ///   right (1 where no move is given). A positive move is a right-hand (Z) twill, a negative one left-hand (S).
 ///   `U1/D1*U2/D2` strings several floats together.
 /// - **Matt** `U/D(L+R)`: the first L ends are up for U picks, then down for D; the next R ends the other way round.
-///   `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain weave.
+///   `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain weave. By its name a matt has as many ends together as
+///   picks: `matt 2` is `2/2(2+2)`, and `hopsack 3/2` is `3/2(3+2)`.
 /// - **Satin** `N(M)` is warp-faced, (N-1)/1, **sateen** weft-faced, 1/(N-1). M shares no factor with N and is neither
 ///   1 nor N-1; without it the smallest such move is taken.
+/// - **Herringbone** `U/D(N)` is the twill `U/D`, right-hand for N ends and left-hand for the next N. Where the line
+///   turns it is cut: the other way starts half a repeat of the twill further on, so that in a balanced twill warp floats
+///   meet weft floats. `herringbone 2/2(2)` is the broken twill. N is at least half the ends of the twill's repeat.
+/// - **Pointed** `U/D(N)` turns at a single end instead, N ends from point to point with both of them; N is at least the
+///   ends of the twill's repeat.
+/// - **Honeycomb** (waffle) is the common one on eight ends and eight picks, ridges of floats round a plain hollow.
+/// - **Crepe** is one on eight ends, made of the twill `2/2*1/1*1/1` with its ends in the order of a satin.
 ///
 /// ```
 /// use texere_fabric::Weave;
@@ -71,6 +82,13 @@ impl Weave {
             Notation::Matt { base, left, right } => {
                 Drawdown::from_fn(left + right, base.len(), |end, pick| base[pick] == (end < left))
             }
+            Notation::Reversed { base, reversal, way } => {
+                let (ends, repeat) = (reversal.ends(way), base.len());
+                Drawdown::from_fn(ends, repeat, |end, pick| {
+                    base[(reversal.origin(end, way, repeat) + repeat - pick) % repeat]
+                })
+            }
+            Notation::Drawn(drawing) => Drawdown::from_fn(8, 8, |end, pick| drawn(drawing, end, pick)),
         }?)
     }
 

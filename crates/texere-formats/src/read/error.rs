@@ -128,6 +128,61 @@ pub enum ReadError {
         /// What the parser says.
         message: String,
     },
+    /// A key that says nothing without another one.
+    #[error("{place} is given without {needs}, which it belongs to")]
+    Without {
+        /// Where.
+        place: Place,
+        /// The key that it belongs to.
+        needs: &'static str,
+    },
+    /// A weave that is none.
+    #[error("{place} is no weave")]
+    Weave {
+        /// Where.
+        place: Place,
+        /// Why.
+        source: FabricError,
+    },
+    /// A file that can't be decoded as an image.
+    #[error("{} can't be read as a PNG, BMP or TIFF image", .file.display())]
+    Image {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// An image larger than any cloth that is taken. No memory was taken for it.
+    #[error(
+        "{} is {width} × {height} pixels; each side may have {side_limit} at most, and both together {limit}",
+        .file.display()
+    )]
+    ImageTooLarge {
+        /// The file.
+        file: PathBuf,
+        /// Its width, pixels.
+        width: u32,
+        /// Its height, pixels.
+        height: u32,
+        /// Most pixels of a side.
+        side_limit: u32,
+        /// Most pixels of the image.
+        limit: u64,
+    },
+    /// A pixel of a colour that stands for nothing.
+    #[error("{}, column {column}, row {row} from the top left: colour {color}, expected {expected}", .file.display())]
+    Pixel {
+        /// The image.
+        file: PathBuf,
+        /// The first such pixel's column, from 1 at the left.
+        column: usize,
+        /// Its row, from 1 at the top.
+        row: usize,
+        /// Its colour: #rrggbb, and two digits more where it is not opaque.
+        color: String,
+        /// What would do.
+        expected: String,
+    },
     /// A section whose numbers are not sound.
     #[error("{place} is no section")]
     Section {

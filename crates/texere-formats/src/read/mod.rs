@@ -2,6 +2,7 @@
 
 mod design_file;
 mod error;
+mod point_paper;
 mod wif;
 
 use std::fs::File;
@@ -9,7 +10,7 @@ use std::io::Read;
 use std::path::Path;
 
 use texere_core::{Section, Yarns};
-use texere_fabric::{FabricError, Woven};
+use texere_fabric::{Draft, FabricError, Woven};
 
 pub use error::{Place, ReadError};
 
@@ -34,15 +35,17 @@ pub struct Design {
     pub name: String,
     /// What it describes.
     pub structure: Structure,
+    /// The shaft draft that the cloth is woven by, where the design has one: its drawdown is the structure's.
+    pub draft: Option<Draft>,
     /// What the reader had to assume or leave out, for a person to read.
     pub warnings: Vec<String>,
 }
 
 impl Design {
     /// A woven design; what its cloth has to say is added to the reader's own `warnings`.
-    fn woven(name: String, woven: Woven, mut warnings: Vec<String>) -> Self {
+    fn woven(name: String, woven: Woven, draft: Option<Draft>, mut warnings: Vec<String>) -> Self {
         warnings.extend(woven.warnings().iter().map(ToString::to_string));
-        Self { name, structure: Structure::Woven(woven), warnings }
+        Self { name, structure: Structure::Woven(woven), draft, warnings }
     }
 
     /// The yarns of the fabric.
@@ -71,7 +74,9 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
     let path = path.as_ref();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
-        Some("wif") => wif::read(path).map(|draft| Design::woven(draft.name, draft.woven, draft.warnings)),
+        Some("wif") => {
+            wif::read(path).map(|wif| Design::woven(wif.name, wif.woven, Some(wif.draft), wif.warnings))
+        }
         Some("toml") => design_file::read(path),
         _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml" }),
     }

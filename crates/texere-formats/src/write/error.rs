@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::Format;
 
-/// A mesh that can't be written. After any of these there is no new file, and an old one is as it was.
+/// A mesh or a draft that can't be written. After any of these there is no new file, and an old one is as it was.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -67,6 +67,28 @@ pub enum WriteError {
         vertex: u64,
         /// Its yarn, from 0.
         yarn: u32,
+    },
+    /// A draft is a PNG picture, and the path ends otherwise.
+    #[error("{} does not end in .png, as a picture of a draft does", .path.display())]
+    NotPng {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A cloth of more threads than a picture has pixels for.
+    #[error(
+        "draft of {ends} ends and {picks} picks takes {width} × {height} pixels; each side may have {limit} at most"
+    )]
+    DraftTooLarge {
+        /// Ends of the cloth.
+        ends: usize,
+        /// Picks of the cloth.
+        picks: usize,
+        /// Width of the picture, pixels.
+        width: usize,
+        /// Its height, pixels.
+        height: usize,
+        /// Most pixels of a side.
+        limit: usize,
     },
     /// A yarn refers to a material that the mesh does not have.
     #[error("yarn {yarn} is of material {material}, but there are {materials}")]

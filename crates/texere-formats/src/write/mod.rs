@@ -5,12 +5,15 @@
 //! | glTF 2.0 binary | `.glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
 //! | binary PLY, little endian | `.ply` | one point set with normals and colours, and its triangles; millimetres |
 //!
+//! Beside meshes there are [drafts](fn@draft), in PNG.
+//!
 //! What a file holds does not depend on the mesh's [`Topology`]: a plan knows its triangles, so that no index has to
 //! come from a device, and GLB keeps the index pattern that all yarns share once, which halves it.
 //!
 //! A file is written beside its target and renamed when it is whole. After an error, a cancellation or a panic nothing
 //! new is left, and an older file of that name is as it was.
 
+mod draft;
 mod error;
 mod feed;
 mod glb;
@@ -19,6 +22,7 @@ mod target;
 #[cfg(test)]
 mod tests;
 
+pub use draft::{SHAFTS_MAX, Side, draft};
 pub use error::WriteError;
 
 use std::ops::ControlFlow;

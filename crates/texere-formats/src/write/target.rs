@@ -63,6 +63,19 @@ impl<W: Write + Seek> Target<W> {
     }
 }
 
+/// For encoders that write by themselves.
+impl<W: Write + Seek> Write for Target<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.out.write(bytes)?;
+        self.position += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
 impl Target<NamedTempFile> {
     /// Starts a file that is to become `path`; where that is a symbolic link, what it points to.
     pub(super) fn create(path: &Path) -> Result<Self, WriteError> {

@@ -1,6 +1,7 @@
 //! What is written, read back by others; and what is left when writing fails.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
+mod draft;
 mod fabric;
 mod files;
 mod glb;

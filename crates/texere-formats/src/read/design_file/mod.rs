@@ -3,7 +3,7 @@
 //! ```toml
 //! name = "Denim"
 //!
-//! [weave]                         # a notation with a size, or else wif = "draft.wif"
+//! [weave]                         # a notation with a size, or else image = "motif.png" or wif = "draft.wif"
 //! notation = "3/1"
 //! ends = 120
 //! picks = 80
@@ -27,16 +27,37 @@
 //! spacing_mm = 1.0
 //! ```
 //!
-//! With `wif` the draft is read from a WIF file beside the design; `[warp]` and `[weft]` are then optional and stand in
-//! for the file's own threads.
+//! Every key of `[weave]`, which has exactly one of the first three:
+//!
+//! | key | value |
+//! |---|---|
+//! | `notation` | a weave by notation or name, as [`Weave`] reads it; `ends` and `picks` say how large the cloth is |
+//! | `image` | point paper, each pixel a crossing: a PNG, BMP or TIFF file beside the design |
+//! | `wif` | a draft, in a WIF file beside the design |
+//! | `ends`, `picks` | the size of a cloth by notation; with an image they may stand, and must then be right |
+//! | `rows` | which pick the image's top row is: `"last-pick-first"`, as weavers draw, or `"first-pick-first"` |
+//! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` where not given |
+//! | `[weave.colors]` | what each colour of the image is woven in: `"#203040" = "satin 8(3)"` |
+//!
+//! Weaves of an image run through from the cloth's first end and first pick, so that areas of one weave join up, whatever
+//! lies between them and also from one repeat of the image to the next. Each colour of the image has to be in
+//! `[weave.colors]`; without that table it has two colours, and the darker one is warp up. Pixels are opaque; what a
+//! picture says of its colour space is not looked at. Palettes are fine in PNG and BMP; in TIFF they are not read.
+//!
+//! The picks of a Jacquard cloth take the yarns of `[weft]` in turn, `["2 red", "white"]` two picks red and one white.
+//!
+//! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.
 
 mod schema;
 mod threads;
+mod weave;
 
 use std::path::Path;
 
 use texere_core::Section;
-use texere_fabric::{Weave, Woven};
+#[cfg(doc)]
+use texere_fabric::Weave;
+use texere_fabric::{Drawdown, Woven};
 
 use super::{Design, ReadError, bytes_of, file_name, wif};
 use schema::{DesignFile, Source};
@@ -47,40 +68,38 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let source = Source::new(path, &bytes)?;
     let file: DesignFile = source.parse()?;
     let yarns = YarnTable::new(&source, &file.yarns)?;
-    match (&file.weave.notation, &file.weave.wif) {
-        (Some(notation), None) => from_notation(&source, &file, notation.as_ref(), &yarns),
-        (None, Some(wif)) => from_wif(&source, &file, wif, &yarns),
-        _ => Err(ReadError::ExactlyOne { file: path.into(), keys: "weave.notation and weave.wif" }),
-    }
+    let mut warnings = Vec::new();
+    let drawdown = match (&file.weave.notation, &file.weave.image, &file.weave.wif) {
+        (Some(notation), None, None) => weave::from_notation(&source, &file.weave, notation)?,
+        (None, Some(image), None) => weave::from_image(&source, &file.weave, image, &mut warnings)?,
+        (None, None, Some(wif)) => return from_wif(&source, &file, wif, &yarns),
+        _ => {
+            let keys = "weave.notation, weave.image and weave.wif";
+            return Err(ReadError::ExactlyOne { file: path.into(), keys });
+        }
+    };
+    let woven = cloth(&source, &file, &yarns, drawdown)?;
+    Ok(Design::woven(file.name.unwrap_or_else(|| file_name(path)), woven, None, warnings))
 }
 
-fn from_notation(
+/// A drawdown with the file's own threads.
+fn cloth(
     source: &Source<'_>,
     file: &DesignFile,
-    notation: &str,
     yarns: &YarnTable,
-) -> Result<Design, ReadError> {
-    let fabric = |error| source.fabric(error);
-    let needed = |field: &str, needed_for| ReadError::MissingKey {
+    drawdown: Drawdown,
+) -> Result<Woven, ReadError> {
+    let needed = |field: &str| ReadError::MissingKey {
         file: source.path.into(),
         field: field.into(),
-        needed_for,
+        needed_for: "it says which yarns are woven, and how close",
     };
-    let for_notation = "a notation needs a size";
-    let ends = file.weave.ends.as_ref().ok_or_else(|| needed("weave.ends", for_notation))?;
-    let picks = file.weave.picks.as_ref().ok_or_else(|| needed("weave.picks", for_notation))?;
-    let (ends, picks) = (source.count("weave.ends", ends)?, source.count("weave.picks", picks)?);
-    let drawdown = Weave::parse(notation).and_then(|weave| weave.drawdown(ends, picks)).map_err(fabric)?;
-
-    let for_threads = "it says which yarns are woven, and how close";
-    let warp = file.warp.as_ref().ok_or_else(|| needed("warp", for_threads))?;
-    let weft = file.weft.as_ref().ok_or_else(|| needed("weft", for_threads))?;
-    let warp = yarns.threads(source, "warp", warp, ends)?;
-    let weft = yarns.threads(source, "weft", weft, picks)?;
-    let woven =
-        Woven::new(drawdown, warp, weft, yarns.materials.clone(), yarns.sections.clone()).map_err(fabric)?;
-    let name = file.name.clone().unwrap_or_else(|| file_name(source.path));
-    Ok(Design::woven(name, woven, Vec::new()))
+    let warp = file.warp.as_ref().ok_or_else(|| needed("warp"))?;
+    let weft = file.weft.as_ref().ok_or_else(|| needed("weft"))?;
+    let warp = yarns.threads(source, "warp", warp, drawdown.ends())?;
+    let weft = yarns.threads(source, "weft", weft, drawdown.picks())?;
+    Woven::new(drawdown, warp, weft, yarns.materials.clone(), yarns.sections.clone())
+        .map_err(|error| source.fabric(error))
 }
 
 fn from_wif(
@@ -89,6 +108,7 @@ fn from_wif(
     wif: &toml::Spanned<String>,
     yarns: &YarnTable,
 ) -> Result<Design, ReadError> {
+    weave::without_image(source, &file.weave)?;
     if file.weave.ends.is_some() || file.weave.picks.is_some() {
         return Err(ReadError::ExactlyOne {
             file: source.path.into(),
@@ -121,5 +141,6 @@ fn from_wif(
     let weft = set("weft", &file.weft, woven.weft(), drawdown.picks())?;
     let woven =
         Woven::new(drawdown, warp, weft, materials, sections).map_err(|error| source.fabric(error))?;
-    Ok(Design::woven(file.name.clone().unwrap_or(draft.name), woven, draft.warnings))
+    let name = file.name.clone().unwrap_or(draft.name);
+    Ok(Design::woven(name, woven, Some(draft.draft), draft.warnings))
 }

@@ -5,9 +5,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use serde::Deserialize;
-use texere_fabric::FabricError;
+use texere_fabric::{FabricError, Weave};
 use toml::Spanned;
 
+use crate::read::point_paper::RowOrder;
 use crate::read::{Place, ReadError};
 
 #[derive(Debug, Deserialize)]
@@ -26,6 +27,10 @@ pub(super) struct DesignFile {
 pub(super) struct WeaveTable {
     pub(super) notation: Option<Spanned<String>>,
     pub(super) wif: Option<Spanned<String>>,
+    pub(super) image: Option<String>,
+    pub(super) rows: Option<Spanned<RowOrder>>,
+    pub(super) repeat: Option<Spanned<[Spanned<i64>; 2]>>,
+    pub(super) colors: Option<Spanned<BTreeMap<Spanned<String>, Spanned<String>>>>,
     pub(super) ends: Option<Spanned<i64>>,
     pub(super) picks: Option<Spanned<i64>>,
 }
@@ -156,6 +161,22 @@ impl<'a> Source<'a> {
                 Err(ReadError::OutOfRange { place, value, low: low as f64, high: high as f64 })
             }
         }
+    }
+
+    /// A colour as `#rrggbb`.
+    pub(super) fn rgb(&self, field: &str, color: &Spanned<String>) -> Result<[u8; 3], ReadError> {
+        let is_hex =
+            |digits: &&str| digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let digits = color.as_ref().strip_prefix('#').filter(is_hex);
+        let value = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
+        let [_, red, green, blue] =
+            value.ok_or_else(|| self.bad(field, color, "a colour like #26406e"))?.to_be_bytes();
+        Ok([red, green, blue])
+    }
+
+    pub(super) fn weave(&self, field: &str, notation: &Spanned<String>) -> Result<Weave, ReadError> {
+        let weave = Weave::parse(notation.as_ref());
+        weave.map_err(|source| ReadError::Weave { place: self.place(field, notation.span()), source })
     }
 
     pub(super) fn fabric(&self, source: FabricError) -> ReadError {

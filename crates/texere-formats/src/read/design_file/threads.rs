@@ -52,7 +52,10 @@ impl YarnTable {
                 .unwrap_or(0.0);
             table.materials.push(Material {
                 name: name.clone(),
-                srgb: color(source, &field("color"), spec.color.as_ref())?,
+                srgb: match &spec.color {
+                    Some(color) => source.rgb(&field("color"), color)?,
+                    None => Material::default().srgb,
+                },
                 tex: tex.map(|tex| tex as f32),
             });
             table.sections.push(section(source, name, spec)?);
@@ -163,18 +166,4 @@ fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, 
         source: error,
     })?;
     Ok(section)
-}
-
-/// `#rrggbb`; undyed where none is given.
-fn color(source: &Source<'_>, field: &str, color: Option<&Spanned<String>>) -> Result<[u8; 3], ReadError> {
-    let Some(color) = color else { return Ok(Material::default().srgb) };
-    let is_hex = |digits: &&str| digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
-    let value = color
-        .as_ref()
-        .strip_prefix('#')
-        .filter(is_hex)
-        .and_then(|digits| u32::from_str_radix(digits, 16).ok());
-    let value = value.ok_or_else(|| source.bad(field, color, "a colour like #26406e"))?;
-    let [_, red, green, blue] = value.to_be_bytes();
-    Ok([red, green, blue])
 }

@@ -29,6 +29,7 @@ const THREAD_LIMIT: u32 = 1_000_000;
 pub(super) struct WifDraft {
     pub(super) name: String,
     pub(super) woven: Woven,
+    pub(super) draft: Draft,
     pub(super) warnings: Vec<String>,
 }
 
@@ -39,13 +40,13 @@ pub(super) fn read(path: &Path) -> Result<WifDraft, ReadError> {
 
     let ends = thread_count(&ini, "warp", "WARP")?;
     let picks = thread_count(&ini, "weft", "WEFT")?;
-    let drawdown = drawdown(&ini, ends, picks, &mut warnings)?;
+    let (draft, drawdown) = draft(&ini, ends, picks, &mut warnings)?;
     let mut palette = colors::Palette::read(&ini, &mut warnings)?;
     let (warp, weft) = threads::read(&ini, [ends, picks], &mut palette, &mut warnings)?;
     let woven =
         Woven::new(drawdown, warp, weft, palette.into_materials(), vec![Section::Circle]).map_err(fabric)?;
     let name = ini.get("text", "title").map_or_else(|| file_name(path), |entry| entry.value.clone());
-    Ok(WifDraft { name, woven, warnings })
+    Ok(WifDraft { name, woven, draft, warnings })
 }
 
 fn thread_count(ini: &Ini, section: &str, name: &str) -> Result<u32, ReadError> {
@@ -60,41 +61,48 @@ fn missing(ini: &Ini, section: &'static str, needed_for: &'static str) -> ReadEr
     ReadError::MissingSection { file: ini.file.clone(), section, needed_for }
 }
 
-/// The drawdown from threading and tie-up with treadling, or lift plan. Where a file has both and they differ, the tie-up
-/// stands, and a warning says so.
-fn drawdown(ini: &Ini, ends: u32, picks: u32, warnings: &mut Vec<String>) -> Result<Drawdown, ReadError> {
+/// The draft, of threading and tie-up with treadling or lift plan, and its drawdown. Where a file has both and they
+/// differ, the tie-up stands, and a warning says so.
+fn draft(
+    ini: &Ini,
+    ends: u32,
+    picks: u32,
+    warnings: &mut Vec<String>,
+) -> Result<(Draft, Drawdown), ReadError> {
     if !ini.has("threading") {
         return Err(missing(ini, "THREADING", "it says which shaft each end is on"));
     }
-    let fabric = |source| ReadError::Fabric { file: ini.file.clone(), source };
     let shafts = integer(ini, "weaving", "shafts", 1, LOOM_LIMIT)?.unwrap_or(LOOM_LIMIT);
     let threading = lists(ini, "threading", ends, shafts, warnings)?;
     let rising_shed = rising_shed(ini)?;
-    let with = |shedding| Draft { threading: threading.clone(), shedding, rising_shed }.drawdown();
-
     let treadled = treadled(ini, picks, shafts, warnings)?;
     let lift_plan =
         ini.has("liftplan").then(|| lists(ini, "liftplan", picks, shafts, warnings)).transpose()?;
-    match (treadled, lift_plan) {
-        (Some(treadled), Some(lift_plan)) => {
-            let drawdown = with(treadled).map_err(fabric)?;
-            if drawdown != with(Shedding::LiftPlan(lift_plan)).map_err(fabric)? {
-                warnings.push("lift plan and treadling give different cloths; the treadling is taken".into());
-            }
-            Ok(drawdown)
-        }
-        (Some(shedding), None) => with(shedding).map_err(fabric),
-        (None, Some(lift_plan)) => with(Shedding::LiftPlan(lift_plan)).map_err(fabric),
+    let (shedding, other) = match (treadled, lift_plan) {
+        (Some(treadled), Some(lift_plan)) => (treadled, Some(Shedding::LiftPlan(lift_plan))),
+        (Some(shedding), None) => (shedding, None),
+        (None, Some(lift_plan)) => (Shedding::LiftPlan(lift_plan), None),
         (None, None) if ini.has("treadling") => {
-            Err(missing(ini, "TIEUP", "it says what each treadle of TREADLING lifts"))
+            return Err(missing(ini, "TIEUP", "it says what each treadle of TREADLING lifts"));
         }
         (None, None) if ini.has("tieup") => {
-            Err(missing(ini, "TREADLING", "it says which treadles of TIEUP each pick uses"))
+            return Err(missing(ini, "TREADLING", "it says which treadles of TIEUP each pick uses"));
         }
         (None, None) => {
-            Err(missing(ini, "LIFTPLAN", "without TIEUP and TREADLING it says what each pick lifts"))
+            return Err(missing(ini, "LIFTPLAN", "without TIEUP and TREADLING it says what each pick lifts"));
         }
+    };
+    let fabric = |source| ReadError::Fabric { file: ini.file.clone(), source };
+    let mut draft = Draft { threading, shedding, rising_shed };
+    let drawdown = draft.drawdown().map_err(fabric)?;
+    if let Some(other) = other {
+        let stands = std::mem::replace(&mut draft.shedding, other);
+        if drawdown != draft.drawdown().map_err(fabric)? {
+            warnings.push("lift plan and treadling give different cloths; the treadling is taken".into());
+        }
+        draft.shedding = stands;
     }
+    Ok((draft, drawdown))
 }
 
 /// Tie-up and treadling, where both are there.

@@ -1,0 +1,214 @@
+//! Drafts and point paper as PNG pictures, as weavers draw them on squared paper.
+//!
+//! ```text
+//! warp yarns
+//! threading     tie-up
+//! drawdown      treadling or lift plan      weft yarns
+//! ```
+//!
+//! As in a mill, pick 1 is the bottom row, end 1 the left column, and the threading stands above the cloth. Shaft 1 is the
+//! row next to the cloth, treadle 1 the column next to it. A black square of the drawdown is warp on top. A cloth without
+//! a shaft draft, or with more shafts or treadles than [`SHAFTS_MAX`], is drawn as point paper: drawdown and yarns alone.
+//! So is the back of any cloth, turned over sideways so that end 1 is on the right: a draft is written for the face.
+
+mod font;
+mod sheet;
+
+use std::path::Path;
+
+use texere_fabric::{Draft, Shedding, Thread, Woven};
+
+use super::WriteError;
+use super::target::Target;
+use sheet::{Block, INK, PAPER, Rgb, Sheet};
+
+/// The most shafts, and the most treadles, that are drawn: more than any loom with treadles or a dobby has.
+pub const SHAFTS_MAX: usize = 100;
+
+/// A picture's longer side, pixels, as long as its squares allow.
+const SIDE_AIM: usize = 2400;
+
+/// The largest square, pixels.
+const SQUARE_MAX: usize = 16;
+
+/// The longest side of a picture, pixels: many programs count them in 16 bits with a sign.
+const SIDE_MAX: usize = 32_767;
+
+/// The least width of a bar of yarns, and of the gap between blocks, pixels.
+const BAR_MIN: usize = 8;
+
+/// Which side of a cloth lies towards the viewer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Side {
+    /// The technical face.
+    #[default]
+    Face,
+    /// The other one, the cloth turned over sideways.
+    Back,
+}
+
+/// Draws a cloth, and where it has one its shaft `draft`, to a PNG file. Gives the picture's width and height in pixels.
+///
+/// **Errors**: [`WriteError::NotPng`] where `path` does not end in `.png`, [`WriteError::DraftTooLarge`] for cloth that
+/// needs more pixels than pictures have, [`WriteError::Io`].
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::{Thread, Weave, Woven};
+/// use texere_formats::write::{Side, draft};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("twill.png");
+/// let thread = Thread::new(0.5, 0.1);
+/// let twill = Weave::parse("2/2")?.drawdown(24, 16)?;
+/// let cloth = Woven::new(twill, vec![thread; 24], vec![thread; 16], vec![Material::default()], vec![Section::Circle])?;
+/// let [width, height] = draft(&cloth, None, Side::Face, &path)?;
+/// assert!(width > 24 * 16 && height > 16 * 16);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn draft(
+    cloth: &Woven,
+    draft: Option<&Draft>,
+    side: Side,
+    path: impl AsRef<Path>,
+) -> Result<[u32; 2], WriteError> {
+    let path = path.as_ref();
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        return Err(WriteError::NotPng { path: path.to_owned() });
+    }
+    let loom = draft.filter(|_| side == Side::Face).map(Loom::new).filter(Loom::fits);
+    let sheet = lay_out(cloth, loom.as_ref(), side);
+    let [width, height] = sheet.size;
+    if width.max(height) > SIDE_MAX {
+        let (ends, picks) = (cloth.drawdown().ends(), cloth.drawdown().picks());
+        return Err(WriteError::DraftTooLarge { ends, picks, width, height, limit: SIDE_MAX });
+    }
+    let mut target = Target::create(path)?;
+    let written = sheet.write(&mut target);
+    written.map_err(|error| target.failed(error.into()))?;
+    target.commit()?;
+    Ok([width as u32, height as u32])
+}
+
+/// A draft as far as it is drawn: how many shafts and treadles it really uses.
+struct Loom<'a> {
+    draft: &'a Draft,
+    shafts: usize,
+    treadles: usize,
+}
+
+impl<'a> Loom<'a> {
+    fn new(draft: &'a Draft) -> Self {
+        let highest = |lists: &[Vec<u32>]| lists.iter().flatten().max().map_or(0, |&number| number as usize);
+        let (shafts, treadles) = match &draft.shedding {
+            Shedding::LiftPlan(lifts) => (highest(lifts), 0),
+            Shedding::TieUp { tie_up, treadling } => {
+                let tied = tie_up.iter().rposition(|shafts| !shafts.is_empty()).map_or(0, |last| last + 1);
+                (highest(tie_up), tied.max(highest(treadling)))
+            }
+        };
+        Self { draft, shafts: shafts.max(highest(&draft.threading)), treadles }
+    }
+
+    /// Whether there is anything to draw, and not too much.
+    fn fits(&self) -> bool {
+        (1..=SHAFTS_MAX).contains(&self.shafts) && self.treadles <= SHAFTS_MAX
+    }
+
+    /// Columns of the block on the right: treadles, or shafts of a lift plan.
+    fn columns(&self) -> usize {
+        match self.draft.shedding {
+            Shedding::LiftPlan(_) => self.shafts,
+            Shedding::TieUp { .. } => self.treadles,
+        }
+    }
+
+    /// What each pick uses of them.
+    fn uses(&self) -> &'a [Vec<u32>] {
+        match &self.draft.shedding {
+            Shedding::LiftPlan(lifts) => lifts,
+            Shedding::TieUp { treadling, .. } => treadling,
+        }
+    }
+}
+
+/// Ink where the list of `thread`, counted from 0, holds the shaft or treadle `number`, likewise.
+fn mark(lists: &[Vec<u32>], thread: usize, number: usize) -> Rgb {
+    let marked = lists.get(thread).is_some_and(|list| list.contains(&(number as u32 + 1)));
+    if marked { INK } else { PAPER }
+}
+
+/// The colour of a thread's yarn.
+fn yarn(cloth: &Woven, thread: &Thread) -> Rgb {
+    cloth.materials().get(thread.material as usize).map_or(PAPER, |material| material.srgb)
+}
+
+/// All blocks in their places.
+fn lay_out<'a>(cloth: &'a Woven, loom: Option<&'a Loom<'a>>, side: Side) -> Sheet<'a> {
+    let drawdown = cloth.drawdown();
+    let (ends, picks) = (drawdown.ends(), drawdown.picks());
+    let (shafts, columns) = loom.map_or((0, 0), |loom| (loom.shafts, loom.columns()));
+    let square = (SIDE_AIM / (ends + columns).max(picks + shafts)).clamp(1, SQUARE_MAX);
+    let bar = square.max(BAR_MIN);
+    let end_of = move |column: usize| match side {
+        Side::Face => column,
+        Side::Back => ends - 1 - column,
+    };
+
+    let mut sheet = Sheet::new(bar, side == Side::Back);
+    let place @ [left, _] = Sheet::ORIGIN;
+    let [mut right, mut top] = sheet.put(Block {
+        place,
+        squares: [ends, 1],
+        square: [square, bar],
+        color: Box::new(move |column, _| yarn(cloth, &cloth.warp()[end_of(column)])),
+    });
+    let mut squares = |place, squares, color| sheet.put(Block { place, squares, square: [square; 2], color });
+    if let Some(loom) = loom {
+        let beside = [right, top];
+        let threading = &loom.draft.threading;
+        [right, top] = squares(
+            [left, top],
+            [ends, shafts],
+            Box::new(move |end, row| mark(threading, end, shafts - 1 - row)),
+        );
+        if let Shedding::TieUp { tie_up, .. } = &loom.draft.shedding {
+            let color = Box::new(move |treadle, row| mark(tie_up, treadle, shafts - 1 - row));
+            squares(beside, [columns, shafts], color);
+        }
+        let uses = loom.uses();
+        let color = Box::new(move |column, row| mark(uses, picks - 1 - row, column));
+        [right, _] = squares([right, top], [columns, picks], color);
+    }
+    let color = Box::new(move |column, row: usize| {
+        let up = drawdown.up(end_of(column), picks - 1 - row);
+        if up == (side == Side::Face) { INK } else { PAPER }
+    });
+    squares([left, top], [ends, picks], color);
+    sheet.put(Block {
+        place: [right, top],
+        squares: [1, picks],
+        square: [bar, square],
+        color: Box::new(move |_, row| yarn(cloth, &cloth.weft()[picks - 1 - row])),
+    });
+    sheet.close(legend(cloth, loom, side));
+    sheet
+}
+
+/// What is said below the drawing.
+fn legend(cloth: &Woven, loom: Option<&Loom<'_>>, side: Side) -> Vec<String> {
+    let (side, left) = match side {
+        Side::Face => ("FACE", "LEFT"),
+        Side::Back => ("BACK", "RIGHT"),
+    };
+    let (ends, picks) = (cloth.drawdown().ends(), cloth.drawdown().picks());
+    let mut lines = vec![
+        format!("{side}. BLACK: WARP ON TOP"),
+        format!("END 1 {left}, PICK 1 BOTTOM"),
+        format!("{ends} ENDS, {picks} PICKS"),
+    ];
+    if let Some(loom) = loom {
+        let shed = if loom.draft.rising_shed { "RISING" } else { "SINKING" };
+        lines.push(format!("{} SHAFTS, {shed} SHED", loom.shafts));
+    }
+    lines
+}

@@ -1,0 +1,153 @@
+//! A sheet of squared paper: blocks of squares with a legend below, painted row of pixels by row.
+
+use std::io::Write;
+
+use super::font::{self, GLYPH_HEIGHT, GLYPH_WIDTH};
+
+/// The colour of a pixel.
+pub(super) type Rgb = [u8; 3];
+
+/// What nothing is drawn on.
+pub(super) const PAPER: Rgb = [255, 255, 255];
+
+/// What is drawn.
+pub(super) const INK: Rgb = [0, 0, 0];
+
+/// A line between squares, and one between groups of them.
+const LINES: [Rgb; 2] = [[184, 184, 184], [88, 88, 88]];
+
+/// Squares of a group: point paper has always been printed in eights.
+const GROUP: usize = 8;
+
+/// The smallest square that has lines round it, pixels.
+const LINED_MIN: usize = 4;
+
+/// Round the sheet, pixels.
+const MARGIN: usize = 12;
+
+/// Pixels of a dot of the legend's letters.
+const DOT: usize = 2;
+
+/// Dots from one line of the legend to the next.
+const LEADING: usize = GLYPH_HEIGHT + 3;
+
+/// A rectangle of squares.
+pub(super) struct Block<'a> {
+    /// Its left and top, pixels.
+    pub(super) place: [usize; 2],
+    /// Columns and rows.
+    pub(super) squares: [usize; 2],
+    /// Width and height of a square, pixels.
+    pub(super) square: [usize; 2],
+    /// The colour of a square, by its column and by its row from the top.
+    pub(super) color: Box<dyn Fn(usize, usize) -> Rgb + 'a>,
+}
+
+impl Block<'_> {
+    fn lined(&self) -> bool {
+        self.square[0].min(self.square[1]) >= LINED_MIN
+    }
+
+    /// Where it ends on the right and at the bottom, its closing line included.
+    fn end(&self) -> [usize; 2] {
+        let line = usize::from(self.lined());
+        [0, 1].map(|axis| self.place[axis] + self.squares[axis] * self.square[axis] + line)
+    }
+}
+
+/// Blocks in their places, and a legend.
+pub(super) struct Sheet<'a> {
+    /// Width and height, pixels.
+    pub(super) size: [usize; 2],
+    /// Between two blocks, pixels.
+    gap: usize,
+    /// Whether columns are counted from the right.
+    mirrored: bool,
+    blocks: Vec<Block<'a>>,
+    legend: Vec<String>,
+    legend_top: usize,
+}
+
+impl<'a> Sheet<'a> {
+    /// Where the first block goes.
+    pub(super) const ORIGIN: [usize; 2] = [MARGIN; 2];
+
+    pub(super) const fn new(gap: usize, mirrored: bool) -> Self {
+        Self { size: [0; 2], gap, mirrored, blocks: Vec::new(), legend: Vec::new(), legend_top: 0 }
+    }
+
+    /// Puts a block in its place. Gives the places right of it and below it.
+    pub(super) fn put(&mut self, block: Block<'a>) -> [usize; 2] {
+        let end = block.end();
+        self.size = [0, 1].map(|axis| self.size[axis].max(end[axis] + MARGIN));
+        self.blocks.push(block);
+        end.map(|end| end + self.gap)
+    }
+
+    /// Puts lines of text below everything.
+    pub(super) fn close(&mut self, legend: Vec<String>) {
+        let longest = legend.iter().map(|line| line.chars().count()).max().unwrap_or(0);
+        self.legend_top = self.size[1];
+        let wide = longest * (GLYPH_WIDTH + 1) * DOT + 2 * MARGIN;
+        self.size = [self.size[0].max(wide), self.legend_top + legend.len() * LEADING * DOT + MARGIN];
+        self.legend = legend;
+    }
+
+    /// Writes the sheet as a PNG file.
+    pub(super) fn write(&self, out: impl Write) -> Result<(), png::EncodingError> {
+        let mut encoder = png::Encoder::new(out, self.size[0] as u32, self.size[1] as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        let mut header = encoder.write_header()?;
+        let mut rows = header.stream_writer()?;
+        let mut row = vec![PAPER; self.size[0]];
+        for y in 0..self.size[1] {
+            row.fill(PAPER);
+            self.paint(y, &mut row);
+            rows.write_all(row.as_flattened())?;
+        }
+        rows.finish()?;
+        header.finish()
+    }
+
+    /// Paints what lies at height `y`, from the top, on a row of paper.
+    fn paint(&self, y: usize, pixels: &mut [Rgb]) {
+        for block in &self.blocks {
+            let [left, top] = block.place;
+            let [right, bottom] = block.end();
+            if !(top..bottom).contains(&y) {
+                continue;
+            }
+            let across = self.line(block, 1, y - top);
+            for (x, pixel) in pixels.iter_mut().enumerate().take(right).skip(left) {
+                let line = across.max(self.line(block, 0, x - left));
+                *pixel = match line {
+                    Some(group) => LINES[usize::from(group)],
+                    None => (block.color)((x - left) / block.square[0], (y - top) / block.square[1]),
+                };
+            }
+        }
+        let dots = y.checked_sub(self.legend_top).map(|below| below / DOT);
+        if let Some((dots, line)) = dots.and_then(|dots| Some((dots, self.legend.get(dots / LEADING)?))) {
+            for (place, letter) in line.chars().enumerate() {
+                let bits = font::row(letter, dots % LEADING);
+                for dot in (0..GLYPH_WIDTH).filter(|dot| bits >> (GLYPH_WIDTH - 1 - dot) & 1 == 1) {
+                    let x = MARGIN + (place * (GLYPH_WIDTH + 1) + dot) * DOT;
+                    pixels[x..x + DOT].fill(INK);
+                }
+            }
+        }
+    }
+
+    /// Whether a line runs through pixel `at` of a block along an axis, and whether it is one between groups.
+    fn line(&self, block: &Block<'_>, axis: usize, at: usize) -> Option<bool> {
+        let (squares, square) = (block.squares[axis], block.square[axis]);
+        if !block.lined() || !at.is_multiple_of(square) {
+            return None;
+        }
+        let before = at / square;
+        // Ends are counted from end 1, picks from the bottom.
+        let counted = if axis == 1 || self.mirrored { squares - before } else { before };
+        Some(counted.is_multiple_of(GROUP) || before == 0 || before == squares)
+    }
+}

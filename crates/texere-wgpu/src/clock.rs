@@ -1,0 +1,234 @@
+//! How long each stage took, by the device's own clock where it lets it be read.
+
+use std::fmt;
+use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::time::{Duration, Instant};
+
+use texere_core::{BackendError, StageTimings};
+use wgpu::{BufferUsages, ComputePassTimestampWrites, Features, MapMode, SubmissionIndex};
+
+use crate::gpu::{Gpu, WAIT_LIMIT};
+
+/// Which clock the times of scan, trajectory and mesh come from. Those of upload and readback are always the host's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TimedBy {
+    /// The device's: from the start of the work to its end.
+    Device,
+    /// The host's, since the device has no timestamp queries or was opened without: from handing the work over to seeing
+    /// it done, so with all that it had to wait for.
+    Host,
+}
+
+impl fmt::Display for TimedBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Device => "device",
+            Self::Host => "host",
+        })
+    }
+}
+
+impl TimedBy {
+    pub(crate) fn of(device: &wgpu::Device) -> Self {
+        if device.features().contains(Features::TIMESTAMP_QUERY) { Self::Device } else { Self::Host }
+    }
+}
+
+/// A stage that runs on the device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Timed {
+    Scan,
+    Trajectory,
+    Mesh,
+}
+
+/// Launches that can be timed at once; one more waits for the first of them.
+const STAMPS: u32 = 16;
+
+/// Bytes of a stamp: the two ticks at which a launch began and ended.
+const STAMP_BYTES: u64 = 2 * wgpu::QUERY_SIZE as u64;
+
+/// Adds up times as launches turn out to be done.
+#[derive(Debug)]
+pub(crate) struct Clock {
+    stamps: Option<Stamps>,
+    pending: Vec<Pending>,
+    totals: StageTimings,
+}
+
+/// A launch that has not been seen done. `done` brings the moment when it was.
+#[derive(Debug)]
+struct Pending {
+    timed: Timed,
+    launched: Instant,
+    submission: SubmissionIndex,
+    done: Receiver<Instant>,
+    stamp: Option<u32>,
+}
+
+/// The device's clock.
+#[derive(Debug)]
+struct Stamps {
+    queries: wgpu::QuerySet,
+    /// Ticks as queries resolve to them, one stamp each [`wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT`].
+    resolved: wgpu::Buffer,
+    /// One a stamp, since a buffer that is mapped can't be copied to.
+    mapped: Vec<wgpu::Buffer>,
+    free: Vec<u32>,
+    nanoseconds_per_tick: f64,
+}
+
+impl Clock {
+    pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
+        let stamps = match TimedBy::of(&gpu.device) {
+            TimedBy::Device => Some(Stamps::new(gpu)?),
+            TimedBy::Host => None,
+        };
+        Ok(Self { stamps, pending: Vec::new(), totals: StageTimings::default() })
+    }
+
+    /// Runs what `record` writes into a compute pass, and times it.
+    pub(crate) fn run(
+        &mut self,
+        gpu: &Gpu,
+        timed: Timed,
+        record: impl FnOnce(&mut wgpu::ComputePass<'_>),
+    ) -> Result<(), BackendError> {
+        self.collect(gpu);
+        if self.stamps.as_ref().is_some_and(|stamps| stamps.free.is_empty()) && !self.pending.is_empty() {
+            let first = self.pending.remove(0);
+            self.finish(gpu, first)?;
+        }
+        let Self { stamps, pending, .. } = self;
+        let stamp = stamps.as_mut().and_then(|stamps| stamps.free.pop());
+        let launched = Instant::now();
+        let (note, done) = sync_channel(1);
+        let submission = gpu.scoped("Queue::submit", || {
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let stamped = stamps.as_ref().zip(stamp);
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: None,
+                timestamp_writes: stamped.map(|(stamps, stamp)| stamps.writes(stamp)),
+            });
+            record(&mut pass);
+            drop(pass);
+            if let Some((stamps, stamp)) = stamped {
+                stamps.resolve(&mut encoder, stamp);
+            }
+            let submission = gpu.queue.submit([encoder.finish()]);
+            match stamped.and_then(|(stamps, stamp)| stamps.mapped.get(stamp as usize)) {
+                Some(buffer) => buffer.map_async(MapMode::Read, .., move |answer| {
+                    if answer.is_ok() {
+                        let _ = note.send(Instant::now());
+                    }
+                }),
+                None => gpu.queue.on_submitted_work_done(move || {
+                    let _ = note.send(Instant::now());
+                }),
+            }
+            submission
+        })?;
+        pending.push(Pending { timed, launched, submission, done, stamp });
+        Ok(())
+    }
+
+    /// Takes the times of launches that have been seen done.
+    fn collect(&mut self, gpu: &Gpu) {
+        for launch in std::mem::take(&mut self.pending) {
+            match launch.done.try_recv() {
+                Err(TryRecvError::Empty) => self.pending.push(launch),
+                answer => self.add(gpu, &launch, answer.ok()),
+            }
+        }
+    }
+
+    /// Waits for a launch, and takes its time.
+    fn finish(&mut self, gpu: &Gpu, launch: Pending) -> Result<(), BackendError> {
+        let waited = gpu.wait(launch.submission.clone());
+        // Another thread's poll may have found the work done, and be about to say so.
+        let done = if waited.is_ok() { launch.done.recv_timeout(WAIT_LIMIT).ok() } else { None };
+        self.add(gpu, &launch, done);
+        waited
+    }
+
+    /// Adds the time of a launch that was seen done, or will never be.
+    fn add(&mut self, gpu: &Gpu, launch: &Pending, done: Option<Instant>) {
+        let time = match (&mut self.stamps, launch.stamp, done) {
+            (Some(stamps), Some(stamp), _) => stamps.take(gpu, stamp),
+            (_, _, Some(done)) => done.duration_since(launch.launched),
+            _ => Duration::ZERO,
+        };
+        let total = match launch.timed {
+            Timed::Scan => &mut self.totals.scan,
+            Timed::Trajectory => &mut self.totals.trajectory,
+            Timed::Mesh => &mut self.totals.mesh,
+        };
+        *total += time;
+    }
+
+    /// The times of all launches, which are waited for. Where the device is lost, those of the launches before.
+    pub(crate) fn totals(&mut self, gpu: &Gpu) -> StageTimings {
+        for launch in std::mem::take(&mut self.pending) {
+            if self.finish(gpu, launch).is_err() {
+                break;
+            }
+        }
+        self.totals
+    }
+}
+
+impl Stamps {
+    fn new(gpu: &Gpu) -> Result<Self, BackendError> {
+        let step = wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
+        let queries = gpu.scoped("Device::create_query_set", || {
+            gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: None,
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * STAMPS,
+            })
+        })?;
+        let mapped =
+            || gpu.buffer("timestamps", STAMP_BYTES, BufferUsages::MAP_READ | BufferUsages::COPY_DST);
+        Ok(Self {
+            queries,
+            resolved: gpu.buffer(
+                "timestamps",
+                u64::from(STAMPS) * step,
+                BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC,
+            )?,
+            mapped: (0..STAMPS).map(|_| mapped()).collect::<Result<_, _>>()?,
+            free: (0..STAMPS).collect(),
+            nanoseconds_per_tick: gpu.queue.get_timestamp_period().into(),
+        })
+    }
+
+    fn writes(&self, stamp: u32) -> ComputePassTimestampWrites<'_> {
+        ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(2 * stamp),
+            end_of_pass_write_index: Some(2 * stamp + 1),
+        }
+    }
+
+    fn resolve(&self, encoder: &mut wgpu::CommandEncoder, stamp: u32) {
+        let offset = u64::from(stamp) * wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
+        encoder.resolve_query_set(&self.queries, 2 * stamp..2 * stamp + 2, &self.resolved, offset);
+        if let Some(buffer) = self.mapped.get(stamp as usize) {
+            encoder.copy_buffer_to_buffer(&self.resolved, offset, buffer, 0, STAMP_BYTES);
+        }
+    }
+
+    /// The time of a stamp whose buffer is mapped, none where the device is lost; the stamp is free again.
+    fn take(&mut self, gpu: &Gpu, stamp: u32) -> Duration {
+        self.free.push(stamp);
+        let Some(buffer) = self.mapped.get(stamp as usize) else { return Duration::ZERO };
+        let ticks = buffer.get_mapped_range(..).ok().and_then(|view| {
+            let (start, end) = view.split_at_checked(STAMP_BYTES as usize / 2)?;
+            let tick = |bytes: &[u8]| bytes.try_into().map(u64::from_ne_bytes).ok();
+            tick(end)?.checked_sub(tick(start)?)
+        });
+        // Nobody is left to hear of an error; one outside a scope would panic.
+        let _ = gpu.caught(|| buffer.unmap());
+        Duration::from_nanos((ticks.unwrap_or(0) as f64 * self.nanoseconds_per_tick) as u64)
+    }
+}

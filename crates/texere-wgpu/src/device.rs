@@ -1,0 +1,205 @@
+//! Devices: which there are, and how one is opened.
+
+use std::sync::Arc;
+
+use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Limits, Plan, Session};
+use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
+
+use crate::Schedule;
+use crate::gpu::Gpu;
+use crate::session::WgpuSession;
+use crate::stages::Stages;
+
+/// Most blocks of a launch: some 16 million rings, so that none takes long enough for a watchdog to end it, even on a
+/// software device.
+const LAUNCH_BLOCKS: u64 = 1 << 18;
+
+/// An open device with its shaders: what a backend and its sessions share.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    pub(crate) gpu: Gpu,
+    pub(crate) stages: Stages,
+}
+
+/// A wgpu device that is open and can start sessions.
+///
+/// ```no_run
+/// use texere_core::Backend;
+/// use texere_wgpu::{Schedule, WgpuBackend};
+/// for device in WgpuBackend::devices()? {
+///     println!("{}: {} ({})", device.name, device.device, device.kind);
+/// }
+/// let backend = WgpuBackend::open_named("llvmpipe", Schedule::PerRing)?;
+/// assert!(backend.info().device.contains("llvmpipe"));
+/// # Ok::<(), texere_core::BackendError>(())
+/// ```
+#[derive(Debug)]
+pub struct WgpuBackend {
+    info: DeviceInfo,
+    opened: Arc<Opened>,
+}
+
+impl WgpuBackend {
+    /// All devices, in the order of their numbers. [`DeviceInfo::name`] is `wgpu:0` and so on.
+    ///
+    /// **Errors**: [`BackendError::NoDevice`] where there is none, or no driver to ask.
+    pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
+        let described: Vec<_> = adapters()
+            .iter()
+            .enumerate()
+            .map(|(index, adapter)| {
+                let name = name(index, Schedule::PerRing);
+                describe(name, &adapter.get_info(), &adapter.limits(), Schedule::PerRing)
+            })
+            .collect();
+        if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
+    }
+
+    /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries if it has them.
+    ///
+    /// **Errors**: [`BackendError::NoDevice`], which lists those there are; [`BackendError::Driver`] where the device
+    /// can't be opened; [`BackendError::Compile`].
+    pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
+        let adapters = adapters();
+        let adapter = adapters.get(index).ok_or_else(|| none(name(index, schedule), &adapters))?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("texere"),
+            required_features: adapter.features() & Features::TIMESTAMP_QUERY,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }))
+        .map_err(|source| BackendError::Driver { call: "Adapter::request_device", source: source.into() })?;
+        Self::new(Gpu::owned(name(index, schedule), device, queue), schedule)
+    }
+
+    /// Opens the first device whose maker's name contains `part`, in whatever case.
+    ///
+    /// **Errors**: those of [`WgpuBackend::open`].
+    pub fn open_named(part: &str, schedule: Schedule) -> Result<Self, BackendError> {
+        let (adapters, wanted) = (adapters(), part.to_lowercase());
+        let index = adapters
+            .iter()
+            .position(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted))
+            .ok_or_else(|| none(part.into(), &adapters))?;
+        Self::open(index, schedule)
+    }
+
+    /// Works on a device of the caller's, such as a viewer's, under the name `wgpu`.
+    ///
+    /// All calls are made within error scopes, and its callbacks stay the caller's. It takes no feature;
+    /// `TIMESTAMP_QUERY` makes timings exact. With wgpu's default limits a chunk has up to 128 MiB of vertices.
+    ///
+    /// **Errors**: [`BackendError::Compile`], also where its limits are below WebGPU's defaults.
+    pub fn from_device(
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+        schedule: Schedule,
+    ) -> Result<Self, BackendError> {
+        let name = match schedule {
+            Schedule::PerRing => "wgpu".into(),
+            Schedule::PerYarn => "wgpu/per-yarn".into(),
+        };
+        Self::new(Gpu::borrowed(name, device, queue), schedule)
+    }
+
+    fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
+        let info = describe(gpu.name.clone(), &gpu.device.adapter_info(), &gpu.device.limits(), schedule);
+        let stages = Stages::new(&gpu, schedule)?;
+        Ok(Self { info, opened: Arc::new(Opened { gpu, stages }) })
+    }
+
+    /// Cuts chunks to `limits` where the device's own are wider: for a device with less memory than its bindings could
+    /// hold, or to test with many small chunks.
+    #[must_use]
+    pub fn with_limits(self, limits: Limits) -> Self {
+        let info = DeviceInfo { limits: self.info.limits.min(&limits), ..self.info };
+        Self { info, ..self }
+    }
+
+    /// Starts a session that lends its buffers.
+    ///
+    /// **Errors**: those of [`Backend::session`].
+    pub fn wgpu_session(&self, plan: Arc<Plan>) -> Result<WgpuSession, BackendError> {
+        WgpuSession::new(self.opened.clone(), self.info.limits, plan)
+    }
+
+    /// The device, for buffers and pipelines that work with a session's.
+    #[must_use]
+    pub fn device(&self) -> &wgpu::Device {
+        &self.opened.gpu.device
+    }
+
+    /// The queue that sessions hand their work to.
+    #[must_use]
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.opened.gpu.queue
+    }
+}
+
+impl Backend for WgpuBackend {
+    fn info(&self) -> &DeviceInfo {
+        &self.info
+    }
+
+    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
+        Ok(Box::new(self.wgpu_session(plan)?))
+    }
+}
+
+/// All adapters that can compute.
+fn adapters() -> Vec<wgpu::Adapter> {
+    let backends = Backends::VULKAN | Backends::METAL | Backends::DX12;
+    let instance = wgpu::Instance::new(InstanceDescriptor {
+        backends,
+        // No validation layer of the driver's, also in a debug build, unless the environment asks for it.
+        flags: InstanceFlags::empty().with_env(),
+        ..InstanceDescriptor::new_without_display_handle()
+    });
+    let mut adapters = pollster::block_on(instance.enumerate_adapters(backends));
+    adapters.retain(|adapter| {
+        adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::COMPUTE_SHADERS)
+    });
+    adapters
+}
+
+fn name(index: usize, schedule: Schedule) -> String {
+    match schedule {
+        Schedule::PerRing => format!("wgpu:{index}"),
+        Schedule::PerYarn => format!("wgpu:{index}/per-yarn"),
+    }
+}
+
+fn none(wanted: String, adapters: &[wgpu::Adapter]) -> BackendError {
+    let found = adapters.iter().enumerate();
+    let found = found.map(|(index, adapter)| format!("wgpu:{index} ({})", adapter.get_info().name)).collect();
+    BackendError::NoDevice { wanted, found }
+}
+
+fn describe(
+    name: String,
+    adapter: &wgpu::AdapterInfo,
+    limits: &wgpu::Limits,
+    schedule: Schedule,
+) -> DeviceInfo {
+    let binding_bytes = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    DeviceInfo {
+        name,
+        device: adapter.name.clone(),
+        driver: format!("{} {} ({})", adapter.driver, adapter.driver_info, adapter.backend),
+        schedule: schedule.to_string(),
+        kind: match adapter.device_type {
+            DeviceType::DiscreteGpu => DeviceKind::DiscreteGpu,
+            DeviceType::IntegratedGpu => DeviceKind::IntegratedGpu,
+            DeviceType::Cpu => DeviceKind::Cpu,
+            _ => DeviceKind::Other,
+        },
+        // wgpu does not tell.
+        memory_bytes: None,
+        limits: Limits {
+            // Buffers are rounded up to multiples of 16 bytes, which must not take them past the limit.
+            binding_bytes: binding_bytes / 16 * 16,
+            blocks: LAUNCH_BLOCKS,
+            ..Limits::NONE
+        },
+    }
+}

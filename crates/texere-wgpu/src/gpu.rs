@@ -1,0 +1,156 @@
+//! An open device: calls into wgpu with their errors mapped, so that nothing in it can panic or hang.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use texere_core::BackendError;
+use wgpu::{BufferUsages, ErrorFilter, PollError, PollType, SubmissionIndex};
+
+/// How long a submission may take before the wait for it is given up. A chunk takes milliseconds on a GPU and seconds
+/// on a software device; whatever takes two minutes will not come back.
+pub(crate) const WAIT_LIMIT: Duration = Duration::from_secs(120);
+
+/// Every buffer is a multiple of this long, bytes: the widest element of a shader's array.
+const BUFFER_STEP: u64 = 16;
+
+/// A device and its queue.
+#[derive(Debug)]
+pub(crate) struct Gpu {
+    /// What `DeviceInfo` calls it.
+    pub(crate) name: String,
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    /// Why the device was lost, where it was. Stays empty on a caller's device, whose callbacks are the caller's.
+    lost: Arc<Mutex<Option<String>>>,
+}
+
+impl Gpu {
+    /// Takes a device of the caller's.
+    pub(crate) fn borrowed(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        Self { name, device, queue, lost: Arc::default() }
+    }
+
+    /// Takes a device of our own: errors outside a scope no longer panic, and its loss is noted.
+    pub(crate) fn owned(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        let gpu = Self::borrowed(name, device, queue);
+        let note = |lost: &Mutex<Option<String>>, reason: String| {
+            lost.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
+        };
+        let lost = gpu.lost.clone();
+        gpu.device.set_device_lost_callback(move |_, reason| note(&lost, reason));
+        let lost = gpu.lost.clone();
+        // Every call of ours is in a scope; what comes outside comes from the device itself.
+        gpu.device.on_uncaptured_error(Arc::new(move |error| note(&lost, error.to_string())));
+        gpu
+    }
+
+    /// **Errors**: [`BackendError::DeviceLost`].
+    pub(crate) fn check_alive(&self) -> Result<(), BackendError> {
+        match &*self.lost.lock().unwrap_or_else(PoisonError::into_inner) {
+            Some(reason) => Err(self.lost(reason.clone())),
+            None => Ok(()),
+        }
+    }
+
+    /// Asks the device whether it is still there. wgpu lets a lost device take any call and says nothing, but the memory
+    /// of a buffer on it is not to be had.
+    ///
+    /// **Errors**: [`BackendError::DeviceLost`].
+    pub(crate) fn probe(&self) -> Result<(), BackendError> {
+        self.check_alive()?;
+        let descriptor = wgpu::BufferDescriptor {
+            label: Some("probe"),
+            size: BUFFER_STEP,
+            usage: BufferUsages::COPY_SRC,
+            mapped_at_creation: true,
+        };
+        let answer = self.caught(|| self.device.create_buffer(&descriptor).get_mapped_range(..).map(|_| ()));
+        self.check_alive()?;
+        match answer {
+            Ok(Err(source)) => Err(self.lost(source)),
+            // A device that is short of memory is a device.
+            Ok(Ok(())) | Err(_) => Ok(()),
+        }
+    }
+
+    pub(crate) fn lost(&self, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> BackendError {
+        BackendError::DeviceLost { device: self.name.clone(), source: Some(source.into()) }
+    }
+
+    /// Runs `work` within error scopes, and gives back the error that it raised; lack of memory before what followed from it.
+    pub(crate) fn caught<T>(&self, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
+        let scopes = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory]
+            .map(|filter| self.device.push_error_scope(filter));
+        let result = work();
+        // Innermost first. On every platform but the web the answer is there at once.
+        let errors = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop()));
+        errors.reduce(|first, _| first).map_or(Ok(result), Err)
+    }
+
+    /// Runs `work` within error scopes; `call` names it in an error.
+    ///
+    /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
+    pub(crate) fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {
+        self.check_alive()?;
+        let result = self.caught(work);
+        self.check_alive()?;
+        result.map_err(|source| match self.probe() {
+            // A lost device makes other errors in its wake.
+            Err(lost) => lost,
+            Ok(()) => BackendError::Driver { call, source: source.into() },
+        })
+    }
+
+    /// A buffer of at least `bytes`, a multiple of [`BUFFER_STEP`] and never empty, since an empty one can't be bound.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`] also for more than the device's largest buffer, or, for a storage
+    /// buffer that is bound whole, its largest binding.
+    pub(crate) fn buffer(
+        &self,
+        what: &'static str,
+        bytes: u64,
+        usage: BufferUsages,
+    ) -> Result<wgpu::Buffer, BackendError> {
+        self.check_alive()?;
+        let size = bytes.max(1).next_multiple_of(BUFFER_STEP);
+        if size > self.device.limits().max_buffer_size {
+            return Err(BackendError::OutOfMemory { what, bytes });
+        }
+        let descriptor = wgpu::BufferDescriptor { label: Some(what), size, usage, mapped_at_creation: false };
+        let buffer = self.caught(|| self.device.create_buffer(&descriptor)).map_err(|error| match error {
+            wgpu::Error::OutOfMemory { .. } => BackendError::OutOfMemory { what, bytes },
+            source => BackendError::Driver { call: "Device::create_buffer", source: source.into() },
+        });
+        self.check_alive()?;
+        buffer
+    }
+
+    /// Sends `bytes` to `buffer`; it is there before any later launch.
+    pub(crate) fn write(&self, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) -> Result<(), BackendError> {
+        if bytes.is_empty() {
+            return Ok(());
+        }
+        self.scoped("Queue::write_buffer", || self.queue.write_buffer(buffer, offset, bytes))
+    }
+
+    /// Waits until `submission` is done, and runs the callbacks of all that is.
+    ///
+    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
+    pub(crate) fn wait(&self, submission: SubmissionIndex) -> Result<(), BackendError> {
+        self.check_alive()?;
+        let poll = PollType::Wait { submission_index: Some(submission), timeout: Some(WAIT_LIMIT) };
+        // wgpu 30 panics in `poll` where the driver reports that the device is gone; there is no other way to wait.
+        let answer = catch_unwind(AssertUnwindSafe(|| self.device.poll(poll)));
+        self.check_alive()?;
+        match answer {
+            Ok(Ok(_)) => Ok(()),
+            Ok(Err(source @ PollError::Timeout)) => {
+                Err(BackendError::Driver { call: "Device::poll", source: source.into() })
+            }
+            // A submission that the device never took: the submit before it failed for no other reason.
+            Ok(Err(source)) => Err(self.lost(source)),
+            Err(_) => Err(self.lost("the driver reported it while its work was waited for")),
+        }
+    }
+}

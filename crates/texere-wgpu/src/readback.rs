@@ -1,0 +1,125 @@
+//! Results to the host: piece by piece through two mapped buffers, one of which is filled while the other is lent.
+
+use std::ops::ControlFlow;
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::time::{Duration, Instant};
+
+use texere_core::BackendError;
+use wgpu::{BufferAsyncError, BufferUsages, MapMode, SubmissionIndex};
+
+use crate::buffers::Room;
+use crate::gpu::{Gpu, WAIT_LIMIT};
+
+/// Most bytes of a piece: large enough that the way there and back does not count, small enough that a host has it to
+/// spare. A multiple of the size of a vertex, a ring and an index.
+const PIECE_BYTES: u64 = 24 << 20;
+
+/// Where results are copied to, and what that has cost so far.
+#[derive(Debug)]
+pub(crate) struct Readback {
+    sides: [Room; 2],
+    /// Time spent waiting for copies.
+    pub(crate) waited: Duration,
+    /// Bytes copied.
+    pub(crate) bytes: u64,
+}
+
+/// A copy under way; its buffer is mapped, or going to be, and unmapped when this goes.
+struct Copy<'a> {
+    gpu: &'a Gpu,
+    buffer: wgpu::Buffer,
+    bytes: u64,
+    submission: SubmissionIndex,
+    mapped: Receiver<Result<(), BufferAsyncError>>,
+}
+
+impl Readback {
+    pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
+        let side = || Room::new(gpu, "readback", BufferUsages::MAP_READ | BufferUsages::COPY_DST);
+        Ok(Self { sides: [side()?, side()?], waited: Duration::ZERO, bytes: 0 })
+    }
+
+    /// Lends `count` values of `source` in pieces, each with the number of its first.
+    pub(crate) fn lend<T: bytemuck::AnyBitPattern>(
+        &mut self,
+        gpu: &Gpu,
+        source: &wgpu::Buffer,
+        count: u32,
+        sink: &mut dyn FnMut(u32, &[T]) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let total = u64::from(count) * size_of::<T>() as u64;
+        let mut offsets = (0..total).step_by(PIECE_BYTES as usize);
+        let mut waiting = match offsets.next() {
+            Some(offset) => Some(self.start(gpu, source, offset, total)?),
+            None => None,
+        };
+        let mut first = 0;
+        while let Some(copy) = waiting.take() {
+            if let Some(offset) = offsets.next() {
+                waiting = Some(self.start(gpu, source, offset, total)?);
+            }
+            let start = Instant::now();
+            let view = copy.wait()?;
+            self.waited += start.elapsed();
+            self.bytes += copy.bytes;
+            let values: &[T] = bytemuck::try_cast_slice(&view).map_err(|error| BackendError::Driver {
+                call: "BufferSlice::get_mapped_range",
+                source: error.to_string().into(),
+            })?;
+            if sink(first, values).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+            first += values.len() as u32;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Sends for the piece at `offset`, and takes the other side next time.
+    fn start<'a>(
+        &mut self,
+        gpu: &'a Gpu,
+        source: &wgpu::Buffer,
+        offset: u64,
+        total: u64,
+    ) -> Result<Copy<'a>, BackendError> {
+        let bytes = PIECE_BYTES.min(total - offset);
+        self.sides.swap(0, 1);
+        let buffer = self.sides[0].reserve(gpu, bytes)?.clone();
+        let (note, mapped) = sync_channel(1);
+        let submission = gpu.scoped("Queue::submit", || {
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            encoder.copy_buffer_to_buffer(source, offset, &buffer, 0, bytes);
+            let submission = gpu.queue.submit([encoder.finish()]);
+            buffer.map_async(MapMode::Read, ..bytes, move |answer| {
+                let _ = note.send(answer);
+            });
+            submission
+        })?;
+        Ok(Copy { gpu, buffer, bytes, submission, mapped })
+    }
+}
+
+impl Copy<'_> {
+    fn wait(&self) -> Result<wgpu::BufferView, BackendError> {
+        self.gpu.wait(self.submission.clone())?;
+        // Another thread's poll may have found the work done, and be about to say so.
+        match self.mapped.recv_timeout(WAIT_LIMIT) {
+            Ok(Ok(())) => self.buffer.get_mapped_range(..self.bytes).map_err(|source| BackendError::Driver {
+                call: "BufferSlice::get_mapped_range",
+                source: source.into(),
+            }),
+            // The buffer is sound and its work done, so it is the device that is not there to map it.
+            Ok(Err(source)) => Err(self.gpu.lost(source)),
+            Err(source) => {
+                Err(BackendError::Driver { call: "BufferSlice::map_async", source: source.into() })
+            }
+        }
+    }
+}
+
+impl Drop for Copy<'_> {
+    fn drop(&mut self) {
+        // Nobody is left to hear of an error; one outside a scope would panic.
+        let _ = self.gpu.caught(|| self.buffer.unmap());
+    }
+}

@@ -1,0 +1,179 @@
+//! The compiled shaders, and how they are launched.
+
+use texere_core::BackendError;
+use texere_shaders::{Access, GRID_WIDTH, Resource, Shader};
+use wgpu::{
+    BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ShaderStages,
+};
+
+use crate::Schedule;
+use crate::gpu::Gpu;
+
+/// A shader, ready to run.
+#[derive(Debug)]
+pub(crate) struct Stage {
+    shader: &'static Shader,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+/// The shaders of a schedule.
+#[derive(Debug)]
+pub(crate) enum Stages {
+    /// A lane a ring; our own.
+    PerRing(Box<PerRing>),
+    /// A lane a yarn; the paper's.
+    PerYarn(Box<PerYarn>),
+}
+
+#[derive(Debug)]
+pub(crate) struct PerRing {
+    pub(crate) block_turns: Stage,
+    pub(crate) yarn_rolls: Stage,
+    pub(crate) trajectory: Stage,
+    /// For an even number of sides.
+    pub(crate) mesh: Stage,
+    pub(crate) mesh_odd: Stage,
+    pub(crate) caps: Stage,
+}
+
+#[derive(Debug)]
+pub(crate) struct PerYarn {
+    pub(crate) trajectory: Stage,
+    pub(crate) mesh: Stage,
+}
+
+impl Stages {
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn new(gpu: &Gpu, schedule: Schedule) -> Result<Self, BackendError> {
+        let stage = |shader| Stage::new(gpu, shader);
+        Ok(match schedule {
+            Schedule::PerRing => Self::PerRing(Box::new(PerRing {
+                block_turns: stage(&texere_shaders::BLOCK_TURNS)?,
+                yarn_rolls: stage(&texere_shaders::YARN_ROLLS)?,
+                trajectory: stage(&texere_shaders::TRAJECTORY)?,
+                mesh: stage(&texere_shaders::MESH)?,
+                mesh_odd: stage(&texere_shaders::MESH_ODD)?,
+                caps: stage(&texere_shaders::CAPS)?,
+            })),
+            Schedule::PerYarn => Self::PerYarn(Box::new(PerYarn {
+                trajectory: stage(&texere_shaders::TRAJECTORY_PER_YARN)?,
+                mesh: stage(&texere_shaders::MESH_PER_YARN)?,
+            })),
+        })
+    }
+}
+
+impl Stage {
+    fn new(gpu: &Gpu, shader: &'static Shader) -> Result<Self, BackendError> {
+        gpu.check_alive()?;
+        let compiled = gpu.caught(|| {
+            let layout = bind_group_layout(gpu, shader);
+            let pipeline = pipeline(gpu, shader, &layout);
+            Self { shader, layout, pipeline }
+        });
+        gpu.check_alive()?;
+        compiled.map_err(|error| BackendError::Compile { kernel: shader.entry_point, log: error.to_string() })
+    }
+
+    /// Binds what the shader uses, as `resource` finds it.
+    pub(crate) fn bind<'a>(
+        &self,
+        gpu: &Gpu,
+        resource: impl Fn(Resource) -> BindingResource<'a>,
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = self
+            .shader
+            .bindings
+            .iter()
+            .map(|binding| BindGroupEntry {
+                binding: binding.resource as u32,
+                resource: resource(binding.resource),
+            })
+            .collect();
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(self.shader.entry_point),
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+
+    /// Records a run of `workgroups`.
+    pub(crate) fn record(&self, pass: &mut wgpu::ComputePass<'_>, bound: &wgpu::BindGroup, workgroups: u32) {
+        if workgroups > 0 {
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, bound, &[]);
+            pass.dispatch_workgroups(workgroups.min(GRID_WIDTH), workgroups.div_ceil(GRID_WIDTH), 1);
+        }
+    }
+
+    /// Workgroups for `lanes`.
+    pub(crate) fn workgroups(&self, lanes: u32) -> u32 {
+        lanes.div_ceil(self.shader.workgroup)
+    }
+}
+
+fn bind_group_layout(gpu: &Gpu, shader: &Shader) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = shader
+        .bindings
+        .iter()
+        .map(|binding| BindGroupLayoutEntry {
+            binding: binding.resource as u32,
+            visibility: ShaderStages::COMPUTE,
+            ty: BindingType::Buffer {
+                ty: match binding.access {
+                    Access::Uniform => BufferBindingType::Uniform,
+                    Access::Read => BufferBindingType::Storage { read_only: true },
+                    Access::Write => BufferBindingType::Storage { read_only: false },
+                },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(shader.entry_point),
+        entries: &entries,
+    })
+}
+
+fn pipeline(gpu: &Gpu, shader: &Shader, layout: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(shader.entry_point),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    let module = trusted_module(gpu, shader);
+    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(shader.entry_point),
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some(shader.entry_point),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            // Every shader writes its workgroup memory before it reads it.
+            zero_initialize_workgroup_memory: false,
+            ..Default::default()
+        },
+        cache: None,
+    })
+}
+
+/// Without run-time checks, which would cost a comparison an access in stages that do little else than access memory.
+#[allow(unsafe_code, reason = "trusted shaders are the one thing that this crate needs it for")]
+fn trusted_module(gpu: &Gpu, shader: &Shader) -> wgpu::ShaderModule {
+    let descriptor = wgpu::ShaderModuleDescriptor {
+        label: Some(shader.entry_point),
+        source: wgpu::ShaderSource::Wgsl(shader.source.into()),
+    };
+    // SAFETY: the source is one of texere-shaders' own, and what it may do unchecked it does not do:
+    // - Indices into buffers come from the block and cap tables and from the plan's own tables. A session checks each
+    //   chunk against its plan (`Plan::holds`) before its tables are sent, binds the plan's tables whole, and makes
+    //   every output at least as long as the chunk says.
+    // - Indices into workgroup memory are below BLOCK_RINGS or the workgroup's size: a block has at most BLOCK_RINGS
+    //   rings, which is checked likewise.
+    // - Loops run over the counts of a row or of `Params`, upwards in steps above zero, so they end.
+    // - Divisors are `subdivisions + 1`, `sides`, at least 3, and constants above zero; a yarn's `rings - 1` divides as a
+    //   float only.
+    unsafe { gpu.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }
+}

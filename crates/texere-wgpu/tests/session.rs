@@ -1,0 +1,268 @@
+//! The contract of a session: order of calls, what is in flight, what moves, what is timed.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
+
+mod support;
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use texere_core::{
+    Backend, BackendError, Chunk, ControlPoint, Frame, Layout, Limits, MeshMut, MeshPiece, Plan, Ring,
+    Section, Session, Settings, Traffic, Vertex, Yarn,
+};
+use texere_cpu::SerialBackend;
+use texere_wgpu::{Schedule, TimedBy, WgpuBackend};
+
+use support::{INSTALL, backend, plan, read, waves};
+
+const ROLLED: Settings = Settings {
+    tension: 0.0,
+    subdivisions: 1,
+    sides: 6,
+    frame: Frame::RotationMinimizing,
+    topology: texere_core::Topology::Indexed,
+    caps: true,
+};
+
+/// The only chunk of a small plan.
+fn whole(plan: &Plan) -> Chunk {
+    let mut chunks = plan.chunks(&Limits::NONE).unwrap();
+    let chunk = chunks.next().unwrap();
+    assert!(chunks.next().is_none());
+    chunk
+}
+
+#[test]
+fn stages_before_a_scan_are_refused() {
+    let yarns = waves(2, 40, Yarn::default());
+    let plan = plan(&yarns, ROLLED);
+    let chunk = whole(&plan);
+    let mut session = backend().wgpu_session(plan).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    assert!(matches!(session.mesh(&chunk), Err(BackendError::OutOfOrder { call: "mesh", needed: "scan" })));
+    assert!(matches!(
+        session.trajectory(&chunk),
+        Err(BackendError::OutOfOrder { call: "trajectory", needed: "scan" })
+    ));
+    session.scan().unwrap();
+    session.mesh(&chunk).unwrap();
+    // New points want a new scan, and what was made of the old ones is gone.
+    session.upload(3, &yarns.points()[3..5]).unwrap();
+    assert!(matches!(session.mesh(&chunk), Err(BackendError::OutOfOrder { .. })));
+    assert!(matches!(
+        session.read_mesh(&chunk, &mut |_| ControlFlow::Continue(())),
+        Err(BackendError::NotInFlight { chunk: 0 })
+    ));
+}
+
+#[test]
+fn two_chunks_are_in_flight_and_the_third_takes_the_first_ones_place() {
+    let yarns = waves(2, 400, Yarn::default());
+    let plan = plan(&yarns, Settings::default());
+    let chunks: Vec<_> = plan.chunks(&Limits { blocks: 5, ..Limits::NONE }).unwrap().collect();
+    assert!(chunks.len() > 3);
+    let mut session = backend().wgpu_session(plan).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    assert!(matches!(session.vertex_buffer(&chunks[0]), Err(BackendError::NotInFlight { chunk: 0 })));
+    for chunk in &chunks[..3] {
+        session.mesh(chunk).unwrap();
+    }
+    let mut ignore = |_: MeshPiece<'_>| ControlFlow::Continue(());
+    assert!(matches!(
+        session.read_mesh(&chunks[0], &mut ignore),
+        Err(BackendError::NotInFlight { chunk: 0 })
+    ));
+    for chunk in &chunks[1..3] {
+        assert!(session.read_mesh(chunk, &mut ignore).unwrap().is_continue());
+    }
+    assert!(matches!(
+        session.read_trajectory(&chunks[3], &mut |_| ControlFlow::Continue(())),
+        Err(BackendError::NotInFlight { chunk: 3 })
+    ));
+}
+
+#[test]
+fn a_chunk_of_another_plan_is_refused() {
+    let (yarns, others) = (waves(2, 400, Yarn::default()), waves(3, 900, Yarn::default()));
+    let mut session = backend().wgpu_session(plan(&yarns, Settings::default())).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    let foreign = whole(&plan(&others, Settings::default()));
+    for error in [session.mesh(&foreign), session.trajectory(&foreign)] {
+        let Err(BackendError::Unsupported { schedule, what }) = error else { panic!("{error:?}") };
+        assert_eq!((schedule.as_str(), what.contains("another plan")), ("wgpu:0", true));
+    }
+}
+
+#[test]
+fn an_edit_moves_one_yarn_and_gives_what_a_new_session_gives() {
+    let mut yarns = waves(50, 100, Yarn { twist: 0.2, ..Yarn::default() });
+    let plan = plan(&yarns, ROLLED);
+    let chunk = whole(&plan);
+    let mut session = backend().wgpu_session(plan.clone()).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.scan().unwrap();
+    session.mesh(&chunk).unwrap();
+    let before = read(&mut session, &chunk);
+    let uploaded = session.traffic().uploaded;
+    assert_eq!(uploaded, plan.resident_bytes());
+
+    let moved: Vec<_> = yarns
+        .yarn_points(7)
+        .unwrap()
+        .iter()
+        .map(|point| ControlPoint { z: point.z + 1.0, ..*point })
+        .collect();
+    yarns.set_points(7, &moved).unwrap();
+    session.upload(700, &moved).unwrap();
+    // Its hundred points and two virtual ones.
+    assert_eq!(session.traffic().uploaded - uploaded, 102 * 16);
+    session.scan().unwrap();
+    session.mesh(&chunk).unwrap();
+    let after = read(&mut session, &chunk);
+
+    let mut fresh = backend().wgpu_session(plan.clone()).unwrap();
+    fresh.upload(0, yarns.points()).unwrap();
+    fresh.scan().unwrap();
+    fresh.mesh(&chunk).unwrap();
+    assert_eq!(after, read(&mut fresh, &chunk));
+    let part = chunk.parts[7];
+    let own = part.first_vertex as usize..(part.first_vertex + part.rings * 6) as usize;
+    assert_eq!(before.0[..own.start], after.0[..own.start]);
+    assert!(before.0[own.clone()].iter().zip(&after.0[own]).all(|(before, after)| before != after));
+}
+
+#[test]
+fn reading_moves_the_results_and_no_more() {
+    let yarns = waves(4, 100, Yarn::default());
+    let plan = plan(&yarns, Settings::default());
+    let chunk = whole(&plan);
+    let mut session = backend().wgpu_session(plan).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.mesh(&chunk).unwrap();
+    assert_eq!(session.traffic().read, 0);
+    read(&mut session, &chunk);
+    let mesh = u64::from(chunk.vertices) * 24 + u64::from(chunk.indices) * 4;
+    assert_eq!(session.traffic().read, mesh);
+    let mut rings = 0;
+    assert!(
+        session
+            .read_trajectory(&chunk, &mut |piece: &[Ring]| {
+                rings += piece.len() as u32;
+                ControlFlow::Continue(())
+            })
+            .unwrap()
+            .is_continue()
+    );
+    assert_eq!((rings, session.traffic().read), (chunk.rings, mesh + u64::from(chunk.rings) * 32));
+    let Traffic { uploaded, .. } = session.traffic();
+    assert_eq!(uploaded, 4 * 102 * 16);
+}
+
+#[test]
+fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
+    // 57 MB of vertices: two pieces and a bit, so both sides of the readback are used again.
+    let yarns = waves(20, 2_000, Yarn::default());
+    let plan = plan(&yarns, Settings { subdivisions: 9, ..Settings::default() });
+    let chunk = whole(&plan);
+    let mut session = backend().wgpu_session(plan.clone()).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.mesh(&chunk).unwrap();
+
+    let (mut pieces, mut vertices) = (0, 0);
+    let answer = session.read_mesh(&chunk, &mut |piece| {
+        let MeshPiece::Vertices { first, vertices: piece } = piece else { panic!("an index") };
+        assert_eq!(first, vertices);
+        (pieces, vertices) = (pieces + 1, vertices + piece.len() as u32);
+        if pieces == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(answer.unwrap().is_break());
+    assert!(vertices < chunk.vertices);
+
+    // The session goes on as if nothing had been.
+    let mut vertices =
+        vec![Vertex { position: [f32::NAN; 3], normal: [f32::NAN; 3] }; chunk.vertices as usize];
+    let mut indices = vec![u32::MAX; chunk.indices as usize];
+    session.mesh_into(&chunk, MeshMut { vertices: &mut vertices, indices: &mut indices }).unwrap();
+    let mut gold = SerialBackend::new().session(plan).unwrap();
+    gold.upload(0, yarns.points()).unwrap();
+    gold.mesh(&chunk).unwrap();
+    let gold = read(&mut *gold, &chunk);
+    assert_eq!(indices, gold.1);
+    for (ours, gold) in vertices.iter().zip(&gold.0) {
+        for (ours, gold) in ours.position.iter().zip(gold.position) {
+            assert!((ours - gold).abs() <= 2e-5 + 4.0 * f32::EPSILON * gold.abs(), "{ours} for {gold}");
+        }
+    }
+}
+
+#[test]
+fn each_stage_is_timed_on_the_device() {
+    let yarns = waves(20, 500, Yarn { twist: 0.1, ..Yarn::default() });
+    let plan = plan(&yarns, ROLLED);
+    let chunk = whole(&plan);
+    let mut session = backend().wgpu_session(plan).unwrap();
+    assert_eq!(session.timed_by(), TimedBy::Device);
+    session.upload(0, yarns.points()).unwrap();
+    let uploaded = session.timings();
+    assert!(uploaded.upload > Duration::ZERO);
+    assert_eq!([uploaded.scan, uploaded.trajectory, uploaded.mesh, uploaded.readback], [Duration::ZERO; 4]);
+    session.scan().unwrap();
+    assert!(session.timings().scan > Duration::ZERO);
+    // More launches than can be timed at once.
+    for _ in 0..40 {
+        session.mesh(&chunk).unwrap();
+    }
+    let meshed = session.timings();
+    assert!(meshed.mesh > Duration::ZERO && meshed.trajectory == Duration::ZERO);
+    session.trajectory(&chunk).unwrap();
+    read(&mut session, &chunk);
+    let all = session.timings();
+    assert!(all.trajectory > Duration::ZERO && all.readback > Duration::ZERO && all.mesh == meshed.mesh);
+}
+
+#[test]
+fn more_points_than_a_buffer_holds_is_a_named_error() {
+    let most = backend().device().limits().max_buffer_size;
+    let points = most / 16 + 1;
+    let layout = Layout::new(vec![Yarn::default()], vec![0, points], vec![Section::Circle]).unwrap();
+    let plan = Plan::new(layout.into(), Settings { subdivisions: 0, ..Settings::default() }).unwrap();
+    let Err(BackendError::OutOfMemory { what, bytes }) = backend().session(plan.into()) else {
+        panic!("no error")
+    };
+    assert_eq!((what, bytes), ("control points", (points + 2) * 16));
+}
+
+#[test]
+fn an_upload_past_the_end_is_refused() {
+    let yarns = waves(1, 10, Yarn::default());
+    let mut session = backend().wgpu_session(plan(&yarns, Settings::default())).unwrap();
+    assert!(matches!(
+        session.upload(5, yarns.points()),
+        Err(BackendError::UploadRange { first: 5, end: 15, points: 10 })
+    ));
+}
+
+#[test]
+fn the_schedule_per_yarn_names_what_it_does_not_do() {
+    let backend = WgpuBackend::open(0, Schedule::PerYarn).expect(INSTALL);
+    let plain = Yarn::default();
+    let refused = [
+        (
+            plain,
+            Settings { frame: Frame::RotationMinimizing, ..Settings::default() },
+            "rotation minimising frames",
+        ),
+        (plain, Settings { caps: true, ..Settings::default() }, "caps"),
+        (Yarn { closed: true, ..plain }, Settings::default(), "closed yarns, such as yarn 0"),
+        (Yarn { twist: 0.5, ..plain }, Settings::default(), "twist, such as that of yarn 0"),
+    ];
+    for (yarn, settings, named) in refused {
+        let Err(BackendError::Unsupported { schedule, what }) =
+            backend.session(plan(&waves(1, 5, yarn), settings))
+        else {
+            panic!("{named} taken")
+        };
+        assert_eq!((schedule.as_str(), what.as_str()), ("wgpu:0/per-yarn", named));
+    }
+}

@@ -1,0 +1,41 @@
+// The closed ends of yarns, once the tube vertices stand. After common.wgsl.
+//
+// The twin of caps.cl and of texere-cpu's caps.rs.
+
+const CAPS_GROUP = 64u;
+
+@group(0) @binding(7) var<storage, read_write> vertices: array<f32>;
+@group(0) @binding(8) var<storage, read_write> indices: array<u32>;
+@group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
+@group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
+
+// A lane a cap vertex: the end ring's position again, with the end's own normal; and, of the cap's sides - 2
+// triangles, one a lane.
+@compute @workgroup_size(CAPS_GROUP)
+fn caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let number = (group.y * GRID_WIDTH + group.x) * CAPS_GROUP + lane;
+    if number >= params.caps * params.sides {
+        return;
+    }
+    let cap = cap_rows[number / params.sides];
+    let corner = number % params.sides;
+
+    // The start is t = 0 of the first interval, the finish t = 1 of the last.
+    let end = cap.first_point;
+    let segment = segment_new(points[end], points[end + 1u], points[end + 2u], points[end + 3u], params.s);
+    let sample = segment_sample(segment, select(1.0, 0.0, cap.end == 0u));
+    let normal = sample.tangent * select(1.0, -1.0, cap.end == 0u);
+
+    let ring_vertex = 6u * (cap.ring_vertex + corner);
+    let out = 6u * (cap.first_vertex + corner);
+    for (var k = 0u; k < 3u; k++) {
+        vertices[out + k] = vertices[ring_vertex + k];
+        vertices[out + 3u + k] = normal[k];
+    }
+
+    if params.indexed != 0u && corner < params.sides - 2u {
+        for (var k = 3u * corner; k < 3u * corner + 3u; k++) {
+            indices[cap.first_index + k] = cap.first_vertex + cap_pattern[cap.first_corner + k];
+        }
+    }
+}

@@ -1,0 +1,356 @@
+// What every stage reads: the tables, the turn, the spline, the frame and the vertex.
+//
+// The formulas, the thresholds and the order of operations are those of texere-core (turn.rs, spline.rs, sampling.rs,
+// frame.rs, ring.rs), and common.cl is the twin of this file. Core WGSL, no feature required.
+
+// Rings in a full block. Rust: BLOCK_RINGS.
+const BLOCK_RINGS = 64u;
+
+// Workgroups in a row of a launch's grid. Rust: GRID_WIDTH.
+const GRID_WIDTH = 65535u;
+
+// Rust: texere_core::Block, 32 bytes.
+struct Block {
+    yarn: u32,
+    first_ring: u32,
+    rings: u32,
+    quads: u32,
+    first_point: u32,
+    chunk_ring: u32,
+    first_vertex: u32,
+    first_index: u32,
+}
+
+// Rust: texere_core::YarnRow, 20 bytes.
+struct YarnRow {
+    rings: u32,
+    first_block: u32,
+    section: u32,
+    closed: u32,
+    twist: f32,
+}
+
+// Rust: texere_core::CapRow, 32 bytes.
+struct CapRow {
+    yarn: u32,
+    end: u32,
+    first_point: u32,
+    ring_vertex: u32,
+    first_vertex: u32,
+    first_index: u32,
+    first_corner: u32,
+    padding: u32,
+}
+
+// Rust: texere_core::Params, 48 bytes.
+struct Params {
+    blocks: u32,
+    caps: u32,
+    first_block: u32,
+    yarns: u32,
+    sides: u32,
+    subdivisions: u32,
+    frame: u32,
+    indexed: u32,
+    rolled: u32,
+    s: f32,
+    step: f32,
+    padding: u32,
+}
+
+// A control point (Rust: ControlPoint) is a vec4 of x, y, z, radius.
+// A section point (Rust: SectionPoint) is a vec4 of x, y, normal x, normal y.
+// A ring (Rust: Ring) is two vec4<u32>: the bits of centre and radius, the bits of the tangent and the roll.
+// A vertex (Rust: Vertex) is six floats: x y z nx ny nz.
+
+// Points are bound from the start of the chunk's window.
+@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(1) var<storage, read> points: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> yarns: array<YarnRow>;
+@group(0) @binding(3) var<storage, read> blocks: array<Block>;
+
+// ---- Turn: an angle as a u32 fraction of a full turn ----
+
+// Steps in a full turn, and radians in one step.
+const TURN_STEPS = 4294967296.0;
+const RADIANS_PER_STEP = 1.46291807927e-9;
+
+// `turns` full turns, reduced to one and rounded to the nearest step.
+fn turn_from_turns(turns: f32) -> u32 {
+    let wrapped = max(turns - floor(turns + 0.5), -0.5);
+    return bitcast<u32>(i32(floor(wrapped * TURN_STEPS + 0.5)));
+}
+
+// Sine (x) and cosine (y).
+fn turn_sin_cos(turn: u32) -> vec2<f32> {
+    let quarter = (turn + (1u << 29u)) >> 30u;
+    let rest = bitcast<i32>(turn - (quarter << 30u));
+    let x = f32(rest) * RADIANS_PER_STEP;
+    let z = x * x;
+    let sine = ((-1.9515296e-4 * z + 8.332161e-3) * z - 1.6666655e-1) * z * x + x;
+    let cosine = ((2.4433157e-5 * z - 1.3887316e-3) * z + 4.1666646e-2) * z * z - 0.5 * z + 1.0;
+    switch quarter & 3u {
+        case 0u: { return vec2(sine, cosine); }
+        case 1u: { return vec2(cosine, -sine); }
+        case 2u: { return vec2(-sine, -cosine); }
+        default: { return vec2(-cosine, sine); }
+    }
+}
+
+// The turn scaled by part / whole, rounded to the nearest step.
+fn turn_share(turn: u32, part: u32, whole: u32) -> u32 {
+    let steps = f32(bitcast<i32>(turn)) * (f32(part) / f32(whole));
+    return bitcast<u32>(i32(floor(steps + 0.5)));
+}
+
+// tan(pi / 8), where the arctangent's range is cut in two.
+const TAN_EIGHTH = 0.41421357;
+
+// The angle of (x, y) from the x axis as a fraction of a turn; 0 for (0, 0).
+fn atan2_turns(y: f32, x: f32) -> f32 {
+    let along = abs(x);
+    let across = abs(y);
+    let steep = across > along;
+    let low = select(across, along, steep);
+    let high = select(along, across, steep);
+    if high == 0.0 {
+        return 0.0;
+    }
+    let upper = low > TAN_EIGHTH * high;
+    let numerator = select(low, low - high, upper);
+    let denominator = select(high, low + high, upper);
+    let eighth = select(0.0, 0.125, upper);
+    let q = numerator / denominator;
+    let z = q * q;
+    let series = ((1.2817932e-2 * z - 2.2087018e-2) * z + 3.179573e-2) * z - 5.3051016e-2;
+    let octant = eighth + (series * z * q + 0.15915494 * q);
+    let quadrant = select(octant, 0.25 - octant, steep);
+    let semicircle = select(quadrant, 0.5 - quadrant, x < 0.0);
+    return select(semicircle, -semicircle, y < 0.0);
+}
+
+// ---- Segment: the spline between P[j] and P[j+1], relative to P[j] ----
+
+const ZERO_VELOCITY = 1e-12;
+const NO_LENGTH = 1e-30;
+const SLOPE_LIMIT = 1e4;
+const RADIUS_FLOOR = 0.5;
+
+struct Segment {
+    start: vec4<f32>,
+    // P[j+1] - P[j].
+    span: vec4<f32>,
+    // Coefficients of t, t^2, t^3.
+    c1: vec4<f32>,
+    c2: vec4<f32>,
+    c3: vec4<f32>,
+    radius_floor: f32,
+    // A squared velocity that counts as none.
+    at_rest: f32,
+}
+
+struct Sample {
+    // Centre relative to the segment's first control point.
+    offset: vec3<f32>,
+    centre: vec3<f32>,
+    radius: f32,
+    tangent: vec3<f32>,
+    // dr/ds, the growth of the radius along the yarn.
+    slope: f32,
+}
+
+fn segment_new(before: vec4<f32>, start: vec4<f32>, end: vec4<f32>, after: vec4<f32>, s: f32) -> Segment {
+    let a = before - start;
+    let b = end - start;
+    let c = after - start;
+    var segment: Segment;
+    segment.start = start;
+    segment.span = b;
+    segment.c1 = (b - a) * s;
+    segment.c2 = a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s;
+    segment.c3 = (c - a) * s + b * (s - 2.0);
+    segment.radius_floor = min(start.w, end.w) * RADIUS_FLOOR;
+    segment.at_rest =
+        max(ZERO_VELOCITY * (dot(a.xyz, a.xyz) + dot(b.xyz, b.xyz) + dot(c.xyz, c.xyz)), NO_LENGTH);
+    return segment;
+}
+
+// The tangent where the velocity vanishes: the limit from the right, or from the left at t = 1.
+fn direction_at_rest(segment: Segment, t: f32) -> vec3<f32> {
+    let acceleration = (segment.c2.xyz + segment.c3.xyz * (3.0 * t)) * 2.0;
+    let jerk = segment.c3.xyz * 6.0;
+    let side = select(-1.0, 1.0, t < 1.0);
+    let acceleration_squared = dot(acceleration, acceleration);
+    let jerk_squared = dot(jerk, jerk);
+    if acceleration_squared > segment.at_rest {
+        return acceleration * (side / sqrt(acceleration_squared));
+    }
+    if jerk_squared > segment.at_rest {
+        return jerk * (1.0 / sqrt(jerk_squared));
+    }
+    return vec3(1.0, 0.0, 0.0);
+}
+
+fn segment_sample(segment: Segment, t: f32) -> Sample {
+    let offset = (segment.c1 + (segment.c2 + segment.c3 * t) * t) * t;
+    let velocity = segment.c1 + (segment.c2 * 2.0 + segment.c3 * (3.0 * t)) * t;
+    let radius = segment.start.w + offset.w;
+    let speed_squared = dot(velocity.xyz, velocity.xyz);
+    var sample: Sample;
+    if speed_squared > segment.at_rest {
+        let inverse = 1.0 / sqrt(speed_squared);
+        sample.tangent = velocity.xyz * inverse;
+        sample.slope = clamp(velocity.w * inverse, -SLOPE_LIMIT, SLOPE_LIMIT);
+    } else {
+        sample.tangent = direction_at_rest(segment, t);
+        sample.slope = 0.0;
+    }
+    let held = radius < segment.radius_floor;
+    sample.offset = offset.xyz;
+    sample.centre = segment.start.xyz + offset.xyz;
+    sample.radius = select(radius, segment.radius_floor, held);
+    sample.slope = select(sample.slope, 0.0, held);
+    return sample;
+}
+
+// ---- RingSample: the spline at a ring, with what the step to the next ring needs ----
+
+struct RingSample {
+    sample: Sample,
+    // The interval's end relative to its start.
+    span: vec3<f32>,
+    // Whether the next ring is the first of the next interval.
+    ends_interval: bool,
+}
+
+// Ring `k` from the block's first on; also the one after the block's last.
+fn ring_sample(yarn: YarnRow, block: Block, k: u32) -> RingSample {
+    let per_interval = params.subdivisions + 1u;
+    let place = block.first_ring % per_interval + k;
+    var point = block.first_point + place / per_interval;
+    let part = place % per_interval;
+    var t = f32(part) * params.step;
+    // The last ring of an open yarn is t = 1 of the interval before.
+    if block.first_ring + k + 1u == yarn.rings && yarn.closed == 0u {
+        point -= 1u;
+        t = 1.0;
+    }
+    let segment = segment_new(points[point], points[point + 1u], points[point + 2u], points[point + 3u], params.s);
+    var ring: RingSample;
+    ring.sample = segment_sample(segment, t);
+    ring.span = segment.span.xyz;
+    ring.ends_interval = part + 1u == per_interval;
+    return ring;
+}
+
+// The way from `here` to the next ring's centre, whose offset in its interval is `next_offset`.
+fn chord_to(here: RingSample, next_offset: vec3<f32>) -> vec3<f32> {
+    return select(next_offset, here.span, here.ends_interval) - here.sample.offset;
+}
+
+// ---- Frame ----
+
+const VERTICAL = 1e-12;
+const NO_MIRROR = 1e-6;
+const ROTATION_MINIMIZING = 1u;
+
+struct Basis {
+    side: vec3<f32>,
+    up: vec3<f32>,
+}
+
+// side = z x t, normalised (+y where t is along z); up = t x side.
+fn basis_upright(tangent: vec3<f32>) -> Basis {
+    let level = tangent.x * tangent.x + tangent.y * tangent.y;
+    var basis: Basis;
+    if level < VERTICAL {
+        basis.side = vec3(0.0, 1.0, 0.0);
+    } else {
+        let inverse = 1.0 / sqrt(level);
+        basis.side = vec3(-tangent.y * inverse, tangent.x * inverse, 0.0);
+    }
+    basis.up = vec3(-tangent.z * basis.side.y, tangent.z * basis.side.x,
+                    tangent.x * basis.side.y - tangent.y * basis.side.x);
+    return basis;
+}
+
+// The basis turned by `roll` about the tangent: side towards up.
+fn basis_rolled(basis: Basis, roll: u32) -> Basis {
+    let sin_cos = turn_sin_cos(roll);
+    var rolled: Basis;
+    rolled.side = basis.side * sin_cos.y + basis.up * sin_cos.x;
+    rolled.up = basis.up * sin_cos.y - basis.side * sin_cos.x;
+    return rolled;
+}
+
+// The basis of a section that stands with `roll`.
+fn basis_standing(tangent: vec3<f32>, roll: u32) -> Basis {
+    let upright = basis_upright(tangent);
+    if roll == 0u {
+        return upright;
+    }
+    return basis_rolled(upright, roll);
+}
+
+// `v` mirrored in the plane at right angles to `mirror`.
+fn mirrored(v: vec3<f32>, mirror: vec3<f32>, mirror_squared: f32) -> vec3<f32> {
+    return v - mirror * (2.0 * dot(v, mirror) / mirror_squared);
+}
+
+// The angle, in turns, from the next ring's upright side to this ring's upright side carried there by double
+// reflection (Wang, Juettler, Zheng and Liu 2008, table I).
+fn transport_turns(tangent: vec3<f32>, next_tangent: vec3<f32>, chord: vec3<f32>) -> f32 {
+    var side = basis_upright(tangent).side;
+    let length_squared = dot(chord, chord);
+    // Where two rings coincide the tangent stands in for the chord.
+    let apart = length_squared > NO_LENGTH;
+    var mirror = select(tangent, chord, apart);
+    var mirror_squared = select(1.0, length_squared, apart);
+    side = mirrored(side, mirror, mirror_squared);
+    let reflected_tangent = mirrored(tangent, mirror, mirror_squared);
+    // A hairpin leaves nothing for the second reflection to do.
+    mirror = next_tangent - reflected_tangent;
+    mirror_squared = dot(mirror, mirror);
+    if mirror_squared > NO_MIRROR {
+        side = mirrored(side, mirror, mirror_squared);
+    }
+    let next = basis_upright(next_tangent);
+    return atan2_turns(dot(side, next.up), dot(side, next.side));
+}
+
+// The change of roll from a ring to the next; `twist` in turns per mm.
+fn frame_step(frame: u32, tangent: vec3<f32>, next_tangent: vec3<f32>, chord: vec3<f32>, twist: f32) -> u32 {
+    var turns = 0.0;
+    if frame == ROTATION_MINIMIZING {
+        turns = transport_turns(tangent, next_tangent, chord);
+    }
+    return turn_from_turns(turns + twist * sqrt(dot(chord, chord)));
+}
+
+// The roll of ring `ring` whose steps so far add up to `sum`: a closed yarn gives back its share of its whole turn, so
+// that its last ring meets its first.
+fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
+    let steps = yarn.rings - 1u;
+    if yarn.closed == 0u {
+        return sum;
+    }
+    return select(sum - turn_share(whole, ring, steps), 0u, ring == steps);
+}
+
+// ---- Vertex ----
+
+struct Vertex {
+    position: vec3<f32>,
+    normal: vec3<f32>,
+}
+
+// The vertex at `point` of a section: `centre` with the radius, `tangent` with the slope.
+fn vertex_at(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, up: vec3<f32>, point: vec4<f32>) -> Vertex {
+    let outward = side * point.x + up * point.y;
+    let lean = tangent.w * (point.x * point.z + point.y * point.w);
+    let across = side * point.z + up * point.w;
+    var vertex: Vertex;
+    vertex.position = centre.xyz + outward * centre.w;
+    vertex.normal = (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
+    return vertex;
+}

@@ -1,0 +1,72 @@
+// A block's rings in workgroup memory: what the stages of the schedule per-ring begin with. After common.wgsl.
+//
+// rings.cl is the twin of this file.
+
+// The whole turn of each yarn, then the roll at each block's start: one buffer, since eight are all that WebGPU promises.
+@group(0) @binding(4) var<storage, read> rolls: array<u32>;
+
+// The rings of a block, each with its basis and its roll.
+struct BlockRings {
+    // Centre, radius.
+    centre: array<vec4<f32>, BLOCK_RINGS>,
+    // Unit tangent, slope.
+    tangent: array<vec4<f32>, BLOCK_RINGS>,
+    side: array<vec3<f32>, BLOCK_RINGS>,
+    up: array<vec3<f32>, BLOCK_RINGS>,
+    roll: array<u32, BLOCK_RINGS>,
+}
+
+var<workgroup> standing: BlockRings;
+
+// Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the workgroup, which has
+// at least BLOCK_RINGS, must come here.
+fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
+    var here: RingSample;
+    var roll = 0u;
+    if lane < block.rings {
+        here = ring_sample(yarn, block, lane);
+        standing.tangent[lane] = vec4(here.sample.tangent, here.sample.slope);
+        // The step from the ring before wants the offset; the side takes its place afterwards.
+        standing.side[lane] = here.sample.offset;
+    }
+    if params.rolled != 0u {
+        workgroupBarrier();
+        var turn = 0u;
+        if lane + 1u < block.rings {
+            let chord = chord_to(here, standing.side[lane + 1u]);
+            turn = frame_step(params.frame, here.sample.tangent, standing.tangent[lane + 1u].xyz, chord, yarn.twist);
+        }
+        if lane < BLOCK_RINGS {
+            standing.roll[lane] = turn;
+        }
+        // An inclusive scan of the steps: each pass adds the sum that lies `reach` lanes before.
+        for (var reach = 1u; reach < BLOCK_RINGS; reach *= 2u) {
+            workgroupBarrier();
+            var before = 0u;
+            if lane < BLOCK_RINGS && lane >= reach {
+                before = standing.roll[lane - reach];
+            }
+            workgroupBarrier();
+            if lane < BLOCK_RINGS {
+                standing.roll[lane] += before;
+            }
+        }
+        workgroupBarrier();
+        if lane < block.rings {
+            var sum = rolls[params.yarns + params.first_block + row];
+            if lane != 0u {
+                sum += standing.roll[lane - 1u];
+            }
+            roll = closed_up(yarn, block.first_ring + lane, sum, rolls[block.yarn]);
+        }
+        workgroupBarrier();
+    }
+    if lane < block.rings {
+        let basis = basis_standing(here.sample.tangent, roll);
+        standing.centre[lane] = vec4(here.sample.centre, here.sample.radius);
+        standing.side[lane] = basis.side;
+        standing.up[lane] = basis.up;
+        standing.roll[lane] = roll;
+    }
+    workgroupBarrier();
+}

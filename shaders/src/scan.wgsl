@@ -1,0 +1,84 @@
+// Rolls at block starts: what a block needs to know of the yarn before it. After common.wgsl.
+//
+// The twin of scan.cl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps; a running sum over a
+// yarn's blocks then gives the roll at each block's first ring. Turns wrap, so the order of the sums does not matter.
+
+const TURNS_GROUP = 64u;
+const ROLLS_GROUP = 256u;
+
+// The whole turn of each yarn, then the roll at each block's start.
+@group(0) @binding(4) var<storage, read_write> rolls: array<u32>;
+
+var<workgroup> turn_sums: array<u32, TURNS_GROUP>;
+
+// A workgroup of TURNS_GROUP a row of a chunk's block table, chunk after chunk.
+@compute @workgroup_size(TURNS_GROUP)
+fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let row = group.y * GRID_WIDTH + group.x;
+    if row >= params.blocks {
+        return;
+    }
+    let block = blocks[row];
+    let yarn = yarns[block.yarn];
+
+    // The steps to the ring after each: as many as quads, so the last leads to the next block's first ring.
+    var turn = 0u;
+    if lane < block.quads {
+        let here = ring_sample(yarn, block, lane);
+        let next = ring_sample(yarn, block, lane + 1u);
+        let chord = chord_to(here, next.sample.offset);
+        turn = frame_step(params.frame, here.sample.tangent, next.sample.tangent, chord, yarn.twist);
+    }
+    turn_sums[lane] = turn;
+    for (var reach = TURNS_GROUP / 2u; reach > 0u; reach /= 2u) {
+        workgroupBarrier();
+        if lane < reach {
+            turn_sums[lane] += turn_sums[lane + reach];
+        }
+    }
+    if lane == 0u {
+        rolls[params.yarns + params.first_block + row] = turn_sums[0];
+    }
+}
+
+var<workgroup> roll_sums: array<u32, ROLLS_GROUP>;
+
+// A workgroup of ROLLS_GROUP a yarn: turns become rolls in place, tile by tile, and their total the yarn's whole turn.
+@compute @workgroup_size(ROLLS_GROUP)
+fn yarn_rolls(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * GRID_WIDTH + group.x;
+    if number >= params.yarns {
+        return;
+    }
+    let yarn = yarns[number];
+    let blocks = (yarn.rings - 1u) / BLOCK_RINGS + 1u;
+    let own = params.yarns + yarn.first_block;
+
+    var before = 0u;
+    for (var tile = 0u; tile < blocks; tile += ROLLS_GROUP) {
+        let block = tile + lane;
+        var turn = 0u;
+        if block < blocks {
+            turn = rolls[own + block];
+        }
+        roll_sums[lane] = turn;
+        for (var reach = 1u; reach < ROLLS_GROUP; reach *= 2u) {
+            workgroupBarrier();
+            var further = 0u;
+            if lane >= reach {
+                further = roll_sums[lane - reach];
+            }
+            workgroupBarrier();
+            roll_sums[lane] += further;
+        }
+        workgroupBarrier();
+        if block < blocks {
+            rolls[own + block] = before + roll_sums[lane] - turn;
+        }
+        before += roll_sums[ROLLS_GROUP - 1u];
+        workgroupBarrier();
+    }
+    if lane == 0u {
+        rolls[number] = before;
+    }
+}

@@ -1,0 +1,30 @@
+// Stage 1: the rings of a chunk. After common.wgsl and rings.wgsl.
+//
+// The twin of trajectory.cl and of texere-cpu's serial/trajectory.rs.
+
+const TRAJECTORY_GROUP = 64u;
+
+@group(0) @binding(9) var<storage, read_write> rings: array<vec4<u32>>;
+
+// A workgroup of TRAJECTORY_GROUP a row of the chunk's block table.
+@compute @workgroup_size(TRAJECTORY_GROUP)
+fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let row = group.y * GRID_WIDTH + group.x;
+    if row >= params.blocks {
+        return;
+    }
+    let block = blocks[row];
+    let yarn = yarns[block.yarn];
+    block_rings(yarn, block, row, lane);
+
+    // Two stores of 16 bytes a ring, contiguous across lanes.
+    let out = 2u * block.chunk_ring;
+    for (var piece = lane; piece < 2u * block.rings; piece += TRAJECTORY_GROUP) {
+        let ring = piece / 2u;
+        if piece % 2u == 0u {
+            rings[out + piece] = bitcast<vec4<u32>>(standing.centre[ring]);
+        } else {
+            rings[out + piece] = vec4(bitcast<vec3<u32>>(standing.tangent[ring].xyz), standing.roll[ring]);
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Every shader parses, validates, and says the same as the Rust that launches it. No device needed.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
+
+use std::collections::BTreeMap;
+use std::mem::offset_of;
+
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
+use texere_core::{BLOCK_RINGS, Block, CapRow, ControlPoint, Params, Ring, SectionPoint, Vertex, YarnRow};
+use texere_shaders::{ALL, Access, GRID_WIDTH, Shader};
+
+fn parse(shader: &Shader) -> (Module, ModuleInfo) {
+    let module = naga::front::wgsl::parse_str(shader.source)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(shader.source)));
+    // No capability: core WGSL, no feature that a device may lack.
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(shader.source)));
+    (module, info)
+}
+
+/// Members by name with their offsets, and the stride in an array.
+fn layout(module: &Module, name: &str) -> (BTreeMap<String, usize>, usize) {
+    let (_, ty) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).unwrap();
+    let TypeInner::Struct { members, span } = &ty.inner else { panic!("{name} is no structure") };
+    let members = members.iter().map(|member| (member.name.clone().unwrap(), member.offset as usize));
+    (members.collect(), *span as usize)
+}
+
+macro_rules! same_layout {
+    ($module:expr, $type:ident { $($field:ident),+ }) => {{
+        let members = BTreeMap::from([$((stringify!($field).to_owned(), offset_of!($type, $field))),+]);
+        assert_eq!(layout($module, stringify!($type)), (members, size_of::<$type>()), stringify!($type));
+    }};
+}
+
+#[test]
+fn tables_lie_as_in_rust() {
+    for shader in ALL {
+        let (module, _) = parse(shader);
+        same_layout!(
+            &module,
+            Block { yarn, first_ring, rings, quads, first_point, chunk_ring, first_vertex, first_index }
+        );
+        same_layout!(&module, YarnRow { rings, first_block, section, closed, twist });
+        same_layout!(
+            &module,
+            CapRow { yarn, end, first_point, ring_vertex, first_vertex, first_index, first_corner, padding }
+        );
+        same_layout!(
+            &module,
+            Params {
+                blocks,
+                caps,
+                first_block,
+                yarns,
+                sides,
+                subdivisions,
+                frame,
+                indexed,
+                rolled,
+                s,
+                step,
+                padding
+            }
+        );
+    }
+}
+
+/// Bytes of an element, and whether they are floats, of each runtime array that a shader binds.
+fn elements(module: &Module) -> BTreeMap<u32, Vec<usize>> {
+    let mut elements = BTreeMap::<u32, Vec<usize>>::new();
+    for (_, global) in module.global_variables.iter() {
+        let Some(binding) = global.binding else { continue };
+        if let TypeInner::Array { size: ArraySize::Dynamic, stride, .. } = module.types[global.ty].inner {
+            elements.entry(binding.binding).or_default().push(stride as usize);
+        }
+    }
+    elements
+}
+
+#[test]
+fn untyped_tables_have_elements_that_divide_the_rust_type() {
+    // What a binding holds, in bytes of the Rust type; a shader may read it in smaller pieces.
+    let rust = [
+        (1, size_of::<ControlPoint>()),
+        (2, size_of::<YarnRow>()),
+        (3, size_of::<Block>()),
+        (4, size_of::<u32>()),
+        (5, size_of::<SectionPoint>()),
+        // For an even number of sides, two vertices, or the indices of two quads, are the least that a ring has more.
+        (6, 12 * size_of::<u32>()),
+        (7, 2 * size_of::<Vertex>()),
+        (8, 12 * size_of::<u32>()),
+        (9, size_of::<Ring>()),
+        (10, size_of::<CapRow>()),
+        (11, size_of::<u32>()),
+        (12, size_of::<f32>()),
+    ];
+    let rust = BTreeMap::from(rust);
+    for shader in ALL {
+        for (binding, strides) in elements(&parse(shader).0) {
+            for stride in strides {
+                assert_eq!(rust[&binding] % stride, 0, "binding {binding} of {}", shader.entry_point);
+            }
+        }
+    }
+    // Read as four components: the order of the fields matters.
+    assert_eq!((offset_of!(ControlPoint, x), offset_of!(ControlPoint, radius)), (0, 12));
+    assert_eq!((offset_of!(SectionPoint, y), offset_of!(SectionPoint, normal_x)), (4, 8));
+    assert_eq!((offset_of!(Ring, radius), offset_of!(Ring, tangent), offset_of!(Ring, roll)), (12, 16, 28));
+    assert_eq!((offset_of!(Vertex, position), offset_of!(Vertex, normal)), (0, 12));
+}
+
+#[test]
+fn constants_are_those_of_rust() {
+    for shader in ALL {
+        let (module, _) = parse(shader);
+        for (name, value) in [("BLOCK_RINGS", BLOCK_RINGS), ("GRID_WIDTH", GRID_WIDTH)] {
+            let (_, constant) =
+                module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name)).unwrap();
+            let naga::Expression::Literal(naga::Literal::U32(found)) =
+                module.global_expressions[constant.init]
+            else {
+                panic!("{name} is no u32")
+            };
+            assert_eq!(found, value, "{name}");
+        }
+    }
+}
+
+#[test]
+fn entry_points_use_what_is_declared() {
+    for shader in ALL {
+        let (module, info) = parse(shader);
+        let index = module
+            .entry_points
+            .iter()
+            .position(|entry| entry.name == shader.entry_point)
+            .unwrap_or_else(|| panic!("no entry point {}", shader.entry_point));
+        assert_eq!(
+            module.entry_points[index].workgroup_size,
+            [shader.workgroup, 1, 1],
+            "{}",
+            shader.entry_point
+        );
+
+        let mut used = BTreeMap::new();
+        for (handle, global) in module.global_variables.iter() {
+            let usage = info.get_entry_point(index)[handle];
+            let Some(binding) = global.binding.filter(|_| !usage.is_empty()) else { continue };
+            assert_eq!(binding.group, 0);
+            let access = match global.space {
+                AddressSpace::Uniform => Access::Uniform,
+                AddressSpace::Storage { access } if access.contains(StorageAccess::STORE) => Access::Write,
+                AddressSpace::Storage { .. } => Access::Read,
+                space => panic!("{space:?}"),
+            };
+            assert_eq!(used.insert(binding.binding, access), None, "one type a binding");
+        }
+        let declared: BTreeMap<_, _> =
+            shader.bindings.iter().map(|binding| (binding.resource as u32, binding.access)).collect();
+        assert_eq!(used, declared, "{}", shader.entry_point);
+        let storage = used.values().filter(|access| **access != Access::Uniform).count();
+        assert!(storage <= 8, "{storage} storage buffers in {}", shader.entry_point);
+    }
+}
+
+/// Workgroup memory that every device has, bytes.
+const WORKGROUP_BYTES: u32 = 16_384;
+
+#[test]
+fn workgroup_memory_is_what_every_device_has() {
+    for shader in ALL {
+        let (module, info) = parse(shader);
+        let index = module.entry_points.iter().position(|entry| entry.name == shader.entry_point).unwrap();
+        let used = module.global_variables.iter().filter(|(handle, global)| {
+            global.space == AddressSpace::WorkGroup && !info.get_entry_point(index)[*handle].is_empty()
+        });
+        let bytes: u32 = used.map(|(_, global)| module.types[global.ty].inner.size(module.to_ctx())).sum();
+        assert!(bytes <= WORKGROUP_BYTES, "{bytes} bytes in {}", shader.entry_point);
+    }
+}

@@ -200,6 +200,38 @@ pub enum FabricError {
         /// Why.
         source: SectionError,
     },
+    /// A share of the crimp that neither set can have.
+    #[error("the warp's share of the crimp is {share}, outside {low} to {high}")]
+    Crimp {
+        /// The share.
+        share: f32,
+        /// Least taken.
+        low: f32,
+        /// Most taken.
+        high: f32,
+    },
+    /// A tension that the spline does not take.
+    #[error("tension is {tension}; it must be 0 or more and below 1")]
+    Tension {
+        /// The tension.
+        tension: f32,
+    },
+    /// More control points than clearance is measured for.
+    #[error("clearance of {points} control points; {limit} are measured at most")]
+    ClearancePoints {
+        /// Control points of all yarns.
+        points: u64,
+        /// Most taken.
+        limit: u64,
+    },
+    /// Yarns that are not those of the cloth that is measured.
+    #[error("yarns of {points} control points; the cloth's have {planned}")]
+    OtherYarns {
+        /// Control points of the yarns.
+        points: u64,
+        /// Control points of the cloth's.
+        planned: u64,
+    },
     /// A cloth further across than coordinates reach.
     #[error("{set} lie over {extent_mm} mm, more than {limit} mm")]
     Extent {

@@ -10,7 +10,8 @@
 //! [`Weave`] in its usual notation, or straight from a function. [`Woven`] adds what each thread is like and where it
 //! lies, and turns all into [`texere_core::Yarns`].
 //!
-//! Beside structures there are the measures that designers ask for: [`length_mm`] of yarn, and the diameter of a yarn of
+//! Beside structures there are the measures that designers ask for: [`Measures`] (yarn consumption, crimp, cover, weight,
+//! thickness), [`clearance()`] (whether yarns pierce one another), [`length_mm`] of yarn, and the diameter of a yarn of
 //! known weight ([`diameter_mm`]).
 //!
 //! ```
@@ -24,18 +25,25 @@
 //! # Ok::<(), texere_fabric::FabricError>(())
 //! ```
 
+mod clearance;
 mod error;
 mod length;
+mod measures;
 mod warning;
 mod woven;
 mod yarn_size;
 
+pub use clearance::{
+    CLEARANCE_ACCURACY, CLEARANCE_BIN, CLEARANCE_NEAR, CONTACTS_LISTED, Clearance, Contact, YarnPlace,
+    clearance,
+};
 pub use error::FabricError;
 pub use length::{length_mm, lengths_mm};
+pub use measures::{Cover, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use warning::FabricWarning;
 pub use woven::{
-    CROSSINGS_MAX, Draft, Drawdown, NO_CROSSING, POINTS_MAX, REPEAT_MAX, SPACING_MAX, SPACING_MIN, Shedding,
-    THREADS_MAX, Thread, Weave, Woven,
+    CROSSINGS_MAX, Crimp, Draft, Drawdown, Jam, JamReport, NO_CROSSING, POINTS_MAX, REPEAT_MAX, SPACING_MAX,
+    SPACING_MIN, Shape, Shedding, THREADS_MAX, Thread, Tightness, Weave, Woven,
 };
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,

@@ -21,8 +21,8 @@ pub enum FabricWarning {
         /// The worst one's spacing, mm.
         spacing_mm: f64,
     },
-    /// Threads too close together for the threads that cross them to pass in between: warp and weft pierce one
-    /// another.
+    /// Threads too close to the thread before them for those that cross to pass in between: warp and weft pierce one
+    /// another. [`Woven::relieve`](crate::Woven::relieve) can help.
     Jammed {
         /// How many are.
         count: usize,
@@ -30,9 +30,9 @@ pub enum FabricWarning {
         first: Origin,
         /// The one that lacks the largest share of its room.
         worst: Origin,
-        /// The least pitch at which the worst one is clear, mm.
+        /// The least distance to the thread before at which the worst one is clear, mm.
         needed_mm: f64,
-        /// Mean pitch round the worst one, mm.
+        /// The worst one's distance to the thread before, mm.
         pitch_mm: f64,
     },
 }

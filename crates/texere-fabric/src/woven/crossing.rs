@@ -22,16 +22,8 @@ const SWING: [(f32, f32); 8] = [
 /// The closest pitch, in rooms, for which a swing was found that keeps crossing threads clear.
 pub(super) const PITCH_MIN: f32 = SWING[0].0;
 
-/// How far (mm) a thread lies from the cloth's middle at a crossing, up or down.
-///
-/// `room` is half the heights of the two threads together: what their centrelines must be apart; it is split evenly
-/// between them (balanced crimp). `pitch` is the mean distance of the crossed threads there. Both mm.
-pub(super) fn depth(room: f32, pitch: f32) -> f32 {
-    0.5 * room * swing(pitch / room)
-}
-
 /// [`SWING`], linear between its entries and constant outside.
-fn swing(pitch: f32) -> f32 {
+pub(super) fn swing(pitch: f32) -> f32 {
     let mut below = SWING[0];
     for above in SWING {
         if pitch < above.0 {

@@ -1,23 +1,30 @@
 //! Woven cloth: warp and weft that cross at right angles.
 
+mod crimp;
 mod crossing;
 mod draft;
 mod drawdown;
+mod jam;
 mod library;
 mod notation;
+mod relief;
+mod selvedge;
+mod shape;
 mod weave;
 mod yarns;
 
+pub use crimp::Crimp;
 pub use draft::{Draft, Shedding};
 pub use drawdown::{CROSSINGS_MAX, Drawdown, THREADS_MAX};
+pub use relief::{Jam, JamReport, Tightness};
+pub use shape::Shape;
 pub use weave::{REPEAT_MAX, Weave};
 pub use yarns::NO_CROSSING;
 
 use bytemuck::Zeroable;
 use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, TWIST_LIMIT};
 
-use self::yarns::Set;
-use crate::{FabricError, FabricWarning};
+use crate::FabricError;
 
 /// The most control points of a cloth: 64 GiB of them.
 pub const POINTS_MAX: u64 = 1 << 32;
@@ -90,6 +97,9 @@ pub struct Woven {
     weft: Vec<Thread>,
     materials: Vec<Material>,
     sections: Vec<Section>,
+    shape: Shape,
+    crimp: Crimp,
+    selvedge: bool,
 }
 
 impl Woven {
@@ -116,8 +126,11 @@ impl Woven {
         for (section, shape) in sections.iter().enumerate() {
             shape.validate().map_err(|source| FabricError::Section { section, source })?;
         }
-        let cloth = Self { drawdown, warp, weft, materials, sections };
-        let points = cloth.point_count();
+        let (shape, crimp) = (Shape::default(), Crimp::default());
+        let cloth = Self { drawdown, warp, weft, materials, sections, shape, crimp, selvedge: false };
+        // The least that any shape has: where the cloth's own has more, its yarns are refused.
+        let (longer, wider) = (picks as u64 + 2, ends as u64 + 2);
+        let points = ends as u64 * longer + picks as u64 * wider;
         if points > POINTS_MAX {
             return Err(FabricError::Points { ends, picks, points, limit: POINTS_MAX });
         }
@@ -219,61 +232,48 @@ impl Woven {
         })
     }
 
-    /// Control points of all yarns: one for each end and each pick at each crossing, and two more for each yarn.
+    /// How many control points threads get, and where.
     #[must_use]
-    pub const fn point_count(&self) -> u64 {
-        let (ends, picks) = (self.drawdown.ends() as u64, self.drawdown.picks() as u64);
-        ends * (picks + 2) + picks * (ends + 2)
+    pub const fn shape(&self) -> Shape {
+        self.shape
     }
 
-    /// What a designer should know before looking at the cloth: threads without the room that they need.
+    /// Chooses how many control points threads get, and where.
+    pub const fn set_shape(&mut self, shape: Shape) {
+        self.shape = shape;
+    }
+
+    /// How warp and weft share the crimp.
     #[must_use]
-    pub fn warnings(&self) -> Vec<FabricWarning> {
-        let (warp, weft) = (Set::new(&self.warp, &self.sections), Set::new(&self.weft, &self.sections));
-        [
-            self.crowded(&self.warp, Origin::End),
-            self.crowded(&self.weft, Origin::Pick),
-            jammed(&warp, &weft, Origin::End),
-            jammed(&weft, &warp, Origin::Pick),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+    pub const fn crimp(&self) -> Crimp {
+        self.crimp
     }
 
-    /// Threads that are wider, with the thread before, than the distance between the two.
-    fn crowded(&self, threads: &[Thread], origin: fn(u32) -> Origin) -> Option<FabricWarning> {
-        let widths: Vec<f32> = self.sections.iter().map(Section::half_width).collect();
-        let half_width = |thread: &Thread| f64::from(thread.radius_mm * widths[thread.section as usize]);
-        let lacking = (2..).zip(threads.windows(2)).map(|(number, pair)| {
-            (origin(number), half_width(&pair[0]) + half_width(&pair[1]), pair[1].spacing_mm)
-        });
-        let (count, first, (worst, needed_mm, spacing_mm)) = worst(lacking)?;
-        Some(FabricWarning::Crowded { count, first, worst, needed_mm, spacing_mm })
+    /// Chooses how warp and weft share the crimp.
+    ///
+    /// **Errors**: [`FabricError::Crimp`] for a share outside \[0, 1\]; the cloth is then as it was.
+    pub fn set_crimp(&mut self, crimp: Crimp) -> Result<(), FabricError> {
+        crimp.validate()?;
+        self.crimp = crimp;
+        Ok(())
     }
-}
 
-/// Threads of `set` too close together for the thickest of `crossing` to pass between them.
-fn jammed(set: &Set, crossing: &Set, origin: fn(u32) -> Origin) -> Option<FabricWarning> {
-    let thickest = crossing.half_height.iter().fold(0.0f32, |most, height| height.max(most));
-    let threads = (1..).zip(set.half_height.iter().zip(&set.pitch)).map(|(number, (height, pitch))| {
-        (origin(number), f64::from(crossing::PITCH_MIN * (height + thickest)), f64::from(*pitch))
-    });
-    let (count, first, (worst, needed_mm, pitch_mm)) = worst(threads)?;
-    Some(FabricWarning::Jammed { count, first, worst, needed_mm, pitch_mm })
-}
+    /// The warp's share of the crimp: the number that [`Woven::crimp`] comes to in this cloth.
+    #[must_use]
+    pub fn warp_share(&self) -> f32 {
+        self.crimp.warp_share(&self.warp, &self.weft)
+    }
 
-/// Among threads (which, room needed, room there is): how many lack room, the first, and the one that lacks most.
-fn worst(threads: impl Iterator<Item = (Origin, f64, f64)>) -> Option<(usize, Origin, (Origin, f64, f64))> {
-    threads.filter(|(_, needed, room)| *needed > room * (1.0 + ROUNDING)).fold(None, |found, thread| {
-        Some(match found {
-            None => (1, thread.0, thread),
-            Some((count, first, worst)) => {
-                let more = thread.1 / thread.2 > worst.1 / worst.2;
-                (count + 1, first, if more { thread } else { worst })
-            }
-        })
-    })
+    /// Whether the weft turns back round the edge ends.
+    #[must_use]
+    pub const fn selvedge(&self) -> bool {
+        self.selvedge
+    }
+
+    /// Chooses whether the weft turns back round the edge ends, or each pick is a yarn of its own, cut at both edges.
+    pub const fn set_selvedge(&mut self, selvedge: bool) {
+        self.selvedge = selvedge;
+    }
 }
 
 /// `count` zeroed values, from pages that are not touched yet.

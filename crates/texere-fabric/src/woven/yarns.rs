@@ -1,154 +1,223 @@
-//! From cloth to yarns: one control point a crossing, and one before and after.
+//! From cloth to yarns: the control points of every end and every pick.
+
+use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Layout, Origin, Section, Yarn, Yarns};
+use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns};
 
-use super::{POINTS_MAX, Thread, Woven, crossing, zeroed};
+use super::selvedge::{self, TURN_POINTS};
+use super::shape::{Course, Set};
+use super::{POINTS_MAX, Thread, Woven, zeroed};
 use crate::FabricError;
 
-/// The source of a control point that is no crossing: a yarn's first and last.
+/// The source of a control point that is next to no crossing: a yarn's first and last, and its turns at a selvedge.
 pub const NO_CROSSING: u32 = u32::MAX;
 
 /// Every crossing has two control points, so that none is numbered as high as [`NO_CROSSING`].
 const _: () = assert!(POINTS_MAX / 2 < NO_CROSSING as u64);
 
-/// The threads of one direction, as tables for those that cross them.
-pub(super) struct Set {
-    /// Where each thread lies, mm.
-    at: Vec<f32>,
-    /// Half the height of each thread's section, mm.
-    pub(super) half_height: Vec<f32>,
-    /// Mean distance of each thread to its neighbours, mm.
-    pub(super) pitch: Vec<f32>,
-    /// Sum of all spacings, mm: where a yarn that crosses them ends.
-    extent: f32,
+/// What one yarn is woven as.
+#[derive(Debug, Clone)]
+enum Strand {
+    /// This end.
+    End(usize),
+    /// These picks.
+    Picks(Range<usize>),
 }
 
-impl Set {
-    pub(super) fn new(threads: &[Thread], sections: &[Section]) -> Self {
-        let heights: Vec<f32> = sections.iter().map(Section::half_height).collect();
-        let half_height = |thread: &Thread| thread.radius_mm * heights[thread.section as usize];
-        // The first thread lies half its spacing inside the cloth, the last half its own.
-        let mut edge = -threads.first().map_or(0.0, |thread| thread.spacing_mm) / 2.0;
-        let at = threads.iter().map(|thread| {
-            edge += thread.spacing_mm;
-            edge as f32
-        });
-        let at = at.collect();
-        let last = threads.last().map_or(0.0, |thread| thread.spacing_mm);
-        let after = threads.iter().skip(1).map(|thread| thread.spacing_mm).chain([last]);
-        Self {
-            at,
-            half_height: threads.iter().map(half_height).collect(),
-            pitch: threads
-                .iter()
-                .zip(after)
-                .map(|(own, after)| ((own.spacing_mm + after) / 2.0) as f32)
-                .collect(),
-            extent: (edge + last / 2.0) as f32,
-        }
-    }
+/// A cloth's threads, measured.
+struct Loom<'a> {
+    cloth: &'a Woven,
+    warp: Set,
+    weft: Set,
+    warp_share: f32,
 }
 
 impl Woven {
     /// The yarns of the cloth: all ends, then all picks.
     ///
-    /// An end runs along +y and has one control point for each pick and one half a pitch before and after, in the cloth's
-    /// middle (z = 0); a pick likewise along +x. The cloth spans \[0, width\] × \[0, height\] (see [`Woven::size_mm`]). At a
-    /// crossing the upper thread is at +z and the lower at -z, far enough apart for their sections' heights. Origins
-    /// are [`Origin::End`] and [`Origin::Pick`]; the source of a control point is the crossing's number, pick × ends +
-    /// end, both from 0, or [`NO_CROSSING`] at the yarn's ends.
+    /// An end runs along +y, from half a pitch before the first pick to half a pitch after the last; a pick likewise
+    /// along +x. The cloth spans \[0, width\] × \[0, height\] (see [`Woven::size_mm`]). At a crossing the upper thread is at
+    /// +z and the lower at -z, far enough apart for their sections' heights ([`Crimp`](crate::Crimp) says how far each).
+    /// Between crossings threads go as [`Shape`](crate::Shape) says. Origins are [`Origin::End`] and [`Origin::Pick`].
+    /// The source of a control point is the number, pick × ends + end, both from 0, of the crossing at which it lies or
+    /// next to which it bends (half way between two, of the first along the yarn), or [`NO_CROSSING`] at the yarn's
+    /// ends.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] for what only the whole shows.
+    /// With a selvedge ([`Woven::set_selvedge`]) consecutive picks that are alike in material, section and twist are one
+    /// yarn, whose origin is its first pick. Odd picks run along +x, even ones back.
     ///
-    /// **Source**: one control point a crossing is the paper's count; the height of a crossing follows Peirce, "The
-    /// geometry of cloth structure", Journal of the Textile Institute 28, 1937 (h₁ + h₂ = d₁ + d₂, balanced).
+    /// **Errors**: [`FabricError::Points`] for more than [`POINTS_MAX`] control points, [`FabricError::OutOfMemory`],
+    /// and [`FabricError::Yarns`] for what only the whole shows.
+    ///
+    /// **Source**: one control point a crossing is the paper's count; the height of a crossing and round threads follow
+    /// Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937 (h₁ + h₂ = d₁ + d₂).
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
-        let (ends, picks) = (self.drawdown().ends(), self.drawdown().picks());
-        let (end_points, pick_points) = (picks + 2, ends + 2);
-        let (warp, weft) = (Set::new(self.warp(), self.sections()), Set::new(self.weft(), self.sections()));
+        let loom = self.loom();
+        let strands = self.strands();
+        let counts: Vec<usize> = strands.par_iter().map(|strand| loom.points(strand)).collect();
+        let mut offsets = vec![0u64];
+        let mut total = 0;
+        offsets.extend(counts.iter().map(|&count| {
+            total += count as u64;
+            total
+        }));
+        if total > POINTS_MAX {
+            let (ends, picks) = (self.warp().len(), self.weft().len());
+            return Err(FabricError::Points { ends, picks, points: total, limit: POINTS_MAX });
+        }
 
-        let total = self.point_count();
         let mut points: Vec<ControlPoint> = zeroed("control points", total)?;
         let mut sources: Vec<u32> = zeroed("sources", total)?;
-        let (warp_points, weft_points) = points.split_at_mut(ends * end_points);
-        let (warp_sources, weft_sources) = sources.split_at_mut(ends * end_points);
+        let mut parts = Vec::with_capacity(strands.len());
+        let (mut points_left, mut sources_left) = (points.as_mut_slice(), sources.as_mut_slice());
+        for (strand, &count) in strands.iter().zip(&counts) {
+            let (points, points_after) = points_left.split_at_mut(count);
+            let (sources, sources_after) = sources_left.split_at_mut(count);
+            (points_left, sources_left) = (points_after, sources_after);
+            parts.push((strand, Pen { points: points.iter_mut(), sources: sources.iter_mut() }));
+        }
+        parts.into_par_iter().for_each(|(strand, mut pen)| {
+            loom.lay(strand, |point, source| pen.write(point, source));
+        });
 
-        warp_points
-            .par_chunks_exact_mut(end_points)
-            .zip(warp_sources.par_chunks_exact_mut(end_points))
-            .enumerate()
-            .for_each(|(end, (points, sources))| {
-                let (x, radius) = (warp.at[end], self.warp()[end].radius_mm);
-                let at = |y, z| ControlPoint::new(x, y, z, radius);
-                lay(points, &weft, warp.half_height[end], at, |pick| self.drawdown().up(end, pick));
-                trace(sources, |pick| pick * ends + end);
-            });
-        weft_points
-            .par_chunks_exact_mut(pick_points)
-            .zip(weft_sources.par_chunks_exact_mut(pick_points))
-            .enumerate()
-            .for_each(|(pick, (points, sources))| {
-                let (y, radius) = (weft.at[pick], self.weft()[pick].radius_mm);
-                let at = |x, z| ControlPoint::new(x, y, z, radius);
-                lay(points, &warp, weft.half_height[pick], at, |end| !self.drawdown().up(end, pick));
-                trace(sources, |end| pick * ends + end);
-            });
-
-        let layout = Layout::new(
-            self.yarn_table(),
-            offsets(ends, end_points, picks, pick_points),
-            self.sections().to_vec(),
-        )?;
+        let table = strands.iter().map(|strand| self.yarn(strand)).collect();
+        let layout = Layout::new(table, offsets, self.sections().to_vec())?;
         Ok(Yarns::new(layout, self.materials().to_vec(), points)?.with_sources(sources)?)
     }
 
-    /// What belongs to each yarn beside its control points.
-    fn yarn_table(&self) -> Vec<Yarn> {
-        let yarn = |thread: &Thread, origin| Yarn {
+    /// Control points of all yarns, in the present [`Shape`](crate::Shape) and with or without selvedge.
+    #[must_use]
+    pub fn point_count(&self) -> u64 {
+        let loom = self.loom();
+        self.strands().par_iter().map(|strand| loom.points(strand) as u64).sum()
+    }
+
+    fn loom(&self) -> Loom<'_> {
+        Loom {
+            cloth: self,
+            warp: Set::new(self.warp(), self.sections()),
+            weft: Set::new(self.weft(), self.sections()),
+            warp_share: self.warp_share(),
+        }
+    }
+
+    fn strands(&self) -> Vec<Strand> {
+        let ends = (0..self.warp().len()).map(Strand::End);
+        ends.chain(selvedge::runs(self.weft(), self.selvedge()).into_iter().map(Strand::Picks)).collect()
+    }
+
+    /// What belongs to a yarn beside its control points.
+    fn yarn(&self, strand: &Strand) -> Yarn {
+        let (thread, origin): (Thread, _) = match strand {
+            Strand::End(end) => (self.warp()[*end], Origin::End(*end as u32 + 1)),
+            Strand::Picks(picks) => (self.weft()[picks.start], Origin::Pick(picks.start as u32 + 1)),
+        };
+        Yarn {
             material: thread.material,
             section: thread.section,
             closed: false,
             twist: thread.twist,
             origin,
+        }
+    }
+}
+
+impl Loom<'_> {
+    /// Control points of one yarn.
+    fn points(&self, strand: &Strand) -> usize {
+        let mut count = 0;
+        self.lay(strand, |_, _| count += 1);
+        count
+    }
+
+    /// Calls `write` with each control point of a yarn and its source.
+    fn lay(&self, strand: &Strand, mut write: impl FnMut(ControlPoint, u32)) {
+        match strand {
+            Strand::End(end) => self.lay_end(*end, &mut write),
+            Strand::Picks(picks) => {
+                for pick in picks.clone() {
+                    if pick > picks.start {
+                        self.turn(pick).into_iter().for_each(|point| write(point, NO_CROSSING));
+                    }
+                    self.lay_pick(pick, [pick == picks.start, pick + 1 == picks.end], &mut write);
+                }
+            }
+        }
+    }
+
+    fn lay_end(&self, end: usize, write: &mut impl FnMut(ControlPoint, u32)) {
+        let course = Course {
+            shape: self.cloth.shape(),
+            crossed: &self.weft,
+            half_height: self.warp.half_height[end],
+            share: self.warp_share,
+            back: false,
         };
-        let ends = (1..).map(Origin::End).zip(self.warp());
-        let picks = (1..).map(Origin::Pick).zip(self.weft());
-        ends.chain(picks).map(|(origin, thread)| yarn(thread, origin)).collect()
+        let (x, radius) = (self.warp.at[end], self.cloth.warp()[end].radius_mm);
+        course.walk(
+            |pick| self.cloth.drawdown().up(end, pick),
+            [true; 2],
+            |stop| {
+                let source =
+                    stop.crossing.map_or(NO_CROSSING, |pick| (pick * self.warp.at.len() + end) as u32);
+                write(ControlPoint::new(x, stop.along, stop.z, radius), source);
+            },
+        );
+    }
+
+    /// One pick, cut off at its beginning and its end as `cut` says.
+    fn lay_pick(&self, pick: usize, cut: [bool; 2], write: &mut impl FnMut(ControlPoint, u32)) {
+        let (y, radius) = (self.weft.at[pick], self.cloth.weft()[pick].radius_mm);
+        self.weft_course(pick).walk(
+            |end| !self.cloth.drawdown().up(end, pick),
+            cut,
+            |stop| {
+                let source =
+                    stop.crossing.map_or(NO_CROSSING, |end| (pick * self.warp.at.len() + end) as u32);
+                write(ControlPoint::new(stop.along, y, stop.z, radius), source);
+            },
+        );
+    }
+
+    fn weft_course(&self, pick: usize) -> Course<'_> {
+        Course {
+            shape: self.cloth.shape(),
+            crossed: &self.warp,
+            half_height: self.weft.half_height[pick],
+            share: 1.0 - self.warp_share,
+            back: selvedge::runs_left(pick, self.cloth.selvedge()),
+        }
+    }
+
+    /// The turn from the pick before to `pick`. It begins as far beyond the edge end as both threads are wide by half, so
+    /// that the two can't touch whatever the end's height, or a quarter of the picks' distance, so that the turn's steps
+    /// are not much longer than the one that leads to it.
+    fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
+        let right = self.weft_course(pick).back;
+        let (end, outwards) = if right { (self.warp.at.len() - 1, 1.0) } else { (0, -1.0) };
+        let widest = self.weft.half_width[pick].max(self.weft.half_width[pick - 1]);
+        let touching = self.warp.half_width[end] + widest;
+        let apart = self.weft.at[pick] - self.weft.at[pick - 1];
+        let x = self.warp.at[end] + outwards * touching.max(apart / 4.0);
+        let [from, to] = [pick - 1, pick].map(|pick| {
+            let z = self.weft_course(pick).leaving_z(end, |end| !self.cloth.drawdown().up(end, pick));
+            ControlPoint::new(x, self.weft.at[pick], z, self.cloth.weft()[pick].radius_mm)
+        });
+        selvedge::turn(x, outwards, &from, &to)
     }
 }
 
-/// Where each yarn's control points start, and their total.
-fn offsets(ends: usize, end_points: usize, picks: usize, pick_points: usize) -> Vec<u64> {
-    let (end_points, pick_points) = (end_points as u64, pick_points as u64);
-    let warp = (0..ends as u64).map(|end| end * end_points);
-    let weft = (0..=picks as u64).map(|pick| ends as u64 * end_points + pick * pick_points);
-    warp.chain(weft).collect()
+/// Writes one yarn's control points and sources, one after another.
+struct Pen<'a> {
+    points: std::slice::IterMut<'a, ControlPoint>,
+    sources: std::slice::IterMut<'a, u32>,
 }
 
-/// Lays one yarn over and under the threads of `crossed`; `at` makes a control point from the place along the yarn and z.
-fn lay(
-    points: &mut [ControlPoint],
-    crossed: &Set,
-    half_height: f32,
-    at: impl Fn(f32, f32) -> ControlPoint,
-    above: impl Fn(usize) -> bool,
-) {
-    let [first, points @ .., last] = points else { return };
-    *first = at(0.0, 0.0);
-    *last = at(crossed.extent, 0.0);
-    let threads = crossed.at.iter().zip(&crossed.half_height).zip(&crossed.pitch);
-    for (number, (point, ((&along, &height), &pitch))) in points.iter_mut().zip(threads).enumerate() {
-        let depth = crossing::depth(half_height + height, pitch);
-        *point = at(along, if above(number) { depth } else { -depth });
-    }
-}
-
-/// Writes which crossing each control point of a yarn comes from.
-fn trace(sources: &mut [u32], crossing: impl Fn(usize) -> usize) {
-    let [first, sources @ .., last] = sources else { return };
-    (*first, *last) = (NO_CROSSING, NO_CROSSING);
-    for (number, source) in sources.iter_mut().enumerate() {
-        *source = crossing(number) as u32;
+impl Pen<'_> {
+    fn write(&mut self, point: ControlPoint, source: u32) {
+        if let (Some(to), Some(from)) = (self.points.next(), self.sources.next()) {
+            (*to, *from) = (point, source);
+        }
     }
 }

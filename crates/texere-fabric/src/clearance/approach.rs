@@ -1,0 +1,198 @@
+//! Where two intervals come nearest to one another, refined on the spline.
+
+use glam::{DMat2, DVec2, DVec3};
+
+use super::interval::{At, Cubic};
+use super::support::Support;
+
+/// A parameter this near to an interval's beginning is at it; this near to its end it is the next interval's.
+const AT_KNOT: f64 = 1e-6;
+
+/// How far, in intervals, refinement may stray out of an interval before the approach is another's.
+const MARGIN: f64 = 0.05;
+
+/// Steps of refinement.
+const STEPS: usize = 40;
+
+/// A step this short, in intervals, ends refinement: what is left changes a ratio by its square.
+const SHORT: f64 = 1e-5;
+
+/// The same for Newton's method, which has then less than 1e-12 left.
+const CLOSE: f64 = 1e-7;
+
+/// The sine of the angle below which two tangents count as parallel: a crossing so flat is found by its neighbours.
+const PARALLEL: f64 = 0.02;
+
+/// Directions round a tangent in which two parallel yarns are tried, over half a turn.
+const AROUND: usize = 64;
+
+/// One interval of a yarn, and what it is to its yarn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Side<'a> {
+    pub(super) cubic: &'a Cubic,
+    pub(super) support: &'a Support,
+    /// Whether its beginning and its end are an open yarn's.
+    pub(super) cut: [bool; 2],
+}
+
+impl Side<'_> {
+    /// `t`, if it is this interval's: at knots within a yarn the later interval has it.
+    fn own(&self, t: f64) -> Option<f64> {
+        if t < AT_KNOT {
+            (self.cut[0] || t > -AT_KNOT).then_some(0.0)
+        } else if t > 1.0 - AT_KNOT {
+            self.cut[1].then_some(1.0)
+        } else {
+            Some(t)
+        }
+    }
+
+    /// `t`, held at a yarn's own ends and a little outside the interval elsewhere.
+    fn held(&self, t: f64) -> f64 {
+        let [low, high] =
+            [if self.cut[0] { 0.0 } else { -MARGIN }, if self.cut[1] { 1.0 } else { 1.0 + MARGIN }];
+        t.clamp(low, high)
+    }
+}
+
+/// The nearest approach close to parameters `start`: its parameters, and the factor by which both sections could grow
+/// until they touch. None where it belongs to other intervals.
+pub(super) fn refine(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
+    let round = one.support.is_circle() && other.support.is_circle();
+    let found = if round { refine_round(one, other, start) } else { refine_flat(one, other, start) };
+    let (place, ratio) = found?;
+    Some((DVec2::new(one.own(place.x)?, other.own(place.y)?), ratio))
+}
+
+/// Newton's method on (distance / sum of radii)², by way of |Δ|² - λ² (r₁ + r₂)², whose least value at the least λ is 0
+/// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967).
+fn refine_round(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
+    let ratio = |a: &At, b: &At| (a.position - b.position).length() / (a.radius[0] + b.radius[0]);
+    let mut place = DVec2::new(one.held(start.x), other.held(start.y));
+    for _ in 0..STEPS {
+        let (a, b) = (one.cubic.at(place.x), other.cubic.at(place.y));
+        let (apart, radii, lambda) = (a.position - b.position, a.radius[0] + b.radius[0], ratio(&a, &b));
+        let held = lambda * lambda;
+        let gradient = DVec2::new(
+            apart.dot(a.velocity) - held * radii * a.radius[1],
+            -apart.dot(b.velocity) - held * radii * b.radius[1],
+        );
+        let across = -a.velocity.dot(b.velocity) - held * a.radius[1] * b.radius[1];
+        let own = |at: &At, towards: f64| {
+            let flat = at.velocity.length_squared();
+            let bent = flat + towards * apart.dot(at.acceleration)
+                - held * (at.radius[1] * at.radius[1] + radii * at.radius[2]);
+            (flat, bent)
+        };
+        let ((flat_a, bent_a), (flat_b, bent_b)) = (own(&a, 1.0), own(&b, -1.0));
+        // Where the distance is not convex the straight lines through both places stand in. A hair more on the
+        // diagonal holds parallel lines where they are.
+        let convex = bent_a > 0.0 && bent_a * bent_b > across * across;
+        let (aa, bb) = if convex { (bent_a, bent_b) } else { (flat_a, flat_b) };
+        let (aa, bb) = (aa + 1e-9 * flat_a + f64::MIN_POSITIVE, bb + 1e-9 * flat_b + f64::MIN_POSITIVE);
+        // A parameter that is held where it would go on downhill stays; the other one goes on alone.
+        let stuck =
+            |side: &Side<'_>, t: f64, slope: f64| slope != 0.0 && side.held(t - CLOSE * slope.signum()) == t;
+        let fixed = [stuck(&one, place.x, gradient.x), stuck(&other, place.y, gradient.y)];
+        if (fixed[0] && one.own(place.x).is_none()) || (fixed[1] && other.own(place.y).is_none()) {
+            return None;
+        }
+        let step = match fixed {
+            [true, true] => DVec2::ZERO,
+            [true, false] => DVec2::new(0.0, -gradient.y / bb),
+            [false, true] => DVec2::new(-gradient.x / aa, 0.0),
+            [false, false] => {
+                let hessian = DMat2::from_cols(DVec2::new(aa, across), DVec2::new(across, bb));
+                if hessian.determinant() > 1e-12 * aa * bb {
+                    -(hessian.inverse() * gradient)
+                } else {
+                    DVec2::new(-gradient.x / aa, -gradient.y / bb) / 2.0
+                }
+            }
+        };
+        let next = place + step.clamp(DVec2::splat(-0.25), DVec2::splat(0.25));
+        let next = DVec2::new(one.held(next.x), other.held(next.y));
+        let moved = (next - place).abs().max_element();
+        place = next;
+        if moved < CLOSE {
+            break;
+        }
+    }
+    let (a, b) = (one.cubic.at(place.x), other.cubic.at(place.y));
+    Some((place, ratio(&a, &b)))
+}
+
+/// Both yarns' tangent tubes at two places: the factor at which they touch, and how far along each the touching point
+/// lies from its place, in intervals.
+struct Touch {
+    ratio: f64,
+    offset: DVec2,
+}
+
+/// Slides both places to where the tubes touch.
+///
+/// Straight tubes touch where their common normal is N = t₁ × t₂; scaled by λ = N·Δ / (h₁(N) + h₂(-N)), h the sections'
+/// support functions, their surfaces meet in one point. On bent tubes that point must lie in the sections of the very
+/// two places: the places go towards it until it does.
+fn refine_flat(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
+    let mut place = DVec2::new(one.held(start.x), other.held(start.y));
+    let mut last = touch(one, other, place)?;
+    for _ in 0..STEPS {
+        // Outside a tight bend the whole way would overshoot.
+        let step = (0.6 * last.offset).clamp(DVec2::splat(-0.25), DVec2::splat(0.25));
+        let next = DVec2::new(one.held(place.x + step.x), other.held(place.y + step.y));
+        let moved = (next - place).abs().max_element();
+        place = next;
+        last = touch(one, other, place)?;
+        if moved < SHORT {
+            break;
+        }
+    }
+    // At a yarn's cut end the touching point may lie beyond it: then nothing touches there.
+    let beyond = |t: f64, offset: f64| (t <= 0.0 && offset < -MARGIN) || (t >= 1.0 && offset > MARGIN);
+    let outside = beyond(place.x, last.offset.x) || beyond(place.y, last.offset.y);
+    (!outside).then_some((place, last.ratio))
+}
+
+fn touch(one: Side<'_>, other: Side<'_>, place: DVec2) -> Option<Touch> {
+    let (a, b) = (one.cubic.at(place.x), other.cubic.at(place.y));
+    let apart = b.position - a.position;
+    let (tangent_a, tangent_b) = (a.velocity.try_normalize()?, b.velocity.try_normalize()?);
+    let speeds = DVec2::new(a.velocity.length(), b.velocity.length());
+    let meet = |normal: DVec3| {
+        let on_a = one.support.furthest(tangent_a, normal) * a.radius[0];
+        let on_b = other.support.furthest(tangent_b, -normal) * b.radius[0];
+        let reach = normal.dot(on_a) - normal.dot(on_b);
+        (normal.dot(apart) / reach, on_a, on_b)
+    };
+    let cross = tangent_a.cross(tangent_b);
+    let sine = cross.length();
+    if sine > PARALLEL {
+        let normal = if cross.dot(apart) < 0.0 { -cross / sine } else { cross / sine };
+        let (ratio, on_a, on_b) = meet(normal);
+        // The way from one surface's point to the other's, as α t₁ - β t₂.
+        let left = apart + ratio * (on_b - on_a);
+        let cosine = tangent_a.dot(tangent_b);
+        let (along_a, along_b) = (left.dot(tangent_a), left.dot(tangent_b));
+        let alpha = (along_a - cosine * along_b) / (sine * sine);
+        let beta = (cosine * along_a - along_b) / (sine * sine);
+        return Some(Touch { ratio, offset: DVec2::new(alpha, beta) / speeds });
+    }
+    // Side by side: the direction that separates best, level with one another.
+    let tangent = tangent_a;
+    let along = apart.dot(tangent);
+    let level = apart - along * tangent;
+    let towards = level.try_normalize()?;
+    let aside = tangent.cross(towards);
+    let best = (0..=AROUND)
+        .map(|k| {
+            let angle = (k as f64 / AROUND as f64 - 0.5) * std::f64::consts::PI;
+            let normal = towards * angle.cos() + aside * angle.sin();
+            let (_, on_a, on_b) = meet(normal);
+            normal.dot(level) / (normal.dot(on_a) - normal.dot(on_b))
+        })
+        .fold(0.0, f64::max);
+    // Half of the way each; of two that run against one another both go forward or back.
+    let forward = tangent_a.dot(tangent_b).signum();
+    Some(Touch { ratio: best, offset: 0.5 * along * DVec2::new(1.0, -forward) / speeds })
+}

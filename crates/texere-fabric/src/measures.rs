@@ -1,0 +1,183 @@
+//! What designers and mills ask of a fabric: yarn consumption, crimp, cover, weight, thickness.
+
+use rayon::prelude::*;
+use texere_core::{Material, Section, Segment, Yarns};
+
+use crate::clearance::neighbours;
+use crate::{FabricError, Thread, Woven, lengths_mm, tex_from_cotton_count};
+
+/// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a cubic, whose turning
+/// points are met to 1/64 of an interval, and its height to the square of that.
+const SAMPLES: u32 = 32;
+
+/// A cotton yarn of count Ne 1 is 1/28 inch thick.
+///
+/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937.
+const PEIRCE: f64 = 28.0;
+
+/// One inch, mm.
+const INCH_MM: f64 = 25.4;
+
+/// What is known of a woven cloth once its yarns are laid.
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::{Measures, Thread, Weave, Woven};
+/// let (thread, plain) = (Thread::new(0.5, 0.1), Weave::parse("plain")?.drawdown(20, 20)?);
+/// let cotton = Material { tex: Some(30.0), ..Material::default() };
+/// let cloth = Woven::new(plain, vec![thread; 20], vec![thread; 20], vec![cotton], vec![Section::Circle])?;
+/// let measures = Measures::new(&cloth, &cloth.yarns()?, 0.0)?;
+/// // 20 threads a cm of 30 tex, both ways, and the crimp: 0.1 × 2 × 20 × 30 g/m² and a little more.
+/// assert!((120.0..140.0).contains(&measures.areal_weight.unwrap_or(0.0)));
+/// assert!((measures.cover.cloth - 0.64).abs() < 1e-6);
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measures {
+    /// Length of yarn of each material, mm, in the materials' order.
+    pub length_mm: Vec<f64>,
+    /// Crimp of the warp and of the weft: length of yarn over length of cloth, less 1. Turns at a selvedge count as
+    /// weft; of a cloth whose weft turns it is what the mill has to wind, not the wave of a pick alone.
+    ///
+    /// **Source**: BS 2863 and ISO 7211-3 define it so.
+    pub crimp: [f64; 2],
+    /// How much of the cloth threads cover.
+    pub cover: Cover,
+    /// Weight, g/m², where every material that is used has a tex: length × tex over the cloth's area.
+    pub areal_weight: Option<f64>,
+    /// Thickness of the cloth without load, mm: from the lowest point of its yarns' surfaces to the highest.
+    pub thickness_mm: f64,
+}
+
+/// How much of the cloth its threads cover, seen from the face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cover {
+    /// Peirce's cover factors of the warp and the weft: threads to the inch over √Ne, that is 28 times the share of
+    /// width that round cotton yarns of the threads' weight take. It needs the tex of every material that is used.
+    ///
+    /// **Source**: Peirce 1937 (K = n/√N; at 28 cotton threads lie side by side).
+    pub factor: Option<[f64; 2]>,
+    /// Peirce's K₁ + K₂ - K₁ K₂ / 28.
+    pub cloth_factor: Option<f64>,
+    /// Share of the width that ends take, of the length that picks take: widths of sections over spacings; 1 at most.
+    pub fraction: [f64; 2],
+    /// Share of the area that either covers: c₁ + c₂ - c₁ c₂.
+    pub cloth: f64,
+}
+
+impl Measures {
+    /// Measures `cloth`, whose yarns are `yarns`, with splines of `tension`.
+    ///
+    /// **Errors**: [`FabricError::OtherYarns`] where these are not the cloth's yarns.
+    pub fn new(cloth: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, FabricError> {
+        let points = cloth.point_count();
+        if yarns.layout().point_count() != points {
+            return Err(FabricError::OtherYarns { points: yarns.layout().point_count(), planned: points });
+        }
+        let lengths = lengths_mm(yarns, tension);
+        let length_mm = lengths_by_material(yarns, &lengths);
+        let [width, height] = cloth.size_mm();
+        let (ends, picks) = (cloth.warp().len(), cloth.weft().len());
+        let (warp, weft) = lengths.split_at(ends.min(lengths.len()));
+        let crimp = |lengths: &[f64], threads: usize, along: f64| {
+            lengths.iter().sum::<f64>() / (threads as f64 * along) - 1.0
+        };
+        Ok(Self {
+            crimp: [crimp(warp, ends, height), crimp(weft, picks, width)],
+            cover: Cover::new(cloth),
+            areal_weight: weight_g(&length_mm, yarns.materials())
+                .map(|grams| grams / (width * height * 1e-6)),
+            length_mm,
+            thickness_mm: thickness_mm(yarns, tension),
+        })
+    }
+}
+
+impl Cover {
+    /// The cover of `cloth`, from its threads' sizes and spacings alone.
+    #[must_use]
+    pub fn new(cloth: &Woven) -> Self {
+        let size = cloth.size_mm();
+        let sets = [(cloth.warp(), size[0]), (cloth.weft(), size[1])];
+        let widths: Vec<f64> =
+            cloth.sections().iter().map(|section| f64::from(section.half_width())).collect();
+        let fraction = sets.map(|(threads, across)| {
+            let width = |thread: &Thread| 2.0 * f64::from(thread.radius_mm) * widths[thread.section as usize];
+            (threads.iter().map(width).sum::<f64>() / across).min(1.0)
+        });
+        // n / √N added up thread by thread: each has its own count.
+        let factors = sets.map(|(threads, across)| {
+            let root = |thread: &Thread| {
+                let tex = f64::from(cloth.materials()[thread.material as usize].tex?);
+                Some(1.0 / (tex_from_cotton_count(1.0) / tex).sqrt())
+            };
+            let sum: Option<f64> = threads.iter().map(root).sum();
+            sum.map(|sum| sum / (across / INCH_MM))
+        });
+        let factor = if let [Some(warp), Some(weft)] = factors { Some([warp, weft]) } else { None };
+        Self {
+            factor,
+            cloth_factor: factor.map(|[warp, weft]| warp + weft - warp * weft / PEIRCE),
+            fraction,
+            cloth: fraction[0] + fraction[1] - fraction[0] * fraction[1],
+        }
+    }
+}
+
+/// Length of yarn of each material, mm, in the materials' order; `lengths` are the yarns' (see
+/// [`lengths_mm`]).
+#[must_use]
+pub fn lengths_by_material(yarns: &Yarns, lengths: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; yarns.materials().len()];
+    for (yarn, length) in yarns.layout().yarns().iter().zip(lengths) {
+        sums[yarn.material as usize] += length;
+    }
+    sums
+}
+
+/// Weight (g) of these lengths (mm) of materials; none where one that is used has no tex.
+#[must_use]
+pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
+    let used = lengths_mm.iter().zip(materials).filter(|(length, _)| **length > 0.0);
+    // tex is g/km: 1e6 mm.
+    used.map(|(length, material)| Some(length * 1e-6 * f64::from(material.tex?))).sum()
+}
+
+/// From the lowest point of the yarns' surfaces to the highest, mm: centrelines and, above and below, half the height of
+/// the upright sections.
+#[must_use]
+pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
+    let heights: Vec<[f32; 2]> = yarns.layout().sections().iter().map(reach).collect();
+    let s = (1.0 - tension) / 2.0;
+    let extent = |yarn: usize| {
+        let what = yarns.layout().yarns()[yarn];
+        let [below, above] = heights[what.section as usize];
+        let points = yarns.yarn_points(yarn).unwrap_or(&[]);
+        let count = points.len();
+        let intervals = if what.closed { count } else { count.saturating_sub(1) };
+        let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
+        for first in 0..intervals {
+            let segment = Segment::new(&neighbours(points, what.closed, first), s);
+            for k in 0..=SAMPLES {
+                let sample = segment.sample(k as f32 / SAMPLES as f32);
+                // A section stands on the centreline: where that climbs, it reaches less far up.
+                let level = sample.tangent.truncate().length() * sample.radius;
+                extent[0] = extent[0].min(f64::from(sample.centre.z - level * below));
+                extent[1] = extent[1].max(f64::from(sample.centre.z + level * above));
+            }
+        }
+        extent
+    };
+    let [low, high] = (0..yarns.layout().yarns().len())
+        .into_par_iter()
+        .map(extent)
+        .reduce(|| [f64::INFINITY, f64::NEG_INFINITY], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    (high - low).max(0.0)
+}
+
+/// How far a section reaches below and above the centreline, in radii.
+fn reach(section: &Section) -> [f32; 2] {
+    let outline = section.outline(1024);
+    let most = |sign: f32| outline.iter().fold(0.0f32, |most, point| most.max(sign * point.y));
+    [most(-1.0), most(1.0)]
+}

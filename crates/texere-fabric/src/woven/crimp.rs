@@ -1,0 +1,83 @@
+//! How warp and weft share the way that they swing out of the cloth's middle.
+
+use super::Thread;
+use crate::FabricError;
+
+/// How the distance that crossing threads keep is split between the warp and the weft.
+///
+/// At a crossing the two centrelines are apart by half the heights of both sections, R. The warp lies `share × R` on
+/// its side of the cloth's middle, the weft the rest on the other. A cloth has one share, not each crossing its own: a
+/// thread then keeps one level where those that it crosses are alike, as a thread under tension does, and what one set
+/// gives up the other takes everywhere at once.
+///
+/// That is crimp interchange: pull a cloth along the warp, and the warp straightens (its share falls) while the weft
+/// crimps. A pitch that changes with it is the caller's to give, as the threads' spacings.
+///
+/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937: h₁ + h₂ = D.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub enum Crimp {
+    /// By the threads' stiffness in bending, which grows with the fourth power of a thread's diameter: the stiffer set
+    /// stays the straighter. Half and half where both sets are alike, 20 to 80 % at the most: beyond, the yarn that
+    /// bends more needs a pitch that few cloths have, and thin yarns do not hold thick ones quite straight.
+    #[default]
+    Stiffness,
+    /// The warp's share, 0 (straight ends) to 1 (straight picks).
+    WarpShare(f32),
+}
+
+/// The least share that [`Crimp::Stiffness`] gives either set.
+pub(super) const SHARE_MIN: f32 = 0.2;
+
+impl Crimp {
+    /// **Errors**: [`FabricError::Crimp`] for a share outside \[0, 1\].
+    pub(super) fn validate(self) -> Result<(), FabricError> {
+        match self {
+            Self::WarpShare(share) if !(0.0..=1.0).contains(&share) => {
+                Err(FabricError::Crimp { share, low: 0.0, high: 1.0 })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The warp's share in a cloth of these threads.
+    pub(super) fn warp_share(self, warp: &[Thread], weft: &[Thread]) -> f32 {
+        match self {
+            Self::WarpShare(share) => share,
+            Self::Stiffness => {
+                let stiffness = |threads: &[Thread]| {
+                    let sum: f64 = threads.iter().map(|thread| f64::from(thread.radius_mm).powi(4)).sum();
+                    sum / threads.len() as f64
+                };
+                let (warp, weft) = (stiffness(warp), stiffness(weft));
+                ((weft / (warp + weft)) as f32).clamp(SHARE_MIN, 1.0 - SHARE_MIN)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stiffer_set_stays_the_straighter() {
+        let [thin, thick] = [0.1, 0.12].map(|radius| vec![Thread::new(1.0, radius); 3]);
+        assert_eq!(Crimp::Stiffness.warp_share(&thin, &thin), 0.5);
+        // 1.2⁴ = 2.0736 to 1.
+        let share = Crimp::Stiffness.warp_share(&thick, &thin);
+        assert!((share - 1.0 / 3.0736).abs() < 1e-5, "{share}");
+        assert!((Crimp::Stiffness.warp_share(&thin, &thick) + share - 1.0).abs() < 1e-6);
+        let wire = vec![Thread::new(10.0, 2.0); 3];
+        assert_eq!(Crimp::Stiffness.warp_share(&wire, &thin), SHARE_MIN);
+        assert_eq!(Crimp::WarpShare(0.05).warp_share(&wire, &thin), 0.05);
+    }
+
+    #[test]
+    fn a_share_outside_nought_to_one_is_refused() {
+        for share in [-0.01, 1.01, f32::NAN, f32::INFINITY] {
+            assert!(matches!(Crimp::WarpShare(share).validate(), Err(FabricError::Crimp { .. })));
+        }
+        assert!([0.0, 1.0].iter().all(|share| Crimp::WarpShare(*share).validate().is_ok()));
+    }
+}

@@ -1,0 +1,131 @@
+//! Whether threads have the room that they need beside one another and between those that cross them.
+
+use rayon::prelude::*;
+use texere_core::Origin;
+
+use super::shape::Set;
+use super::{ROUNDING, Shape, Woven, crossing};
+use crate::FabricWarning;
+
+/// The least pitch of two threads, in half their widths and twice half the height of a thread that changes sides between
+/// them, all added up; `share` is that thread's share of the crimp.
+///
+/// It is jammed when it goes from arc to arc with nothing straight between. Round a crossed thread its centreline
+/// follows a circle of radius R, half the heights together. The centre of the circle is (1 - share) R beyond the cloth's
+/// middle, so that the circle meets the middle √(share (2 - share)) R to the side. Flat threads stretch it in the ratio
+/// of half the crossed thread's width and half the own height to R. For two sets of round threads of diameter d and half
+/// the crimp each it is √3 d.
+///
+/// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937: both sets' jamming
+/// at l = D θ, here for each of them at its own share of the crimp.
+pub(super) fn reach(share: f32) -> f32 {
+    (share * (2.0 - share)).sqrt()
+}
+
+/// Two neighbouring threads of one set.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Gap {
+    /// Number of the second of them, from 1.
+    pub(super) thread: u32,
+    /// Distance between the two, mm.
+    pub(super) pitch: f64,
+    /// Half their widths together, mm.
+    pub(super) widths: f32,
+    /// Half their heights together, mm.
+    heights: f32,
+    /// Twice half the height of the thickest thread that changes sides between them, mm; none where none does.
+    pub(super) between: Option<f32>,
+}
+
+impl Gap {
+    /// The least pitch at which the threads between are not jammed, mm; `share` is their share of the crimp.
+    pub(super) fn needed(&self, shape: Shape, share: f32) -> f64 {
+        self.between.map_or(0.0, |between| match shape {
+            Shape::Crossing => f64::from(crossing::PITCH_MIN * (self.heights + between) / 2.0),
+            Shape::Round => f64::from(reach(share) * (self.widths + between)),
+        })
+    }
+}
+
+/// The gaps between the threads of `set`; `apart(thread, crossing)` says whether that one of the `crossing` threads lies
+/// on different sides of `thread` and the next one.
+pub(super) fn gaps(
+    set: &Set,
+    spacings: impl Iterator<Item = f64>,
+    crossing: &Set,
+    apart: impl Fn(usize, usize) -> bool + Sync,
+) -> Vec<Gap> {
+    let pitches: Vec<f64> = spacings.skip(1).collect();
+    pitches
+        .into_par_iter()
+        .enumerate()
+        .map(|(first, pitch)| {
+            let changing = crossing.half_height.iter().enumerate().filter(|&(other, _)| apart(first, other));
+            let thickest = changing.map(|(_, height)| *height).reduce(f32::max);
+            Gap {
+                thread: first as u32 + 2,
+                pitch,
+                widths: set.half_width[first] + set.half_width[first + 1],
+                heights: set.half_height[first] + set.half_height[first + 1],
+                between: thickest.map(|height| 2.0 * height),
+            }
+        })
+        .collect()
+}
+
+impl Woven {
+    /// The gaps between ends and those between picks.
+    pub(super) fn gaps(&self) -> [Vec<Gap>; 2] {
+        let (warp, weft) = (Set::new(self.warp(), self.sections()), Set::new(self.weft(), self.sections()));
+        let up = |end, pick| self.drawdown().up(end, pick);
+        let spacings = [self.warp(), self.weft()].map(|set| set.iter().map(|thread| thread.spacing_mm));
+        let [warp_spacings, weft_spacings] = spacings;
+        [
+            gaps(&warp, warp_spacings, &weft, |end, pick| up(end, pick) != up(end + 1, pick)),
+            gaps(&weft, weft_spacings, &warp, |pick, end| up(end, pick) != up(end, pick + 1)),
+        ]
+    }
+
+    /// What a designer should know before looking at the cloth: threads without the room that they need.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<FabricWarning> {
+        let [warp, weft] = self.gaps();
+        let share = self.warp_share();
+        [
+            crowded(&warp, Origin::End),
+            crowded(&weft, Origin::Pick),
+            self.jammed(&warp, 1.0 - share, Origin::End),
+            self.jammed(&weft, share, Origin::Pick),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// Threads too close together for those that cross them to pass between.
+    fn jammed(&self, gaps: &[Gap], share: f32, origin: fn(u32) -> Origin) -> Option<FabricWarning> {
+        let lacking = gaps.iter().map(|gap| (origin(gap.thread), gap.needed(self.shape(), share), gap.pitch));
+        let (count, first, (worst, needed_mm, pitch_mm)) = worst(lacking)?;
+        Some(FabricWarning::Jammed { count, first, worst, needed_mm, pitch_mm })
+    }
+}
+
+/// Threads that are wider, with the thread before, than the distance between the two.
+fn crowded(gaps: &[Gap], origin: fn(u32) -> Origin) -> Option<FabricWarning> {
+    let lacking = gaps.iter().map(|gap| (origin(gap.thread), f64::from(gap.widths), gap.pitch));
+    let (count, first, (worst, needed_mm, spacing_mm)) = worst(lacking)?;
+    Some(FabricWarning::Crowded { count, first, worst, needed_mm, spacing_mm })
+}
+
+/// Among threads (which, room needed, room there is): how many lack room, the first, and the one that lacks most.
+fn worst(threads: impl Iterator<Item = (Origin, f64, f64)>) -> Option<(usize, Origin, (Origin, f64, f64))> {
+    threads.filter(|(_, needed, room)| *needed > room * (1.0 + ROUNDING)).fold(None, |found, thread| {
+        Some(match found {
+            None => (1, thread.0, thread),
+            Some((count, first, worst)) => {
+                let more = thread.1 / thread.2 > worst.1 / worst.2;
+                (count + 1, first, if more { thread } else { worst })
+            }
+        })
+    })
+}

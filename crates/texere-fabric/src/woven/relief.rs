@@ -1,0 +1,292 @@
+//! What can be done for threads that are jammed: share the crimp otherwise, flatten them, or thin them.
+
+use texere_core::{Origin, RADIUS_MAX, RADIUS_MIN, Section};
+
+use super::crimp::{Crimp, SHARE_MIN};
+use super::jam::{Gap, reach};
+use super::{ROUNDING, Shape, Thread, Woven};
+use crate::FabricError;
+
+/// What to do where threads lie closer together than those that cross them can pass between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Jam {
+    /// Nothing: the numbers alone.
+    #[default]
+    Report,
+    /// Share the crimp otherwise, then flatten: a thread keeps its section's area and grows wider, as far as the
+    /// threads beside it allow, so that those that cross it have less to climb.
+    Flatten,
+    /// Share the crimp otherwise, then scale all diameters down until everything fits. Materials keep their tex.
+    Shrink,
+}
+
+/// How close the threads of one set lie, against the least pitch at which those that cross them are not jammed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tightness {
+    /// How many lie closer than that to the one before.
+    pub jammed: usize,
+    /// The one that has the least share of its pitch; none where nothing changes sides between two threads.
+    pub tightest: Option<Origin>,
+    /// The least pitch there, mm.
+    pub pitch_min_mm: f64,
+    /// The pitch there, mm.
+    pub pitch_mm: f64,
+}
+
+/// What [`Woven::relieve`] found and did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JamReport {
+    /// Ends and picks as they were.
+    pub before: [Tightness; 2],
+    /// Ends and picks as they are now.
+    pub after: [Tightness; 2],
+    /// The warp's share of the crimp, before and now.
+    pub warp_share: [f32; 2],
+    /// By how much ends and picks grew wider, 1 for not at all; their height fell in the same ratio.
+    pub widened: [f32; 2],
+    /// By how much all diameters were scaled.
+    pub scaled: f32,
+}
+
+/// Room, in pitches that just are not jammed, from which threads stay at 0.99 of touching, and a little over. Measured:
+/// round threads need 1.01 at a share of 0.5, 1.045 at 0.35 and 1.17 at 0.2, ellipses twice as wide as high (by their
+/// surfaces) 1.02 at 0.5 and 1.06 at 0.35.
+fn slack(share: f32) -> f32 {
+    1.03 + 0.5 * (share - 0.5).abs()
+}
+
+/// Steps in which widths and shares are tried.
+const WIDTH_STEP: f32 = 0.05;
+const SHARE_STEP: f32 = 0.025;
+
+/// The most by which a thread is widened: four times as wide over high as before.
+const WIDENED_MAX: f32 = 2.0;
+
+/// What may be changed about a cloth without thinning its threads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Change {
+    share: f32,
+    /// Factors of ends' and picks' widths.
+    widened: [f32; 2],
+}
+
+/// The gaps of a set that can be the tightest: each as (half the widths together, thickest between) over its pitch.
+struct Needs(Vec<[f32; 2]>);
+
+impl Needs {
+    fn new(gaps: &[Gap]) -> Self {
+        let mut needs: Vec<[f32; 2]> = gaps
+            .iter()
+            .map(|gap| [gap.widths, gap.between.unwrap_or(0.0)].map(|size| size / gap.pitch as f32))
+            .collect();
+        // Widest first; after it only those with thicker threads between can matter.
+        needs.sort_by(|a, b| b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1])));
+        let mut thickest = f32::NEG_INFINITY;
+        needs.retain(|[_, between]| {
+            let more = *between > thickest;
+            thickest = thickest.max(*between);
+            more
+        });
+        Self(needs)
+    }
+
+    /// The largest pitch that is needed, in those that there are. `share` is that of the threads between.
+    fn worst(&self, share: f32, own: f32, crossing: f32) -> f32 {
+        let needed = |[widths, between]: &[f32; 2]| {
+            let beside = widths * own;
+            let passing = slack(share) * reach(share) * (beside + between / crossing);
+            if *between > 0.0 { passing.max(beside) } else { beside }
+        };
+        self.0.iter().map(needed).fold(0.0, f32::max)
+    }
+}
+
+impl Woven {
+    /// Makes room where threads are jammed, as `jam` says, and tells what there was and what there is.
+    ///
+    /// In this order: first the warp's share of the crimp moves, within 20 and 80 %, as little as it must (a share that
+    /// was given as [`Crimp::WarpShare`] stays); it costs nothing, and where one set is dense its threads do the
+    /// bending in real cloth too. Only what is still jammed is then flattened or thinned. Flattening goes for the set
+    /// that passes between the jammed threads: a wider thread needs more room beside, so one set's relief is the
+    /// other's load, and what can't be relieved stays and is told. All threads of a set are flattened alike (finishing
+    /// does not pick threads), lobed ones not at all.
+    ///
+    /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least one: only there the
+    /// spline keeps the threads clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
+    ///
+    /// **Errors**: [`FabricError::Radius`] where a thread would have to be thinner than [`RADIUS_MIN`]; the cloth is
+    /// then as it was.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{Jam, Thread, Weave, Woven};
+    /// // Denim: ends 1.3 diameters apart.
+    /// let twill = Weave::parse("3/1")?.drawdown(20, 20)?;
+    /// let (warp, weft) = (vec![Thread::new(0.39, 0.15); 20], vec![Thread::new(0.66, 0.15); 20]);
+    /// let mut cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let report = cloth.relieve(Jam::Flatten)?;
+    /// assert_eq!(report.before.map(|set| set.jammed), [19, 0]);
+    /// assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
+    /// assert!(report.warp_share[1] > report.warp_share[0]);
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    pub fn relieve(&mut self, jam: Jam) -> Result<JamReport, FabricError> {
+        let [warp, weft] = self.gaps();
+        let share = self.warp_share();
+        let before = tightness(&warp, &weft, share);
+        let now = Change { share, widened: [1.0; 2] };
+        let needs = [Needs::new(&warp), Needs::new(&weft)];
+        let worst = |change: &Change| {
+            let [ends, picks] = change.widened;
+            let warp = needs[0].worst(1.0 - change.share, ends, picks);
+            warp.max(needs[1].worst(change.share, picks, ends))
+        };
+
+        let (mut change, mut scaled) = (now, 1.0);
+        if jam != Jam::Report && worst(&now) > 1.0 {
+            change = best(&self.shares(share), &[1.0], &[1.0], now, worst);
+            let left = worst(&change);
+            if jam == Jam::Shrink && left > 1.0 {
+                // A hair less, so that rounding does not leave a hair too little.
+                scaled = (1.0 - ROUNDING as f32) / left;
+            } else if jam == Jam::Flatten && left > 1.0 {
+                let [ends, picks] = [self.warp(), self.weft()].map(|set| self.widths(set));
+                change = best(&self.shares(share), &ends, &picks, now, worst);
+            }
+        }
+        self.apply(change, scaled)?;
+
+        let [warp, weft] = self.gaps();
+        let after = tightness(&warp, &weft, self.warp_share());
+        Ok(JamReport { before, after, warp_share: [share, change.share], widened: change.widened, scaled })
+    }
+
+    /// The shares that may be tried beside `share`.
+    fn shares(&self, share: f32) -> Vec<f32> {
+        let steps = ((1.0 - 2.0 * SHARE_MIN) / SHARE_STEP).round() as u32;
+        match self.crimp() {
+            Crimp::WarpShare(_) => vec![share],
+            Crimp::Stiffness => {
+                let others = (0..=steps).map(|step| SHARE_MIN + step as f32 * SHARE_STEP);
+                std::iter::once(share).chain(others).collect()
+            }
+        }
+    }
+
+    /// The factors that the widths of a set may be tried with.
+    fn widths(&self, set: &[Thread]) -> Vec<f32> {
+        let steps = ((WIDENED_MAX - 1.0) / WIDTH_STEP).round() as u32;
+        let used = self.used(set);
+        let fits = |factor: &f32| {
+            let mut sections = self.sections().iter().zip(&used).filter(|(_, used)| **used);
+            sections.all(|(section, _)| widened(section, *factor).is_some())
+        };
+        let factors = (1..=steps).map(|step| 1.0 + step as f32 * WIDTH_STEP).filter(fits);
+        std::iter::once(1.0).chain(factors).collect()
+    }
+
+    /// Which sections the threads of a set have.
+    fn used(&self, set: &[Thread]) -> Vec<bool> {
+        let mut used = vec![false; self.sections().len()];
+        for thread in set {
+            used[thread.section as usize] = true;
+        }
+        used
+    }
+
+    fn apply(&mut self, change: Change, scaled: f32) -> Result<(), FabricError> {
+        let ends = (1..).map(Origin::End).zip(&self.warp);
+        for (thread, each) in ends.chain((1..).map(Origin::Pick).zip(&self.weft)) {
+            let radius_mm = each.radius_mm * scaled;
+            if radius_mm < RADIUS_MIN {
+                return Err(FabricError::Radius { thread, radius_mm, low: RADIUS_MIN, high: RADIUS_MAX });
+            }
+        }
+        if change.share != self.warp_share() {
+            self.crimp = Crimp::WarpShare(change.share);
+        }
+        let used = [self.used(&self.warp), self.used(&self.weft)];
+        for ((threads, factor), used) in
+            [&mut self.warp, &mut self.weft].into_iter().zip(change.widened).zip(used)
+        {
+            if factor == 1.0 {
+                continue;
+            }
+            let mut wider: Vec<u32> = (0..used.len() as u32).collect();
+            for (number, _) in used.iter().enumerate().filter(|(_, used)| **used) {
+                if let Some(section) = widened(&self.sections[number], factor) {
+                    wider[number] = self.sections.len() as u32;
+                    self.sections.push(section);
+                }
+            }
+            for thread in threads {
+                thread.section = wider[thread.section as usize];
+            }
+        }
+        for thread in self.warp.iter_mut().chain(&mut self.weft) {
+            thread.radius_mm *= scaled;
+        }
+        Ok(())
+    }
+}
+
+/// The change that asks least of the cloth among those with which everything fits, or else the one with which it fits
+/// best: widths before shares, as a share costs nothing.
+fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn(&Change) -> f32) -> Change {
+    let cost = |change: &Change| {
+        let excess = (worst(change) - 1.0).max(0.0);
+        let widened = change.widened[0] * change.widened[1];
+        (excess, widened, (change.share - now.share).abs())
+    };
+    let mut found = (cost(&now), now);
+    for &share in shares {
+        for &end in ends {
+            for &pick in picks {
+                let change = Change { share, widened: [end, pick] };
+                let cost = cost(&change);
+                if cost < found.0 {
+                    found = (cost, change);
+                }
+            }
+        }
+    }
+    found.1
+}
+
+/// A section `factor` times as wide, and as much less high; none where no such section is taken.
+fn widened(section: &Section, factor: f32) -> Option<Section> {
+    let square = factor * factor;
+    let wider = match section {
+        Section::Circle => Section::Ellipse { aspect: square },
+        Section::Ellipse { aspect } => Section::Ellipse { aspect: aspect * square },
+        Section::Lenticular { aspect, distortion } => {
+            Section::Lenticular { aspect: aspect * square, distortion: *distortion }
+        }
+        Section::PowerEllipse { aspect, exponent } => {
+            Section::PowerEllipse { aspect: aspect * square, exponent: *exponent }
+        }
+        Section::Polygon(corners) => {
+            Section::Polygon(corners.iter().map(|[x, y]| [x * factor, y / factor]).collect())
+        }
+        _ => return None,
+    };
+    wider.validate().is_ok().then_some(wider)
+}
+
+/// How close ends and picks lie; `share` is the warp's.
+fn tightness(warp: &[Gap], weft: &[Gap], share: f32) -> [Tightness; 2] {
+    let set = |gaps: &[Gap], share: f32, origin: fn(u32) -> Origin| {
+        let mut found = Tightness { jammed: 0, tightest: None, pitch_min_mm: 0.0, pitch_mm: 0.0 };
+        for gap in gaps.iter().filter(|gap| gap.between.is_some()) {
+            let needed = gap.needed(Shape::Round, share);
+            found.jammed += usize::from(needed > gap.pitch * (1.0 + ROUNDING));
+            if found.tightest.is_none() || needed * found.pitch_mm > found.pitch_min_mm * gap.pitch {
+                (found.pitch_min_mm, found.pitch_mm) = (needed, gap.pitch);
+                found.tightest = Some(origin(gap.thread));
+            }
+        }
+        found
+    };
+    [set(warp, 1.0 - share, Origin::End), set(weft, share, Origin::Pick)]
+}

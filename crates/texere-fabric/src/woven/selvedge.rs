@@ -1,0 +1,85 @@
+//! The weft's way round the edge ends, from one pick to the next.
+
+use std::ops::Range;
+
+use texere_core::ControlPoint;
+
+use super::Thread;
+
+/// Control points of a turn, on a half circle.
+pub(super) const TURN_POINTS: usize = 5;
+
+/// Picks that one yarn makes: all by themselves, or with `selvedge` runs of picks alike in material, section and twist.
+pub(super) fn runs(weft: &[Thread], selvedge: bool) -> Vec<Range<usize>> {
+    let goes_on = |a: &Thread, b: &Thread| {
+        selvedge && (a.material, a.section) == (b.material, b.section) && a.twist == b.twist
+    };
+    let mut first = 0;
+    weft.chunk_by(goes_on)
+        .map(|run| {
+            first += run.len();
+            first - run.len()..first
+        })
+        .collect()
+}
+
+/// Whether a pick runs to the left: with a selvedge every other one, whatever yarn it belongs to.
+pub(super) const fn runs_left(pick: usize, selvedge: bool) -> bool {
+    selvedge && pick % 2 == 1
+}
+
+/// A half circle in the plane of the cloth `from` one pick `to` the next, both at `x`; `outwards` is +1 at the right
+/// edge, -1 at the left. On its way it passes evenly from one pick's height and radius to the other's.
+///
+/// Where the two picks lie on different sides of the edge end, the turn is level with that end half way round, as far
+/// from it as anywhere.
+pub(super) fn turn(
+    x: f32,
+    outwards: f32,
+    from: &ControlPoint,
+    to: &ControlPoint,
+) -> [ControlPoint; TURN_POINTS] {
+    // Sines of 0 to 180 degrees in steps of 45; the cosines are those of a quarter turn on.
+    const SIN: [f32; TURN_POINTS] =
+        [0.0, std::f32::consts::FRAC_1_SQRT_2, 1.0, std::f32::consts::FRAC_1_SQRT_2, 0.0];
+    const COS: [f32; TURN_POINTS] =
+        [1.0, std::f32::consts::FRAC_1_SQRT_2, 0.0, -std::f32::consts::FRAC_1_SQRT_2, -1.0];
+    let reach = outwards * (to.y - from.y) / 2.0;
+    std::array::from_fn(|step| {
+        let done = (1.0 - COS[step]) / 2.0;
+        let between = |from: f32, to: f32| from + done * (to - from);
+        ControlPoint {
+            x: x + reach * SIN[step],
+            y: between(from.y, to.y),
+            z: between(from.z, to.z),
+            radius: between(from.radius, to.radius),
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_ends_where_the_yarn_changes() {
+        let [a, b] = [0, 1].map(|material| Thread { material, ..Thread::new(1.0, 0.1) });
+        let thick = Thread { radius_mm: 0.2, ..a };
+        assert_eq!(runs(&[a, a, b, a, thick], true), [0..2, 2..3, 3..5]);
+        assert_eq!(runs(&[a, a, b], false), [0..1, 1..2, 2..3]);
+    }
+
+    #[test]
+    fn a_turn_is_a_half_circle() {
+        let (from, to) = (ControlPoint::new(7.0, 1.0, 0.2, 0.1), ControlPoint::new(7.0, 3.0, -0.2, 0.3));
+        for outwards in [-1.0, 1.0] {
+            let turn = turn(10.0, outwards, &from, &to);
+            for point in turn {
+                assert!(((point.x - 10.0).hypot(point.y - 2.0) - 1.0).abs() < 1e-6, "{point:?}");
+            }
+            assert_eq!((turn[0].y, turn[0].z, turn[4].y, turn[4].z), (1.0, 0.2, 3.0, -0.2));
+            assert_eq!((turn[2].x, turn[2].z), (10.0 + outwards, 0.0));
+            assert!((turn[2].radius - 0.2).abs() < 1e-6);
+        }
+    }
+}

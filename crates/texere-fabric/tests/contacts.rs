@@ -1,0 +1,217 @@
+//! The clearance report against brute force, and against yarns whose clearance is known.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
+
+mod oracle;
+
+use std::f64::consts::TAU;
+
+use proptest::prelude::*;
+use texere_core::{ControlPoint, Material, Section, Yarn, Yarns};
+use texere_fabric::{CLEARANCE_NEAR, FabricError, NO_CROSSING, Shape, Thread, Weave, Woven, clearance};
+
+use oracle::{ellipse, round_clearance, surface_clearance};
+
+fn yarns(section: &Section, each: &[(bool, Vec<[f32; 4]>)]) -> Yarns {
+    let mut yarns = Yarns::builder();
+    yarns.section(section.clone());
+    for (closed, points) in each {
+        let points: Vec<_> = points.iter().map(|[x, y, z, r]| ControlPoint::new(*x, *y, *z, *r)).collect();
+        yarns.yarn(Yarn { closed: *closed, ..Yarn::default() }, &points);
+    }
+    yarns.build().unwrap()
+}
+
+fn cloth(section: Section) -> Yarns {
+    let drawdown = Weave::parse("2/2").unwrap().drawdown(12, 12).unwrap();
+    let thread = Thread::new(0.5, 0.1);
+    let set = vec![thread; 12];
+    let mut cloth = Woven::new(drawdown, set.clone(), set, vec![Material::default()], vec![section]).unwrap();
+    cloth.set_shape(Shape::Round);
+    cloth.yarns().unwrap()
+}
+
+/// Yarns of random points, thick and thin, in a box of 4 mm: they come near one another, pierce, and bend sharply.
+fn tangles() -> impl Strategy<Value = Yarns> {
+    let point = [0.0..4.0f32, 0.0..4.0f32, 0.0..4.0f32, 0.1..0.2f32];
+    let yarn = (any::<bool>(), prop::collection::vec(point, 3..7));
+    prop::collection::vec(yarn, 2..6).prop_map(|each| yarns(&Section::Circle, &each))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn it_agrees_with_brute_force(tangle in tangles()) {
+        let report = clearance(&tangle, 0.0).unwrap();
+        let between = report.worst.iter().find(|contact| contact.places[0].yarn != contact.places[1].yarn);
+        let brute = round_clearance(&tangle, 100);
+        match between {
+            Some(contact) => {
+                prop_assert!(contact.ratio <= brute + 1e-6, "{} where brute force finds {brute}", contact.ratio);
+                // Its steps are 0.08 mm at most: it misses the nearest places by 0.06 mm, of radii of 0.2 mm together.
+                prop_assert!(brute <= contact.ratio.hypot(0.3), "{} but {brute}", contact.ratio);
+                // What is reported is there.
+                let [a, b] = contact.places.map(|place| glam::DVec3::from(place.position));
+                let radii = a.distance(b) / contact.ratio;
+                prop_assert!(a == b || (0.1..0.5).contains(&radii), "radii of {radii} mm");
+            }
+            None => prop_assert!(report.worst.len() == 100 || brute > CLEARANCE_NEAR - 1e-6, "nothing, but {brute}"),
+        }
+    }
+}
+
+#[test]
+fn every_crossing_of_a_cloth_is_a_contact() {
+    let thread = Thread::new(0.75, 0.125);
+    let drawdown = Weave::parse("3/1").unwrap().drawdown(20, 16).unwrap();
+    let cloth = Woven::new(
+        drawdown,
+        vec![thread; 20],
+        vec![thread; 16],
+        vec![Material::default()],
+        vec![Section::Circle],
+    );
+    let yarns = cloth.unwrap().yarns().unwrap();
+    let report = clearance(&yarns, 0.0).unwrap();
+    assert_eq!(report.contacts, 320);
+    assert_eq!(report.histogram.iter().sum::<u64>(), 320);
+    assert!((report.min - round_clearance(&yarns, 64)).abs() < 1e-3);
+    assert!(report.worst.is_sorted_by(|a, b| a.ratio <= b.ratio));
+}
+
+#[test]
+fn a_planted_piercing_is_found_at_its_place() {
+    let mut yarns = cloth(Section::Circle);
+    assert!(clearance(&yarns, 0.0).unwrap().min > 0.99);
+    // Pick 5 is pressed down where it lies over an end.
+    let pick = 12 + 4;
+    let mut points = yarns.yarn_points(pick).unwrap().to_vec();
+    let sources = &yarns.sources().unwrap()[yarns.range(pick).unwrap()];
+    let at = (8..points.len()).find(|&k| points[k].z == 0.1 && sources[k] != NO_CROSSING).unwrap();
+    let source = sources[at];
+    points[at].z = 0.05;
+    let place = points[at];
+    yarns.set_points(pick, &points).unwrap();
+    let report = clearance(&yarns, 0.0).unwrap();
+    let worst = &report.worst[0];
+    assert!((worst.ratio - 0.75).abs() < 0.01 && report.min == worst.ratio, "{worst:?}");
+    assert_eq!(worst.places.map(|place| place.yarn), [source as usize % 12, pick]);
+    assert_eq!(worst.places.map(|place| place.source), [Some(source); 2]);
+    for (found, planted) in worst.places[1].position.iter().zip([place.x, place.y]) {
+        assert!((found - f64::from(planted)).abs() < 0.05, "{worst:?}");
+    }
+    assert!(report.below_one >= 1);
+}
+
+#[test]
+fn a_yarn_that_comes_back_to_itself_is_found() {
+    // A hairpin 1 mm wide whose legs run 0.15 mm apart at their ends: its radius is 0.1.
+    let points = vec![
+        [0.0, 0.0, 0.0, 0.1],
+        [3.0, -0.5, 0.0, 0.1],
+        [4.0, 0.075, 0.0, 0.1],
+        [3.0, 0.65, 0.0, 0.1],
+        [0.0, 0.15, 0.0, 0.1],
+    ];
+    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), 0.0).unwrap();
+    let worst = &report.worst[0];
+    assert!((worst.ratio - 0.75).abs() < 1e-3, "{worst:?}");
+    assert_eq!(worst.places.map(|place| (place.yarn, place.interval, place.t)), [(0, 0, 0.0), (0, 3, 1.0)]);
+}
+
+#[test]
+fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
+    // A circle of 96 points and radius 2, the yarn 0.5: the radius of curvature is four times the yarn's.
+    let ring = |radius: f32| -> Vec<[f32; 4]> {
+        let angle = |k: usize| (k as f64 / 96.0 * TAU) as f32;
+        (0..96).map(|k| [2.0 * angle(k).cos(), 2.0 * angle(k).sin(), 0.0, radius]).collect()
+    };
+    let report = clearance(&yarns(&Section::Circle, &[(true, ring(0.5))]), 0.0).unwrap();
+    assert_eq!((report.contacts, report.below_one), (0, 0));
+    assert!(report.min.is_infinite());
+    assert!((report.curvature_min / 4.0 - 1.0).abs() < 0.02, "{}", report.curvature_min);
+    // As thick as the ring is wide it touches itself across, at the least folding.
+    let thick = clearance(&yarns(&Section::Circle, &[(true, ring(1.9))]), 0.0).unwrap();
+    assert!((1.0..1.06).contains(&thick.curvature_min));
+}
+
+#[test]
+fn a_fold_is_reported_with_its_place() {
+    let mut yarns = cloth(Section::Circle);
+    assert!(clearance(&yarns, 0.0).unwrap().curvature_min > 1.0);
+    // A kink: one point of end 4 is drawn sideways by a diameter.
+    let mut points = yarns.yarn_points(3).unwrap().to_vec();
+    points[9].x += 0.2;
+    let place = [points[9].x, points[9].y].map(f64::from);
+    yarns.set_points(3, &points).unwrap();
+    let report = clearance(&yarns, 0.0).unwrap();
+    let at = report.curvature_at.unwrap();
+    assert!(report.curvature_min < 0.6 && at.yarn == 3, "{report:?}");
+    assert!((at.position[1] - place[1]).abs() < 0.2, "{at:?} is not near {place:?}");
+}
+
+#[test]
+fn a_yarn_that_turns_straight_back_has_no_bend_left() {
+    let points = vec![[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.1], [0.5, 0.0, 0.0, 0.1], [3.0, 0.0, 0.0, 0.1]];
+    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), 0.0).unwrap();
+    assert_eq!(report.curvature_min, 0.0);
+    // Straight on, however unevenly, there is no bend.
+    let points = vec![[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.1], [1.5, 0.0, 0.0, 0.1], [3.0, 0.0, 0.0, 0.1]];
+    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), 0.0).unwrap();
+    assert_eq!((report.curvature_min, report.curvature_at), (f64::INFINITY, None));
+}
+
+#[test]
+fn flat_yarns_are_measured_by_their_surfaces() {
+    // Straight, crossing and side by side: half heights and half widths add up.
+    let flat = ellipse(4.0);
+    let crossing = |z: f32| {
+        let along = vec![[-3.0, 0.0, 0.0, 0.2], [3.0, 0.0, 0.0, 0.2]];
+        let across = vec![[0.4, -3.0, z, 0.2], [0.4, 3.0, z, 0.2]];
+        clearance(&yarns(&flat, &[(false, along), (false, across)]), 0.0).unwrap()
+    };
+    assert!((crossing(0.22).min - 1.1).abs() < 1e-4);
+    let beside = vec![[-3.0, 0.0, 0.0, 0.2], [3.0, 0.0, 0.0, 0.2]];
+    let other = vec![[-3.0, 0.72, 0.0, 0.2], [3.0, 0.72, 0.0, 0.2]];
+    let report = clearance(&yarns(&flat, &[(false, beside), (false, other)]), 0.0).unwrap();
+    assert!((report.min - 0.9).abs() < 1e-3, "{}", report.min);
+}
+
+#[test]
+fn flat_cloth_agrees_with_its_surfaces() {
+    for (aspect, flatten) in [(2.0, 1.0), (2.0, 0.85), (0.7, 1.0)] {
+        let mut yarns = cloth_of(aspect);
+        for yarn in 0..yarns.layout().yarns().len() {
+            let points: Vec<_> = yarns.yarn_points(yarn).unwrap().to_vec();
+            let points: Vec<_> = points.iter().map(|p| ControlPoint { z: p.z * flatten, ..*p }).collect();
+            yarns.set_points(yarn, &points).unwrap();
+        }
+        let report = clearance(&yarns, 0.0).unwrap();
+        let surface = surface_clearance(&yarns, 24, 96, [0.7, 1.1]);
+        assert!((report.min - surface).abs() < 0.01, "aspect {aspect}: {} and {surface}", report.min);
+    }
+}
+
+fn cloth_of(aspect: f32) -> Yarns {
+    let drawdown = Weave::parse("2/1").unwrap().drawdown(3, 3).unwrap();
+    let set = vec![Thread::new(0.5, 0.1); 3];
+    let mut cloth =
+        Woven::new(drawdown, set.clone(), set, vec![Material::default()], vec![ellipse(aspect)]).unwrap();
+    cloth.set_shape(Shape::Round);
+    cloth.yarns().unwrap()
+}
+
+#[test]
+fn yarns_of_one_place_and_of_all_sizes_are_measured() {
+    // All points alike; a point far away; radii at both limits.
+    let still = vec![[1.0, 1.0, 1.0, 0.1]; 4];
+    let far = vec![[-1e9, 0.0, 0.0, 1e-6], [1e9, 0.0, 0.0, 1e-6]];
+    let thick = vec![[0.0, 0.0, 0.0, 1e6], [0.0, 1e9, 0.0, 1e6]];
+    let report =
+        clearance(&yarns(&Section::Circle, &[(false, still), (false, far), (false, thick)]), 0.5).unwrap();
+    assert!(report.min < 1e-3 && !report.min.is_nan());
+    for tension in [-0.1, 1.0, f32::NAN] {
+        assert!(matches!(clearance(&cloth(Section::Circle), tension), Err(FabricError::Tension { .. })));
+    }
+}

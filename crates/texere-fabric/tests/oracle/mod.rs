@@ -1,0 +1,171 @@
+//! How near yarns come to one another, by brute force: nothing is skipped but what lies far away.
+
+#![allow(dead_code, reason = "no test needs all of it")]
+#![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
+
+use glam::{DVec2, DVec3};
+use texere_core::{ControlPoint, Section, Segment, Yarns};
+
+/// The spline at one place of a yarn.
+#[derive(Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) centre: DVec3,
+    pub(crate) tangent: DVec3,
+    pub(crate) radius: f64,
+}
+
+impl Place {
+    /// The upright frame: side = z × t, up = t × side.
+    fn frame(&self) -> (DVec3, DVec3) {
+        let side = DVec3::Z.cross(self.tangent).normalize();
+        (side, self.tangent.cross(side))
+    }
+}
+
+/// One control interval, sampled, and the ball that holds it.
+pub(crate) struct Stretch {
+    pub(crate) yarn: usize,
+    pub(crate) places: Vec<Place>,
+    middle: DVec3,
+    reach: f64,
+}
+
+/// All control intervals of all yarns, with `samples` steps each.
+pub(crate) fn stretches(yarns: &Yarns, samples: usize) -> Vec<Stretch> {
+    let mut stretches = Vec::new();
+    for (yarn, what) in yarns.layout().yarns().iter().enumerate() {
+        let inner = yarns.yarn_points(yarn).unwrap();
+        let count = inner.len();
+        let mut points: Vec<ControlPoint> = inner.to_vec();
+        if what.closed {
+            points.insert(0, inner[count - 1]);
+            points.extend(&inner[..2]);
+        } else {
+            points.insert(0, inner[0].reflected(&inner[1]));
+            points.push(inner[count - 1].reflected(&inner[count - 2]));
+        }
+        for window in points.windows(4) {
+            let segment = Segment::new(window.try_into().unwrap(), 0.5);
+            let places: Vec<_> = (0..=samples)
+                .map(|k| {
+                    let sample = segment.sample(k as f32 / samples as f32);
+                    Place {
+                        centre: sample.centre.as_dvec3(),
+                        tangent: sample.tangent.as_dvec3().normalize(),
+                        radius: f64::from(sample.radius),
+                    }
+                })
+                .collect();
+            let middle = places[samples / 2].centre;
+            let reach = places.iter().map(|place| place.centre.distance(middle)).fold(0.0, f64::max);
+            stretches.push(Stretch { yarn, places, middle, reach });
+        }
+    }
+    stretches
+}
+
+fn near<'a>(
+    stretches: &'a [Stretch],
+    within: f64,
+) -> impl Iterator<Item = (&'a Stretch, &'a Stretch)> + use<'a> {
+    stretches.iter().enumerate().flat_map(move |(number, one)| {
+        let others = stretches[number + 1..].iter().filter(move |other| other.yarn != one.yarn);
+        others
+            .filter(move |other| one.middle.distance(other.middle) < one.reach + other.reach + within)
+            .map(move |other| (one, other))
+    })
+}
+
+/// The least distance between the centrelines of two different yarns over the sum of their radii; at most 2.
+pub(crate) fn round_clearance(yarns: &Yarns, samples: usize) -> f64 {
+    let thickest = yarns.points().iter().fold(0.0f32, |most, point| most.max(point.radius));
+    let mut least = 2.0f64;
+    let stretches = stretches(yarns, samples);
+    for (one, other) in near(&stretches, 4.0 * f64::from(thickest)) {
+        for a in &one.places {
+            for b in &other.places {
+                least = least.min(a.centre.distance(b.centre) / (a.radius + b.radius));
+            }
+        }
+    }
+    least
+}
+
+/// Whether two different yarns pierce one another when their sections are scaled by `scale`: whether a point of one's
+/// surface lies inside the other. `samples` steps an interval, `sides` points round a section.
+pub(crate) fn pierce(yarns: &Yarns, samples: usize, sides: u32, scale: f64) -> bool {
+    let sections = yarns.layout().sections();
+    let outlines: Vec<Vec<DVec2>> = sections
+        .iter()
+        .map(|section| {
+            section
+                .outline(sides)
+                .iter()
+                .map(|p| DVec2::new(f64::from(p.x), f64::from(p.y)) * scale)
+                .collect()
+        })
+        .collect();
+    let outline = |yarn: usize| &outlines[yarns.layout().yarns()[yarn].section as usize];
+    let widest = outlines.iter().flatten().map(|point| point.length()).fold(0.0, f64::max);
+    let thickest = yarns.points().iter().fold(0.0f32, |most, point| most.max(point.radius));
+    let stretches = stretches(yarns, samples);
+    near(&stretches, 2.0 * widest * f64::from(thickest)).any(|(one, other)| {
+        [(one, other), (other, one)].into_iter().any(|(surface, body)| {
+            surface.places.iter().any(|place| {
+                let (side, up) = place.frame();
+                outline(surface.yarn).iter().any(|point| {
+                    let point = place.centre + place.radius * (point.x * side + point.y * up);
+                    body.places.windows(2).any(|pair| inside(point, pair, outline(body.yarn)))
+                })
+            })
+        })
+    })
+}
+
+/// Whether `point` lies inside a tube between two of its places.
+fn inside(point: DVec3, pair: &[Place], outline: &[DVec2]) -> bool {
+    let along = [0, 1].map(|k| (point - pair[k].centre).dot(pair[k].tangent));
+    if along[0] < 0.0 || along[1] > 0.0 {
+        return false;
+    }
+    let share = along[0] / (along[0] - along[1]).max(1e-12);
+    let centre = pair[0].centre.lerp(pair[1].centre, share);
+    let place = Place { centre, tangent: pair[0].tangent.lerp(pair[1].tangent, share), ..pair[0] };
+    let (side, up) = place.frame();
+    let offset = (point - centre) / place.radius;
+    let at = DVec2::new(offset.dot(side), offset.dot(up));
+    // Convex outlines: inside is left of every edge.
+    outline.iter().zip(outline.iter().cycle().skip(1)).all(|(a, b)| (*b - *a).perp_dot(at - *a) > 0.0)
+}
+
+/// The scale of all sections at which the first two yarns touch, to within 1/256 of the way between `low` and `high`.
+pub(crate) fn surface_clearance(
+    yarns: &Yarns,
+    samples: usize,
+    sides: u32,
+    [mut low, mut high]: [f64; 2],
+) -> f64 {
+    for _ in 0..8 {
+        let middle = f64::midpoint(low, high);
+        if pierce(yarns, samples, sides, middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    low
+}
+
+/// Random weave: Knuth's multiplicative congruential generator, whose high bits are random enough for one.
+pub(crate) fn random_bits(seed: u64) -> impl FnMut() -> bool {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state >> 63 == 1
+    }
+}
+
+/// An ellipse of this width over height, as a section.
+pub(crate) fn ellipse(aspect: f32) -> Section {
+    Section::Ellipse { aspect }
+}

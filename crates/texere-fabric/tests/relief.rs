@@ -1,0 +1,124 @@
+//! Jammed cloth, before and after something is done about it.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
+
+mod oracle;
+
+use texere_core::{Material, Origin, Section};
+use texere_fabric::{Crimp, FabricError, Jam, Shape, Thread, Weave, Woven};
+
+fn cloth(weave: &str, [end, pick]: [Thread; 2], section: Section) -> Woven {
+    let drawdown = Weave::parse(weave).unwrap().drawdown(8, 8).unwrap();
+    let mut cloth =
+        Woven::new(drawdown, vec![end; 8], vec![pick; 8], vec![Material::default()], vec![section]).unwrap();
+    cloth.set_shape(Shape::Round);
+    cloth
+}
+
+/// Ends and picks 0.2 mm thick at these pitches, in diameters.
+fn dense(weave: &str, ends: f64, picks: f64) -> Woven {
+    cloth(weave, [Thread::new(ends * 0.2, 0.1), Thread::new(picks * 0.2, 0.1)], Section::Circle)
+}
+
+#[test]
+fn the_least_pitch_is_peirces() {
+    // Two sets of round threads alike: √3 diameters, whatever the weave. A pick of 0.6 ends: 1.386 ends both ways.
+    let report = dense("3/1", 3.0, 1.5).relieve(Jam::Report).unwrap();
+    for set in report.before {
+        assert!((set.pitch_min_mm / 0.2 - 3f64.sqrt()).abs() < 1e-6, "{set:?}");
+    }
+    assert_eq!(report.before.map(|set| set.jammed), [0, 7]);
+    assert_eq!(report.before[1].tightest, Some(Origin::Pick(2)));
+    assert_eq!((report.before, report.scaled, report.widened), (report.after, 1.0, [1.0; 2]));
+
+    let mut unequal = cloth("plain", [Thread::new(0.6, 0.1), Thread::new(0.6, 0.06)], Section::Circle);
+    unequal.set_crimp(Crimp::WarpShare(0.5)).unwrap();
+    for set in unequal.relieve(Jam::Report).unwrap().before {
+        assert!((set.pitch_min_mm / 0.2 - 1.3856).abs() < 1e-4, "{set:?}");
+    }
+
+    // An ellipse twice as wide as high: 1.3 widths.
+    let ellipse = Section::Ellipse { aspect: 2.0 };
+    let report = cloth("plain", [Thread::new(1.0, 0.1); 2], ellipse).relieve(Jam::Report).unwrap();
+    assert!((report.before[0].pitch_min_mm / (0.2 * 2f64.sqrt()) - 1.299).abs() < 1e-3);
+}
+
+#[test]
+fn nothing_between_two_threads_jams_nothing() {
+    // Doubled ends touch: no pick passes between them.
+    let drawdown = Weave::parse("2/2(2+2)").unwrap().drawdown(8, 8).unwrap();
+    let set: Vec<_> =
+        [0.5, 0.2].map(|spacing| Thread::new(spacing, 0.1)).into_iter().cycle().take(8).collect();
+    let mut cloth =
+        Woven::new(drawdown, set.clone(), set, vec![Material::default()], vec![Section::Circle]).unwrap();
+    assert_eq!(cloth.relieve(Jam::Report).unwrap().before.map(|set| set.jammed), [0, 0]);
+}
+
+#[test]
+fn crimp_goes_where_the_cloth_is_dense() {
+    // Warp-dense: the ends bend, the picks straighten, and no thread is changed.
+    let mut cloth = dense("plain", 1.5, 2.4);
+    let (threads, report) = (cloth.clone(), cloth.relieve(Jam::Flatten).unwrap());
+    assert_eq!(report.before.map(|set| set.jammed), [7, 0]);
+    assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
+    assert!(report.warp_share[1] > 0.6 && report.widened == [1.0; 2] && report.scaled == 1.0, "{report:?}");
+    assert_eq!((cloth.warp(), cloth.weft(), cloth.warnings().len()), (threads.warp(), threads.weft(), 0));
+    assert!(oracle::round_clearance(&cloth.yarns().unwrap(), 32) > 0.99);
+}
+
+#[test]
+fn flattening_keeps_the_area_and_clears_the_surfaces() {
+    // A share that is given stays: what passes between the ends has to grow flatter.
+    let mut cloth = dense("plain", 1.6, 3.0);
+    cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
+    let report = cloth.relieve(Jam::Flatten).unwrap();
+    assert_eq!(report.before.map(|set| set.jammed), [7, 0]);
+    assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
+    assert_eq!((report.warp_share, report.widened[0], report.scaled), ([0.5; 2], 1.0, 1.0));
+    let section = &cloth.sections()[cloth.weft()[0].section as usize];
+    let flat = section.half_width() / report.widened[1];
+    assert!(report.widened[1] > 1.1 && (flat - 1.0).abs() < 1e-3, "{report:?}");
+    assert!((section.half_width() * section.half_height() - 1.0).abs() < 1e-3);
+    assert_eq!((cloth.warnings().len(), cloth.weft()[0].radius_mm), (0, 0.1));
+    assert!(!oracle::pierce(&cloth.yarns().unwrap(), 8, 24, 0.985));
+}
+
+#[test]
+fn what_can_not_be_flattened_is_told() {
+    let mut cloth = dense("plain", 1.2, 1.2);
+    let report = cloth.relieve(Jam::Flatten).unwrap();
+    assert_eq!(report.after.map(|set| set.jammed).into_iter().max(), Some(7));
+    let plies = Section::Lobed { plies: 2 };
+    let mut lobed = cloth_of(plies.clone());
+    assert_eq!(lobed.relieve(Jam::Flatten).unwrap().widened, [1.0; 2]);
+    assert_eq!(lobed.sections(), [plies]);
+}
+
+fn cloth_of(section: Section) -> Woven {
+    cloth("plain", [Thread::new(0.24, 0.1), Thread::new(0.6, 0.1)], section)
+}
+
+#[test]
+fn shrinking_makes_everything_fit() {
+    for (ends, picks) in [(1.2, 1.2), (0.5, 3.0), (1.6, 1.6)] {
+        let mut cloth = dense("3/1", ends, picks);
+        let report = cloth.relieve(Jam::Shrink).unwrap();
+        assert_eq!(report.after.map(|set| set.jammed), [0, 0], "{ends}, {picks}");
+        assert!(report.scaled < 1.0 && cloth.warnings().is_empty(), "{report:?}");
+        assert!((cloth.warp()[3].radius_mm / 0.1 - report.scaled).abs() < 1e-6);
+        let clearance = oracle::round_clearance(&cloth.yarns().unwrap(), 32);
+        assert!((0.99..1.1).contains(&clearance), "{ends}, {picks}: {clearance}");
+        // A second time there is nothing left to do.
+        assert_eq!(cloth.relieve(Jam::Shrink).unwrap().scaled, 1.0);
+    }
+}
+
+#[test]
+fn threads_too_thin_to_shrink_are_left_alone() {
+    let mut cloth =
+        cloth("plain", [Thread::new(1e-6f32.into(), 1.0), Thread::new(1.0, 1e-6)], Section::Circle);
+    let before = cloth.clone();
+    let error = cloth.relieve(Jam::Shrink).unwrap_err();
+    assert!(matches!(error, FabricError::Radius { thread: Origin::End(1), .. }), "{error}");
+    assert_eq!(cloth, before);
+}

@@ -7,14 +7,11 @@ use std::sync::Arc;
 
 use bytemuck::Pod;
 use opencl3::command_queue::{
-    CL_BLOCKING, CL_NON_BLOCKING, enqueue_fill_buffer, enqueue_map_buffer, enqueue_migrate_mem_object,
-    enqueue_read_buffer, enqueue_unmap_mem_object, enqueue_write_buffer, flush,
+    CL_BLOCKING, CL_NON_BLOCKING, enqueue_fill_buffer, enqueue_map_buffer, enqueue_read_buffer,
+    enqueue_unmap_mem_object, enqueue_write_buffer, flush,
 };
 use opencl3::event::wait_for_events;
-use opencl3::memory::{
-    CL_MAP_READ, CL_MEM_ALLOC_HOST_PTR, CL_MEM_READ_WRITE, CL_MIGRATE_MEM_OBJECT_CONTENT_UNDEFINED,
-    create_buffer,
-};
+use opencl3::memory::{CL_MAP_READ, CL_MEM_ALLOC_HOST_PTR, CL_MEM_READ_WRITE, create_buffer};
 use texere_core::{BackendError, Traffic};
 
 use crate::OpenClError;
@@ -41,21 +38,11 @@ impl Buffer {
         // SAFETY: no host memory is handed over.
         let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
         let memory = Handle::memory(memory).map_err(&refused)?;
-        // Drivers put memory off until its first use; asked for it now, they say now that there is none.
-        let list = memory.raw();
-        // SAFETY: a list of one memory object of this context, and no event.
-        let moved = unsafe {
-            enqueue_migrate_mem_object(
-                opened.transfers.raw(),
-                1,
-                &raw const list,
-                CL_MIGRATE_MEM_OBJECT_CONTENT_UNDEFINED,
-                0,
-                ptr::null(),
-            )
-        };
-        Handle::event(moved).map_err(&refused)?;
-        Ok(Self { memory: Some(memory), bytes })
+        let mut buffer = Self { memory: Some(memory), bytes };
+        // Drivers put memory off until its first use; used now, they say now that there is none. Not by
+        // clEnqueueMigrateMemObjects: NVIDIA's driver (580) dies where two threads call that on one queue.
+        buffer.enqueue_write(&opened.transfers, 0, &[0u32], None).map_err(refused)?;
+        Ok(buffer)
     }
 
     /// `bytes` of zeros for `what`.
@@ -119,11 +106,23 @@ impl Buffer {
             return Ok(None);
         }
         debug_assert!(offset + size_of_val(data) as u64 <= self.bytes, "a write stays in its buffer");
+        let event = self.enqueue_write(queue, offset, data, after);
+        Ok(Some(Arc::new(event.map_err(opened.failed("clEnqueueWriteBuffer"))?)))
+    }
+
+    /// As [`Buffer::write`], with OpenCL's status for an error.
+    fn enqueue_write<T: Pod>(
+        &mut self,
+        queue: &Handle,
+        offset: u64,
+        data: &[T],
+        after: Option<&Handle>,
+    ) -> Result<Handle, i32> {
         let after = after.map(Handle::raw);
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
         // SAFETY: the pointer is to as many bytes as told, and blocking keeps them borrowed until they are copied. A
         // range past the buffer's end comes back as an error.
-        let event = unsafe {
+        Handle::event(unsafe {
             enqueue_write_buffer(
                 queue.raw(),
                 self.raw(),
@@ -134,9 +133,7 @@ impl Buffer {
                 events,
                 list,
             )
-        };
-        let event = Handle::event(event).map_err(opened.failed("clEnqueueWriteBuffer"))?;
-        Ok(Some(Arc::new(event)))
+        })
     }
 
     /// Reads from the start into `out`, after `after`.

@@ -346,6 +346,10 @@ Vertex vertex_at(float4 centre, float4 tangent, float3 side, float3 up, float4 p
     float3 across = side * point.z + up * point.w;
     Vertex vertex;
     vertex.position = centre.xyz + outward * centre.w;
-    vertex.normal = (across - tangent.xyz * lean) * (1.0f / sqrt(1.0f + lean * lean));
+    vertex.normal = across;
+    // Most yarns are as thick here as there, and need no square root.
+    if (tangent.w != 0.0f) {
+        vertex.normal = (across - tangent.xyz * lean) * (1.0f / sqrt(1.0f + lean * lean));
+    }
     return vertex;
 }

@@ -1,62 +1,69 @@
 // Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.cl and rings.cl.
 //
 // The twin of mesh.wgsl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
-// at a time, contiguous across the workgroup, and work a vertex out again rather than stride.
+// at a time, contiguous across the workgroup. To get there vertices go through local memory, a tile of rings at a time,
+// where mesh.wgsl works a vertex out again.
 
 #define MESH_GROUP 128
 
-// Vertex `number` of a block, whose section is `outline`.
-Vertex block_vertex(__local const BlockRings *rings, __global const float4 *outline, uint sides, uint number) {
-    uint ring = number / sides;
-    return vertex_at(rings->centre[ring], rings->tangent[ring], rings->side[ring].xyz, rings->up[ring].xyz,
-                     outline[number % sides]);
+// Vertices of a tile at most: a whole block of six-sided rings.
+#define TILE_VERTICES 384u
+
+// Rings of a tile. Even, so that a tile starts as many bytes after a multiple of 16 as its block.
+uint tile_rings(uint sides) {
+    return min((uint)BLOCK_RINGS, TILE_VERTICES / sides / 2u * 2u);
 }
 
-// Four floats of a block's vertices from float `at` on, which is even: so they hold no more than one normal, or the end
-// of one, and one position, or the start of one.
-float4 four_floats(__local const BlockRings *rings, __global const float4 *outline, uint sides, uint at) {
-    float3 normal = block_vertex(rings, outline, sides, at / 6u).normal;
-    float3 position = block_vertex(rings, outline, sides, (at + 2u) / 6u).position;
-    switch (at % 6u) {
-        case 0u: return (float4)(position, normal.x);
-        case 2u: return (float4)(position.z, normal);
-        default: return (float4)(normal.yz, position.xy);
+// Works out the vertices of `count` rings from ring `first` on, three pairs of floats each. A lane keeps to one ring of
+// the tile's `tile`, which it reads once, and shares its corners with the other lanes of that ring.
+void stage_vertices(__local const BlockRings *rings, __global const float4 *outline, uint sides, uint first, uint count,
+                    uint tile, uint lane, __local float2 *staged) {
+    uint ring = lane % tile;
+    uint lanes_a_ring = MESH_GROUP / tile;
+    if (ring >= count || lane / tile >= lanes_a_ring) {
+        return;
+    }
+    float4 centre = rings->centre[first + ring];
+    float4 tangent = rings->tangent[first + ring];
+    float3 side = rings->side[first + ring].xyz;
+    float3 up = rings->up[first + ring].xyz;
+    for (uint corner = lane / tile; corner < sides; corner += lanes_a_ring) {
+        Vertex vertex = vertex_at(centre, tangent, side, up, outline[corner]);
+        __local float2 *pairs = staged + 3u * (ring * sides + corner);
+        pairs[0] = vertex.position.xy;
+        pairs[1] = (float2)(vertex.position.z, vertex.normal.x);
+        pairs[2] = vertex.normal.yz;
     }
 }
 
-// Two floats likewise.
-float2 two_floats(__local const BlockRings *rings, __global const float4 *outline, uint sides, uint at) {
-    Vertex vertex = block_vertex(rings, outline, sides, at / 6u);
-    switch (at % 6u) {
-        case 0u: return vertex.position.xy;
-        case 2u: return (float2)(vertex.position.z, vertex.normal.x);
-        default: return vertex.normal.yz;
-    }
-}
-
-// Writes the `count` floats of a block's vertices. They start `head` floats, 0 or 2, before a multiple of 16 bytes;
-// what is left at either end goes by two.
-void write_vertices(__local const BlockRings *rings, __global const float4 *outline, uint sides, uint count,
-                    uint head, uint lane, __global float *vertices) {
-    uint tail = head + (count - head) / 4u * 4u;
-    for (uint at = head + 4u * lane; at < tail; at += 4u * MESH_GROUP) {
-        *(__global float4 *)(vertices + at) = four_floats(rings, outline, sides, at);
+// Writes `count` pairs of floats from where they are staged. They start `head` pairs, 0 or 1, before a multiple of 16
+// bytes; what is left at either end goes alone.
+void write_vertices(__local const float2 *staged, uint count, uint head, uint lane, __global float *vertices) {
+    uint tail = head + (count - head) / 2u * 2u;
+    for (uint at = head + 2u * lane; at < tail; at += 2u * MESH_GROUP) {
+        *(__global float4 *)(vertices + 2u * at) = (float4)(staged[at], staged[at + 1u]);
     }
     if (lane == 0u && head != 0u) {
-        vstore2(two_floats(rings, outline, sides, 0u), 0, vertices);
+        vstore2(staged[0], 0, vertices);
     }
     if (lane == 1u && tail < count) {
-        vstore2(two_floats(rings, outline, sides, tail), 0, vertices + tail);
+        vstore2(staged[tail], 0, vertices + 2u * tail);
     }
+}
+
+// `at` / `per_ring`, exactly: neither is so large that half of one for safety would not do, and it takes a fraction of
+// the time of a division of integers.
+uint ring_of(uint at, uint per_ring) {
+    return (uint)(((float)at + 0.5f) * (1.0f / (float)per_ring));
 }
 
 // Four indices of a block from index `at` on. `pattern` holds those of a ring's quads and of the next ring's.
 uint4 four_indices(__global const uint *pattern, uint sides, uint first_vertex, uint at) {
-    uint per_ring = 6u * sides;
-    return vload4(0, pattern + at % per_ring) + (first_vertex + at / per_ring * sides);
+    uint ring = ring_of(at, 6u * sides);
+    return vload4(0, pattern + (at - ring * 6u * sides)) + (first_vertex + ring * sides);
 }
 
-// Writes the `count` indices of a block, as `write_vertices` does its floats.
+// Writes the `count` indices of a block; they start `head` indices before a multiple of 16 bytes, 0 or 2.
 void write_indices(__global const uint *pattern, uint sides, uint first_vertex, uint count, uint head, uint lane,
                    __global uint *indices) {
     uint tail = head + (count - head) / 4u * 4u;
@@ -78,6 +85,7 @@ void mesh(const Params params, const ulong window, __global const float4 *points
           __global const float4 *outlines, __global const uint *pattern, __global float *vertices,
           __global uint *indices) {
     __local BlockRings rings;
+    __local float2 staged[3u * TILE_VERTICES];
     size_t row = get_global_id(0) / MESH_GROUP;
     uint lane = get_local_id(0);
     Block block = blocks[row];
@@ -88,8 +96,15 @@ void mesh(const Params params, const ulong window, __global const float4 *points
 
     // A vertex is 24 bytes, so every other one starts at a multiple of 16; indices come in pairs.
     __global const float4 *outline = outlines + yarn.section * params.sides;
-    write_vertices(&rings, outline, params.sides, 6u * block.rings * params.sides, 2u * (block.first_vertex % 2u), lane,
-                   vertices + 6 * (size_t)block.first_vertex);
+    __global float *out = vertices + 6 * (size_t)block.first_vertex;
+    uint tile = tile_rings(params.sides);
+    for (uint first = 0u; first < block.rings; first += tile) {
+        uint count = min(tile, block.rings - first);
+        stage_vertices(&rings, outline, params.sides, first, count, tile, lane, staged);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        write_vertices(staged, 3u * count * params.sides, block.first_vertex % 2u, lane, out + 6u * first * params.sides);
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
     if (params.indexed != 0u && block.quads != 0u) {
         write_indices(pattern, params.sides, block.first_vertex, 6u * block.quads * params.sides,
                       block.first_index % 4u, lane, indices + block.first_index);

@@ -11,6 +11,8 @@ typedef struct {
     float4 side[BLOCK_RINGS];
     float4 up[BLOCK_RINGS];
     uint roll[BLOCK_RINGS];
+    // The turns of each eight rings.
+    uint eights[BLOCK_RINGS / 8];
 } BlockRings;
 
 // Makes the rings of `block`, the yarn's turns before which add up to `start` and in all to `whole`: one lane a ring.
@@ -35,21 +37,24 @@ void block_rings(__global const float4 *points, const Params *params, const Yarn
         if (lane < BLOCK_RINGS) {
             rings->roll[lane] = turn;
         }
-        // An inclusive scan of the steps: each pass adds the sum that lies `reach` lanes before.
-        for (uint reach = 1u; reach < BLOCK_RINGS; reach *= 2u) {
-            barrier(CLK_LOCAL_MEM_FENCE);
-            uint before = lane < BLOCK_RINGS && lane >= reach ? rings->roll[lane - reach] : 0u;
-            barrier(CLK_LOCAL_MEM_FENCE);
-            if (lane < BLOCK_RINGS) {
-                rings->roll[lane] += before;
+        // An inclusive scan of the steps, first within eight lanes, then across the eights.
+        barrier(CLK_LOCAL_MEM_FENCE);
+        uint sum = 0u;
+        if (lane < BLOCK_RINGS) {
+            for (uint before = lane / 8u * 8u; before <= lane; before++) {
+                sum += rings->roll[before];
+            }
+            if (lane % 8u == 7u) {
+                rings->eights[lane / 8u] = sum;
             }
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         if (lane < block->rings) {
-            uint sum = lane == 0u ? start : start + rings->roll[lane - 1u];
-            roll = closed_up(yarn, block->first_ring + lane, sum, whole);
+            for (uint before = 0u; before < lane / 8u; before++) {
+                sum += rings->eights[before];
+            }
+            roll = closed_up(yarn, block->first_ring + lane, start + sum - turn, whole);
         }
-        barrier(CLK_LOCAL_MEM_FENCE);
     }
     if (lane < block->rings) {
         Basis basis = basis_standing(here.sample.tangent, roll);

@@ -10,29 +10,51 @@
 __kernel __attribute__((reqd_work_group_size(TURNS_GROUP, 1, 1)))
 void block_turns(const Params params, __global const float4 *points, __global const YarnRow *yarns,
                  __global const Block *blocks, __global uint *rolls) {
+    __local float3 tangents[TURNS_GROUP];
+    __local float3 offsets[TURNS_GROUP];
     __local uint sums[TURNS_GROUP];
     size_t row = get_global_id(0) / TURNS_GROUP;
     uint lane = get_local_id(0);
     Block block = blocks[row];
     YarnRow yarn = yarns[block.yarn];
 
+    RingSample here;
+    if (lane < block.rings) {
+        here = ring_sample(points, &params, &yarn, &block, lane);
+        tangents[lane] = here.sample.tangent;
+        offsets[lane] = here.sample.offset;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
     // The steps to the ring after each: as many as quads, so the last leads to the next block's first ring.
     uint turn = 0u;
     if (lane < block.quads) {
-        RingSample here = ring_sample(points, &params, &yarn, &block, lane);
-        RingSample next = ring_sample(points, &params, &yarn, &block, lane + 1u);
-        float3 chord = chord_to(&here, next.sample.offset);
-        turn = frame_step(params.frame, here.sample.tangent, next.sample.tangent, chord, yarn.twist);
+        float3 next_tangent;
+        float3 next_offset;
+        if (lane + 1u < block.rings) {
+            next_tangent = tangents[lane + 1u];
+            next_offset = offsets[lane + 1u];
+        } else {
+            RingSample next = ring_sample(points, &params, &yarn, &block, lane + 1u);
+            next_tangent = next.sample.tangent;
+            next_offset = next.sample.offset;
+        }
+        turn = frame_step(params.frame, here.sample.tangent, next_tangent, chord_to(&here, next_offset), yarn.twist);
     }
     sums[lane] = turn;
-    for (uint reach = TURNS_GROUP / 2; reach > 0u; reach /= 2u) {
-        barrier(CLK_LOCAL_MEM_FENCE);
-        if (lane < reach) {
-            sums[lane] += sums[lane + reach];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    // Eight lanes add up eight turns each, then one the eight sums.
+    if (lane < TURNS_GROUP / 8) {
+        for (uint further = lane + 8u; further < TURNS_GROUP; further += 8u) {
+            turn += sums[further];
         }
+        sums[lane] = turn;
     }
+    barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0u) {
-        rolls[row] = sums[0];
+        for (uint further = 1u; further < TURNS_GROUP / 8; further++) {
+            turn += sums[further];
+        }
+        rolls[row] = turn;
     }
 }
 

@@ -351,6 +351,10 @@ fn vertex_at(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, up: vec3<f3
     let across = side * point.z + up * point.w;
     var vertex: Vertex;
     vertex.position = centre.xyz + outward * centre.w;
-    vertex.normal = (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
+    vertex.normal = across;
+    // Most yarns are as thick here as there, and need no square root.
+    if tangent.w != 0.0 {
+        vertex.normal = (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
+    }
     return vertex;
 }

@@ -14,6 +14,8 @@ struct BlockRings {
     side: array<vec3<f32>, BLOCK_RINGS>,
     up: array<vec3<f32>, BLOCK_RINGS>,
     roll: array<u32, BLOCK_RINGS>,
+    // The turns of each eight rings.
+    eights: array<u32, BLOCK_RINGS / 8u>,
 }
 
 var<workgroup> standing: BlockRings;
@@ -39,27 +41,25 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
         if lane < BLOCK_RINGS {
             standing.roll[lane] = turn;
         }
-        // An inclusive scan of the steps: each pass adds the sum that lies `reach` lanes before.
-        for (var reach = 1u; reach < BLOCK_RINGS; reach *= 2u) {
-            workgroupBarrier();
-            var before = 0u;
-            if lane < BLOCK_RINGS && lane >= reach {
-                before = standing.roll[lane - reach];
+        // An inclusive scan of the steps, first within eight lanes, then across the eights.
+        workgroupBarrier();
+        var sum = 0u;
+        if lane < BLOCK_RINGS {
+            for (var before = lane / 8u * 8u; before <= lane; before++) {
+                sum += standing.roll[before];
             }
-            workgroupBarrier();
-            if lane < BLOCK_RINGS {
-                standing.roll[lane] += before;
+            if lane % 8u == 7u {
+                standing.eights[lane / 8u] = sum;
             }
         }
         workgroupBarrier();
         if lane < block.rings {
-            var sum = rolls[params.yarns + params.first_block + row];
-            if lane != 0u {
-                sum += standing.roll[lane - 1u];
+            for (var before = 0u; before < lane / 8u; before++) {
+                sum += standing.eights[before];
             }
-            roll = closed_up(yarn, block.first_ring + lane, sum, rolls[block.yarn]);
+            let start = rolls[params.yarns + params.first_block + row];
+            roll = closed_up(yarn, block.first_ring + lane, start + sum - turn, rolls[block.yarn]);
         }
-        workgroupBarrier();
     }
     if lane < block.rings {
         let basis = basis_standing(here.sample.tangent, roll);

@@ -9,6 +9,8 @@ const ROLLS_GROUP = 256u;
 // The whole turn of each yarn, then the roll at each block's start.
 @group(0) @binding(4) var<storage, read_write> rolls: array<u32>;
 
+var<workgroup> turn_tangents: array<vec3<f32>, TURNS_GROUP>;
+var<workgroup> turn_offsets: array<vec3<f32>, TURNS_GROUP>;
 var<workgroup> turn_sums: array<u32, TURNS_GROUP>;
 
 // A workgroup of TURNS_GROUP a row of a chunk's block table, chunk after chunk.
@@ -21,23 +23,43 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocatio
     let block = blocks[row];
     let yarn = yarns[block.yarn];
 
+    var here: RingSample;
+    if lane < block.rings {
+        here = ring_sample(yarn, block, lane);
+        turn_tangents[lane] = here.sample.tangent;
+        turn_offsets[lane] = here.sample.offset;
+    }
+    workgroupBarrier();
     // The steps to the ring after each: as many as quads, so the last leads to the next block's first ring.
     var turn = 0u;
     if lane < block.quads {
-        let here = ring_sample(yarn, block, lane);
-        let next = ring_sample(yarn, block, lane + 1u);
-        let chord = chord_to(here, next.sample.offset);
-        turn = frame_step(params.frame, here.sample.tangent, next.sample.tangent, chord, yarn.twist);
+        var next_tangent: vec3<f32>;
+        var next_offset: vec3<f32>;
+        if lane + 1u < block.rings {
+            next_tangent = turn_tangents[lane + 1u];
+            next_offset = turn_offsets[lane + 1u];
+        } else {
+            let next = ring_sample(yarn, block, lane + 1u);
+            next_tangent = next.sample.tangent;
+            next_offset = next.sample.offset;
+        }
+        turn = frame_step(params.frame, here.sample.tangent, next_tangent, chord_to(here, next_offset), yarn.twist);
     }
     turn_sums[lane] = turn;
-    for (var reach = TURNS_GROUP / 2u; reach > 0u; reach /= 2u) {
-        workgroupBarrier();
-        if lane < reach {
-            turn_sums[lane] += turn_sums[lane + reach];
+    workgroupBarrier();
+    // Eight lanes add up eight turns each, then one the eight sums.
+    if lane < TURNS_GROUP / 8u {
+        for (var further = lane + 8u; further < TURNS_GROUP; further += 8u) {
+            turn += turn_sums[further];
         }
+        turn_sums[lane] = turn;
     }
+    workgroupBarrier();
     if lane == 0u {
-        rolls[params.yarns + params.first_block + row] = turn_sums[0];
+        for (var further = 1u; further < TURNS_GROUP / 8u; further++) {
+            turn += turn_sums[further];
+        }
+        rolls[params.yarns + params.first_block + row] = turn;
     }
 }
 

@@ -202,7 +202,7 @@ pub trait Session: fmt::Debug + Send {
         self.read_mesh(chunk, &mut sink).map(|_| ())
     }
 
-    /// Time spent so far.
+    /// Time spent so far, by all that has been launched: waits for it.
     fn timings(&self) -> StageTimings;
 
     /// Bytes moved so far.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use opencl3::event::{
     CL_EVENT_COMMAND_EXECUTION_STATUS, CL_PROFILING_COMMAND_END, CL_PROFILING_COMMAND_START, get_event_info,
-    get_event_profiling_info,
+    get_event_profiling_info, wait_for_events,
 };
 use texere_core::StageTimings;
 
@@ -49,11 +49,14 @@ impl Clock {
         add(&mut self.total, stage, time);
     }
 
-    /// The time of all commands that have ended.
+    /// The time of all commands, which are waited for.
     pub(crate) fn timings(&self) -> StageTimings {
         let mut total = self.total;
-        for (stage, event) in self.pending.iter().filter(|(_, event)| has_ended(event)) {
-            add(&mut total, *stage, duration(event));
+        for (stage, event) in &self.pending {
+            // A command that failed is one that took no time.
+            if wait_for_events(&[event.raw()]).is_ok() {
+                add(&mut total, *stage, duration(event));
+            }
         }
         total
     }

@@ -1,5 +1,8 @@
-//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which together are what CI runs.
+//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which together are what CI runs, and
+//! `cargo xtask mutate`.
 
+mod mutants;
+mod mutate;
 mod steps;
 
 use std::process::ExitCode;
@@ -33,10 +36,14 @@ fn main() -> ExitCode {
             check(&mut steps);
             readme(&mut steps);
         }
+        Some("mutate") => return mutate::run(std::env::args().nth(2).as_deref()),
         _ => {
-            eprintln!("usage: cargo xtask <test | check>");
+            eprintln!("usage: cargo xtask <test | check | mutate>");
             eprintln!("  test   all tests, doctests and the conformance suite");
             eprintln!("  check  formatting, lints, docs, licences, packages and the README's main command");
+            eprintln!(
+                "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
+            );
             return ExitCode::from(2);
         }
     }

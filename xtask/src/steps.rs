@@ -56,9 +56,14 @@ impl Steps {
 }
 
 /// A command that starts in the repository's root.
-fn command(program: &str, args: &[&str]) -> Command {
+pub(crate) fn command(program: &str, args: &[&str]) -> Command {
     let mut command = Command::new(program);
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    command.args(args).current_dir(here.parent().unwrap_or(here));
+    command.args(args).current_dir(root());
     command
+}
+
+/// The repository's root.
+pub(crate) fn root() -> &'static Path {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here)
 }

@@ -1,0 +1,116 @@
+//! The faults that the suite has to catch: for each kernel one line that a slip of the hand might have left.
+
+/// One line of a kernel, broken.
+#[derive(Debug)]
+pub(crate) struct Mutant {
+    /// What `TEXERE_REQUIRE` and the names of the trials call the backend.
+    pub(crate) backend: &'static str,
+    /// The source, from the repository's root.
+    pub(crate) file: &'static str,
+    /// The kernel, or what all kernels take from the file.
+    pub(crate) kernel: &'static str,
+    /// A part of a line that the file has once.
+    pub(crate) line: &'static str,
+    /// What takes its place.
+    pub(crate) broken: &'static str,
+}
+
+const fn opencl(
+    file: &'static str,
+    kernel: &'static str,
+    line: &'static str,
+    broken: &'static str,
+) -> Mutant {
+    Mutant { backend: "opencl", file, kernel, line, broken }
+}
+
+const fn wgpu(file: &'static str, kernel: &'static str, line: &'static str, broken: &'static str) -> Mutant {
+    Mutant { backend: "wgpu", file, kernel, line, broken }
+}
+
+/// All of them. Where the twins have the same line, each has a fault of its own.
+pub(crate) const MUTANTS: &[Mutant] = &[
+    // The clamp at the yarn's last ring is forgotten: t = 0 of an interval that is not there.
+    opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
+    // The ring's own turn is counted in.
+    opencl("kernels/src/rings.cl", "block_rings", "start + sum - turn", "start + sum"),
+    // The step to the next block's first ring is left out.
+    opencl("kernels/src/scan.cl", "block_turns", "lane < block.quads", "lane + 1u < block.quads"),
+    // Only the tile before counts, which yarns of no more than two tiles don't show.
+    opencl("kernels/src/scan.cl", "yarn_rolls", "before += sums", "before = sums"),
+    // The roll is looked up by the chunk's row, which whole fabrics don't show.
+    opencl("kernels/src/trajectory.cl", "trajectory", "rolls[params.first_block + row]", "rolls[row]"),
+    // The last two floats of a tile with an odd number of pairs repeat the first two.
+    opencl("kernels/src/mesh.cl", "mesh", "vstore2(staged[tail], 0", "vstore2(staged[0], 0"),
+    // Caps look inwards.
+    opencl("kernels/src/caps.cl", "caps", "cap.end == 0u ? -1.0f : 1.0f", "cap.end == 0u ? 1.0f : -1.0f"),
+    // Radii grow, normals don't know.
+    opencl(
+        "kernels/src/per_yarn.cl",
+        "trajectory_per_yarn",
+        "slopes[at] = sample.slope;",
+        "slopes[at] = 0.0f;",
+    ),
+    // The last quads of each part are missing.
+    opencl("kernels/src/per_yarn.cl", "mesh_per_yarn", "ring + 1u < part.rings", "ring + 2u < part.rings"),
+    // A mirror image: the side points the other way.
+    wgpu(
+        "shaders/src/common.wgsl",
+        "turn_sin_cos",
+        "case 2u: { return vec2(-sine, -cosine); }",
+        "case 2u: { return vec2(sine, -cosine); }",
+    ),
+    // A block's rolls start from nothing, which yarns of one block don't show.
+    wgpu(
+        "shaders/src/rings.wgsl",
+        "block_rings",
+        "let start = rolls[params.yarns + params.first_block + row];",
+        "let start = 0u;",
+    ),
+    // Every step is measured from the block's first ring.
+    wgpu(
+        "shaders/src/scan.wgsl",
+        "block_turns",
+        "ring_sample(yarn, block, lane);",
+        "ring_sample(yarn, block, 0u);",
+    ),
+    // A yarn's rolls start one block late.
+    wgpu(
+        "shaders/src/scan.wgsl",
+        "yarn_rolls",
+        "before + roll_sums[lane] - turn;",
+        "before + roll_sums[lane];",
+    ),
+    // Every ring of a block gets the first one's roll.
+    wgpu("shaders/src/trajectory.wgsl", "trajectory", "standing.roll[ring]);", "standing.roll[0]);"),
+    // Two coordinates change places in one of three stores.
+    wgpu(
+        "shaders/src/mesh.wgsl",
+        "mesh",
+        "default: { return vec4(normal.yz, position.xy); }",
+        "default: { return vec4(normal.yz, position.yx); }",
+    ),
+    // Indices of a block whose sides are odd count from the chunk's first vertex.
+    wgpu(
+        "shaders/src/mesh.wgsl",
+        "mesh_odd",
+        "pattern_pairs[(at - ring * per_ring) / 2u] + first_vertex;",
+        "pattern_pairs[(at - ring * per_ring) / 2u];",
+    ),
+    // A cap's triangles all share one corner.
+    wgpu("shaders/src/caps.wgsl", "caps", "cap_pattern[cap.first_corner + k];", "cap_pattern[k];"),
+    // A part that starts inside an interval starts at its control point.
+    wgpu(
+        "shaders/src/per_yarn.wgsl",
+        "trajectory_per_yarn",
+        "var place = part.first_ring % per_interval;",
+        "var place = 0u;",
+    ),
+    // All yarns take the first section.
+    wgpu(
+        "shaders/src/per_yarn.wgsl",
+        "mesh_per_yarn",
+        "let outline = yarns[part.yarn].section * sides;",
+        "let outline = 0u;",
+    ),
+];

@@ -1,0 +1,122 @@
+//! `cargo xtask mutate`: whether the suite sees it when a kernel is broken.
+//!
+//! Works on a copy of the repository under `target/`, with a build of its own, so that nothing broken is ever left
+//! behind. For each backend the suite passes on the copy as it is; then, for each mutant, it must compile, find its
+//! devices, and fail.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{ExitCode, Stdio};
+
+use crate::mutants::{MUTANTS, Mutant};
+use crate::steps::{command, root};
+
+/// What a run of the suite came to.
+#[derive(Debug, PartialEq, Eq)]
+enum Suite {
+    Passed,
+    /// So many trials failed.
+    Failed(usize),
+    /// It did not get as far as its trials: what it said.
+    Broken(String),
+}
+
+/// Runs all mutants, or those whose kernel, file or backend `only` names.
+pub(crate) fn run(only: Option<&str>) -> ExitCode {
+    match try_run(only) {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(missed) => {
+            eprintln!("failed: {missed} not caught");
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            eprintln!("failed: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn try_run(only: Option<&str>) -> io::Result<usize> {
+    let named = |mutant: &&Mutant| {
+        only.is_none_or(|only| [mutant.kernel, mutant.file, mutant.backend].contains(&only))
+    };
+    let mutants: Vec<_> = MUTANTS.iter().filter(named).collect();
+    if mutants.is_empty() {
+        return Err(io::Error::other("no such kernel, file or backend"));
+    }
+    let copy = copy_of_the_repository()?;
+    let (mut missed, mut sound) = (0, Vec::new());
+    for mutant in mutants {
+        if !sound.contains(&mutant.backend) {
+            match suite(&copy, mutant.backend)? {
+                Suite::Passed => println!("passes   {} as it is", mutant.backend),
+                other => {
+                    return Err(io::Error::other(format!("{} as it is: {other:?}", mutant.backend)));
+                }
+            }
+            sound.push(mutant.backend);
+        }
+        let (file, whole) = (copy.join(mutant.file), fs::read_to_string(root().join(mutant.file))?);
+        if whole.matches(mutant.line).count() != 1 {
+            let message = format!("{} does not have once: {}", mutant.file, mutant.line);
+            return Err(io::Error::other(message));
+        }
+        fs::write(&file, whole.replace(mutant.line, mutant.broken))?;
+        let outcome = suite(&copy, mutant.backend)?;
+        fs::write(&file, whole)?;
+        let name = format!("{} {} ({})", mutant.backend, mutant.kernel, mutant.file);
+        match outcome {
+            Suite::Failed(trials) => println!("caught   {name}: {trials} trials fail"),
+            other => {
+                missed += 1;
+                println!("MISSED   {name}: {other:?}");
+            }
+        }
+    }
+    Ok(missed)
+}
+
+/// The working tree's files, tracked or new, below `target/`.
+fn copy_of_the_repository() -> io::Result<PathBuf> {
+    let copy = root().join("target/mutate");
+    let listed =
+        command("git", &["ls-files", "-z", "--cached", "--others", "--exclude-standard"]).output()?;
+    for file in listed.stdout.split(|byte| *byte == 0).filter(|file| !file.is_empty()) {
+        let file = Path::new(str::from_utf8(file).map_err(io::Error::other)?);
+        let (ours, target) = (fs::read(root().join(file))?, copy.join(file));
+        // A file that has not changed keeps its time, so that a second run builds little.
+        if fs::read(&target).ok().as_ref() != Some(&ours) {
+            fs::create_dir_all(target.parent().unwrap_or(&copy))?;
+            fs::write(target, ours)?;
+        }
+    }
+    Ok(copy)
+}
+
+/// Builds the suite of `copy` and runs it on `backend`.
+fn suite(copy: &Path, backend: &'static str) -> io::Result<Suite> {
+    let cargo = |last: &[&str]| {
+        let test = ["test", "--locked", "--package", "texere-conformance", "--test", "conformance"];
+        let mut cargo = command("cargo", &[&test, last].concat());
+        cargo.current_dir(copy).env("TEXERE_REQUIRE", backend);
+        cargo
+    };
+    if !cargo(&["--no-run", "--quiet"]).status()?.success() {
+        return Ok(Suite::Broken("it does not compile".into()));
+    }
+    let ran = cargo(&["--", backend]).stderr(Stdio::inherit()).output()?;
+    let said = String::from_utf8_lossy(&ran.stdout);
+    let failed = said.lines().filter(|line| line.starts_with("test ") && line.ends_with(" FAILED"));
+    let failed: Vec<_> = failed.collect();
+    Ok(if let Some(missing) = failed.iter().find(|line| line.contains("::missing")) {
+        // Among other things a kernel that does not compile, which needs no suite to be seen.
+        Suite::Broken((*missing).into())
+    } else if ran.status.success() {
+        Suite::Passed
+    } else if failed.is_empty() {
+        Suite::Broken(ran.status.to_string())
+    } else {
+        Suite::Failed(failed.len())
+    })
+}

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use texere_core::{
     Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Limits, MeshMut, MeshPiece, Plan,
-    Ring, Session, StageTimings, Vertex,
+    Ring, Session, StageTimings, Traffic, Vertex,
 };
 use texere_cpu::SerialBackend;
 
@@ -176,6 +176,10 @@ impl Session for DeferredSession {
 
     fn timings(&self) -> StageTimings {
         self.serial.timings()
+    }
+
+    fn traffic(&self) -> Traffic {
+        self.serial.traffic()
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use texere_core::{
     Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Limits, MeshMut, MeshPiece, Plan, Ring, Session,
-    StageTimings, Turn, Vertex,
+    StageTimings, Traffic, Turn, Vertex,
 };
 use texere_cpu::SerialBackend;
 
@@ -294,5 +294,9 @@ impl Session for SabotagedSession {
 
     fn timings(&self) -> StageTimings {
         self.serial.timings()
+    }
+
+    fn traffic(&self) -> Traffic {
+        self.serial.traffic()
     }
 }

@@ -68,6 +68,9 @@ pub struct DeviceInfo {
     pub memory_bytes: Option<u64>,
     /// What chunks are cut to.
     pub limits: Limits,
+    /// Whether [`Session::timings`] of scan, trajectory and mesh are by a clock of the device's own, from the start of the
+    /// work to its end, so that they prove where it was done. Otherwise they are by the host's clock.
+    pub timed_by_device: bool,
 }
 
 /// Time spent in each stage of a session, so far.
@@ -150,13 +153,14 @@ pub trait Session: fmt::Debug + Send {
 
     /// Stage 1, rings from control points. May return before it is done.
     ///
-    /// **Errors**: [`BackendError::OutOfOrder`] before a scan that is needed, and what the device says.
+    /// **Errors**: [`BackendError::OutOfOrder`] before a scan that is needed; [`BackendError::ForeignChunk`] from a backend
+    /// whose kernels check no bounds; and what the device says.
     fn trajectory(&mut self, chunk: &Chunk) -> Result<(), BackendError>;
 
     /// Stage 2, vertices and indices, with stage 1 in it where that has not run for this chunk. May return before it
     /// is done.
     ///
-    /// **Errors**: [`BackendError::OutOfOrder`] before a scan that is needed, and what the device says.
+    /// **Errors**: those of [`Session::trajectory`].
     fn mesh(&mut self, chunk: &Chunk) -> Result<(), BackendError>;
 
     /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 where only a fused
@@ -206,9 +210,7 @@ pub trait Session: fmt::Debug + Send {
     fn timings(&self) -> StageTimings;
 
     /// Bytes moved so far.
-    fn traffic(&self) -> Traffic {
-        Traffic::default()
-    }
+    fn traffic(&self) -> Traffic;
 }
 
 /// Whether `out` is exactly as long as `chunk` needs: for backends that bring their own [`Session::mesh_into`].

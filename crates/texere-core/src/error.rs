@@ -330,6 +330,12 @@ pub enum BackendError {
         /// What has to come first.
         needed: &'static str,
     },
+    /// A chunk that is not of the session's plan; kernels that check no bounds would go astray on it.
+    #[error("chunk {chunk} is of another plan than the session's")]
+    ForeignChunk {
+        /// The chunk's index.
+        chunk: u64,
+    },
     /// A chunk was read that no stage was run for, or so long ago that its memory has been used again.
     #[error("chunk {chunk} is not in flight")]
     NotInFlight {

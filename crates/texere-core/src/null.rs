@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::{
     Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Limits, MeshPiece, Plan, Ring,
-    Session, StageTimings,
+    Session, StageTimings, Traffic,
 };
 
 /// A backend that checks what it is asked, and writes nothing: outputs stay as they were.
@@ -32,6 +32,7 @@ impl NullBackend {
                 kind: DeviceKind::Other,
                 memory_bytes: None,
                 limits,
+                timed_by_device: false,
             },
         }
     }
@@ -116,5 +117,9 @@ impl Session for NullSession {
 
     fn timings(&self) -> StageTimings {
         StageTimings::default()
+    }
+
+    fn traffic(&self) -> Traffic {
+        Traffic::default()
     }
 }

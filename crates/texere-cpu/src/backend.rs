@@ -33,6 +33,7 @@ fn info(name: &str, schedule: &str, threads: usize) -> DeviceInfo {
         kind: DeviceKind::Cpu,
         memory_bytes: None,
         limits: Limits::NONE,
+        timed_by_device: false,
     }
 }
 

@@ -104,10 +104,10 @@ impl OpenClBackend {
         // SAFETY: the context is of this device.
         let queue = unsafe { create_command_queue(context.raw(), chosen.id, CL_QUEUE_PROFILING_ENABLE) };
         let queue = Handle::queue(queue).map_err(failed("clCreateCommandQueue"))?;
-        Self::with(chosen.id, context, queue, true, chosen.info, schedule)
+        Self::with(chosen.id, context, queue, chosen.info, schedule)
     }
 
-    /// Works on a queue of the caller's, in its context and on its device; all three are retained for as long as the
+    /// Works on a queue of the caller's under the name `opencl`, in its context and on its device; all three are retained for as long as the
     /// backend or a session of it lives. Kernels and uploads go to this queue in the order of the calls; results are
     /// read through a queue of our own.
     ///
@@ -142,7 +142,7 @@ impl OpenClBackend {
 
         let known = listed(schedule)?.into_iter().find(|device| device.id == id);
         let info = match known {
-            Some(device) => device.info,
+            Some(device) => DeviceInfo { name, ..device.info },
             // A part of a device is in no list.
             None => {
                 let part = Device::new(id);
@@ -151,14 +151,14 @@ impl OpenClBackend {
                 device::info(&part, &Platform::new(platform), name, schedule)?
             }
         };
-        Self::with(id, context, queue, properties & CL_QUEUE_PROFILING_ENABLE != 0, info, schedule)
+        let timed_by_device = properties & CL_QUEUE_PROFILING_ENABLE != 0;
+        Self::with(id, context, queue, DeviceInfo { timed_by_device, ..info }, schedule)
     }
 
     fn with(
         device: *mut c_void,
         context: Handle,
         queue: Handle,
-        profiled: bool,
         info: DeviceInfo,
         schedule: Schedule,
     ) -> Result<Self, BackendError> {
@@ -181,7 +181,7 @@ impl OpenClBackend {
             schedule,
             context,
             queue,
-            profiled,
+            profiled: info.timed_by_device,
             transfers,
             program,
         });
@@ -193,13 +193,6 @@ impl OpenClBackend {
     pub fn with_limits(mut self, limits: Limits) -> Self {
         self.info.limits = self.info.limits.min(&limits);
         self
-    }
-
-    /// Whether [`timings`](Session::timings) come from the device's own clock, which is so on every queue but a caller's
-    /// without profiling.
-    #[must_use]
-    pub fn is_timed_by_device(&self) -> bool {
-        self.opened.profiled
     }
 
     /// Starts work on a plan, as [`Backend::session`] does, and keeps what OpenCL can do beyond [`Session`]: see

@@ -96,6 +96,8 @@ pub(crate) fn info(
             memory_bytes: if shared { memory / 2 } else { memory / 8 * 7 },
             ..Limits::NONE
         },
+        // Our own queues all take the time of their commands.
+        timed_by_device: true,
         name,
     })
 }

@@ -72,11 +72,10 @@ impl Slot {
 
     /// Takes `chunk`: sends its tables, beside the kernels of the other chunk in flight but after this slot's own.
     ///
-    /// **Errors**: [`BackendError::Unsupported`] for a chunk that `plan` did not cut: no kernel checks its bounds.
+    /// **Errors**: [`BackendError::ForeignChunk`] for a chunk that `plan` did not cut: no kernel checks its bounds.
     pub(crate) fn take(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         if !plan.holds(chunk) {
-            let what = "chunks of another plan than the session's".into();
-            return Err(BackendError::Unsupported { schedule: opened.name.clone(), what });
+            return Err(BackendError::ForeignChunk { chunk: chunk.index });
         }
         self.held = None;
         self.forget_results();

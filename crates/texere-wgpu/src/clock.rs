@@ -1,6 +1,5 @@
 //! How long each stage took, by the device's own clock where it lets it be read.
 
-use std::fmt;
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
 
@@ -9,29 +8,11 @@ use wgpu::{BufferUsages, ComputePassTimestampWrites, Features, MapMode, Submissi
 
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
-/// Which clock the times of scan, trajectory and mesh come from. Those of upload and readback are always the host's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TimedBy {
-    /// The device's: from the start of the work to its end.
-    Device,
-    /// The host's, since the device has no timestamp queries or was opened without: from handing the work over to seeing
-    /// it done, so with all that it had to wait for.
-    Host,
-}
-
-impl fmt::Display for TimedBy {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Device => "device",
-            Self::Host => "host",
-        })
-    }
-}
-
-impl TimedBy {
-    pub(crate) fn of(device: &wgpu::Device) -> Self {
-        if device.features().contains(Features::TIMESTAMP_QUERY) { Self::Device } else { Self::Host }
-    }
+/// Whether a device with `features` lets its clock be read. Without, the time of a launch is the host's: from handing the
+/// work over to seeing it done, so with all that it had to wait for. The times of upload and readback are always the
+/// host's.
+pub(crate) fn has_clock(features: Features) -> bool {
+    features.contains(Features::TIMESTAMP_QUERY)
 }
 
 /// A stage that runs on the device.
@@ -80,10 +61,7 @@ struct Stamps {
 
 impl Clock {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
-        let stamps = match TimedBy::of(&gpu.device) {
-            TimedBy::Device => Some(Stamps::new(gpu)?),
-            TimedBy::Host => None,
-        };
+        let stamps = if has_clock(gpu.device.features()) { Some(Stamps::new(gpu)?) } else { None };
         Ok(Self { stamps, pending: Vec::new(), totals: StageTimings::default() })
     }
 

@@ -6,6 +6,7 @@ use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Limits, Plan, S
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
 use crate::Schedule;
+use crate::clock::has_clock;
 use crate::gpu::Gpu;
 use crate::session::WgpuSession;
 use crate::stages::Stages;
@@ -49,7 +50,8 @@ impl WgpuBackend {
             .enumerate()
             .map(|(index, adapter)| {
                 let name = name(index, Schedule::PerRing);
-                describe(name, &adapter.get_info(), &adapter.limits(), Schedule::PerRing)
+                let timed = has_clock(adapter.features());
+                describe(name, &adapter.get_info(), &adapter.limits(), timed, Schedule::PerRing)
             })
             .collect();
         if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
@@ -103,7 +105,8 @@ impl WgpuBackend {
     }
 
     fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
-        let info = describe(gpu.name.clone(), &gpu.device.adapter_info(), &gpu.device.limits(), schedule);
+        let (adapter, timed) = (gpu.device.adapter_info(), has_clock(gpu.device.features()));
+        let info = describe(gpu.name.clone(), &adapter, &gpu.device.limits(), timed, schedule);
         let stages = Stages::new(&gpu, schedule)?;
         Ok(Self { info, opened: Arc::new(Opened { gpu, stages }) })
     }
@@ -179,6 +182,7 @@ fn describe(
     name: String,
     adapter: &wgpu::AdapterInfo,
     limits: &wgpu::Limits,
+    timed_by_device: bool,
     schedule: Schedule,
 ) -> DeviceInfo {
     let binding_bytes = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
@@ -201,5 +205,6 @@ fn describe(
             blocks: LAUNCH_BLOCKS,
             ..Limits::NONE
         },
+        timed_by_device,
     }
 }

@@ -32,7 +32,6 @@ mod readback;
 mod session;
 mod stages;
 
-pub use clock::TimedBy;
 pub use device::WgpuBackend;
 pub use session::WgpuSession;
 pub use texere_core::Schedule;

@@ -11,7 +11,7 @@ use texere_core::{
 };
 
 use crate::buffers::{Slot, Tables};
-use crate::clock::{Clock, Timed, TimedBy};
+use crate::clock::{Clock, Timed};
 use crate::device::Opened;
 use crate::per_yarn;
 use crate::readback::Readback;
@@ -98,12 +98,6 @@ impl WgpuSession {
         Ok(self.find(chunk, |slot| slot.has_mesh)?.indices.buffer())
     }
 
-    /// Which clock [`Session::timings`] are of.
-    #[must_use]
-    pub fn timed_by(&self) -> TimedBy {
-        TimedBy::of(&self.opened.gpu.device)
-    }
-
     fn check_scanned(&self, call: &'static str) -> Result<(), BackendError> {
         if self.scanned || !self.plan.needs_scan() {
             Ok(())
@@ -127,10 +121,7 @@ impl WgpuSession {
         }
         let gpu = &self.opened.gpu;
         if !self.plan.holds(chunk) {
-            return Err(BackendError::Unsupported {
-                schedule: gpu.name.clone(),
-                what: "chunks of another plan than the session's".into(),
-            });
+            return Err(BackendError::ForeignChunk { chunk: chunk.index });
         }
         self.slots.swap(0, 1);
         let slot = &mut self.slots[1];

@@ -6,7 +6,7 @@ mod support;
 
 use texere_conformance::{cases, check};
 use texere_core::{Backend, BackendError, Frame, Limits, Session, Settings, Yarn};
-use texere_wgpu::{Schedule, TimedBy, WgpuBackend};
+use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::{INSTALL, backend, plan, read, waves};
 
@@ -64,7 +64,7 @@ fn a_callers_device_does_as_well() {
     let plan = plan(&yarns, Settings::default());
     let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
     let mut session = backend.wgpu_session(plan.clone()).unwrap();
-    assert_eq!(session.timed_by(), TimedBy::Host);
+    assert!(!backend.info().timed_by_device);
     session.upload(0, yarns.points()).unwrap();
     session.mesh(&chunk).unwrap();
     assert!(session.timings().mesh > std::time::Duration::ZERO);

@@ -235,7 +235,7 @@ fn each_stage_takes_time_on_the_device() {
     let plan = plan(&yarns, TURNING);
     let chunk = &chunks(&plan, u64::MAX)[0];
     let device = device(Schedule::PerRing);
-    assert!(device.is_timed_by_device());
+    assert!(device.info().timed_by_device);
     let mut session = device.session(plan).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.scan().unwrap();
@@ -267,7 +267,7 @@ fn chunks_of_another_plan_are_refused() {
     forged.caps.extend_from_within(..);
     for chunk in [&chunks(&other, 3)[0], chunks(&plan(&yarns, TURNING), 3).last().unwrap(), &forged] {
         for refused in [session.mesh(chunk), session.trajectory(chunk)] {
-            assert!(matches!(refused, Err(BackendError::Unsupported { .. })), "{refused:?}");
+            assert!(matches!(refused, Err(BackendError::ForeignChunk { .. })), "{refused:?}");
         }
     }
 }

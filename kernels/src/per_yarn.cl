@@ -69,7 +69,7 @@ void mesh_per_yarn(const Params params, __global const YarnRow *yarns, __global 
             vstore3(vertex.position, 0, out);
             vstore3(vertex.normal, 0, out + 3);
         }
-        if (params.indexed != 0u && ring + 1u < part.rings) {
+        if (params.indexed != 0u && ring < part.quads) {
             uint first_index = part.first_index + ring * 6u * sides;
             for (uint k = 0u; k < 6u * sides; k++) {
                 indices[first_index + k] = first_vertex + pattern[k];

@@ -78,7 +78,7 @@ fn mesh_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
                 vertices[out + 3u + c] = vertex.normal[c];
             }
         }
-        if params.indexed != 0u && ring + 1u < part.rings {
+        if params.indexed != 0u && ring < part.quads {
             let first_index = part.first_index + ring * 6u * sides;
             for (var k = 0u; k < 6u * sides; k++) {
                 indices[first_index + k] = first_vertex + pattern[k];

@@ -20,6 +20,8 @@
 //!   after it, which use its memory again.
 //! - wgpu does not tell how much memory a device has, so chunks are cut to what one binding may hold. Where that is
 //!   more than the memory, give stricter limits: [`WgpuBackend::with_limits`].
+//! - A software device such as llvmpipe silently ends a lane that loops for long. There [`Schedule::PerYarn`] gives a long
+//!   yarn to several lanes.
 //! - The shaders run without bounds checks. A chunk that does not belong to the session's plan is therefore refused
 //!   before it is launched.
 

@@ -128,7 +128,9 @@ impl WgpuSession {
         match &self.opened.stages {
             Stages::PerRing(_) => slot.take_tables(gpu, &self.plan, chunk, &chunk.blocks)?,
             Stages::PerYarn(_) => {
-                slot.take_tables(gpu, &self.plan, chunk, &per_yarn::part_rows(&chunk.blocks))?;
+                let most_rings = per_yarn::lane_rings(gpu, self.plan.settings().sides);
+                let rows = per_yarn::part_rows(&chunk.blocks, most_rings);
+                slot.take_tables(gpu, &self.plan, chunk, &rows)?;
             }
         }
         Ok(1)

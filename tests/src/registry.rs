@@ -8,6 +8,7 @@ use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
 
 use crate::DeferredBackend;
+use crate::cases::{self, Case};
 
 /// How a backend's devices are opened.
 ///
@@ -25,8 +26,10 @@ pub struct Entry {
     pub name: &'static str,
     /// Whether its output must equal the gold reference to the bit.
     pub exact: bool,
-    /// Opens all devices that it has. An error, or no device, and the backend counts as missing.
+    /// Opens all devices that it has, a schedule a device. An error, or no device, and the backend counts as missing.
     pub open: OpenAll,
+    /// The cases that its devices get.
+    pub cases: fn() -> Vec<Case>,
 }
 
 /// Opens all devices of a backend.
@@ -36,13 +39,19 @@ impl Entry {
     /// A backend whose output equals the gold reference to the bit.
     #[must_use]
     pub const fn exact(name: &'static str, open: OpenAll) -> Self {
-        Self { name, exact: true, open }
+        Self { exact: true, ..Self::near(name, open) }
     }
 
     /// A backend whose output equals it within the bounds of [`compare`](crate::compare).
     #[must_use]
     pub const fn near(name: &'static str, open: OpenAll) -> Self {
-        Self { name, exact: false, open }
+        Self { name, exact: false, open, cases: cases::all }
+    }
+
+    /// The same backend with other cases than [`cases::all`].
+    #[must_use]
+    pub const fn with_cases(self, cases: fn() -> Vec<Case>) -> Self {
+        Self { cases, ..self }
     }
 }
 
@@ -54,10 +63,13 @@ pub const REGISTRY: &[Entry] = &[
     Entry::near("wgpu", || open_each(WgpuBackend::devices()?.len(), WgpuBackend::open)),
 ];
 
-/// Opens devices 0 to `count`.
+/// Opens devices 0 to `count`, each with either schedule.
 fn open_each<B: Backend + 'static>(
     count: usize,
     open: fn(usize, Schedule) -> Result<B, BackendError>,
 ) -> Result<Vec<Arc<dyn Backend>>, BackendError> {
-    (0..count).map(|index| Ok(Arc::new(open(index, Schedule::PerRing)?) as Arc<dyn Backend>)).collect()
+    (0..count)
+        .flat_map(|index| [Schedule::PerRing, Schedule::PerYarn].map(|schedule| (index, schedule)))
+        .map(|(index, schedule)| Ok(Arc::new(open(index, schedule)?) as Arc<dyn Backend>))
+        .collect()
 }

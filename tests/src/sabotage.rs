@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Limits, MeshMut, MeshPiece, Plan, Ring, Session,
-    StageTimings, Traffic, Turn, Vertex,
+    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Limits, MeshMut, MeshPiece, Plan, Ring, Schedule,
+    Session, StageTimings, Traffic, Turn, Vertex,
 };
 use texere_cpu::SerialBackend;
 
@@ -52,10 +52,18 @@ pub enum Sabotage {
     LastBit,
     /// A cap covers a part of itself twice, in every chunk that has one.
     OpenCap,
+    /// All stages take no time, on a device that says it has a clock.
+    StoppedClock,
+    /// Every upload sends the whole fabric.
+    WholeUpload,
+    /// It calls itself per-yarn, and refuses nothing.
+    Eager,
+    /// It calls itself per-yarn, and refuses everything.
+    Lazy,
 }
 
 impl Sabotage {
-    /// All that no backend may do.
+    /// All that spoils an output.
     pub const ALL: [Self; 15] = [
         Self::ShiftedVertex,
         Self::SwappedIndices,
@@ -74,11 +82,16 @@ impl Sabotage {
         Self::OpenCap,
     ];
 
-    /// The faults that must be found, and no others.
+    /// The faults that must be found in its output, and no others.
     #[must_use]
     pub const fn faults(self) -> &'static [Fault] {
         match self {
-            Self::None | Self::LastBit => &[],
+            Self::None
+            | Self::LastBit
+            | Self::StoppedClock
+            | Self::WholeUpload
+            | Self::Eager
+            | Self::Lazy => &[],
             Self::ShiftedVertex => &[Fault::Position],
             Self::SwappedIndices | Self::OpenCap => &[Fault::Index],
             // Bits, since the rings that it shares with the chunks beside it differ.
@@ -114,7 +127,12 @@ impl SabotagedBackend {
     pub fn new(sabotage: Sabotage) -> Self {
         let serial = SerialBackend::new();
         let limits = Limits { blocks: 2, ..Limits::NONE };
-        let info = DeviceInfo { name: format!("{sabotage:?}"), limits, ..serial.info().clone() };
+        let mut info = DeviceInfo { name: format!("{sabotage:?}"), limits, ..serial.info().clone() };
+        match sabotage {
+            Sabotage::StoppedClock => info.timed_by_device = true,
+            Sabotage::Eager | Sabotage::Lazy => info.schedule = Schedule::PerYarn.to_string(),
+            _ => {}
+        }
         Self { info, serial, sabotage }
     }
 }
@@ -125,8 +143,12 @@ impl Backend for SabotagedBackend {
     }
 
     fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
+        if self.sabotage == Sabotage::Lazy {
+            let (schedule, what) = (self.info.name.clone(), "caps, nor anything else".into());
+            return Err(BackendError::Unsupported { schedule, what });
+        }
         let serial = self.serial.session(plan.clone())?;
-        Ok(Box::new(SabotagedSession { plan, serial, sabotage: self.sabotage }))
+        Ok(Box::new(SabotagedSession { plan, serial, sabotage: self.sabotage, uploads: 0 }))
     }
 }
 
@@ -135,6 +157,7 @@ struct SabotagedSession {
     plan: Arc<Plan>,
     serial: Box<dyn Session>,
     sabotage: Sabotage,
+    uploads: u64,
 }
 
 /// The chunk that most sabotage happens in.
@@ -232,6 +255,7 @@ fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
 
 impl Session for SabotagedSession {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), BackendError> {
+        self.uploads += 1;
         self.serial.upload(first, points)
     }
 
@@ -293,10 +317,19 @@ impl Session for SabotagedSession {
     }
 
     fn timings(&self) -> StageTimings {
-        self.serial.timings()
+        match self.sabotage {
+            Sabotage::StoppedClock => StageTimings::default(),
+            _ => self.serial.timings(),
+        }
     }
 
     fn traffic(&self) -> Traffic {
-        self.serial.traffic()
+        let traffic = self.serial.traffic();
+        match self.sabotage {
+            Sabotage::WholeUpload => {
+                Traffic { uploaded: self.uploads * self.plan.resident_bytes(), ..traffic }
+            }
+            _ => traffic,
+        }
     }
 }

@@ -2,6 +2,10 @@
 
 use std::process::ExitCode;
 
+use texere_conformance::{REGISTRY, run};
+
 fn main() -> ExitCode {
-    texere_conformance::run(std::env::args_os(), texere_conformance::REGISTRY)
+    // Names, with commas between them, of the backends that must be there.
+    let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
+    run(std::env::args_os(), REGISTRY, &required)
 }

@@ -57,6 +57,42 @@ pub(super) fn menagerie(section: Section) -> Yarns {
     yarns.build().unwrap()
 }
 
+/// Every shape that is open and has no twist, in one fabric.
+pub(super) fn standing() -> Yarns {
+    let mut yarns = Yarns::builder();
+    for shape in shapes::all().into_iter().filter(|shape| !shape.yarn.closed && shape.yarn.twist == 0.0) {
+        yarns.yarn(shape.yarn, &shape.points);
+    }
+    yarns.build().unwrap()
+}
+
+/// A yarn of more than a block and one of less, thick and thin, both like `yarn` but of `section`.
+pub(super) fn couple(yarn: Yarn, section: Section) -> Yarns {
+    let mut yarns = Yarns::builder();
+    let yarn = Yarn { section: yarns.section(section), ..yarn };
+    for (points, beside) in [(66, 0.0), (9, 40.0)] {
+        let slubbed = |(k, point): (u8, &ControlPoint)| ControlPoint {
+            x: point.x + beside,
+            radius: 0.25 + 0.1 * (f32::from(k) * 1.1).sin(),
+            ..*point
+        };
+        let points: Vec<_> =
+            (0..).zip(winding(points, Yarn { section: 0, ..yarn }).points()).map(slubbed).collect();
+        yarns.yarn(yarn, &points);
+    }
+    yarns.build().unwrap()
+}
+
+/// The corners of a wheel whose teeth are one corner each.
+pub(super) fn cog(corners: u32) -> Vec<[f32; 2]> {
+    let corner = |k: u32| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(corners)).sin_cos();
+        let out = if k.is_multiple_of(2) { 1.1 } else { 0.85 };
+        [(out * cos) as f32, (out * sin) as f32]
+    };
+    (0..corners).map(corner).collect()
+}
+
 /// Yarns of several materials and sections, open and closed, twisted and not, long and short.
 pub(super) fn mixed() -> Yarns {
     let mut yarns = Yarns::builder();

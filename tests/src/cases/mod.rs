@@ -1,12 +1,20 @@
 //! The cases that every backend has to get right.
 
+mod covering;
+mod designs;
 mod fabrics;
+mod factors;
 mod shapes;
+
+pub use designs::design;
+pub use factors::{pairwise, product};
 
 use std::fmt;
 use std::sync::Arc;
 
 use texere_core::{Frame, Section, Settings, Topology, Yarn, Yarns};
+
+use crate::limits::Tight;
 
 /// Yarns and what is asked of them, with a name.
 #[derive(Clone)]
@@ -15,6 +23,8 @@ pub struct Case {
     pub name: String,
     /// What is asked for.
     pub settings: Settings,
+    /// What its chunks are cut to.
+    pub tight: Tight,
     build: Arc<dyn Fn() -> Yarns + Send + Sync>,
 }
 
@@ -23,6 +33,7 @@ impl fmt::Debug for Case {
         f.debug_struct("Case")
             .field("name", &self.name)
             .field("settings", &self.settings)
+            .field("tight", &self.tight)
             .finish_non_exhaustive()
     }
 }
@@ -42,17 +53,22 @@ const USUAL: Settings = Settings {
 };
 
 impl Case {
+    /// One cut to a few blocks.
+    fn new(name: String, settings: Settings, build: impl Fn() -> Yarns + Send + Sync + 'static) -> Self {
+        Self { name, settings, tight: Tight::Blocks, build: Arc::new(build) }
+    }
+
     /// One for each frame.
     fn framed(
         name: impl fmt::Display,
         settings: Settings,
         build: impl Fn() -> Yarns + Send + Sync + 'static,
     ) -> [Self; 2] {
-        let build: Arc<dyn Fn() -> Yarns + Send + Sync> = Arc::new(build);
+        let case = Self::new(String::new(), settings, build);
         FRAMES.map(|(frame_name, frame)| Self {
             name: format!("{name}::{frame_name}"),
             settings: Settings { frame, ..settings },
-            build: build.clone(),
+            ..case.clone()
         })
     }
 
@@ -63,13 +79,16 @@ impl Case {
     }
 }
 
-/// All cases.
+/// All cases but [`product`]'s.
 #[must_use]
 pub fn all() -> Vec<Case> {
     let mut cases = each_shape();
     cases.extend(settings_swept());
     cases.extend(sections_swept());
     cases.extend(long_and_many());
+    cases.extend(papers());
+    cases.extend(designs::each_design());
+    cases.extend(pairwise());
     cases
 }
 
@@ -146,6 +165,30 @@ fn sections_swept() -> Vec<Case> {
         let build = move || fabrics::menagerie(Section::Polygon(corners.clone()));
         cases.extend(Case::framed(format!("section-polygon-{name}"), settings, build));
     }
+    cases
+}
+
+/// What the paper's own algorithms do: open, untwisted yarns without caps, upright.
+fn papers() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (topology_name, topology) in
+        [("indexed", Topology::Indexed), ("shared", Topology::Shared), ("unindexed", Topology::None)]
+    {
+        for (subdivisions, sides) in [(0, 64), (1, 6), (2, 3), (3, 16), (5, 7), (8, 4)] {
+            let settings = Settings { subdivisions, sides, topology, caps: false, ..USUAL };
+            let name = format!("paper-k{subdivisions}-n{sides}-{topology_name}::upright");
+            cases.push(Case::new(name, settings, fabrics::standing));
+        }
+    }
+    for points in [2, 63, 64, 65, 66, 129, 1_000] {
+        let settings = Settings { subdivisions: 0, caps: false, ..USUAL };
+        let build = move || fabrics::winding(points, Yarn::default());
+        cases.push(Case::new(format!("paper-rings-{points}::upright"), settings, build));
+    }
+    // More than 65,535 rounds of a lane's loops.
+    let settings = Settings { sides: 24, caps: false, ..USUAL };
+    let build = || fabrics::winding(1_000, Yarn::default());
+    cases.push(Case::new("paper-long::upright".into(), settings, build));
     cases
 }
 

@@ -1,0 +1,67 @@
+//! Rows of values, one for each factor, in which every two values of two factors meet.
+
+use std::collections::BTreeSet;
+
+/// A factor and one of its values, both by number.
+type Level = (usize, usize);
+
+/// The fewest rows that a greedy search finds, for factors of `sizes` values; the same ones on every run.
+///
+/// Each row starts with a pair that no row has yet, and takes for each further factor the value that brings the most new
+/// pairs (Cohen, Dalal, Fredman and Patton 1997, without their random choices).
+pub(super) fn covering(sizes: &[usize]) -> Vec<Vec<usize>> {
+    let mut open = pairs(sizes);
+    let mut rows = Vec::new();
+    while let Some(&(one, other)) = open.first() {
+        let mut levels: Vec<Level> = vec![one, other];
+        for factor in (0..sizes.len()).filter(|factor| ![one.0, other.0].contains(factor)) {
+            let gain = |value: &usize| {
+                levels.iter().filter(|&&level| open.contains(&pair(level, (factor, *value)))).count()
+            };
+            // Among equals another one each time, so that no value is worn out.
+            let values = (0..sizes[factor]).map(|value| (value + rows.len()) % sizes[factor]);
+            let best = values.max_by_key(gain).unwrap_or_default();
+            levels.push((factor, best));
+        }
+        levels.sort_unstable();
+        for (number, &level) in levels.iter().enumerate() {
+            for &later in &levels[number + 1..] {
+                open.remove(&(level, later));
+            }
+        }
+        rows.push(levels.into_iter().map(|(_, value)| value).collect());
+    }
+    rows
+}
+
+/// The factor that comes first in front.
+fn pair(one: Level, other: Level) -> (Level, Level) {
+    if one < other { (one, other) } else { (other, one) }
+}
+
+fn pairs(sizes: &[usize]) -> BTreeSet<(Level, Level)> {
+    let mut pairs = BTreeSet::new();
+    for factor in 0..sizes.len() {
+        for later in factor + 1..sizes.len() {
+            for value in 0..sizes[factor] {
+                pairs.extend((0..sizes[later]).map(|other| ((factor, value), (later, other))));
+            }
+        }
+    }
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three factors of two values need four rows, and no fewer; nine of very different sizes about as many as the two
+    /// largest ask for.
+    #[test]
+    fn few_rows_are_enough() {
+        assert_eq!(covering(&[2, 2, 2]).len(), 4);
+        assert_eq!(covering(&[4]).len(), 0);
+        let rows = covering(&[9, 62, 2, 6, 2, 2, 3, 3, 4]).len();
+        assert!((558..=570).contains(&rows), "{rows}");
+    }
+}

@@ -1,0 +1,86 @@
+//! The designs of `designs/`, each cut to a few threads.
+
+use std::path::{Path, PathBuf};
+
+use texere_core::{Settings, Yarns};
+use texere_fabric::{Drawdown, Thread, Woven};
+use texere_formats::{Design, Structure, read};
+
+use super::{Case, USUAL};
+
+/// Ends, and picks, that a cut cloth has at most.
+const THREADS: usize = 20;
+
+/// `designs/` in the working folder, where the suite was built alone and carried elsewhere, or else in this workspace.
+fn folder() -> PathBuf {
+    let here = PathBuf::from("designs");
+    if here.is_dir() { here } else { Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs") }
+}
+
+/// The design in `path` within `designs/`.
+///
+/// # Panics
+///
+/// Where it can't be read.
+#[must_use]
+pub fn design(path: impl AsRef<Path>) -> Design {
+    read(folder().join(path)).unwrap()
+}
+
+/// Every design as it is meant to look, in both frames, and as the paper has it: upright and without caps.
+pub(super) fn each_design() -> Vec<Case> {
+    let mut paths = Vec::new();
+    gather(&folder(), Path::new(""), &mut paths);
+    paths.sort();
+    // A suite that finds no design has lost its way, and says so where a design is asked for.
+    let paths = if paths.is_empty() { vec!["missing.toml".into()] } else { paths };
+    paths
+        .into_iter()
+        .flat_map(|path: PathBuf| {
+            let name = path.with_extension("").to_string_lossy().replace(['/', '\\'], "-");
+            let (capped, bare) = (path.clone(), path);
+            let mut cases =
+                Case::framed(format!("design-{name}"), USUAL, move || small(&design(&capped))).to_vec();
+            let build = move || small(&design(&bare));
+            cases.push(Case::new(format!("design-{name}-bare::upright"), Settings::default(), build));
+            cases
+        })
+        .collect()
+}
+
+/// Collects all designs in `within` and the folders in it, by their paths in `root`.
+fn gather(root: &Path, within: &Path, paths: &mut Vec<PathBuf>) {
+    let entries = std::fs::read_dir(root.join(within)).into_iter().flatten().flatten();
+    for path in entries.map(|entry| within.join(entry.file_name())) {
+        if root.join(&path).is_dir() {
+            gather(root, &path, paths);
+        } else if path.extension().is_some_and(|ending| ending == "toml" || ending == "wif") {
+            paths.push(path);
+        }
+    }
+}
+
+/// The yarns of a design, of which a cloth is cut to a few threads.
+fn small(design: &Design) -> Yarns {
+    match &design.structure {
+        Structure::Woven(cloth) => middle(cloth).yarns().unwrap(),
+        _ => design.yarns().unwrap(),
+    }
+}
+
+/// A piece from the middle of a cloth, where a figure lies rather than its ground.
+fn middle(cloth: &Woven) -> Woven {
+    let whole = cloth.drawdown();
+    let (ends, picks) = (whole.ends().min(THREADS), whole.picks().min(THREADS));
+    let (first_end, first_pick) = ((whole.ends() - ends) / 2, (whole.picks() - picks) / 2);
+    let drawdown =
+        Drawdown::from_fn(ends, picks, |end, pick| whole.up(first_end + end, first_pick + pick)).unwrap();
+    let cut = |threads: &[Thread], first: usize, count: usize| threads[first..first + count].to_vec();
+    let (warp, weft) = (cut(cloth.warp(), first_end, ends), cut(cloth.weft(), first_pick, picks));
+    let mut piece =
+        Woven::new(drawdown, warp, weft, cloth.materials().to_vec(), cloth.sections().to_vec()).unwrap();
+    piece.set_shape(cloth.shape());
+    piece.set_crimp(cloth.crimp()).unwrap();
+    piece.set_selvedge(cloth.selvedge());
+    piece
+}

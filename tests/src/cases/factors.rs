@@ -1,0 +1,157 @@
+//! Settings, sections, ends and limits, all against all: every pair of values, or every combination.
+
+use texere_core::{Frame, Section, Settings, Topology, Yarn};
+
+use super::covering::covering;
+use super::{Case, FRAMES, fabrics};
+use crate::limits::Tight;
+
+/// A kind of section with as many corners as a tube has sides.
+type Sectioned = (&'static str, fn(u32) -> Section);
+
+const SECTIONS: [Sectioned; 6] = [
+    ("circle", |_| Section::Circle),
+    ("ellipse", |_| Section::Ellipse { aspect: 1.8 }),
+    ("lens", |_| Section::Lenticular { aspect: 2.0, distortion: 0.25 }),
+    ("power", |_| Section::PowerEllipse { aspect: 1.5, exponent: 0.6 }),
+    ("three-ply", |_| Section::Lobed { plies: 3 }),
+    ("polygon", |sides| Section::Polygon(fabrics::cog(sides))),
+];
+
+const ENDS: [(&str, bool); 2] = [("open", false), ("closed", true)];
+
+const CAPS: [(&str, bool); 2] = [("uncapped", false), ("capped", true)];
+
+const TOPOLOGIES: [(&str, Topology); 3] =
+    [("indexed", Topology::Indexed), ("shared", Topology::Shared), ("unindexed", Topology::None)];
+
+const TWISTS: [(&str, f32); 3] = [("untwisted", 0.0), ("twist-z", 0.6), ("twist-s", -3.0)];
+
+const LIMITS: [(&str, Tight); 4] = [
+    ("unlimited", Tight::Nothing),
+    ("few-blocks", Tight::Blocks),
+    ("small-bindings", Tight::Binding),
+    ("little-memory", Tight::Memory),
+];
+
+/// The factors whose ranges are too long for the product.
+struct Counts {
+    subdivisions: Vec<u32>,
+    sides: Vec<u32>,
+}
+
+impl Counts {
+    fn all() -> Self {
+        Self { subdivisions: (0..=8).collect(), sides: (3..=64).collect() }
+    }
+
+    /// Least and most, odd and even, and the powers of two with their neighbours.
+    fn thinned() -> Self {
+        Self { subdivisions: vec![0, 1, 2, 4, 8], sides: vec![3, 4, 5, 6, 7, 8, 16, 33, 64] }
+    }
+
+    /// How many values each factor has.
+    fn sizes(&self) -> [usize; 9] {
+        [
+            self.subdivisions.len(),
+            self.sides.len(),
+            FRAMES.len(),
+            SECTIONS.len(),
+            ENDS.len(),
+            CAPS.len(),
+            TOPOLOGIES.len(),
+            TWISTS.len(),
+            LIMITS.len(),
+        ]
+    }
+
+    /// The case of one value a factor, by number; its name has them all.
+    fn case(&self, set: &str, row: &[usize]) -> Case {
+        let &[subdivisions, sides, frame, section, end, caps, topology, twist, limit] = row else {
+            panic!("{row:?} is not a value for each factor");
+        };
+        let (subdivisions, sides) = (self.subdivisions[subdivisions], self.sides[sides]);
+        let (frame_name, frame): (_, Frame) = FRAMES[frame];
+        let (section_name, section) = SECTIONS[section];
+        let (end_name, closed) = ENDS[end];
+        let (caps_name, caps) = CAPS[caps];
+        let (topology_name, topology) = TOPOLOGIES[topology];
+        let (twist_name, twist) = TWISTS[twist];
+        let (limit_name, tight) = LIMITS[limit];
+        let settings = Settings { tension: 0.0, subdivisions, sides, frame, topology, caps };
+        let name = format!(
+            "{set}::k{subdivisions}-n{sides}-{section_name}-{end_name}-{caps_name}-{topology_name}-{twist_name}-\
+             {limit_name}::{frame_name}"
+        );
+        let build = move || fabrics::couple(Yarn { closed, twist, ..Yarn::default() }, section(sides));
+        Case { tight, ..Case::new(name, settings, build) }
+    }
+}
+
+/// Cases in which every pair of values meets: of subdivisions 0 to 8, sides 3 to 64, both frames, six kinds of section,
+/// open and closed yarns, caps, topologies, twist, and limits.
+#[must_use]
+pub fn pairwise() -> Vec<Case> {
+    let counts = Counts::all();
+    covering(&counts.sizes()).iter().map(|row| counts.case("pairwise", row)).collect()
+}
+
+/// Every combination of the values of [`pairwise`], but of subdivisions only 0, 1, 2, 4 and 8, and of sides only 3 to 8,
+/// 16, 33 and 64: 77,760 cases. Made one at a time, since together they take some room.
+pub fn product() -> impl Iterator<Item = Case> {
+    let counts = Counts::thinned();
+    let sizes = counts.sizes();
+    (0..sizes.iter().product()).map(move |number: usize| {
+        let mut rest = number;
+        let row = sizes.map(|size| {
+            let value = rest % size;
+            rest /= size;
+            value
+        });
+        counts.case("product", &row)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// What two cases have to differ in to have another value of factor `which`, read from the case and not from a row.
+    fn value(case: &Case, which: usize) -> String {
+        let Settings { subdivisions, sides, frame, topology, caps, .. } = case.settings;
+        let yarns = case.yarns();
+        let yarn = yarns.layout().yarns()[0];
+        match which {
+            0 => subdivisions.to_string(),
+            1 => sides.to_string(),
+            2 => format!("{frame:?}"),
+            // A polygon has other corners for each number of sides.
+            3 => format!("{:?}", std::mem::discriminant(&yarns.layout().sections()[yarn.section as usize])),
+            4 => yarn.closed.to_string(),
+            5 => caps.to_string(),
+            6 => format!("{topology:?}"),
+            7 => yarn.twist.to_string(),
+            _ => format!("{:?}", case.tight),
+        }
+    }
+
+    #[test]
+    fn every_pair_of_values_meets() {
+        let counts = [9, 62, 2, 6, 2, 2, 3, 3, 4];
+        let values: Vec<[String; 9]> =
+            pairwise().iter().map(|case| std::array::from_fn(|which| value(case, which))).collect();
+        for one in 0..9 {
+            for other in one + 1..9 {
+                let met: BTreeSet<_> = values.iter().map(|values| (&values[one], &values[other])).collect();
+                assert_eq!(met.len(), counts[one] * counts[other], "factors {one} and {other}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_product_has_every_combination_once() {
+        let names: BTreeSet<_> = product().map(|case| case.name).collect();
+        assert_eq!(names.len(), 77_760);
+    }
+}

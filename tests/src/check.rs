@@ -1,0 +1,74 @@
+//! One fabric on one device, every way there is.
+
+use std::sync::Arc;
+
+use texere_core::{Backend, Limits, Plan, Settings, Yarns};
+use texere_cpu::SerialBackend;
+
+use crate::compare::{
+    Assembled, Report, assemble, compare_bits, compare_counts, compare_with_gold, compare_with_oracle,
+};
+use crate::drive::{DriveError, Way, drive};
+use crate::limits::Tight;
+use crate::oracle::Oracle;
+
+/// Runs `yarns` under `settings` on `device` every way there is, and tells what is wrong: against the oracle, against
+/// the gold reference (to the bit where `exact`), whole against chunks of a few blocks.
+///
+/// ```
+/// use texere_conformance::{DeferredBackend, cases, check};
+/// let case = &cases::all()[0];
+/// let report = check(&case.yarns(), case.settings, &DeferredBackend::new(), true)?;
+/// assert!(report.is_clean(), "{report}");
+/// # Ok::<(), texere_conformance::drive::DriveError>(())
+/// ```
+///
+/// **Errors**: [`DriveError`] where the device gives up.
+pub fn check(
+    yarns: &Yarns,
+    settings: Settings,
+    device: &dyn Backend,
+    exact: bool,
+) -> Result<Report, DriveError> {
+    check_within(yarns, settings, Tight::Blocks, device, exact)
+}
+
+/// [`check`], with chunks cut to the limit that is `tight`.
+///
+/// **Errors**: [`DriveError`] where the device gives up.
+pub fn check_within(
+    yarns: &Yarns,
+    settings: Settings,
+    tight: Tight,
+    device: &dyn Backend,
+    exact: bool,
+) -> Result<Report, DriveError> {
+    let oracle = Oracle::new(yarns, &settings);
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+    let mut report = Report::default();
+    compare_counts(&oracle, &plan, &mut report);
+
+    let mut run = |device: &dyn Backend, limits: &Limits, way| -> Result<Assembled, DriveError> {
+        let output = drive(device, &plan, yarns, limits, way, &mut report)?;
+        Ok(assemble(&oracle, &output, &mut report))
+    };
+    let whole = run(device, &Limits::NONE, Way::Into)?;
+    let others = [
+        run(device, &tight.limits(&plan, 1), Way::Streamed)?,
+        run(device, &tight.limits(&plan, 2), Way::Staged)?,
+    ];
+    let gold = run(&SerialBackend::new(), &Limits::NONE, Way::Into)?;
+
+    compare_with_oracle(&oracle, &whole, &mut report);
+    for other in &others {
+        compare_bits(&oracle, &whole, other, &mut report);
+    }
+    if exact {
+        compare_bits(&oracle, &gold, &whole, &mut report);
+    } else {
+        let mut against_gold = Report::default();
+        compare_with_gold(&oracle, &gold, &whole, &mut against_gold);
+        report.absorb(against_gold);
+    }
+    Ok(report)
+}

@@ -1,0 +1,53 @@
+//! Limits so tight that a plan has to be cut.
+
+use texere_core::{Limits, Plan, PlanError};
+
+/// The suite's own chunks hold at most this share of a plan's blocks, so that every case of more than one block is cut
+/// and none into more chunks than take long.
+const CUTS: u64 = 40;
+
+/// Which limit chunks are cut to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tight {
+    /// None: all in one chunk, as far as the device takes it.
+    Nothing,
+    /// The blocks of a launch.
+    Blocks,
+    /// The bytes of the largest buffer.
+    Binding,
+    /// The bytes of all memory.
+    Memory,
+}
+
+impl Tight {
+    /// Limits that leave room for the largest block of `plan`, `room` times over, beside the ring that a cut repeats.
+    #[must_use]
+    pub fn limits(self, plan: &Plan, room: u64) -> Limits {
+        let by_binding = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };
+        let by_memory = |memory_bytes| Limits { memory_bytes, ..Limits::NONE };
+        match self {
+            Self::Nothing => Limits::NONE,
+            Self::Blocks => Limits { blocks: (room + 1).max(plan.block_count() / CUTS), ..Limits::NONE },
+            Self::Binding => by_binding(room * least(plan, by_binding)),
+            Self::Memory => {
+                let resident = plan.resident_bytes();
+                by_memory(resident + room * (least(plan, by_memory) - resident))
+            }
+        }
+    }
+}
+
+/// The least that a limit can be for `plan`: what the refusals of anything less ask for.
+///
+/// # Panics
+///
+/// Where a refusal names another limit than it was given, or asks for no more than that.
+#[must_use]
+pub fn least(plan: &Plan, limits: impl Fn(u64) -> Limits) -> u64 {
+    let mut limit = 0;
+    while let Err(PlanError::BlockTooLarge { needed, limit: refused, .. }) = plan.chunks(&limits(limit)) {
+        assert!(refused == limit && needed > limit);
+        limit = needed;
+    }
+    limit
+}

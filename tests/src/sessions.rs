@@ -1,0 +1,185 @@
+//! What every session promises besides its output: where its work was done, and what an edit moves.
+
+use std::ops::{ControlFlow, Range};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
+
+use libtest_mimic::{Failed, Trial};
+use texere_core::{
+    Backend, BackendError, Chunk, ControlPoint, Frame, Limits, MeshPiece, Plan, Schedule, Session, Settings,
+    StageTimings, Vertex, Yarn, Yarns,
+};
+
+use crate::cases;
+
+/// A name, and whether a device keeps the promise.
+type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);
+
+const PROMISES: [Promise; 2] =
+    [("every-stage-is-timed", every_stage_is_timed), ("an-edit-moves-one-yarn", an_edit_moves_one_yarn)];
+
+/// One trial for each promise.
+pub(crate) fn trials(device: &Arc<dyn Backend>) -> Vec<Trial> {
+    let trial = |(name, kept): Promise| {
+        let device = device.clone();
+        Trial::test(format!("session::{name}::{}", device.info().name), move || kept(&*device))
+    };
+    PROMISES.into_iter().map(trial).collect()
+}
+
+/// All that a device can be asked for at once: a scan and caps too, unless its schedule does neither.
+fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
+    if device.info().schedule == Schedule::PerYarn.to_string() {
+        return (Settings::default(), Yarn::default());
+    }
+    let settings = Settings { frame: Frame::RotationMinimizing, caps: true, ..Settings::default() };
+    (settings, Yarn { twist: 1.0, ..Yarn::default() })
+}
+
+/// Each stage took time, and all of them together no more than there was. Where the device has a clock of its own, that
+/// is the proof that it did the work.
+fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
+    let (settings, yarn) = all_of(device);
+    let yarns = cases::winding(2_500, yarn);
+    let settings = Settings { subdivisions: 7, sides: 8, ..settings };
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+    let mut session = device.session(plan.clone())?;
+    let started = Instant::now();
+    session.upload(0, yarns.points())?;
+    session.scan()?;
+    for chunk in plan.chunks(&device.info().limits)? {
+        session.trajectory(&chunk)?;
+        // Waits for the stage, so that reading is not a wait for it.
+        session.timings();
+        let _ = session.read_trajectory(&chunk, &mut |_| ControlFlow::Continue(()))?;
+        session.mesh(&chunk)?;
+        session.timings();
+        let _ = session.read_mesh(&chunk, &mut |_| ControlFlow::Continue(()))?;
+    }
+    let times = session.timings();
+    let there_was = started.elapsed();
+
+    let StageTimings { upload, scan, trajectory, mesh, readback } = times;
+    let idle = [
+        ("upload", upload, true),
+        ("scan", scan, plan.needs_scan()),
+        ("trajectory", trajectory, true),
+        ("mesh", mesh, true),
+        // What works in the host's own memory reads nothing back.
+        ("readback", readback, device.info().timed_by_device),
+    ];
+    for (stage, time, takes_time) in idle {
+        if takes_time && time == Duration::ZERO {
+            return Err(format!("{stage} took no time: {times:?}").into());
+        }
+    }
+    if upload + scan + trajectory + mesh + readback > there_was {
+        return Err(format!("{times:?} in {there_was:?}").into());
+    }
+    Ok(())
+}
+
+/// The cloth of 815 ends by 750 picks, read once.
+fn cloth() -> &'static Yarns {
+    static CLOTH: OnceLock<Yarns> = OnceLock::new();
+    CLOTH.get_or_init(|| cases::design("paper/815x750.toml").yarns().unwrap())
+}
+
+/// Blocks of a chunk of that cloth: a few yarns each, and a yarn in two chunks now and then.
+const EDIT_LIMITS: Limits = Limits { blocks: 64, ..Limits::NONE };
+
+/// The edited yarn, a pick in the middle.
+const EDITED: usize = 815 + 375;
+
+/// A yarn that is uploaded again moves its own bytes and no more, reading its chunks moves theirs and no more, and they
+/// are what a new session makes of the edited cloth.
+fn an_edit_moves_one_yarn(device: &dyn Backend) -> Result<(), Failed> {
+    let mut yarns = cloth().clone();
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), all_of(device).0)?);
+    let of_edited = |chunk: &Chunk| chunk.parts.iter().any(|part| part.yarn as usize == EDITED);
+    let chunks: Vec<_> = plan.chunks(&EDIT_LIMITS.min(&device.info().limits))?.filter(of_edited).collect();
+    let mut session = device.session(plan.clone())?;
+    session.upload(0, yarns.points())?;
+    moved("the whole cloth", session.traffic().uploaded, plan.resident_bytes())?;
+    session.scan()?;
+    let before = meshes(&mut *session, &chunks)?;
+
+    let raised: Vec<_> = yarns
+        .yarn_points(EDITED)
+        .into_iter()
+        .flatten()
+        .map(|point| ControlPoint { z: point.z + 1.0, ..*point })
+        .collect();
+    yarns.set_points(EDITED, &raised)?;
+    let first = yarns.layout().offsets()[EDITED];
+    let sent = session.traffic();
+    session.upload(first, &raised)?;
+    session.scan()?;
+    let after = meshes(&mut *session, &chunks)?;
+    let own = plan.padded_offsets()[EDITED + 1] - plan.padded_offsets()[EDITED];
+    let traffic = session.traffic();
+    moved("the edited yarn", traffic.uploaded - sent.uploaded, own * size_of::<ControlPoint>() as u64)?;
+    if device.info().timed_by_device || traffic.read > 0 {
+        let bytes = |chunk: &Chunk| {
+            u64::from(chunk.vertices) * size_of::<Vertex>() as u64
+                + u64::from(chunk.indices) * size_of::<u32>() as u64
+        };
+        moved("its chunks", traffic.read - sent.read, chunks.iter().map(bytes).sum())?;
+    }
+
+    let mut fresh = device.session(plan.clone())?;
+    fresh.upload(0, yarns.points())?;
+    fresh.scan()?;
+    if meshes(&mut *fresh, &chunks)? != after {
+        return Err("a new session makes another mesh of the edited cloth".into());
+    }
+    let sides = plan.settings().sides;
+    for ((chunk, before), after) in chunks.iter().zip(&before).zip(&after) {
+        let own = own_vertices(chunk, sides);
+        let changed = before.vertices.iter().zip(&after.vertices).map(|(before, after)| before != after);
+        let wrong =
+            (0..).zip(changed).find(|(at, changed)| own.iter().any(|own| own.contains(at)) != *changed);
+        if let Some((vertex, _)) = wrong {
+            return Err(format!("vertex {vertex} of chunk {}: the yarn's own {own:?}", chunk.index).into());
+        }
+    }
+    Ok(())
+}
+
+fn moved(what: &str, bytes: u64, expected: u64) -> Result<(), Failed> {
+    if bytes == expected { Ok(()) } else { Err(format!("{what}: {bytes} bytes, not {expected}").into()) }
+}
+
+/// What a session makes of a chunk.
+#[derive(Default, PartialEq)]
+struct Made {
+    vertices: Vec<Vertex>,
+    indices: Vec<u32>,
+}
+
+fn meshes(session: &mut dyn Session, chunks: &[Chunk]) -> Result<Vec<Made>, BackendError> {
+    let read = |chunk| {
+        let mut made = Made::default();
+        session.mesh(chunk)?;
+        let _ = session.read_mesh(chunk, &mut |piece| {
+            match piece {
+                MeshPiece::Vertices { vertices, .. } => made.vertices.extend_from_slice(vertices),
+                MeshPiece::Indices { indices, .. } => made.indices.extend_from_slice(indices),
+                _ => {}
+            }
+            ControlFlow::Continue(())
+        })?;
+        Ok(made)
+    };
+    chunks.iter().map(read).collect()
+}
+
+/// Where in a chunk's vertices the edited yarn's lie: its tube's, and those of its caps.
+fn own_vertices(chunk: &Chunk, sides: u32) -> Vec<Range<u32>> {
+    let parts = chunk.parts.iter().filter(|part| part.yarn as usize == EDITED);
+    let caps = chunk.caps.iter().filter(|cap| cap.yarn as usize == EDITED);
+    parts
+        .map(|part| part.first_vertex..part.first_vertex + part.rings * sides)
+        .chain(caps.map(|cap| cap.first_vertex..cap.first_vertex + sides))
+        .collect()
+}

@@ -1,0 +1,41 @@
+//! The table that `--worst` prints: how near outputs came to their bounds.
+
+use std::sync::{Arc, Mutex};
+
+use crate::compare::{Quantity, Report, Worst};
+
+/// One trial's worst values, in the order of [`Quantity::ALL`].
+type Row = (String, [Worst; Quantity::ALL.len()]);
+
+/// The worst values of each trial, from all the threads that trials run on.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Table(Arc<Mutex<Vec<Row>>>);
+
+impl Table {
+    pub(crate) fn note(&self, trial: String, report: &Report) {
+        self.0.lock().unwrap().push((trial, Quantity::ALL.map(|quantity| report.worst(quantity))));
+    }
+
+    /// Prints one line a trial and the worst of all last: each quantity's error, and its share of what is allowed.
+    pub(crate) fn print(&self) {
+        let mut rows = self.0.lock().unwrap();
+        rows.sort_by(|(a, _), (b, _)| a.cmp(b));
+        let titles = ["centre, radii", "radius", "tangent, rad", "roll, rad", "vertex, radii", "normal, rad"];
+        let line = |name: &str, cells: [String; Quantity::ALL.len()]| {
+            println!("{name:<100} {}", cells.map(|cell| format!("{cell:>18}")).join(""));
+        };
+        line("worst error (share of allowed)", titles.map(Into::into));
+        let mut most = [Worst::default(); Quantity::ALL.len()];
+        for (name, worst) in rows.iter() {
+            line(name, worst.map(cell));
+            for (most, worst) in most.iter_mut().zip(worst) {
+                *most = Worst { error: most.error.max(worst.error), share: most.share.max(worst.share) };
+            }
+        }
+        line("all", most.map(cell));
+    }
+}
+
+fn cell(worst: Worst) -> String {
+    format!("{:.1e} ({:.3})", worst.error, worst.share)
+}

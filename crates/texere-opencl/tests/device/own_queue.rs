@@ -16,7 +16,7 @@ use opencl3::platform::get_platforms;
 use texere_core::{Backend, BackendError, DeviceInfo, Limits, Pipeline, Session, Settings, Vertex};
 use texere_opencl::{OpenClBackend, Schedule};
 
-fn context() -> (Context, Device) {
+pub(crate) fn context() -> (Context, Device) {
     // The backend's own list first: it minds that first calls are for one thread alone.
     OpenClBackend::devices().unwrap();
     let platform = get_platforms().unwrap()[0];
@@ -24,7 +24,7 @@ fn context() -> (Context, Device) {
     (Context::from_device(&device).unwrap(), device)
 }
 
-fn queue(context: &Context, properties: u64) -> CommandQueue {
+pub(crate) fn queue(context: &Context, properties: u64) -> CommandQueue {
     #[allow(deprecated, reason = "OpenCL 1.2, as the backend itself")]
     CommandQueue::create_default(context, properties).unwrap()
 }

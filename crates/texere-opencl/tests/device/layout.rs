@@ -1,0 +1,186 @@
+//! What Rust writes into a table, a kernel reads under the same name: on the device, with its compiler.
+
+#![allow(
+    clippy::undocumented_unsafe_blocks,
+    reason = "every call of OpenCL is unsafe; handles live to the test's end"
+)]
+
+use crate::own_queue::{context, queue};
+use opencl3::command_queue::CommandQueue;
+use opencl3::context::Context;
+use opencl3::kernel::{ExecuteKernel, Kernel};
+use opencl3::memory::{Buffer, CL_MEM_READ_WRITE};
+use opencl3::program::Program;
+use std::mem::offset_of;
+use std::ptr;
+use texere_core::{Block, CapRow, ControlPoint, Params, Ring, SectionPoint, Vertex, YarnRow};
+use texere_kernels::PER_RING;
+
+/// A table as kernels see it, and where in Rust's type of `bytes` each of their names lies.
+struct Table {
+    /// The element of the kernels' pointer.
+    element: &'static str,
+    bytes: usize,
+    /// How kernels read a value of the table's second row, and its offset in Rust.
+    values: Vec<(String, usize)>,
+}
+
+/// A structure with the same name and the same fields in both languages.
+macro_rules! structure {
+    ($type:ident { $($field:ident),+ $(,)? }) => {
+        Table {
+            element: stringify!($type),
+            bytes: size_of::<$type>(),
+            values: vec![$((concat!("values[1].", stringify!($field)).into(), offset_of!($type, $field))),+],
+        }
+    };
+}
+
+/// A structure of Rust that kernels take for vectors: each component, and the field that it is.
+macro_rules! vectors {
+    ($element:literal, $type:ident { $($value:literal = $field:ident $(+ $axis:literal)?),+ $(,)? }) => {
+        Table {
+            element: $element,
+            bytes: size_of::<$type>(),
+            values: vec![$(($value.into(), offset_of!($type, $field) $(+ 4 * $axis)?)),+],
+        }
+    };
+}
+
+fn tables() -> Vec<Table> {
+    vec![
+        structure!(Block {
+            yarn,
+            first_ring,
+            rings,
+            quads,
+            first_point,
+            chunk_ring,
+            first_vertex,
+            first_index
+        }),
+        structure!(YarnRow { rings, first_block, section, closed, twist }),
+        structure!(CapRow {
+            yarn,
+            end,
+            first_point,
+            ring_vertex,
+            first_vertex,
+            first_index,
+            first_corner,
+            padding
+        }),
+        structure!(Params {
+            blocks,
+            caps,
+            first_block,
+            yarns,
+            sides,
+            subdivisions,
+            frame,
+            indexed,
+            rolled,
+            s,
+            step,
+            padding
+        }),
+        vectors!("float4", ControlPoint {
+            "values[1].x" = x,
+            "values[1].y" = y,
+            "values[1].z" = z,
+            "values[1].w" = radius
+        }),
+        vectors!("float4", SectionPoint {
+            "values[1].x" = x,
+            "values[1].y" = y,
+            "values[1].z" = normal_x,
+            "values[1].w" = normal_y
+        }),
+        vectors!("uint4", Ring {
+            "values[2].x" = centre,
+            "values[2].y" = centre + 1,
+            "values[2].z" = centre + 2,
+            "values[2].w" = radius,
+            "values[3].x" = tangent,
+            "values[3].y" = tangent + 1,
+            "values[3].z" = tangent + 2,
+            "values[3].w" = roll
+        }),
+        vectors!("float", Vertex {
+            "values[6]" = position,
+            "values[7]" = position + 1,
+            "values[8]" = position + 2,
+            "values[9]" = normal,
+            "values[10]" = normal + 1,
+            "values[11]" = normal + 2
+        }),
+    ]
+}
+
+/// The bits of value number `number` of a table: all distinct, and whole floats too.
+fn bits(number: usize) -> u32 {
+    0x3f80_0000 + number as u32
+}
+
+/// What a kernel finds in its `parameter`, called `values`, which `set` hands over: `names`, in order.
+fn probe(
+    context: &Context,
+    queue: &CommandQueue,
+    parameter: &str,
+    names: &[String],
+    set: impl Fn(&mut ExecuteKernel<'_>),
+) -> Vec<u32> {
+    let reads = names.iter().enumerate().map(|(at, name)| format!("found[{at}] = as_uint({name});\n"));
+    let body: String = reads.collect();
+    let probe = format!("__kernel void probe({parameter} values, __global uint *found) {{\n{body}}}\n");
+    let source = PER_RING.sources.concat() + &probe;
+    let program = Program::create_and_build_from_source(context, &source, "-cl-std=CL1.2").unwrap();
+    let kernel = Kernel::create(&program, "probe").unwrap();
+    let mut found = vec![0; names.len()];
+    unsafe {
+        let out = Buffer::<u32>::create(context, CL_MEM_READ_WRITE, found.len(), ptr::null_mut()).unwrap();
+        let mut launch = ExecuteKernel::new(&kernel);
+        set(&mut launch);
+        launch.set_arg(&out).set_global_work_size(1).enqueue_nd_range(queue).unwrap();
+        queue.enqueue_read_buffer(&out, 1, 0, &mut found, &[]).unwrap();
+    }
+    found
+}
+
+#[test]
+fn every_field_of_a_tables_second_row_is_read_under_its_name() {
+    let (context, _) = context();
+    let queue = queue(&context, 0);
+    for Table { element, bytes, values } in tables() {
+        let (names, offsets): (Vec<_>, Vec<_>) = values.into_iter().unzip();
+        let words: Vec<u32> = (0..2 * bytes / 4).map(bits).collect();
+        let expected: Vec<_> = offsets.iter().map(|offset| bits((bytes + offset) / 4)).collect();
+        assert_eq!(names.len() * 4, bytes, "{element}: a value has no name");
+        let mut table = unsafe {
+            Buffer::<u32>::create(&context, CL_MEM_READ_WRITE, words.len(), ptr::null_mut()).unwrap()
+        };
+        unsafe { queue.enqueue_write_buffer(&mut table, 1, 0, &words, &[]).unwrap() };
+        let parameter = format!("__global const {element} *");
+        let found = probe(&context, &queue, &parameter, &names, |launch| unsafe {
+            launch.set_arg(&table);
+        });
+        assert_eq!(found, expected, "{element}");
+    }
+}
+
+/// Not through memory but as an argument, as launches hand them over.
+#[test]
+fn parameters_arrive_as_they_are_set() {
+    let words: [u32; size_of::<Params>() / 4] = std::array::from_fn(bits);
+    let params: Params = bytemuck::cast(words);
+    let Table { values, .. } = tables().into_iter().find(|table| table.element == "Params").unwrap();
+    let (names, offsets): (Vec<_>, Vec<_>) = values.into_iter().unzip();
+    let names: Vec<_> = names.iter().map(|name: &String| name.replace("values[1]", "values")).collect();
+    let (context, _) = context();
+    let queue = queue(&context, 0);
+    let found = probe(&context, &queue, "const Params", &names, |launch| unsafe {
+        launch.set_arg(&params);
+    });
+    let expected: Vec<_> = offsets.iter().map(|offset| words[offset / 4]).collect();
+    assert_eq!(found, expected);
+}

@@ -15,6 +15,17 @@ pub(crate) struct Mutant {
     pub(crate) broken: &'static str,
 }
 
+impl Mutant {
+    /// The trials that run the kernel: those of the backend's first device, in the schedule that the file belongs to.
+    pub(crate) fn trials(&self) -> Vec<String> {
+        if self.file.contains("per_yarn") {
+            vec![format!("{}:0/per-yarn", self.backend)]
+        } else {
+            vec![format!("{}:0", self.backend), "--skip".into(), "/per-yarn".into()]
+        }
+    }
+}
+
 const fn opencl(
     file: &'static str,
     kernel: &'static str,

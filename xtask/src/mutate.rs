@@ -1,8 +1,8 @@
 //! `cargo xtask mutate`: whether the suite sees it when a kernel is broken.
 //!
 //! Works on a copy of the repository under `target/`, with a build of its own, so that nothing broken is ever left
-//! behind. For each backend the suite passes on the copy as it is; then, for each mutant, it must compile, find its
-//! devices, and fail.
+//! behind. For each schedule of a backend the suite passes on the copy as it is; then, for each mutant, it must compile,
+//! find its devices, and fail.
 
 use std::fs;
 use std::io;
@@ -48,14 +48,13 @@ fn try_run(only: Option<&str>) -> io::Result<usize> {
     let copy = copy_of_the_repository()?;
     let (mut missed, mut sound) = (0, Vec::new());
     for mutant in mutants {
-        if !sound.contains(&mutant.backend) {
-            match suite(&copy, mutant.backend)? {
-                Suite::Passed => println!("passes   {} as it is", mutant.backend),
-                other => {
-                    return Err(io::Error::other(format!("{} as it is: {other:?}", mutant.backend)));
-                }
+        let trials = mutant.trials();
+        if !sound.contains(&trials) {
+            match suite(&copy, mutant)? {
+                Suite::Passed => println!("passes   {} as it is", trials[0]),
+                other => return Err(io::Error::other(format!("{} as it is: {other:?}", trials[0]))),
             }
-            sound.push(mutant.backend);
+            sound.push(trials);
         }
         let (file, whole) = (copy.join(mutant.file), fs::read_to_string(root().join(mutant.file))?);
         if whole.matches(mutant.line).count() != 1 {
@@ -63,7 +62,7 @@ fn try_run(only: Option<&str>) -> io::Result<usize> {
             return Err(io::Error::other(message));
         }
         fs::write(&file, whole.replace(mutant.line, mutant.broken))?;
-        let outcome = suite(&copy, mutant.backend)?;
+        let outcome = suite(&copy, mutant)?;
         fs::write(&file, whole)?;
         let name = format!("{} {} ({})", mutant.backend, mutant.kernel, mutant.file);
         match outcome {
@@ -94,18 +93,20 @@ fn copy_of_the_repository() -> io::Result<PathBuf> {
     Ok(copy)
 }
 
-/// Builds the suite of `copy` and runs it on `backend`.
-fn suite(copy: &Path, backend: &'static str) -> io::Result<Suite> {
+/// Builds the suite of `copy` and runs the trials that `mutant` is in.
+fn suite(copy: &Path, mutant: &Mutant) -> io::Result<Suite> {
     let cargo = |last: &[&str]| {
         let test = ["test", "--locked", "--package", "texere-conformance", "--test", "conformance"];
         let mut cargo = command("cargo", &[&test, last].concat());
-        cargo.current_dir(copy).env("TEXERE_REQUIRE", backend);
+        cargo.current_dir(copy).env("TEXERE_REQUIRE", mutant.backend);
         cargo
     };
     if !cargo(&["--no-run", "--quiet"]).status()?.success() {
         return Ok(Suite::Broken("it does not compile".into()));
     }
-    let ran = cargo(&["--", backend]).stderr(Stdio::inherit()).output()?;
+    let trials = mutant.trials();
+    let trials: Vec<_> = ["--"].into_iter().chain(trials.iter().map(String::as_str)).collect();
+    let ran = cargo(&trials).stderr(Stdio::inherit()).output()?;
     let said = String::from_utf8_lossy(&ran.stdout);
     let failed = said.lines().filter(|line| line.starts_with("test ") && line.ends_with(" FAILED"));
     let failed: Vec<_> = failed.collect();

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use libtest_mimic::Failed;
 use texere_core::{Backend, BackendError, DeviceInfo, Frame, Plan, Schedule, Settings, Yarns};
 
+use crate::REGISTRY;
+
 /// Why `device` must refuse `yarns` under `settings`: words, one of which its error must have. None where it must do
 /// the work. Only [`Schedule::PerYarn`] leaves anything out.
 #[must_use]
@@ -20,6 +22,14 @@ pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> Vec<&'
         ("twist", rows.iter().any(|yarn| yarn.twist != 0.0)),
     ];
     reasons.into_iter().filter(|(_, beyond)| *beyond).map(|(word, _)| word).collect()
+}
+
+/// All devices of [`REGISTRY`] that there are here and that must do `yarns` under `settings`.
+pub fn able_devices(yarns: &Yarns, settings: &Settings) -> impl Iterator<Item = Arc<dyn Backend>> {
+    REGISTRY
+        .iter()
+        .flat_map(|entry| (entry.open)().unwrap_or_default())
+        .filter(|device| beyond(device.info(), yarns, settings).is_empty())
 }
 
 /// Passes where `device` refuses `yarns` under `settings` for one of `reasons`, in its own name.

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere_conformance::REGISTRY;
+use texere_conformance::schedule::able_devices;
 use texere_core::{
     Backend, BackendError, Chunk, ControlPoint, Frame, Layout, Limits, Material, MeshMut, NullBackend,
     Pipeline, PipelineError, Plan, PlanError, Section, SectionError, Session, Settings, Topology, Vertex,
@@ -245,13 +245,13 @@ fn limits_that_hold_no_block() {
     }
 }
 
-/// A twisted yarn of several blocks, on every device: with a session that has its points but no scan yet.
+/// A twisted yarn of several blocks, on every device that does it: with a session that has its points but no scan yet.
 fn on_every_device(check: impl Fn(&dyn Backend, &Arc<Plan>, &[Chunk], Box<dyn Session>)) {
     let points = straight(200);
     let yarns = one_yarn(Yarn { twist: 1.0, ..Yarn::default() }, &points).unwrap();
     let settings = Settings { frame: Frame::RotationMinimizing, ..Settings::default() };
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
-    for device in REGISTRY.iter().flat_map(|entry| (entry.open)().unwrap_or_default()) {
+    for device in able_devices(&yarns, &settings) {
         let limits = device.info().limits.min(&Limits { blocks: 2, ..Limits::NONE });
         let chunks: Vec<_> = plan.chunks(&limits).unwrap().collect();
         let mut session = device.session(plan.clone()).unwrap();
@@ -364,10 +364,14 @@ fn the_edges_of_what_is_taken() {
     for points in [vast, tiny, steep] {
         for twist in [1e3, -1e3] {
             let yarns = one_yarn(Yarn { twist, ..Yarn::default() }, &points).unwrap();
-            for device in REGISTRY.iter().flat_map(|entry| (entry.open)().unwrap_or_default()) {
-                let pipeline =
-                    Pipeline::new(&yarns).subdivisions(7).frame(Frame::RotationMinimizing).caps(true);
-                let mesh = pipeline.mesh(&*device).unwrap();
+            let settings = Settings {
+                subdivisions: 7,
+                frame: Frame::RotationMinimizing,
+                caps: true,
+                ..Settings::default()
+            };
+            for device in able_devices(&yarns, &settings) {
+                let mesh = Pipeline::new(&yarns).settings(settings).mesh(&*device).unwrap();
                 for vertex in &mesh.vertices {
                     let [x, y, z] = vertex.normal.map(f64::from);
                     let length = (x * x + y * y + z * z).sqrt();

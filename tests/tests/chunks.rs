@@ -3,12 +3,11 @@
 
 use std::sync::Arc;
 
-use texere_conformance::REGISTRY;
 use texere_conformance::cases::{mixed, winding};
 use texere_conformance::compare::Report;
 use texere_conformance::drive::{Output, Way, drive};
 use texere_conformance::limits::least;
-use texere_conformance::schedule::beyond;
+use texere_conformance::schedule::able_devices;
 use texere_core::{
     Block, Chunk, ControlPoint, End, Frame, Limits, Mesh, MeshMut, Pipeline, Plan, Ring, Session, Settings,
     Topology, Vertex, WINDOW_POINTS, Yarn, Yarns,
@@ -341,8 +340,7 @@ fn chunks_of_two_cuts_do_not_mix() {
     let yarns = winding(400, Yarn { twist: 0.7, ..Yarn::default() });
     let settings = Settings { frame: Frame::RotationMinimizing, ..Settings::default() };
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
-    let devices = REGISTRY.iter().flat_map(|entry| (entry.open)().unwrap());
-    for device in devices.filter(|device| beyond(device.info(), &yarns, &settings).is_empty()) {
+    for device in able_devices(&yarns, &settings) {
         let cut = |blocks| chunks(&plan, &device.info().limits.min(&Limits { blocks, ..Limits::NONE }));
         let (fine, coarse) = (cut(2), cut(4));
         let mut session = device.session(plan.clone()).unwrap();

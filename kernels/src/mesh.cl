@@ -6,13 +6,8 @@
 
 #define MESH_GROUP 128
 
-// Vertices of a tile at most: a whole block of six-sided rings.
+// Vertices of a tile at most: a whole block of six-sided rings, and more than a ring has sides.
 #define TILE_VERTICES 384u
-
-// Rings of a tile. Even, so that a tile starts as many bytes after a multiple of 16 as its block.
-uint tile_rings(uint sides) {
-    return min((uint)BLOCK_RINGS, TILE_VERTICES / sides / 2u * 2u);
-}
 
 // Works out the vertices of `count` rings from ring `first` on, three pairs of floats each. A lane keeps to one ring of
 // the tile's `tile`, which it reads once, and shares its corners with the other lanes of that ring.
@@ -96,13 +91,14 @@ void mesh(const Params params, const ulong window, __global const float4 *points
 
     // A vertex is 24 bytes, so every other one starts at a multiple of 16; indices come in pairs.
     __global const float4 *outline = outlines + yarn.section * params.sides;
-    __global float *out = vertices + 6 * (size_t)block.first_vertex;
-    uint tile = tile_rings(params.sides);
+    uint tile = min((uint)BLOCK_RINGS, TILE_VERTICES / params.sides);
     for (uint first = 0u; first < block.rings; first += tile) {
         uint count = min(tile, block.rings - first);
+        uint first_vertex = block.first_vertex + first * params.sides;
         stage_vertices(&rings, outline, params.sides, first, count, tile, lane, staged);
         barrier(CLK_LOCAL_MEM_FENCE);
-        write_vertices(staged, 3u * count * params.sides, block.first_vertex % 2u, lane, out + 6u * first * params.sides);
+        write_vertices(staged, 3u * count * params.sides, first_vertex % 2u, lane,
+                       vertices + 6 * (size_t)first_vertex);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
     if (params.indexed != 0u && block.quads != 0u) {

@@ -1,5 +1,5 @@
-//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which together are what CI runs, and
-//! `cargo xtask mutate`.
+//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which CI runs on every change, and
+//! `cargo xtask mutate`, which it runs every week.
 
 mod mutants;
 mod mutate;
@@ -36,7 +36,10 @@ fn main() -> ExitCode {
             check(&mut steps);
             readme(&mut steps);
         }
-        Some("mutate") => return mutate::run(std::env::args().nth(2).as_deref()),
+        Some("mutate") => {
+            install_software_devices(&mut steps);
+            return mutate::run(std::env::args().nth(2).as_deref());
+        }
         _ => {
             eprintln!("usage: cargo xtask <test | check | mutate>");
             eprintln!("  test   all tests, doctests and the conformance suite");

@@ -63,7 +63,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "slopes[at] = 0.0f;",
     ),
     // The last quads of each part are missing.
-    opencl("kernels/src/per_yarn.cl", "mesh_per_yarn", "ring + 1u < part.rings", "ring + 2u < part.rings"),
+    opencl("kernels/src/per_yarn.cl", "mesh_per_yarn", "ring < part.quads", "ring + 1u < part.quads"),
     // A mirror image: the side points the other way.
     wgpu(
         "shaders/src/common.wgsl",
@@ -125,3 +125,16 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "let outline = 0u;",
     ),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_is_there_once() {
+        for mutant in MUTANTS {
+            let source = std::fs::read_to_string(crate::steps::root().join(mutant.file)).unwrap();
+            assert_eq!(source.matches(mutant.line).count(), 1, "{}: {}", mutant.file, mutant.line);
+        }
+    }
+}

@@ -4,6 +4,7 @@
 //! behind. For each schedule of a backend the suite passes on the copy as it is; then, for each mutant, it must compile,
 //! find its devices, and fail.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -79,16 +80,26 @@ fn try_run(only: Option<&str>) -> io::Result<usize> {
 /// The working tree's files, tracked or new, below `target/`.
 fn copy_of_the_repository() -> io::Result<PathBuf> {
     let copy = root().join("target/mutate");
-    let listed =
-        command("git", &["ls-files", "-z", "--cached", "--others", "--exclude-standard"]).output()?;
+    let list = ["ls-files", "-z", "--cached", "--others", "--exclude-standard"];
+    let listed = command("git", &list).stderr(Stdio::inherit()).output()?;
+    if !listed.status.success() {
+        return Err(io::Error::other(format!("git ls-files: {}", listed.status)));
+    }
+    // A build is worth keeping, a file that is no longer in the repository is not.
+    for entry in fs::read_dir(&copy).into_iter().flatten() {
+        let path = entry?.path();
+        match path.file_name().and_then(OsStr::to_str) {
+            Some("target") => {}
+            _ if path.is_dir() => fs::remove_dir_all(path)?,
+            _ => fs::remove_file(path)?,
+        }
+    }
     for file in listed.stdout.split(|byte| *byte == 0).filter(|file| !file.is_empty()) {
         let file = Path::new(str::from_utf8(file).map_err(io::Error::other)?);
-        let (ours, target) = (fs::read(root().join(file))?, copy.join(file));
-        // A file that has not changed keeps its time, so that a second run builds little.
-        if fs::read(&target).ok().as_ref() != Some(&ours) {
-            fs::create_dir_all(target.parent().unwrap_or(&copy))?;
-            fs::write(target, ours)?;
-        }
+        let target = copy.join(file);
+        fs::create_dir_all(target.parent().unwrap_or(&copy))?;
+        fs::copy(root().join(file), target)
+            .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", file.display())))?;
     }
     Ok(copy)
 }
@@ -98,7 +109,7 @@ fn suite(copy: &Path, mutant: &Mutant) -> io::Result<Suite> {
     let cargo = |last: &[&str]| {
         let test = ["test", "--locked", "--package", "texere-conformance", "--test", "conformance"];
         let mut cargo = command("cargo", &[&test, last].concat());
-        cargo.current_dir(copy).env("TEXERE_REQUIRE", mutant.backend);
+        cargo.current_dir(copy);
         cargo
     };
     if !cargo(&["--no-run", "--quiet"]).status()?.success() {
@@ -108,16 +119,13 @@ fn suite(copy: &Path, mutant: &Mutant) -> io::Result<Suite> {
     let trials: Vec<_> = ["--"].into_iter().chain(trials.iter().map(String::as_str)).collect();
     let ran = cargo(&trials).stderr(Stdio::inherit()).output()?;
     let said = String::from_utf8_lossy(&ran.stdout);
-    let failed = said.lines().filter(|line| line.starts_with("test ") && line.ends_with(" FAILED"));
-    let failed: Vec<_> = failed.collect();
-    Ok(if let Some(missing) = failed.iter().find(|line| line.contains("::missing")) {
-        // Among other things a kernel that does not compile, which needs no suite to be seen.
-        Suite::Broken((*missing).into())
-    } else if ran.status.success() {
-        Suite::Passed
-    } else if failed.is_empty() {
-        Suite::Broken(ran.status.to_string())
-    } else {
-        Suite::Failed(failed.len())
+    let ended =
+        |how: &str| said.lines().filter(|line| line.starts_with("test ") && line.ends_with(how)).count();
+    // A device that is not there, or a kernel that does not compile, leaves nothing to run.
+    Ok(match (ended(" ok"), ended(" FAILED")) {
+        (0, 0) => Suite::Broken(format!("no trial ran: {}", ran.status)),
+        (_, 0) if ran.status.success() => Suite::Passed,
+        (_, 0) => Suite::Broken(ran.status.to_string()),
+        (_, failed) => Suite::Failed(failed),
     })
 }

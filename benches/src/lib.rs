@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use texere::{
-    Backend, BackendError, FabricError, Material, Plan, PlanError, Section, Settings, Thread, Weave, Woven,
-    Yarns,
+    Backend, BackendError, FabricError, Material, Plan, PlanError, Section, Settings, Shape, Thread, Weave,
+    Woven, Yarns,
 };
 use texere_core::{Chunk, Session};
 
@@ -14,19 +14,16 @@ pub const SIZES: [(usize, usize); 2] = [(163, 150), (815, 750)];
 /// The devices that are benchmarked.
 pub const DEVICES: [&str; 2] = ["cpu-serial", "cpu"];
 
-/// The paper's cloth: 3/1 twill, pitch of three diameters.
+/// The paper's cloth: 3/1 twill, pitch of three diameters, one control point a crossing.
 ///
 /// **Errors**: [`FabricError`] for a size that no cloth has.
 pub fn paper_cloth(ends: usize, picks: usize) -> Result<Woven, FabricError> {
     let thread = Thread::new(0.75, 0.125);
     let drawdown = Weave::parse("3/1")?.drawdown(ends, picks)?;
-    Woven::new(
-        drawdown,
-        vec![thread; ends],
-        vec![thread; picks],
-        vec![Material::default()],
-        vec![Section::Circle],
-    )
+    let (warp, weft) = (vec![thread; ends], vec![thread; picks]);
+    let mut cloth = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    cloth.set_shape(Shape::Crossing);
+    Ok(cloth)
 }
 
 /// The plan for `yarns` with the paper's settings, and its one chunk.

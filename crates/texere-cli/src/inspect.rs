@@ -42,6 +42,7 @@ fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let settings = args.settings.settings();
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
     Ok(Report {
+        warnings: design.warnings(),
         name: design.name,
         yarns: counts.yarns,
         control_points: counts.control_points,
@@ -50,7 +51,6 @@ fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
         triangles: counts.triangles,
         bytes: counts.bytes(),
         length_mm: texere::length_mm(&yarns, settings.tension),
-        warnings: design.warnings,
     })
 }
 

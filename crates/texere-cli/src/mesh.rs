@@ -25,7 +25,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let written =
         texere::stream(pipeline.limits(limits).progress(progress::teller(&bar)), &*device, &args.output)?;
     bar.finish_and_clear();
-    for warning in &design.warnings {
+    for warning in design.warnings() {
         crate::print(&format!("warning: {warning}\n"))?;
     }
     crate::print(&format!(

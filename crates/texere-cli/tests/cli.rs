@@ -56,8 +56,9 @@ fn the_papers_cloths_have_the_papers_sizes() {
 fn settings_change_what_is_counted() {
     let plain = design("plain.toml");
     let report = inspect(&["--subdivisions", "3", "--sides", "8", "--caps", "--topology", "indexed", &plain]);
-    // 64 ends of 50 control points, 48 picks of 66; 4 rings an interval.
-    let rings = 64 * (49 * 4 + 1) + 48 * (65 * 4 + 1);
+    // 64 ends of 50 control points, 48 picks of 66, and three each time that one changes sides, between any two crossings;
+    // 4 rings an interval.
+    let rings = 64 * ((49 + 3 * 47) * 4 + 1) + 48 * ((65 + 3 * 63) * 4 + 1);
     assert_eq!(report["rings"], rings);
     assert_eq!(report["vertices"], rings * 8 + 112 * 2 * 8);
     let triangles = (rings - 112) * 16 + 112 * 2 * 6;

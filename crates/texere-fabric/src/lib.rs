@@ -42,8 +42,8 @@ pub use length::{length_mm, lengths_mm};
 pub use measures::{Cover, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use warning::FabricWarning;
 pub use woven::{
-    CROSSINGS_MAX, Crimp, Draft, Drawdown, Jam, JamReport, NO_CROSSING, POINTS_MAX, REPEAT_MAX, SPACING_MAX,
-    SPACING_MIN, Shape, Shedding, THREADS_MAX, Thread, Tightness, Weave, Woven,
+    CROSSINGS_MAX, Crimp, Draft, Drawdown, Jam, JamReport, NO_CROSSING, POINTS_MAX, Pitch, REPEAT_MAX,
+    SPACING_MAX, SPACING_MIN, Shape, Shedding, THREADS_MAX, Thread, Tightness, Weave, Woven,
 };
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,

@@ -65,14 +65,12 @@ proptest! {
 fn every_crossing_of_a_cloth_is_a_contact() {
     let thread = Thread::new(0.75, 0.125);
     let drawdown = Weave::parse("3/1").unwrap().drawdown(20, 16).unwrap();
-    let cloth = Woven::new(
-        drawdown,
-        vec![thread; 20],
-        vec![thread; 16],
-        vec![Material::default()],
-        vec![Section::Circle],
-    );
-    let yarns = cloth.unwrap().yarns().unwrap();
+    let (warp, weft) = (vec![thread; 20], vec![thread; 16]);
+    let mut cloth =
+        Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap();
+    // Steep between its crossings, a round thread comes near those that it crosses there a second time.
+    cloth.set_shape(Shape::Crossing);
+    let yarns = cloth.yarns().unwrap();
     let report = clearance(&yarns, 0.0).unwrap();
     assert_eq!(report.contacts, 320);
     assert_eq!(report.histogram.iter().sum::<u64>(), 320);

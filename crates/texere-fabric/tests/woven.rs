@@ -24,12 +24,15 @@ fn threads() -> impl Strategy<Value = Vec<Thread>> {
     prop::collection::vec(thread, 1..14)
 }
 
+/// Cloths of one control point a crossing; tests of the other shape are in `shape.rs`.
 fn cloths() -> impl Strategy<Value = Woven> {
     (threads(), threads()).prop_flat_map(|(warp, weft)| {
         prop::collection::vec(any::<bool>(), warp.len() * weft.len()).prop_map(move |up| {
             let drawdown =
                 Drawdown::from_fn(warp.len(), weft.len(), |end, pick| up[pick * warp.len() + end]).unwrap();
-            woven(drawdown, warp.clone(), weft.clone()).unwrap()
+            let mut cloth = woven(drawdown, warp.clone(), weft.clone()).unwrap();
+            cloth.set_shape(Shape::Crossing);
+            cloth
         })
     })
 }
@@ -122,7 +125,8 @@ const THREAD: Thread = Thread::new(1.0, 0.2);
 #[test]
 fn the_papers_cloth_has_the_papers_count() {
     // 300 ends and 150 picks: 150 + 2 control points an end, 300 + 2 a pick.
-    let cloth = woven(plain(300, 150), vec![THREAD; 300], vec![THREAD; 150]).unwrap();
+    let mut cloth = woven(plain(300, 150), vec![THREAD; 300], vec![THREAD; 150]).unwrap();
+    cloth.set_shape(Shape::Crossing);
     assert_eq!(cloth.point_count(), 300 * 152 + 150 * 302);
     assert_eq!(cloth.yarns().unwrap().layout().offsets()[300], 300 * 152);
 }

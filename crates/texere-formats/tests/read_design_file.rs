@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use texere_core::Section;
-use texere_fabric::Woven;
+use texere_fabric::{Crimp, Shape, Woven};
 use texere_formats::{Design, ReadError, Structure, read};
 
 const DENIM: &str = r##"name = "Denim"
@@ -83,6 +83,137 @@ fn sections_have_their_numbers() {
         let woven = cloth(&DENIM.replace("plies = 2", &format!("section = {text}")));
         assert_eq!(woven.sections()[woven.weft()[0].section as usize], section);
     }
+}
+
+#[test]
+fn threads_lie_as_the_cloth_table_says() {
+    let plain = cloth(DENIM);
+    assert_eq!((plain.shape(), plain.crimp(), plain.selvedge()), (Shape::Round, Crimp::Stiffness, false));
+    let table = "[cloth]\nshape = \"crossing\"\nwarp_crimp = 0.25\nselvedge = true\njam = \"report\"\n";
+    let woven = cloth(&format!("{DENIM}{table}"));
+    assert_eq!(
+        (woven.shape(), woven.crimp(), woven.selvedge()),
+        (Shape::Crossing, Crimp::WarpShare(0.25), true)
+    );
+    // A whole number is a number.
+    assert_eq!(cloth(&format!("{DENIM}[cloth]\nwarp_crimp = 1\n")).crimp(), Crimp::WarpShare(1.0));
+    // One weft yarn instead of five, all of them alike.
+    let yarns = |text: &str| read_text(text).unwrap().yarns().unwrap().layout().yarns().len();
+    assert_eq!((yarns(DENIM), yarns(&format!("{DENIM}{table}"))), (7 + 5, 7 + 1));
+}
+
+#[test]
+fn jammed_threads_are_relieved_as_the_design_says() {
+    // Ends of 0.3 mm at 0.4 mm: those of 0.25 mm that cross them need more.
+    let dense = DENIM.replace("tex = 84.0", "diameter_mm = 0.3").replace("per_cm = 12.5", "spacing_mm = 0.4");
+    let read = |jam: &str| read_text(&format!("{dense}[cloth]\n{jam}")).unwrap();
+    let report = read("");
+    assert!(report.jam.before[0].jammed > 0 && report.jam.after == report.jam.before);
+    let told = report.warnings().join("\n");
+    assert!(
+        told.contains("threads that cross pierce one another") && told.contains("has 0.4000 mm"),
+        "{told}"
+    );
+    // Plies can't be flattened: crimp goes to the ends, which are dense, and is enough.
+    for jam in ["jam = \"flatten\"\n", "jam = \"shrink\"\n"] {
+        let relieved = read(jam);
+        assert_eq!(relieved.jam.before, report.jam.before);
+        assert_eq!(relieved.jam.after.map(|set| set.jammed), [0, 0], "{:?}", relieved.jam);
+        assert!(relieved.warnings().is_empty());
+    }
+    // A share that is given stays, so that threads have to give way.
+    let shrunk = read("jam = \"shrink\"\nwarp_crimp = 0.5\n");
+    assert!(shrunk.jam.scaled < 1.0 && shrunk.jam.warp_share == [0.5; 2], "{:?}", shrunk.jam);
+    let Structure::Woven(woven) = &shrunk.structure else { panic!("not woven") };
+    assert!((woven.warp()[0].radius_mm / 0.15 - shrunk.jam.scaled).abs() < 1e-6);
+}
+
+#[test]
+fn another_section_is_relieved_anew() {
+    let dense = DENIM.replace("tex = 84.0", "diameter_mm = 0.3").replace("per_cm = 12.5", "spacing_mm = 0.4");
+    let text = format!("{dense}[cloth]\njam = \"shrink\"\nwarp_crimp = 0.5\n");
+    let round = |sections: &[Section]| {
+        let mut design = read_text(&text).unwrap();
+        for section in sections {
+            design.set_section(section.clone()).unwrap();
+        }
+        assert!(design.jam.scaled < 1.0, "{:?}", design.jam);
+        let Structure::Woven(woven) = design.structure else { panic!("not woven") };
+        (design.jam, woven.weft()[0].radius_mm)
+    };
+    // From the threads as they were designed, as if nothing had been in between.
+    let wide = Section::Ellipse { aspect: 3.0 };
+    assert_eq!(round(&[wide, Section::Circle]), round(&[Section::Circle]));
+}
+
+#[test]
+fn doubled_ends_have_two_spacings() {
+    let woven = cloth(&DENIM.replace("per_cm = 12.5", "spacing_mm = [0.9, 0.3, 0.4]"));
+    let spacings: Vec<_> = woven.warp().iter().map(|end| end.spacing_mm).collect();
+    assert_eq!(spacings, [0.9, 0.3, 0.4, 0.9, 0.3, 0.4, 0.9]);
+}
+
+#[test]
+fn faults_of_the_cloth_table_are_named() {
+    let cloth = |key: &str, parts: &[&str]| {
+        let to = format!("[cloth]\n{key}\n[yarns.indigo]");
+        refused("[yarns.indigo]", &to, &[&["design.toml, line 7: cloth."], parts].concat());
+    };
+    let shapes = "expected \"round\" or \"crossing\"";
+    cloth("shape = \"square\"", &["cloth.shape is \"square\"", shapes]);
+    cloth("shape = 3", &["cloth.shape is \"3\"", shapes]);
+    cloth("shape = \"Round\"", &["cloth.shape is \"Round\"", shapes]);
+    cloth("warp_crimp = -0.01", &["cloth.warp_crimp is -0.01, outside 0 to 1"]);
+    cloth("warp_crimp = 1.5", &["cloth.warp_crimp is 1.5, outside 0 to 1"]);
+    cloth("warp_crimp = nan", &["cloth.warp_crimp is NaN, outside 0 to 1"]);
+    cloth("warp_crimp = inf", &["cloth.warp_crimp is inf, outside 0 to 1"]);
+    cloth("warp_crimp = \"half\"", &["cloth.warp_crimp is \"half\"", "a number from 0 to 1"]);
+    cloth("selvedge = \"yes\"", &["cloth.selvedge is \"yes\"", "true or false"]);
+    cloth("selvedge = 1", &["cloth.selvedge is \"1\"", "true or false"]);
+    cloth("jam = \"squeeze\"", &["cloth.jam is \"squeeze\"", "\"report\" or \"flatten\" or \"shrink\""]);
+    cloth("jam = true", &["cloth.jam is \"true\"", "\"shrink\""]);
+    refused(
+        "[yarns.indigo]",
+        "[cloth]\nselvage = true\n[yarns.indigo]",
+        &["line 7", "did you mean \"selvedge\"?"],
+    );
+    refused("[yarns.indigo]", "[cloth]\ncolour = 1\n[yarns.indigo]", &["line 7", "\"colour\" is not known"]);
+    refused(
+        "spacing_mm = 1.25",
+        "spacing_mm = []",
+        &["line 18: weft.spacing_mm is \"[]\"", "a list of them"],
+    );
+    refused(
+        "spacing_mm = 1.25",
+        "spacing_mm = [1.0, \"b\"]",
+        &["line 18: weft.spacing_mm", "a list of them"],
+    );
+    refused(
+        "spacing_mm = 1.25",
+        "spacing_mm = [1.0, 0.0]",
+        &["line 18", "number 2, is 0, outside 0.001 to 1000"],
+    );
+    refused("spacing_mm = 1.25", "spacing_mm = \"wide\"", &["line 18: weft.spacing_mm is \"wide\""]);
+    refused(
+        "spacing_mm = 1.25",
+        "spacing_mm = -1",
+        &["line 18: weft.spacing_mm is -1, outside 0.001 to 1000"],
+    );
+    refused("spacing_mm = 1.25", "spacing_mm = nan", &["weft.spacing_mm is NaN"]);
+}
+
+#[test]
+fn threads_too_thin_to_shrink_are_refused() {
+    let thin = DENIM
+        .replace("tex = 84.0", "diameter_mm = 1000")
+        .replace("diameter_mm = 0.25", "diameter_mm = 0.001");
+    let dense = thin.replace("per_cm = 12.5", "spacing_mm = 0.001");
+    let error = read_text(&format!("{dense}[cloth]\njam = \"shrink\"\n")).unwrap_err();
+    let cause = std::error::Error::source(&error).unwrap().to_string();
+    assert!(
+        error.to_string().contains("design.toml") && cause.contains("radius of end 3"),
+        "{error}: {cause}"
+    );
 }
 
 #[test]

@@ -134,7 +134,7 @@ fn areas_of_one_weave_join_up() {
             assert_eq!(drawdown.up(end, pick), weave.up(end, pick), "end {end}, pick {pick}");
         }
     }
-    assert!(design(folder.path(), table).unwrap().warnings.is_empty());
+    assert!(design(folder.path(), table).unwrap().warnings().is_empty());
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn a_picture_a_notation_and_a_wif_give_one_drawdown() {
 fn a_colour_that_no_pixel_has_is_told() {
     let folder = drawn(&DRAWING);
     let table = "[weave.colors]\n\"#000000\" = \"3/1\"\n\"#ffffff\" = \"1/3\"\n\"#123456\" = \"plain\"\n";
-    let warnings = design(folder.path(), table).unwrap().warnings;
+    let warnings = design(folder.path(), table).unwrap().warnings();
     assert!(
         matches!(&warnings[..], [one] if one.contains("#123456") && one.contains("motif.png")),
         "{warnings:?}"

@@ -54,11 +54,11 @@ fn tie_up_with_treadling_and_lift_plan_give_one_drawdown() {
     let lifted = TWILL.split("[TIEUP]").next().unwrap().to_owned() + LIFT_PLAN;
     assert_eq!(drawdown(&lifted), TWILL_DRAWDOWN);
     // Both, and in agreement: nothing to warn of.
-    assert!(read_text(TWILL.to_owned() + LIFT_PLAN).unwrap().warnings.is_empty());
+    assert!(read_text(TWILL.to_owned() + LIFT_PLAN).unwrap().warnings().is_empty());
     // Both, and at odds: the treadling stands.
     let odds = TWILL.to_owned() + &LIFT_PLAN.replace("1=1,2", "1=1,3");
     assert_eq!(drawdown(&odds), TWILL_DRAWDOWN);
-    assert!(read_text(&odds).unwrap().warnings[0].contains("lift plan and treadling"));
+    assert!(read_text(&odds).unwrap().warnings()[0].contains("lift plan and treadling"));
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn units_are_what_they_say() {
 #[test]
 fn missing_thickness_and_colour_are_told() {
     let design = read_text(TWILL.replace("Thickness=0.1\n", "").replace("Color=1\n", "")).unwrap();
-    let told = design.warnings.join("\n");
+    let told = design.warnings().join("\n");
     assert!(told.contains("[WARP] 5 of 5 threads have no thickness; 1.0000 mm"), "{told}");
     assert!(told.contains("[WEFT] 4 of 4 threads have no thickness; 1.0000 mm"), "{told}");
     assert!(told.contains("[WARP] 5 of 5 threads have no colour"), "{told}");

@@ -37,7 +37,9 @@ pub use texere_core::{
     SectionError, Settings, Topology, Trajectory, Vertex, Yarn, YarnError, Yarns, YarnsBuilder,
 };
 pub use texere_fabric::{
-    Draft, Drawdown, FabricError, FabricWarning, Shedding, Thread, Weave, Woven, length_mm, lengths_mm,
+    CLEARANCE_ACCURACY, CLEARANCE_BIN, CLEARANCE_NEAR, Clearance, Contact, Cover, Crimp, Draft, Drawdown,
+    FabricError, FabricWarning, Jam, JamReport, Measures, NO_CROSSING, Pitch, Shape, Shedding, Thread,
+    Tightness, Weave, Woven, YarnPlace, clearance, length_mm, lengths_mm,
 };
 pub use texere_formats::write::{Format, Side, Written, draft as write_draft, mesh as write, stream};
 pub use texere_formats::{Design, ReadError, Structure, WriteError, read};

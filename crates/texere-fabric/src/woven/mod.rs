@@ -7,6 +7,7 @@ mod drawdown;
 mod jam;
 mod library;
 mod notation;
+mod pitch;
 mod relief;
 mod selvedge;
 mod shape;
@@ -16,6 +17,7 @@ mod yarns;
 pub use crimp::Crimp;
 pub use draft::{Draft, Shedding};
 pub use drawdown::{CROSSINGS_MAX, Drawdown, THREADS_MAX};
+pub use pitch::Pitch;
 pub use relief::{Jam, JamReport, Tightness};
 pub use shape::Shape;
 pub use weave::{REPEAT_MAX, Weave};
@@ -83,7 +85,8 @@ impl Thread {
 /// )?;
 /// assert_eq!(cloth.size_mm(), [3.0, 2.0]);
 /// let yarns = cloth.yarns()?;
-/// assert_eq!(yarns.layout().offsets(), [0, 4, 8, 12, 17, 22]);
+/// // At each end of a yarn a control point, at each crossing one, and three where the thread changes sides.
+/// assert_eq!(yarns.layout().offsets(), [0, 7, 14, 21, 32, 43]);
 ///
 /// // Flat yarns need less room where they cross.
 /// cloth.set_section(Section::Ellipse { aspect: 2.0 })?;

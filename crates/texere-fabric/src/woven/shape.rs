@@ -25,10 +25,10 @@ use super::{Thread, crossing};
 pub enum Shape {
     /// One control point a crossing, and one before and after: the paper's count. Threads swing out further than they
     /// are thick, so that the corners that the spline cuts stay clear; floats bulge.
-    #[default]
     Crossing,
     /// Threads bend round one another as round threads do, and floats lie flat: three more control points wherever a
     /// thread changes sides (and a few within floats that are long beside a close pitch).
+    #[default]
     Round,
 }
 

@@ -10,7 +10,7 @@ use std::io::Read;
 use std::path::Path;
 
 use texere_core::{Section, Yarns};
-use texere_fabric::{Draft, FabricError, Woven};
+use texere_fabric::{Draft, FabricError, Jam, JamReport, Woven};
 
 pub use error::{Place, ReadError};
 
@@ -37,15 +37,33 @@ pub struct Design {
     pub structure: Structure,
     /// The shaft draft that the cloth is woven by, where the design has one: its drawdown is the structure's.
     pub draft: Option<Draft>,
-    /// What the reader had to assume or leave out, for a person to read.
-    pub warnings: Vec<String>,
+    /// What was found of jammed threads, and what was done about them: the structure is what came of it.
+    pub jam: JamReport,
+    /// What the reader had to assume or leave out.
+    remarks: Vec<String>,
+    relief: Jam,
+    /// The cloth as it was designed, where relief has changed it.
+    designed: Option<Woven>,
 }
 
 impl Design {
-    /// A woven design; what its cloth has to say is added to the reader's own `warnings`.
-    fn woven(name: String, woven: Woven, draft: Option<Draft>, mut warnings: Vec<String>) -> Self {
-        warnings.extend(woven.warnings().iter().map(ToString::to_string));
-        Self { name, structure: Structure::Woven(woven), draft, warnings }
+    /// A woven design, its jammed threads relieved as `relief` says.
+    fn woven(
+        name: String,
+        mut woven: Woven,
+        draft: Option<Draft>,
+        relief: Jam,
+        remarks: Vec<String>,
+    ) -> Result<Self, FabricError> {
+        let (jam, designed) = relieve(&mut woven, relief)?;
+        Ok(Self { name, structure: Structure::Woven(woven), draft, jam, remarks, relief, designed })
+    }
+
+    /// What a person should know: what the reader had to assume or leave out, and what the cloth lacks.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let Structure::Woven(woven) = &self.structure;
+        self.remarks.iter().cloned().chain(woven.warnings().iter().map(ToString::to_string)).collect()
     }
 
     /// The yarns of the fabric.
@@ -57,14 +75,29 @@ impl Design {
         }
     }
 
-    /// Gives every yarn the same section.
+    /// Gives every yarn the same section. Where the design says what to do about jammed threads, that is done anew.
     ///
-    /// **Errors**: [`FabricError`] where the section is not sound.
+    /// **Errors**: [`FabricError`] where the section is not sound, or threads can't be thinned so far; the design is then
+    /// as it was.
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
-        match &mut self.structure {
-            Structure::Woven(woven) => woven.set_section(section),
-        }
+        let Structure::Woven(woven) = &self.structure;
+        let mut changed = self.designed.as_ref().unwrap_or(woven).clone();
+        changed.set_section(section)?;
+        (self.jam, self.designed) = relieve(&mut changed, self.relief)?;
+        self.structure = Structure::Woven(changed);
+        Ok(())
     }
+}
+
+/// Relieves jammed threads: what was found and done, and the cloth as it was before, where it was changed.
+fn relieve(woven: &mut Woven, relief: Jam) -> Result<(JamReport, Option<Woven>), FabricError> {
+    if relief == Jam::Report {
+        return Ok((woven.relieve(relief)?, None));
+    }
+    let designed = woven.clone();
+    let report = woven.relieve(relief)?;
+    let changed = designed != *woven;
+    Ok((report, changed.then_some(designed)))
 }
 
 /// Reads the design in `path`: a WIF draft (`.wif`) or texere's own design file (`.toml`).
@@ -75,7 +108,9 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
         Some("wif") => {
-            wif::read(path).map(|wif| Design::woven(wif.name, wif.woven, Some(wif.draft), wif.warnings))
+            let wif = wif::read(path)?;
+            let fabric = |source| ReadError::Fabric { file: path.into(), source };
+            Design::woven(wif.name, wif.woven, Some(wif.draft), Jam::Report, wif.warnings).map_err(fabric)
         }
         Some("toml") => design_file::read(path),
         _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml" }),

@@ -8,6 +8,11 @@
 //! ends = 120
 //! picks = 80
 //!
+//! [cloth]                         # how threads lie; all of it may be left out
+//! shape = "round"
+//! warp_crimp = 0.6
+//! jam = "flatten"
+//!
 //! [yarns.indigo]
 //! tex = 60.0                      # or diameter_mm
 //! color = "#26406e"
@@ -20,7 +25,7 @@
 //!
 //! [warp]
 //! yarns = ["3 indigo", "ecru"]    # repeated over all ends
-//! per_cm = 12.0                   # or spacing_mm
+//! per_cm = 12.0                   # or spacing_mm, one number or a list: [0.9, 0.3] for doubled ends
 //!
 //! [weft]
 //! yarns = ["ecru"]
@@ -46,8 +51,18 @@
 //!
 //! The picks of a Jacquard cloth take the yarns of `[weft]` in turn, `["2 red", "white"]` two picks red and one white.
 //!
+//! Every key of `[cloth]`, which says how threads lie:
+//!
+//! | key | value |
+//! |---|---|
+//! | `shape` | `"round"` ([`Shape::Round`], where not given) or `"crossing"` ([`Shape::Crossing`]: the paper's count) |
+//! | `warp_crimp` | the warp's share of the crimp, 0 to 1 ([`Crimp::WarpShare`]); by stiffness where not given |
+//! | `selvedge` | `true`: the weft turns back round the edge ends, one yarn; `false` where not given |
+//! | `jam` | what is done where threads are jammed: `"report"`, where not given, `"flatten"` or `"shrink"` ([`Jam`]) |
+//!
 //! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.
 
+mod cloth;
 mod schema;
 mod threads;
 mod weave;
@@ -56,10 +71,11 @@ use std::path::Path;
 
 use texere_core::Section;
 #[cfg(doc)]
-use texere_fabric::Weave;
+use texere_fabric::{Crimp, Jam, Shape, Weave};
 use texere_fabric::{Drawdown, Woven};
 
 use super::{Design, ReadError, bytes_of, file_name, wif};
+use cloth::Cloth;
 use schema::{DesignFile, Source};
 use threads::YarnTable;
 
@@ -67,23 +83,26 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let bytes = bytes_of(path)?;
     let source = Source::new(path, &bytes)?;
     let file: DesignFile = source.parse()?;
+    let laid = Cloth::new(&source, &file.cloth)?;
     let yarns = YarnTable::new(&source, &file.yarns)?;
     let mut warnings = Vec::new();
     let drawdown = match (&file.weave.notation, &file.weave.image, &file.weave.wif) {
         (Some(notation), None, None) => weave::from_notation(&source, &file.weave, notation)?,
         (None, Some(image), None) => weave::from_image(&source, &file.weave, image, &mut warnings)?,
-        (None, None, Some(wif)) => return from_wif(&source, &file, wif, &yarns),
+        (None, None, Some(wif)) => return from_wif(&source, &file, wif, &yarns, laid),
         _ => {
             let keys = "weave.notation, weave.image and weave.wif";
             return Err(ReadError::ExactlyOne { file: path.into(), keys });
         }
     };
-    let woven = cloth(&source, &file, &yarns, drawdown)?;
-    Ok(Design::woven(file.name.unwrap_or_else(|| file_name(path)), woven, None, warnings))
+    let mut woven = threaded(&source, &file, &yarns, drawdown)?;
+    laid.lay(&source, &mut woven)?;
+    let name = file.name.unwrap_or_else(|| file_name(path));
+    Design::woven(name, woven, None, laid.jam, warnings).map_err(|error| source.fabric(error))
 }
 
 /// A drawdown with the file's own threads.
-fn cloth(
+fn threaded(
     source: &Source<'_>,
     file: &DesignFile,
     yarns: &YarnTable,
@@ -107,6 +126,7 @@ fn from_wif(
     file: &DesignFile,
     wif: &toml::Spanned<String>,
     yarns: &YarnTable,
+    laid: Cloth,
 ) -> Result<Design, ReadError> {
     weave::without_image(source, &file.weave)?;
     if file.weave.ends.is_some() || file.weave.picks.is_some() {
@@ -139,8 +159,9 @@ fn from_wif(
     };
     let warp = set("warp", &file.warp, woven.warp(), drawdown.ends())?;
     let weft = set("weft", &file.weft, woven.weft(), drawdown.picks())?;
-    let woven =
-        Woven::new(drawdown, warp, weft, materials, sections).map_err(|error| source.fabric(error))?;
+    let fabric = |error| source.fabric(error);
+    let mut woven = Woven::new(drawdown, warp, weft, materials, sections).map_err(fabric)?;
+    laid.lay(source, &mut woven)?;
     let name = file.name.clone().unwrap_or(draft.name);
-    Ok(Design::woven(name, woven, Some(draft.draft), draft.warnings))
+    Design::woven(name, woven, Some(draft.draft), laid.jam, draft.warnings).map_err(fabric)
 }

@@ -17,6 +17,8 @@ pub(super) struct DesignFile {
     pub(super) name: Option<String>,
     pub(super) weave: WeaveTable,
     #[serde(default)]
+    pub(super) cloth: ClothTable,
+    #[serde(default)]
     pub(super) yarns: BTreeMap<String, YarnSpec>,
     pub(super) warp: Option<ThreadSet>,
     pub(super) weft: Option<ThreadSet>,
@@ -33,6 +35,16 @@ pub(super) struct WeaveTable {
     pub(super) colors: Option<Spanned<BTreeMap<Spanned<String>, Spanned<String>>>>,
     pub(super) ends: Option<Spanned<i64>>,
     pub(super) picks: Option<Spanned<i64>>,
+}
+
+/// How threads lie. Values of any kind, so that one of the wrong kind is refused with its key.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ClothTable {
+    pub(super) shape: Option<Spanned<toml::Value>>,
+    pub(super) warp_crimp: Option<Spanned<toml::Value>>,
+    pub(super) selvedge: Option<Spanned<toml::Value>>,
+    pub(super) jam: Option<Spanned<toml::Value>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -72,7 +84,8 @@ pub(super) enum SectionSpec {
 pub(super) struct ThreadSet {
     pub(super) yarns: Spanned<Vec<Spanned<String>>>,
     pub(super) per_cm: Option<Spanned<f64>>,
-    pub(super) spacing_mm: Option<Spanned<f64>>,
+    /// A number, or a list of numbers that is repeated over the threads.
+    pub(super) spacing_mm: Option<Spanned<toml::Value>>,
 }
 
 /// Most threads of a warp or weft.
@@ -120,6 +133,28 @@ impl<'a> Source<'a> {
     pub(super) fn bad<T: ToString>(&self, field: &str, value: &Spanned<T>, expected: &str) -> ReadError {
         let (place, value) = (self.place(field, value.span()), value.as_ref().to_string());
         ReadError::BadValue { place, value, expected: expected.into() }
+    }
+
+    /// The refusal of a value that is not even of the right kind: it is shown as the file has it.
+    pub(super) fn odd(&self, field: &str, value: &Spanned<toml::Value>, expected: &str) -> ReadError {
+        let span = value.span();
+        let written = self.text.get(span.clone()).unwrap_or_default().trim_matches(['"', '\'']);
+        ReadError::BadValue {
+            place: self.place(field, span),
+            value: written.into(),
+            expected: expected.into(),
+        }
+    }
+
+    /// A number of any size, whole or not.
+    pub(super) fn float(
+        &self,
+        field: &str,
+        value: &Spanned<toml::Value>,
+        expected: &str,
+    ) -> Result<Spanned<f64>, ReadError> {
+        let number = real(value.as_ref()).ok_or_else(|| self.odd(field, value, expected))?;
+        Ok(Spanned::new(value.span(), number))
     }
 
     /// A number above 0 (or of either sign, where `low` is negative) within its limits.
@@ -182,6 +217,11 @@ impl<'a> Source<'a> {
     pub(super) fn fabric(&self, source: FabricError) -> ReadError {
         ReadError::Fabric { file: self.path.into(), source }
     }
+}
+
+/// A number, written with a point or without.
+pub(super) fn real(value: &toml::Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 /// The unknown key that serde complains of, and the known one nearest to it: its message lists them in backquotes.

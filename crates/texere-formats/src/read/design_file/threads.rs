@@ -6,7 +6,7 @@ use texere_core::{Material, Section};
 use texere_fabric::{COTTON_DENSITY, Thread};
 use toml::Spanned;
 
-use super::schema::{SectionSpec, Source, ThreadSet, YarnSpec};
+use super::schema::{SectionSpec, Source, ThreadSet, YarnSpec, real};
 use crate::read::ReadError;
 
 /// Thinnest and thickest diameter, and narrowest and widest spacing, that a design file may ask for, mm.
@@ -82,11 +82,11 @@ impl YarnTable {
         count: usize,
     ) -> Result<Vec<Thread>, ReadError> {
         let (low, high) = LENGTH_MM;
-        let spacing_mm = match (&spec.per_cm, &spec.spacing_mm) {
+        let spacings_mm = match (&spec.per_cm, &spec.spacing_mm) {
             (Some(per_cm), None) => {
-                10.0 / source.number(&format!("{set}.per_cm"), per_cm, 10.0 / high, 10.0 / low)?
+                vec![10.0 / source.number(&format!("{set}.per_cm"), per_cm, 10.0 / high, 10.0 / low)?]
             }
-            (None, Some(spacing)) => source.number(&format!("{set}.spacing_mm"), spacing, low, high)?,
+            (None, Some(spacing)) => spacings(source, &format!("{set}.spacing_mm"), spacing)?,
             _ => {
                 let keys = if set == "warp" {
                     "warp.per_cm and warp.spacing_mm"
@@ -99,7 +99,7 @@ impl YarnTable {
         let mut repeat = Vec::new();
         for item in spec.yarns.as_ref() {
             let (times, thread) = self.item(source, set, item)?;
-            repeat.resize(repeat.len() + times as usize, Thread { spacing_mm, ..thread });
+            repeat.resize(repeat.len() + times as usize, thread);
             // A repeat longer than the cloth is never seen; cut, many long items take no more memory than one.
             repeat.truncate(count);
         }
@@ -107,7 +107,8 @@ impl YarnTable {
             let (place, value) = (source.place(format!("{set}.yarns"), spec.yarns.span()), "[]".into());
             return Err(ReadError::BadValue { place, value, expected: "at least one yarn".into() });
         }
-        Ok(repeat.into_iter().cycle().take(count).collect())
+        let threads = repeat.into_iter().cycle().zip(spacings_mm.into_iter().cycle());
+        Ok(threads.map(|(thread, spacing_mm)| Thread { spacing_mm, ..thread }).take(count).collect())
     }
 
     /// One item of a repeat: `"indigo"`, or `"3 indigo"` for three in a row.
@@ -136,6 +137,23 @@ impl YarnTable {
             _ => Err(source.bad(&field, item, "a number from 1 to 1000000 before the yarn's name")),
         }
     }
+}
+
+/// One spacing for all threads, or a list of them.
+fn spacings(source: &Source<'_>, field: &str, value: &Spanned<toml::Value>) -> Result<Vec<f64>, ReadError> {
+    let expected = "a number of mm, or a list of them such as [0.9, 0.3]";
+    let (low, high) = LENGTH_MM;
+    let Some(list) = value.as_ref().as_array() else {
+        return Ok(vec![source.number(field, &source.float(field, value, expected)?, low, high)?]);
+    };
+    if list.is_empty() {
+        return Err(source.odd(field, value, expected));
+    }
+    let each = list.iter().zip(1..).map(|(item, place)| {
+        let number = real(item).ok_or_else(|| source.odd(field, value, expected))?;
+        source.number(&format!("{field}, number {place},"), &Spanned::new(value.span(), number), low, high)
+    });
+    each.collect()
 }
 
 fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, ReadError> {

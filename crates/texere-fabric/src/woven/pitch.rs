@@ -1,0 +1,69 @@
+//! The room that each thread has beside the one before it, and what it needs.
+
+use texere_core::Origin;
+
+use super::jam::Gap;
+use super::{ROUNDING, Woven};
+
+/// How far a thread lies from the one before it, and how far it should.
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::{Thread, Weave, Woven};
+/// let plain = Weave::parse("plain")?.drawdown(3, 3)?;
+/// let (warp, weft) = (vec![Thread::new(0.3, 0.1); 3], vec![Thread::new(0.6, 0.1); 3]);
+/// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+/// let [ends, picks] = cloth.pitches();
+/// // Round threads alike need √3 diameters for those that cross to pass in between.
+/// assert!((ends[0].passing_mm - 3f64.sqrt() * 0.2).abs() < 1e-6);
+/// assert!(ends[0].is_jammed() && !ends[0].is_crowded() && !picks[0].is_jammed());
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pitch {
+    /// The thread.
+    pub thread: Origin,
+    /// Its distance to the thread before, mm.
+    pub pitch_mm: f64,
+    /// The least distance at which the two lie side by side without piercing: half their widths together, mm.
+    pub beside_mm: f64,
+    /// The least distance at which those that change sides between them can pass, mm; 0 where none does.
+    pub passing_mm: f64,
+}
+
+impl Pitch {
+    /// Whether the two threads pierce one another side by side.
+    #[must_use]
+    pub fn is_crowded(&self) -> bool {
+        self.beside_mm > self.pitch_mm * (1.0 + ROUNDING)
+    }
+
+    /// Whether the threads that cross are jammed between the two.
+    #[must_use]
+    pub fn is_jammed(&self) -> bool {
+        self.passing_mm > self.pitch_mm * (1.0 + ROUNDING)
+    }
+}
+
+impl Woven {
+    /// The pitches of the ends from the second one on, and those of the picks, in the cloth's present shape.
+    ///
+    /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937, for
+    /// [`Shape::Round`](crate::Shape::Round); measured, for [`Shape::Crossing`](crate::Shape::Crossing).
+    #[must_use]
+    pub fn pitches(&self) -> [Vec<Pitch>; 2] {
+        let [warp, weft] = self.gaps();
+        // What passes between ends is the weft, with its own share of the crimp.
+        let share = self.warp_share();
+        let all = |gaps: &[Gap], share: f32, origin: fn(u32) -> Origin| {
+            let pitch = |gap: &Gap| Pitch {
+                thread: origin(gap.thread),
+                pitch_mm: gap.pitch,
+                beside_mm: f64::from(gap.widths),
+                passing_mm: gap.needed(self.shape(), share),
+            };
+            gaps.iter().map(pitch).collect()
+        };
+        [all(&warp, 1.0 - share, Origin::End), all(&weft, share, Origin::Pick)]
+    }
+}

@@ -1,0 +1,61 @@
+//! The `[cloth]` table: how threads lie in the cloth.
+
+use texere_fabric::{Crimp, Jam, Shape, Woven};
+use toml::Spanned;
+
+use super::schema::{ClothTable, Source};
+use crate::read::ReadError;
+
+/// What `[cloth]` says.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Cloth {
+    shape: Shape,
+    crimp: Crimp,
+    selvedge: bool,
+    pub(super) jam: Jam,
+}
+
+impl Cloth {
+    pub(super) fn new(source: &Source<'_>, table: &ClothTable) -> Result<Self, ReadError> {
+        let mut cloth = Self::default();
+        if let Some(shape) = &table.shape {
+            let known = [("round", Shape::Round), ("crossing", Shape::Crossing)];
+            cloth.shape = choice(source, "cloth.shape", shape, &known)?;
+        }
+        if let Some(share) = &table.warp_crimp {
+            let field = "cloth.warp_crimp";
+            let share = source.float(field, share, "the warp's share of the crimp, a number from 0 to 1")?;
+            cloth.crimp = Crimp::WarpShare(source.number(field, &share, 0.0, 1.0)? as f32);
+        }
+        if let Some(selvedge) = &table.selvedge {
+            let given = selvedge.as_ref().as_bool();
+            cloth.selvedge = given.ok_or_else(|| source.odd("cloth.selvedge", selvedge, "true or false"))?;
+        }
+        if let Some(jam) = &table.jam {
+            let known = [("report", Jam::Report), ("flatten", Jam::Flatten), ("shrink", Jam::Shrink)];
+            cloth.jam = choice(source, "cloth.jam", jam, &known)?;
+        }
+        Ok(cloth)
+    }
+
+    /// Gives `woven` its shape, its crimp and its selvedge.
+    pub(super) fn lay(&self, source: &Source<'_>, woven: &mut Woven) -> Result<(), ReadError> {
+        woven.set_shape(self.shape);
+        woven.set_selvedge(self.selvedge);
+        woven.set_crimp(self.crimp).map_err(|error| source.fabric(error))
+    }
+}
+
+/// One of the words `known`.
+fn choice<T: Copy>(
+    source: &Source<'_>,
+    field: &str,
+    value: &Spanned<toml::Value>,
+    known: &[(&str, T)],
+) -> Result<T, ReadError> {
+    let found = known.iter().find(|(name, _)| value.as_ref().as_str() == Some(name));
+    found.map(|(_, choice)| *choice).ok_or_else(|| {
+        let names: Vec<_> = known.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        source.odd(field, value, &names.join(" or "))
+    })
+}

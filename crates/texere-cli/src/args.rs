@@ -14,14 +14,16 @@ pub(crate) struct Args {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line is wrong; \
-                          3 the design is wrong.";
+                          3 the design is wrong; 4 check found that the cloth pierces itself, folds or jams.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// List the devices that can do the work
     Devices(DevicesArgs),
-    /// Say what a design makes: yarns, counts, sizes, lengths, warnings
+    /// Say what a design makes: counts, sizes, yarn, weight, clearance, bends, warnings
     Inspect(InspectArgs),
+    /// Say whether a cloth pierces itself, folds or jams, where, and what would cure it
+    Check(CheckArgs),
     /// Write a design's mesh to a .glb or .ply file
     Mesh(MeshArgs),
     /// Draw a woven design's draft, or print its drawdown
@@ -41,6 +43,22 @@ pub(crate) struct InspectArgs {
     pub(crate) design: PathBuf,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Count alone, without measures, clearance and bends, which take seconds where there are millions of control points
+    #[arg(long)]
+    pub(crate) counts: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct CheckArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    /// How far short of touching, as a share, yarns may come and still count as touching. Where yarns touch by
+    /// construction the spline between their control points comes out at 0.99 of it
+    #[arg(long, value_name = "SHARE", default_value_t = 0.015, value_parser = share)]
+    pub(crate) accuracy: f64,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -134,6 +152,12 @@ impl SettingsArgs {
             caps: self.caps,
         }
     }
+}
+
+/// A number from 0 to below 1.
+fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..1.0).contains(share));
+    share.ok_or_else(|| "expected a number from 0 to below 1".into())
 }
 
 /// A section from its name and its numbers, separated by colons.

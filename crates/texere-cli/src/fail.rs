@@ -23,14 +23,22 @@ const USAGE: u8 = 2;
 /// The design is wrong.
 const DESIGN: u8 = 3;
 
+/// The cloth pierces itself, folds or jams.
+const CLOTH: u8 = 4;
+
 impl Fail {
     pub(crate) fn output(source: std::io::Error) -> Self {
         Self { code: WORLD, source: source.into() }
     }
 
-    /// A draft was asked of a design that has none.
+    /// A draft, or a check of a cloth, was asked of a design that is none.
     pub(crate) fn not_woven(design: &Path) -> Self {
-        Self { code: DESIGN, source: format!("{} is not woven, so it has no draft", design.display()).into() }
+        Self { code: DESIGN, source: format!("{} is not woven cloth", design.display()).into() }
+    }
+
+    /// What `check` has found wrong with the cloth.
+    pub(crate) fn cloth(design: &Path, faults: &str) -> Self {
+        Self { code: CLOTH, source: format!("{} {faults}", design.display()).into() }
     }
 
     pub(crate) fn exit_code(&self) -> ExitCode {

@@ -3,15 +3,28 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Design, Pipeline};
+use texere::{Counts, Design, Measures, Pipeline, Structure, Woven, Yarns};
 
 use crate::args::InspectArgs;
 use crate::fail::Fail;
+use crate::measures::{JamsReport, MeasuresReport};
+use crate::places::{ClearanceReport, CurvatureReport, Names};
+use crate::progress;
 
 /// What is said of a design. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 struct Report {
     name: String,
+    #[serde(flatten)]
+    size: Size,
+    #[serde(skip_serializing_if = "Option::is_none", flatten)]
+    cloth: Option<ClothReport>,
+    warnings: Vec<String>,
+}
+
+/// What a mesh of it takes.
+#[derive(Debug, Serialize)]
+struct Size {
     yarns: u64,
     control_points: u64,
     rings: u64,
@@ -19,9 +32,18 @@ struct Report {
     triangles: u64,
     /// Bytes of the mesh in memory: 24 a vertex, 4 an index.
     bytes: u64,
-    /// Yarn in the fabric, mm.
-    length_mm: f64,
-    warnings: Vec<String>,
+}
+
+/// What it is as a cloth.
+#[derive(Debug, Serialize)]
+struct ClothReport {
+    ends: usize,
+    picks: usize,
+    size_mm: [f64; 2],
+    jam: JamsReport,
+    measures: MeasuresReport,
+    clearance: ClearanceReport,
+    curvature: CurvatureReport,
 }
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
@@ -31,8 +53,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
     }
     let report = report(design, args)?;
     if args.json {
-        let json = serde_json::to_string_pretty(&report).map_err(|error| Fail::output(error.into()))?;
-        return crate::print(&(json + "\n"));
+        return crate::print_json(&report);
     }
     crate::print(&report.text())
 }
@@ -41,37 +62,119 @@ fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let yarns = design.yarns()?;
     let settings = args.settings.settings();
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
-    Ok(Report {
-        warnings: design.warnings(),
-        name: design.name,
-        yarns: counts.yarns,
-        control_points: counts.control_points,
-        rings: counts.rings,
-        vertices: counts.vertices,
-        triangles: counts.triangles,
-        bytes: counts.bytes(),
-        length_mm: texere::length_mm(&yarns, settings.tension),
-    })
+    let cloth = match &design.structure {
+        Structure::Woven(woven) if !args.counts => {
+            Some(ClothReport::new(&design, woven, &yarns, settings.tension)?)
+        }
+        _ => None,
+    };
+    Ok(Report { warnings: design.warnings(), name: design.name, size: Size::new(&counts), cloth })
+}
+
+impl Size {
+    fn new(counts: &Counts) -> Self {
+        Self {
+            yarns: counts.yarns,
+            control_points: counts.control_points,
+            rings: counts.rings,
+            vertices: counts.vertices,
+            triangles: counts.triangles,
+            bytes: counts.bytes(),
+        }
+    }
+}
+
+impl ClothReport {
+    fn new(design: &Design, woven: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, Fail> {
+        let found = progress::during("measuring how near yarns come", || texere::clearance(yarns, tension))?;
+        let names = Names { cloth: woven, yarns };
+        let measures = Measures::new(woven, yarns, tension)?;
+        Ok(Self {
+            ends: woven.warp().len(),
+            picks: woven.weft().len(),
+            size_mm: woven.size_mm(),
+            jam: JamsReport::from(&design.jam),
+            measures: MeasuresReport::new(&measures, woven.materials()),
+            clearance: names.clearance(&found),
+            curvature: names.curvature(&found),
+        })
+    }
+
+    fn lines(&self) -> Vec<(&'static str, String)> {
+        let percent = |share: f64| format!("{:.1} %", share * 100.0);
+        let measures = &self.measures;
+        let [width, height] = self.size_mm;
+        let (crimp, cover) = (measures.crimp, &measures.cover);
+        let mut lines = vec![
+            (
+                "cloth",
+                format!(
+                    "{width:.1} × {height:.1} mm, {:.3} mm thick, {} ends by {} picks",
+                    measures.thickness_mm, self.ends, self.picks
+                ),
+            ),
+            ("yarn, m", format!("{:.3}", measures.length_mm / 1000.0)),
+        ];
+        for yarn in &measures.yarns {
+            let weight = yarn.weight_g.map(|grams| format!(", {grams:.3} g")).unwrap_or_default();
+            lines.push(("", format!("{} {:.3}{weight}", yarn.yarn, yarn.length_mm / 1000.0)));
+        }
+        let weight = measures
+            .areal_weight_g_per_m2
+            .map_or("not known: not every yarn has tex".into(), |grams| format!("{grams:.1} g/m²"));
+        lines.extend([
+            ("weight", weight),
+            (
+                "crimp",
+                format!(
+                    "warp {}, weft {}; the warp's share is {:.2}",
+                    percent(crimp.warp),
+                    percent(crimp.weft),
+                    self.jam.warp_crimp
+                ),
+            ),
+            (
+                "cover",
+                format!(
+                    "{}: ends {}, picks {}",
+                    percent(cover.cloth),
+                    percent(cover.fraction.warp),
+                    percent(cover.fraction.weft)
+                ),
+            ),
+        ]);
+        for (set, found) in [("ends", &self.jam.after.warp), ("picks", &self.jam.after.weft)] {
+            if let Some(tightest) = &found.tightest {
+                let text = format!(
+                    "{:.3} mm at {tightest}; {:.3} mm is the least that round threads pass",
+                    found.pitch_mm, found.pitch_min_mm
+                );
+                lines.push((if set == "ends" { "pitch of ends" } else { "pitch of picks" }, text));
+            }
+        }
+        lines.push(("clearance", self.clearance.to_string()));
+        lines.push(("bends", self.curvature.to_string()));
+        lines
+    }
 }
 
 impl Report {
     fn text(&self) -> String {
         let mut text = format!("{}\n", self.name);
-        let lines: [(&str, String); 7] = [
-            ("yarns", self.yarns.to_string()),
-            ("control points", self.control_points.to_string()),
-            ("rings", self.rings.to_string()),
-            ("vertices", self.vertices.to_string()),
-            ("triangles", self.triangles.to_string()),
-            ("mesh, bytes", self.bytes.to_string()),
-            ("yarn, m", format!("{:.3}", self.length_mm / 1000.0)),
+        let size = &self.size;
+        let mut lines = vec![
+            ("yarns", size.yarns.to_string()),
+            ("control points", size.control_points.to_string()),
+            ("rings", size.rings.to_string()),
+            ("vertices", size.vertices.to_string()),
+            ("triangles", size.triangles.to_string()),
+            ("mesh, bytes", size.bytes.to_string()),
         ];
+        lines.extend(self.cloth.iter().flat_map(ClothReport::lines));
+        lines.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         for (what, value) in lines {
             // Writing to a string can't fail.
             let _ = writeln!(text, "{what:>16}  {value}");
-        }
-        for warning in &self.warnings {
-            let _ = writeln!(text, "{:>16}  {warning}", "warning");
         }
         text
     }

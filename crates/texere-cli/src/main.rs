@@ -1,13 +1,18 @@
-//! The `texere` program: inspect, mesh and draft textile designs.
+//! The `texere` program: inspect, check, mesh and draft textile designs.
 //!
-//! Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line is wrong; 3 the design is wrong.
+//! Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line is wrong; 3 the design is wrong; 4 `check`
+//! found that the cloth pierces itself, folds or jams.
 
 mod args;
+mod check;
+mod cures;
 mod devices;
 mod draft;
 mod fail;
 mod inspect;
+mod measures;
 mod mesh;
+mod places;
 mod progress;
 
 use std::io::Write;
@@ -16,11 +21,13 @@ use std::process::ExitCode;
 use args::{Args, Command};
 use clap::Parser;
 use fail::Fail;
+use serde::Serialize;
 
 fn main() -> ExitCode {
     let outcome = match Args::parse().command {
         Command::Devices(args) => devices::run(&args),
         Command::Inspect(args) => inspect::run(&args),
+        Command::Check(args) => check::run(&args),
         Command::Mesh(args) => mesh::run(&args),
         Command::Draft(args) => draft::run(&args),
     };
@@ -32,6 +39,12 @@ fn main() -> ExitCode {
             fail.exit_code()
         }
     }
+}
+
+/// Prints `report` as JSON, for programs.
+fn print_json(report: &impl Serialize) -> Result<(), Fail> {
+    let json = serde_json::to_string_pretty(report).map_err(|error| Fail::output(error.into()))?;
+    print(&(json + "\n"))
 }
 
 /// Prints `text` to standard output. A reader that has seen enough and closed the pipe is no failure.

@@ -1,5 +1,6 @@
 //! A progress bar for work that takes over a second, on a terminal only.
 
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -19,6 +20,20 @@ pub(crate) fn bar(terminal: bool) -> ProgressBar {
         bar.set_draw_target(ProgressDrawTarget::stderr());
     }
     bar
+}
+
+/// Does `work`, and says on a terminal that it goes on if it takes over a second.
+pub(crate) fn during<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+    let bar = bar(std::io::stderr().is_terminal());
+    if let Ok(style) = ProgressStyle::with_template("{msg}, {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.set_message(what);
+    // The first tick comes after a whole interval.
+    bar.enable_steady_tick(QUIET_FOR);
+    let done = work();
+    bar.finish_and_clear();
+    done
 }
 
 /// Moves `bar` on as the pipeline tells how far it has come.

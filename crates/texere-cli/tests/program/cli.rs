@@ -1,33 +1,10 @@
 //! The program as a user runs it: what it prints, what it writes, how it exits.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
-use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Command;
 
 use serde_json::Value;
 
-fn texere(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_texere")).args(args).output().unwrap()
-}
-
-fn design(name: &str) -> String {
-    let folder: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "..", "designs"].iter().collect();
-    folder.join(name).to_string_lossy().into_owned()
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-fn inspect(args: &[&str]) -> Value {
-    let output = texere(&[&["inspect", "--json"], args].concat());
-    assert!(output.status.success(), "{}", stderr(&output));
-    serde_json::from_str(&stdout(&output)).unwrap()
-}
+use crate::{design, inspect, stderr, stdout, texere};
 
 /// The paper's benchmark cloths: yarns, control points, rings, facets. Derived from its text: a yarn has a control point
 /// at each crossing and one at each end, K = 1 inserts one between two, and nc = 6 sides make 12 facets between rings.
@@ -42,20 +19,31 @@ fn the_papers_cloths_have_the_papers_sizes() {
         ("1630x1500", 3_130, 4_896_260, 9_789_390, 117_435_120),
         ("2880x1840", 4_720, 10_607_840, 21_210_960, 254_474_880),
     ] {
-        let report = inspect(&[&design(&format!("paper/{size}.toml"))]);
+        let report = inspect(&["--counts", &design(&format!("paper/{size}.toml"))]);
         assert_eq!(report["yarns"], yarns, "{size}");
         assert_eq!(report["control_points"], control_points, "{size}");
         assert_eq!(report["rings"], rings, "{size}");
         assert_eq!(report["vertices"], rings * 6, "{size}");
         assert_eq!(report["triangles"], facets, "{size}");
         assert_eq!(report["warnings"], Value::Array(vec![]), "{size}");
+        assert!(report.get("clearance").is_none(), "{size}");
     }
 }
 
 #[test]
 fn settings_change_what_is_counted() {
     let plain = design("plain.toml");
-    let report = inspect(&["--subdivisions", "3", "--sides", "8", "--caps", "--topology", "indexed", &plain]);
+    let report = inspect(&[
+        "--counts",
+        "--subdivisions",
+        "3",
+        "--sides",
+        "8",
+        "--caps",
+        "--topology",
+        "indexed",
+        &plain,
+    ]);
     // 64 ends of 50 control points, 48 picks of 66, and three each time that one changes sides, between any two crossings;
     // 4 rings an interval.
     let rings = 64 * ((49 + 3 * 47) * 4 + 1) + 48 * ((65 + 3 * 63) * 4 + 1);

@@ -1,28 +1,8 @@
 //! `texere draft` and designs by image, as a user runs them.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
-use serde_json::Value;
-
-fn texere(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_texere")).args(args).output().unwrap()
-}
-
-fn design(name: &str) -> String {
-    let folder: PathBuf = [env!("CARGO_MANIFEST_DIR"), "..", "..", "designs"].iter().collect();
-    folder.join(name).to_string_lossy().into_owned()
-}
-
-fn stdout(output: &Output) -> String {
-    assert!(output.status.success(), "{}", stderr(output));
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
+use crate::{design, stderr, stdout, texere};
 
 /// Width and height that a PNG file states.
 fn png_size(path: &Path) -> [u32; 2] {
@@ -45,15 +25,6 @@ fn bmp(drawing: &[&str]) -> Vec<u8> {
         bytes.extend(vec![0; (width.next_multiple_of(4) - width) as usize]);
     }
     bytes
-}
-
-#[test]
-fn the_papers_jacquard_has_the_papers_size() {
-    let output = texere(&["inspect", "--json", &design("paper/figure-7a.toml")]);
-    let report: Value = serde_json::from_str(&stdout(&output)).unwrap();
-    assert_eq!(report["triangles"], 254_474_880u64);
-    assert_eq!(report["yarns"], 2880 + 1840);
-    assert_eq!(report["warnings"], Value::Array(vec![]));
 }
 
 #[test]

@@ -1,0 +1,133 @@
+//! What is said of a cloth's yarn, weight and thickness.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use texere::{JamReport, Material, Measures, Tightness};
+
+/// A number for the warp, and one for the weft.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Sets<T> {
+    pub(crate) warp: T,
+    pub(crate) weft: T,
+}
+
+impl<T> From<[T; 2]> for Sets<T> {
+    fn from([warp, weft]: [T; 2]) -> Self {
+        Self { warp, weft }
+    }
+}
+
+/// [`Measures`], with the names of what they measure.
+#[derive(Debug, Serialize)]
+pub(crate) struct MeasuresReport {
+    /// All yarn, mm.
+    pub(crate) length_mm: f64,
+    pub(crate) yarns: Vec<YarnReport>,
+    /// Length of yarn of each colour, mm.
+    colors: BTreeMap<String, f64>,
+    pub(crate) crimp: Sets<f64>,
+    pub(crate) cover: CoverReport,
+    pub(crate) areal_weight_g_per_m2: Option<f64>,
+    pub(crate) thickness_mm: f64,
+}
+
+/// A yarn of the design, as far as the cloth holds it.
+#[derive(Debug, Serialize)]
+pub(crate) struct YarnReport {
+    pub(crate) yarn: String,
+    color: String,
+    tex: Option<f32>,
+    pub(crate) length_mm: f64,
+    pub(crate) weight_g: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct CoverReport {
+    factor: Option<Sets<f64>>,
+    cloth_factor: Option<f64>,
+    pub(crate) fraction: Sets<f64>,
+    pub(crate) cloth: f64,
+}
+
+impl MeasuresReport {
+    pub(crate) fn new(measures: &Measures, materials: &[Material]) -> Self {
+        let used = materials.iter().zip(&measures.length_mm).filter(|(_, length)| **length > 0.0);
+        let yarns: Vec<_> = used.map(|(material, &length_mm)| YarnReport::new(material, length_mm)).collect();
+        let mut colors = BTreeMap::new();
+        for yarn in &yarns {
+            *colors.entry(yarn.color.clone()).or_default() += yarn.length_mm;
+        }
+        let cover = measures.cover;
+        Self {
+            length_mm: measures.length_mm.iter().sum(),
+            yarns,
+            colors,
+            crimp: measures.crimp.into(),
+            cover: CoverReport {
+                factor: cover.factor.map(Sets::from),
+                cloth_factor: cover.cloth_factor,
+                fraction: cover.fraction.into(),
+                cloth: cover.cloth,
+            },
+            areal_weight_g_per_m2: measures.areal_weight,
+            thickness_mm: measures.thickness_mm,
+        }
+    }
+}
+
+impl YarnReport {
+    fn new(material: &Material, length_mm: f64) -> Self {
+        let [red, green, blue] = material.srgb;
+        Self {
+            yarn: material.name.clone(),
+            color: format!("#{red:02x}{green:02x}{blue:02x}"),
+            tex: material.tex,
+            length_mm,
+            // tex is g/km.
+            weight_g: material.tex.map(|tex| length_mm * 1e-6 * f64::from(tex)),
+        }
+    }
+}
+
+/// [`JamReport`]: what was found of jammed threads, and what was done.
+#[derive(Debug, Serialize)]
+pub(crate) struct JamsReport {
+    before: Sets<TightnessReport>,
+    pub(crate) after: Sets<TightnessReport>,
+    pub(crate) warp_crimp: f32,
+    widened: Sets<f32>,
+    scaled: f32,
+}
+
+/// How close the threads of one set lie, against the least pitch.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct TightnessReport {
+    pub(crate) jammed: usize,
+    pub(crate) tightest: Option<String>,
+    pub(crate) pitch_min_mm: f64,
+    pub(crate) pitch_mm: f64,
+}
+
+impl From<Tightness> for TightnessReport {
+    fn from(found: Tightness) -> Self {
+        Self {
+            jammed: found.jammed,
+            tightest: found.tightest.map(|thread| thread.to_string()),
+            pitch_min_mm: found.pitch_min_mm,
+            pitch_mm: found.pitch_mm,
+        }
+    }
+}
+
+impl From<&JamReport> for JamsReport {
+    fn from(found: &JamReport) -> Self {
+        Self {
+            before: found.before.map(TightnessReport::from).into(),
+            after: found.after.map(TightnessReport::from).into(),
+            warp_crimp: found.warp_share[1],
+            widened: found.widened.into(),
+            scaled: found.scaled,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! `texere check`: what it finds, and that its cures are cures.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::{design, stderr, stdout, texere};
+
+/// A 3/1 twill of yarns of 0.3 mm, with these spacings of ends and picks.
+fn twill(folder: &Path, cloth: &str, ends: f64, picks: f64) -> PathBuf {
+    let path = folder.join("twill.toml");
+    let text = format!(
+        "[weave]\nnotation = \"3/1\"\nends = 20\npicks = 16\n[cloth]\n{cloth}\n[yarns.a]\ndiameter_mm = 0.3\n\
+         [warp]\nyarns = [\"a\"]\nspacing_mm = {ends}\n[weft]\nyarns = [\"a\"]\nspacing_mm = {picks}\n"
+    );
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+/// The exit code and the JSON of a check.
+fn check(path: &Path, more: &[&str]) -> (i32, Value) {
+    let output = texere(&[&["check", "--json", path.to_str().unwrap()], more].concat());
+    let json = serde_json::from_str(&stdout(&output)).unwrap_or_else(|_| panic!("{}", stderr(&output)));
+    (output.status.code().unwrap(), json)
+}
+
+fn cure<'a>(report: &'a Value, key: &str) -> Option<&'a Value> {
+    report["cures"].as_array().unwrap().iter().find(|cure| cure["key"] == key)
+}
+
+#[test]
+fn our_own_designs_are_clean() {
+    for name in
+        ["plain.toml", "twill.toml", "satin.toml", "damask.toml", "herringbone.wif", "paper/163x150.toml"]
+    {
+        let output = texere(&["check", &design(name)]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", stdout(&output));
+        assert!(stdout(&output).contains("clean") && stderr(&output).is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn jammed_cloth_is_named_with_its_numbers_and_its_cure_cures() {
+    let folder = TempDir::new().unwrap();
+    let path = twill(folder.path(), "", 0.4, 0.66);
+    let (code, report) = check(&path, &[]);
+    assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)));
+    assert_eq!((&report["jams"]["ends"], &report["jams"]["picks"]), (&Value::from(19), &Value::from(0)));
+    let worst = &report["jams"]["threads"][0];
+    assert_eq!((worst["thread"].as_str(), worst["pitch_mm"].as_f64()), (Some("end 2"), Some(0.4)));
+    // Peirce: √3 diameters of round threads alike.
+    assert!((worst["pitch_min_mm"].as_f64().unwrap() - 0.3 * 3f64.sqrt()).abs() < 1e-6);
+    assert!(
+        report["pierces"]["min"].as_f64().unwrap() < 0.985 && report["folds"]["min"].as_f64().unwrap() < 1.0
+    );
+    assert!(report["pierces"]["worst"][0]["yarns"][0].as_str().unwrap().starts_with("end "));
+
+    // As it says: with that spacing the cloth is clean.
+    let spacing = cure(&report, "warp.spacing_mm, weft.spacing_mm").unwrap();
+    let (ends, picks) = spacing["value"].as_str().unwrap().split_once(", ").unwrap();
+    let wider = twill(folder.path(), "", ends.parse().unwrap(), picks.parse().unwrap());
+    let (code, after) = check(&wider, &[]);
+    assert_eq!(code, 0, "{after}");
+    // And what flattening leaves is what it says it leaves.
+    let flatten = cure(&report, "cloth.jam").unwrap();
+    let (code, after) = check(&twill(folder.path(), "jam = \"flatten\"", 0.4, 0.66), &[]);
+    assert!(after["jams"].is_null() && after["pierces"].is_null(), "{after}");
+    assert_eq!((flatten["leaves"].as_str(), code), (Some("folds"), 4));
+    assert!(!after["folds"].is_null() && cure(&after, "cloth.jam").is_none());
+
+    let output = texere(&["check", twill(folder.path(), "", 0.4, 0.66).to_str().unwrap()]);
+    let text = stdout(&output);
+    assert!(text.contains("end 2 is 0.4000 mm from the one before and needs 0.5196 mm"), "{text}");
+    assert!(
+        text.contains("cure  cloth.jam = \"flatten\"")
+            && stderr(&output).contains("pierces itself, folds, jams")
+    );
+}
+
+#[test]
+fn how_exact_touching_is_can_be_said() {
+    let folder = TempDir::new().unwrap();
+    let path = twill(folder.path(), "shape = \"crossing\"", 0.9, 0.9);
+    assert_eq!(check(&path, &[]).0, 0);
+    // One point a crossing is clear to 0.99, and no better.
+    let (code, report) = check(&path, &["--accuracy", "0.001"]);
+    assert_eq!(code, 4, "{report}");
+    assert!(report["folds"].is_null() && report["jams"].is_null());
+    assert!(report["pierces"]["min"].as_f64().unwrap() > 0.985);
+    for bad in ["-0.1", "1", "nan", "much"] {
+        let output = texere(&["check", path.to_str().unwrap(), &format!("--accuracy={bad}")]);
+        assert_eq!(output.status.code(), Some(2), "{bad}");
+    }
+}
+
+#[test]
+fn the_papers_shape_is_cured_by_the_round_one() {
+    let folder = TempDir::new().unwrap();
+    // Less than two diameters apart: corners are cut, threads that bend round one another just pass.
+    let path = twill(folder.path(), "shape = \"crossing\"", 0.59, 0.59);
+    let (code, report) = check(&path, &[]);
+    assert_eq!(code, 4);
+    let round = cure(&report, "cloth.shape").unwrap_or_else(|| panic!("{report}"));
+    assert_eq!(round["value"], "\"round\"");
+    let (_, after) = check(&twill(folder.path(), "shape = \"round\"", 0.59, 0.59), &[]);
+    assert!(after["jams"].is_null() && after["pierces"].is_null(), "{after}");
+}
+
+#[test]
+fn faults_of_the_design_are_not_the_cloths() {
+    let folder = TempDir::new().unwrap();
+    let path = twill(folder.path(), "jam = \"squeeze\"", 0.4, 0.66);
+    let output = texere(&["check", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(stderr(&output).contains("line 6: cloth.jam is \"squeeze\""), "{}", stderr(&output));
+    assert_eq!(texere(&["check", "no-such-file.toml"]).status.code(), Some(1));
+}

@@ -1,0 +1,111 @@
+//! What `texere inspect` says of a cloth.
+
+use serde_json::Value;
+
+use crate::{design, inspect, stdout, texere};
+
+/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, two colours of three yarns, a weft that turns round.
+const CLOTH: &str = "[weave]\nnotation = \"2/2\"\nends = 30\npicks = 24\n[cloth]\nselvedge = true\n\
+    [yarns.red]\ntex = 40.0\ncolor = \"#c81020\"\n[yarns.rust]\ntex = 50.0\ncolor = \"#C81020\"\n\
+    [yarns.ecru]\ntex = 60.0\ncolor = \"#e9dfc7\"\n[warp]\nyarns = [\"2 red\", \"rust\"]\nspacing_mm = 0.8\n\
+    [weft]\nyarns = [\"ecru\"]\nspacing_mm = 1\n";
+
+fn cloth() -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cloth.toml");
+    std::fs::write(&path, CLOTH).unwrap();
+    inspect(&[path.to_str().unwrap()])
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn measures_add_up() {
+    let report = cloth();
+    assert!([0, 1].iter().all(|&axis| (number(&report["size_mm"][axis]) - 24.0).abs() < 1e-9));
+    let measures = &report["measures"];
+    let yarns = measures["yarns"].as_array().unwrap();
+    let names: Vec<_> = yarns.iter().map(|yarn| yarn["yarn"].as_str().unwrap()).collect();
+    assert_eq!(names, ["ecru", "red", "rust"]);
+    let [ecru, red, rust] = [0, 1, 2].map(|yarn| number(&yarns[yarn]["length_mm"]));
+    assert!((number(&measures["length_mm"]) - ecru - red - rust).abs() < 1e-6);
+    // Two yarns of one colour.
+    assert!((number(&measures["colors"]["#c81020"]) - red - rust).abs() < 1e-6);
+    assert_eq!(number(&measures["colors"]["#e9dfc7"]), ecru);
+    // 20 ends of red and 10 of rust; crimp lengthens all the same way.
+    let crimp = &measures["crimp"];
+    assert!(((red + rust) / (30.0 * 24.0) - 1.0 - number(&crimp["warp"])).abs() < 1e-9);
+    assert!((ecru / (24.0 * 24.0) - 1.0 - number(&crimp["weft"])).abs() < 1e-9);
+    assert!((red / rust - 2.0).abs() < 0.01);
+    // g/km on 24 mm by 24 mm.
+    let grams = (red * 40.0 + rust * 50.0 + ecru * 60.0) * 1e-6;
+    assert!((number(&measures["areal_weight_g_per_m2"]) / (grams / 576e-6) - 1.0).abs() < 1e-6);
+    let weights: f64 = yarns.iter().map(|yarn| number(&yarn["weight_g"])).sum();
+    assert!((weights / grams - 1.0).abs() < 1e-6);
+    // Cotton of 40, 50 and 60 tex, 1.1 cm³/g, over spacings: tex × 1.1e-3 mm² across.
+    let root = (4.0 * 1.1e-3 / std::f64::consts::PI).sqrt();
+    let [warp, weft] = [(2.0 * 40f64.sqrt() + 50f64.sqrt()) / 2.4, 60f64.sqrt()].map(|roots| root * roots);
+    let cover = &measures["cover"];
+    assert!((number(&cover["fraction"]["warp"]) / warp - 1.0).abs() < 2e-3);
+    assert!((number(&cover["fraction"]["weft"]) / weft - 1.0).abs() < 2e-3);
+    assert!((number(&cover["cloth"]) / (warp + weft - warp * weft) - 1.0).abs() < 3e-3);
+    assert!(number(&cover["factor"]["warp"]) > 0.0 && number(&cover["cloth_factor"]) < 28.0);
+    // Between one and two threads thicker than the thickest.
+    assert!((0.29..3.0 * 0.29).contains(&number(&measures["thickness_mm"])));
+}
+
+#[test]
+fn the_worst_places_have_a_weavers_names() {
+    let report = cloth();
+    let clearance = &report["clearance"];
+    let worst = clearance["worst"].as_array().unwrap();
+    assert_eq!(worst[0]["ratio"], clearance["min"]);
+    let counts = clearance["histogram"]["counts"].as_array().unwrap();
+    assert_eq!(counts.iter().map(|count| count.as_u64().unwrap()).sum::<u64>(), clearance["contacts"]);
+    assert!(clearance["below_one"].as_u64() <= clearance["contacts"].as_u64());
+    let mut crossings = 0;
+    for contact in worst {
+        let [x, y] = [0, 1].map(|axis| number(&contact["place_mm"][axis]));
+        for (name, crossing) in [0, 1].map(|side| (&contact["yarns"][side], &contact["crossings"][side])) {
+            let (Some(end), Some(pick)) = (crossing["end"].as_f64(), crossing["pick"].as_f64()) else {
+                continue;
+            };
+            crossings += 1;
+            // Half the first spacing in, then one spacing after another.
+            assert!((x - (end - 0.5) * 0.8).abs() < 0.41 && (y - (pick - 0.5)).abs() < 0.51, "{contact}");
+            // One weft yarn has many picks.
+            assert!(*name == format!("end {end}") || *name == format!("pick {pick}"), "{contact}");
+        }
+    }
+    assert!(crossings > 20, "{clearance}");
+    let curvature = &report["curvature"];
+    assert!(number(&curvature["min"]) > 1.0 && curvature["place_mm"].is_array(), "{curvature}");
+    assert!(
+        curvature["yarn"].as_str().is_some_and(|name| name.starts_with("end ") || name.starts_with("pick "))
+    );
+    // √3 diameters would be the least of ends alike; these have thicker picks between.
+    let ends = &report["jam"]["after"]["warp"];
+    assert_eq!((ends["jammed"].as_u64(), number(&ends["pitch_mm"])), (Some(0), 0.8));
+    assert!((0.4..0.6).contains(&number(&ends["pitch_min_mm"])), "{ends}");
+}
+
+#[test]
+fn text_says_the_same() {
+    let text = stdout(&texere(&["inspect", &design("plain.toml")]));
+    for said in ["64 ends by 48 picks", "g/m²", "crimp", "cover", "of touching at the least", "yarn radii"] {
+        assert!(text.contains(said), "\"{said}\" is missing from:\n{text}");
+    }
+}
+
+/// 10.6 million control points.
+#[test]
+fn the_papers_jacquard_has_the_papers_size_and_is_clear() {
+    let report = inspect(&[&design("paper/figure-7a.toml")]);
+    assert_eq!(report["triangles"], 254_474_880u64);
+    assert_eq!(report["yarns"], 2880 + 1840);
+    assert_eq!(report["warnings"], Value::Array(vec![]));
+    assert!(number(&report["clearance"]["min"]) >= 0.985, "{}", report["clearance"]["min"]);
+    assert!(number(&report["curvature"]["min"]) > 1.0);
+}

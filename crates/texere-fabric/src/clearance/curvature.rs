@@ -1,89 +1,189 @@
-//! How tightly yarns bend.
+//! How tightly yarns bend: branch and bound over parts of an interval.
 
-use super::interval::{At, Cubic};
+use glam::DVec3;
+
+use super::interval::Cubic;
 use super::support::Support;
 
-/// Places of an interval at which its bend is measured before the tightest is refined.
-const SAMPLES: usize = 8;
+/// The share by which a yarn may bend tighter somewhere than where it is said to bend tightest.
+const ACCURACY: f64 = 1e-3;
 
-/// Steps of the golden section: 12 leave 6e-3 of the way between two samples, and a ratio off by the square of that.
-const STEPS: usize = 12;
+/// Times that an interval is halved. A velocity that turns round within so short a part turns straight back.
+const HALVINGS: u32 = 12;
 
-/// Radius of curvature over how far the section reaches into the bend.
-fn ratio(at: &At, support: &Support) -> f64 {
-    let speed_squared = at.velocity.length_squared();
-    let turn = at.velocity.cross(at.acceleration);
-    let (speed, turning) = (speed_squared.sqrt(), turn.length());
-    // Rounding of a straight line's derivatives is no bend.
-    if turning <= 1e-9 * speed * at.acceleration.length() {
-        return f64::INFINITY;
-    }
-    let reach = if support.is_circle() {
-        1.0
-    } else {
-        let inwards = turn.cross(at.velocity).normalize_or_zero();
-        support.furthest(at.velocity / speed, inwards).dot(inwards)
-    };
-    speed_squared * speed / (turning * reach * at.radius[0])
+/// Times that an interval is halved until a section that is no circle reaches as far everywhere in a part as in its
+/// middle.
+const HALVINGS_FLAT: u32 = 3;
+
+/// A part of an interval as Bernstein coefficients, which bound what they stand for four times as closely in each half.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    from: f64,
+    length: f64,
+    halvings: u32,
+    velocity: [DVec3; 3],
+    radius: [f64; 4],
 }
 
-/// The least ratio of an interval and where it is, or nothing where it is more than `within`.
-///
-/// Where the yarn turns straight back the ratio is 0.
-pub(super) fn tightest(cubic: &Cubic, support: &Support, within: f64) -> Option<(f64, f64)> {
-    if cubic.curvature_bound() > within * cubic.radius_bound() * support.extent() {
-        return None;
+impl Part {
+    fn whole(cubic: &Cubic) -> Self {
+        let (velocity, radius) = (cubic.velocities(), cubic.radii());
+        Self { from: 0.0, length: 1.0, halvings: 0, velocity, radius }
     }
-    let step = 1.0 / SAMPLES as f64;
-    let mut best = (f64::INFINITY, 0.0);
-    let mut before = cubic.at(0.0);
-    let mut turns_back = None;
-    for k in 0..=SAMPLES {
-        let t = k as f64 * step;
-        let here = cubic.at(t);
-        let ratio = ratio(&here, support);
-        if ratio < best.0 {
-            best = (ratio, t);
-        }
-        if here.velocity.dot(before.velocity) < 0.0 {
-            turns_back = Some(t - step);
-        }
-        before = here;
+
+    /// De Casteljau's algorithm.
+    fn halves(&self) -> [Self; 2] {
+        let [u, v, w] = self.velocity;
+        let (uv, vw) = ((u + v) / 2.0, (v + w) / 2.0);
+        let middle = (uv + vw) / 2.0;
+        let [a, b, c, d] = self.radius;
+        let [ab, bc, cd] = [(a + b) / 2.0, (b + c) / 2.0, (c + d) / 2.0];
+        let [abc, bcd] = [(ab + bc) / 2.0, (bc + cd) / 2.0];
+        let radius = (abc + bcd) / 2.0;
+        let (length, halvings) = (self.length / 2.0, self.halvings + 1);
+        [
+            Self { velocity: [u, uv, middle], radius: [a, ab, abc, radius], length, halvings, ..*self },
+            Self {
+                from: self.from + length,
+                length,
+                halvings,
+                velocity: [middle, vw, w],
+                radius: [radius, bcd, cd, d],
+            },
+        ]
     }
-    if let Some(from) = turns_back {
-        // At its slowest a yarn that turns straight back does not move; one in a bend does.
-        let slowest = golden(|t| cubic.at(t).velocity.length_squared(), from, from + step);
-        let speed = |t: f64| cubic.at(t).velocity.length();
-        if speed(slowest) < 1e-4 * speed(from).max(speed(from + step)) {
-            return Some((0.0, slowest));
-        }
-        best = (0.0, slowest);
+
+    /// The squared speed, of degree four.
+    fn speed_squared(&self) -> [f64; 5] {
+        let [u, v, w] = self.velocity;
+        let middle = (u.dot(w) + 2.0 * v.length_squared()) / 3.0;
+        [u.length_squared(), u.dot(v), middle, v.dot(w), w.length_squared()]
     }
-    // Twice what counts leaves room for a tighter place between two samples.
-    if best.0 > 2.0 * within && turns_back.is_none() {
-        return None;
+
+    /// Lengths of the coefficients of velocity × acceleration, which is of degree two: as coefficients they stand for no
+    /// less than its length.
+    fn turn(&self) -> [f64; 3] {
+        let [u, v, w] = self.velocity;
+        [2.0 * u.cross(v), u.cross(w), 2.0 * v.cross(w)].map(|turn| turn.length() / self.length)
     }
-    let t = golden(|t| ratio(&cubic.at(t), support), (best.1 - step).max(0.0), (best.1 + step).min(1.0));
-    let found = ratio(&cubic.at(t), support);
-    let (found, t) = if turns_back.is_none() && best.0 < found { best } else { (found, t) };
-    (found < within).then_some((found, t))
+
+    /// Whether the radius of curvature is at least `least` all along the part: whether |v|³ ≥ least |v × a|.
+    ///
+    /// |v|³ is a convex function of |v|² and lies above its tangent, here at the middle's `speed_squared`. What is left
+    /// to show is that a polynomial of degree four is not negative: its coefficients are not.
+    fn bends_less(&self, least: f64, speed_squared: f64) -> bool {
+        let speed = speed_squared.sqrt();
+        let [a, b, c] = self.turn();
+        let turn = [a, (a + b) / 2.0, (a + 4.0 * b + c) / 6.0, (b + c) / 2.0, c];
+        let tangent = |square: f64| speed * (1.5 * square - 0.5 * speed_squared);
+        speed > 0.0
+            && self.speed_squared().iter().zip(turn).all(|(square, turn)| tangent(*square) >= least * turn)
+    }
+
+    /// No less than |velocity| |acceleration| anywhere in the part.
+    fn size(&self) -> f64 {
+        let [u, v, w] = self.velocity;
+        let fastest = self.velocity.iter().map(|velocity| velocity.length_squared()).fold(0.0, f64::max);
+        let hardest = (v - u).length_squared().max((w - v).length_squared());
+        2.0 * (fastest * hardest).sqrt() / self.length
+    }
+
+    /// Where the part begins, its middle, and where it ends.
+    fn places(&self) -> [Place; 3] {
+        let [u, v, w] = self.velocity;
+        let [a, b, c, d] = self.radius;
+        let place = |share: f64, velocity, change: DVec3, radius| Place {
+            t: self.from + share * self.length,
+            velocity,
+            acceleration: change / self.length,
+            radius,
+        };
+        [
+            place(0.0, u, 2.0 * (v - u), a),
+            place(0.5, (u + 2.0 * v + w) / 4.0, w - u, (a + 3.0 * (b + c) + d) / 8.0),
+            place(1.0, w, 2.0 * (w - v), d),
+        ]
+    }
 }
 
-/// Where `of` is least between `low` and `high`, by golden section.
-fn golden(of: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    const SHARE: f64 = 0.618_033_988_749_894_9;
-    let (mut a, mut b) = (high - SHARE * (high - low), low + SHARE * (high - low));
-    let (mut at_a, mut at_b) = (of(a), of(b));
-    for _ in 0..STEPS {
-        if at_a < at_b {
-            (high, b, at_b) = (b, a, at_a);
-            a = high - SHARE * (high - low);
-            at_a = of(a);
+/// One place of an interval.
+struct Place {
+    t: f64,
+    velocity: DVec3,
+    acceleration: DVec3,
+    radius: f64,
+}
+
+/// The search for an interval's tightest bend.
+struct Search<'a> {
+    support: &'a Support,
+    radius_floor: f64,
+    /// Whether the interval runs along one line.
+    straight: bool,
+    /// The least ratio so far, and where it is.
+    best: (f64, Option<f64>),
+}
+
+impl Search<'_> {
+    fn visit(&mut self, part: &Part) {
+        let [start, middle, end] = part.places();
+        let reach = self.reach(&middle);
+        if self.straight {
+            // It may still turn straight back.
+            if part.speed_squared().iter().all(|square| *square > 0.0) {
+                return;
+            }
         } else {
-            (low, a, at_a) = (a, b, at_b);
-            b = low + SHARE * (high - low);
-            at_b = of(b);
+            let furthest = if part.halvings < HALVINGS_FLAT { self.support.extent() } else { reach };
+            let thickest = part.radius.into_iter().fold(self.radius_floor, f64::max) * furthest;
+            let least = (1.0 - ACCURACY) * self.best.0 * thickest;
+            if part.bends_less(least, middle.velocity.length_squared()) {
+                return;
+            }
+            self.compare(&middle);
+            if part.halvings == 0 {
+                self.compare(&start);
+                self.compare(&end);
+            }
+        }
+        if part.halvings < HALVINGS {
+            part.halves().iter().for_each(|half| self.visit(half));
+        } else if start.velocity.dot(end.velocity) < 0.0 {
+            self.best = (0.0, Some(middle.t));
         }
     }
-    f64::midpoint(low, high)
+
+    fn compare(&mut self, place: &Place) {
+        let turn = place.velocity.cross(place.acceleration).length();
+        let thick = self.reach(place) * place.radius.max(self.radius_floor);
+        let ratio = place.velocity.length().powi(3) / (turn * thick);
+        if ratio < self.best.0 {
+            self.best = (ratio, Some(place.t));
+        }
+    }
+
+    /// How far the section reaches into the bend, in radii.
+    fn reach(&self, place: &Place) -> f64 {
+        if self.support.is_circle() {
+            return 1.0;
+        }
+        let velocity = place.velocity;
+        let inwards = velocity.cross(place.acceleration).cross(velocity).normalize_or_zero();
+        self.support.furthest(velocity.normalize_or_zero(), inwards).dot(inwards)
+    }
+}
+
+/// The least radius of curvature of an interval over how far the section reaches into the bend, and where it is, unless
+/// `within` is about as little or less. It is exact to [`ACCURACY`], and 0 where the yarn turns straight back.
+pub(super) fn tightest(cubic: &Cubic, support: &Support, within: f64) -> Option<(f64, f64)> {
+    let whole = Part::whole(cubic);
+    if whole.velocity == [DVec3::ZERO; 3] {
+        return None;
+    }
+    // Rounding of a straight line's derivatives is no bend.
+    let straight = whole.turn().into_iter().all(|turn| turn <= 1e-9 * whole.size());
+    let radius_floor = cubic.radius_floor();
+    let mut search = Search { support, radius_floor, straight, best: (within, None) };
+    search.visit(&whole);
+    search.best.1.map(|t| (search.best.0, t))
 }

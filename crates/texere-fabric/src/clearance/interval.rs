@@ -1,7 +1,11 @@
 //! One control interval of a yarn: the cubic in double precision, its box, and chords along it.
 
-use glam::DVec3;
+use std::ops::Range;
+
+use glam::{DVec3, Vec3A, Vec4};
 use texere_core::{ControlPoint, RADIUS_FLOOR, Yarns};
+
+use super::grid::Bounds;
 
 /// The most chords that stand for an interval.
 const CHORDS_MAX: usize = 12;
@@ -28,9 +32,8 @@ pub(super) struct At {
 }
 
 impl Cubic {
-    /// The interval from control point `first` of a yarn to the next one, with the factor `s` of the spline's tangents.
-    pub(super) fn new(points: &[ControlPoint], closed: bool, first: usize, s: f64) -> Self {
-        let [before, start, end, after] = neighbours(points, closed, first);
+    /// The interval between the middle two of four control points, with the factor `s` of the spline's tangents.
+    pub(super) fn new([before, start, end, after]: [ControlPoint; 4], s: f64) -> Self {
         let [p, q, r, u] = [before, start, end, after].map(|point| point.position().as_dvec3());
         let [pr, qr, rr, ur] = [before, start, end, after].map(|point| f64::from(point.radius));
         let (m0, m1) = ((r - p) * s, (u - q) * s);
@@ -71,7 +74,7 @@ impl Cubic {
         [c0, c0 + c1 / 3.0, end - (c1 + 2.0 * c2 + 3.0 * c3) / 3.0, end]
     }
 
-    /// Three vectors in whose triangle the velocity stays.
+    /// Three vectors in whose triangle the velocity stays: its Bernstein coefficients.
     pub(super) fn velocities(&self) -> [DVec3; 3] {
         let [_, c1, c2, c3] = self.position;
         [c1, c1 + c2, c1 + 2.0 * c2 + 3.0 * c3]
@@ -82,13 +85,21 @@ impl Cubic {
         self.radius[1..] == [0.0; 3]
     }
 
-    /// No less than the radius anywhere in the interval.
-    pub(super) fn radius_bound(&self) -> f64 {
+    /// The radius as Bernstein coefficients, before it is held at [`Self::radius_floor`].
+    pub(super) fn radii(&self) -> [f64; 4] {
         let [r0, r1, r2, r3] = self.radius;
         let end = r0 + r1 + r2 + r3;
         [r0, r0 + r1 / 3.0, end - (r1 + 2.0 * r2 + 3.0 * r3) / 3.0, end]
-            .into_iter()
-            .fold(self.radius_floor, f64::max)
+    }
+
+    /// The least radius that the interval may have.
+    pub(super) const fn radius_floor(&self) -> f64 {
+        self.radius_floor
+    }
+
+    /// No less than the radius anywhere in the interval.
+    pub(super) fn radius_bound(&self) -> f64 {
+        self.radii().into_iter().fold(self.radius_floor, f64::max)
     }
 
     /// How far the interval lies from the straight line between its ends at most, mm.
@@ -104,15 +115,6 @@ impl Cubic {
     fn acceleration(&self) -> f64 {
         let [_, _, c2, c3] = self.position;
         (2.0 * c2).length_squared().max((2.0 * c2 + 6.0 * c3).length_squared()).sqrt()
-    }
-
-    /// No more than the radius of curvature anywhere in the interval, mm.
-    pub(super) fn curvature_bound(&self) -> f64 {
-        let [_, c1, c2, c3] = self.position;
-        let forward = (c1 + c2 + c3).normalize_or_zero();
-        let slowest =
-            self.velocities().iter().map(|velocity| velocity.dot(forward)).fold(f64::INFINITY, f64::min);
-        slowest.max(0.0) * slowest / self.acceleration().max(f64::MIN_POSITIVE)
     }
 
     /// Chords that lie within [`SAGITTA`] of the curve (as far as [`CHORDS_MAX`] of them do).
@@ -206,6 +208,28 @@ pub(crate) fn neighbours(points: &[ControlPoint], closed: bool, first: usize) ->
     [before, start, end, after]
 }
 
+/// The box that holds whatever lies within `margin` radii of an interval's centreline.
+///
+/// It is for finding neighbours, in single precision and a little too large.
+fn bounds(neighbours: [ControlPoint; 4], s: f32, margin: f32) -> Bounds {
+    let [before, start, end, after] =
+        neighbours.map(|point| Vec4::new(point.x, point.y, point.z, point.radius));
+    // The Bézier polygon, of radii too; the inner two of its corners may lie on either side.
+    let (leaving, arriving) = (start + (end - before) * (s / 3.0), end - (after - start) * (s / 3.0));
+    let (low, high) = (start.min(end).min(leaving).min(arriving), start.max(end).max(leaving).max(arriving));
+    let rounding = 8.0 * f32::EPSILON * low.abs().max(high.abs());
+    let margin = Vec4::splat(margin * (1.0 + 4.0 * f32::EPSILON) * high.w) + rounding;
+    Bounds { low: Vec3A::from_vec4(low - margin), high: Vec3A::from_vec4(high + margin) }
+}
+
+/// Intervals of one yarn that follow one another.
+#[derive(Debug, Clone)]
+pub(super) struct Span {
+    pub(super) yarn: usize,
+    /// Numbers of the control points that they start from.
+    pub(super) points: Range<usize>,
+}
+
 /// All intervals of a fabric. An interval bears the number of the control point that it starts from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Intervals<'a> {
@@ -218,9 +242,23 @@ impl<'a> Intervals<'a> {
         Self { yarns, s: (1.0 - f64::from(tension)) / 2.0 }
     }
 
-    /// The yarn that control point `point` belongs to.
-    pub(super) fn yarn(&self, point: usize) -> usize {
-        self.yarns.layout().offsets().partition_point(|&start| start <= point as u64).saturating_sub(1)
+    /// All intervals in order, `most` at a time at most.
+    pub(super) fn spans(&self, most: usize) -> Vec<Span> {
+        let all = (0..self.yarns.layout().yarns().len()).flat_map(|yarn| {
+            let (first, count, _) = self.of(yarn);
+            let starts = (first..first + count).step_by(most);
+            starts.map(move |start| Span { yarn, points: start..(start + most).min(first + count) })
+        });
+        all.collect()
+    }
+
+    /// The yarn that control point `point` belongs to, which is not before yarn `from`.
+    pub(super) fn yarn(&self, point: usize, from: usize) -> usize {
+        let offsets = self.yarns.layout().offsets();
+        if offsets.get(from + 1).is_some_and(|&end| (point as u64) < end) {
+            return from;
+        }
+        offsets.partition_point(|&start| start <= point as u64).saturating_sub(1)
     }
 
     /// A yarn's first control point, how many intervals it has, and whether it is closed.
@@ -232,7 +270,17 @@ impl<'a> Intervals<'a> {
 
     /// Interval `point`, which belongs to `yarn`.
     pub(super) fn cubic(&self, yarn: usize, point: usize) -> Cubic {
-        let (first, _, closed) = self.of(yarn);
-        Cubic::new(self.yarns.yarn_points(yarn).unwrap_or(&[]), closed, point - first, self.s)
+        Cubic::new(self.neighbours(yarn, point), self.s)
+    }
+
+    /// The box that holds whatever lies within `margin` radii of interval `point` of `yarn`.
+    pub(super) fn bounds(&self, yarn: usize, point: usize, margin: f64) -> Bounds {
+        bounds(self.neighbours(yarn, point), self.s as f32, margin as f32)
+    }
+
+    fn neighbours(&self, yarn: usize, point: usize) -> [ControlPoint; 4] {
+        let closed = self.yarns.layout().yarns()[yarn].closed;
+        let range = self.yarns.range(yarn).unwrap_or(0..0);
+        neighbours(&self.yarns.points()[range.clone()], closed, point - range.start)
     }
 }

@@ -1,0 +1,62 @@
+//! The contacts that were found: counted, and the worst of them kept.
+
+use std::cmp::Ordering;
+
+use super::{CLEARANCE_ACCURACY, CLEARANCE_BIN, CONTACTS_LISTED, Contact};
+
+/// Bins from 0 to [`CLEARANCE_NEAR`](super::CLEARANCE_NEAR).
+const BINS: usize = 110;
+
+/// What one task has found.
+pub(super) struct Found {
+    pub(super) below_one: u64,
+    pub(super) histogram: Vec<u64>,
+    pub(super) worst: Vec<Contact>,
+    /// A ratio above which a contact is not among the worst.
+    bar: f64,
+}
+
+impl Default for Found {
+    fn default() -> Self {
+        Self { below_one: 0, histogram: vec![0; BINS], worst: Vec::new(), bar: f64::INFINITY }
+    }
+}
+
+impl Found {
+    pub(super) fn add(&mut self, ratio: f64, contact: impl FnOnce() -> Contact) {
+        self.below_one += u64::from(ratio < 1.0 - CLEARANCE_ACCURACY);
+        if let Some(bin) = self.histogram.get_mut((ratio / CLEARANCE_BIN) as usize) {
+            *bin += 1;
+        }
+        if ratio <= self.bar {
+            self.worst.push(contact());
+        }
+        if self.worst.len() > 2 * CONTACTS_LISTED {
+            self.keep_worst();
+        }
+    }
+
+    pub(super) fn keep_worst(&mut self) {
+        self.worst.sort_by(by_ratio);
+        if self.worst.len() >= CONTACTS_LISTED {
+            self.worst.truncate(CONTACTS_LISTED);
+            self.bar = self.worst.last().map_or(f64::INFINITY, |contact| contact.ratio);
+        }
+    }
+
+    pub(super) fn joined(mut self, other: Self) -> Self {
+        self.below_one += other.below_one;
+        for (bin, more) in self.histogram.iter_mut().zip(&other.histogram) {
+            *bin += more;
+        }
+        self.worst.extend(other.worst);
+        self.keep_worst();
+        self
+    }
+}
+
+/// Worst first; of two alike the one that comes first along the yarns, whatever order they were found in.
+fn by_ratio(a: &Contact, b: &Contact) -> Ordering {
+    let place = |contact: &Contact| contact.places.map(|place| (place.yarn, place.interval));
+    a.ratio.total_cmp(&b.ratio).then_with(|| place(a).cmp(&place(b)))
+}

@@ -2,52 +2,18 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
+mod cloths;
 mod oracle;
 
 use texere_core::{ControlPoint, Material, Section};
-use texere_fabric::{Crimp, Drawdown, Shape, Thread, Weave, Woven};
+use texere_fabric::{Crimp, Drawdown, Shape, Thread, Woven};
 
-use oracle::{pierce, random_bits, round_clearance};
+use cloths::{cloth, jam, random_bits, random_weave, weave, weaves};
+use oracle::{pierce, round_clearance};
 
 /// Samples of an interval. At the widest pitch tested they lie 1/8 of a diameter apart, which hides 2e-3 of a diameter
 /// of a nearest approach at most.
 const SAMPLES: usize = 32;
-
-fn cloth(shape: Shape, drawdown: Drawdown, [end, pick]: [Thread; 2], section: Section) -> Woven {
-    let (warp, weft) = (vec![end; drawdown.ends()], vec![pick; drawdown.picks()]);
-    let mut cloth = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![section]).unwrap();
-    cloth.set_shape(shape);
-    cloth
-}
-
-fn weave(notation: &str) -> Drawdown {
-    Weave::parse(notation).unwrap().drawdown(10, 10).unwrap()
-}
-
-fn random_weave(seed: u64) -> Drawdown {
-    let mut bits = random_bits(seed);
-    Drawdown::from_fn(10, 10, |_, _| bits()).unwrap()
-}
-
-/// Warp satin beside weft satin, the boundary running across both: what a damask's figure has all round it.
-fn damask() -> Drawdown {
-    let (satin, sateen) = (weave("satin 5"), weave("sateen 5"));
-    Drawdown::from_fn(10, 10, |end, pick| if end + pick / 3 < 6 { &satin } else { &sateen }.up(end, pick))
-        .unwrap()
-}
-
-fn weaves() -> Vec<(String, Drawdown)> {
-    let named = ["plain", "3/1", "2/2", "2/2(2+2)", "satin 5", "satin 8(3)", "sateen 8(3)"];
-    let named = named.into_iter().map(|name| (name.to_owned(), weave(name)));
-    let random = (1..=4).map(|seed| (format!("random weave {seed}"), random_weave(seed)));
-    named.chain([("damask".to_owned(), damask())]).chain(random).collect()
-}
-
-/// Least pitch over (widths + heights) / 2 at which a thread with this share of the crimp has something straight
-/// between two bends.
-fn jam(share: f32) -> f64 {
-    f64::from((share * (2.0 - share)).sqrt())
-}
 
 #[test]
 fn one_point_a_crossing_stays_clear() {

@@ -156,15 +156,6 @@ pub(crate) fn surface_clearance(
     low
 }
 
-/// Random weave: Knuth's multiplicative congruential generator, whose high bits are random enough for one.
-pub(crate) fn random_bits(seed: u64) -> impl FnMut() -> bool {
-    let mut state = seed;
-    move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        state >> 63 == 1
-    }
-}
-
 /// An ellipse of this width over height, as a section.
 pub(crate) fn ellipse(aspect: f32) -> Section {
     Section::Ellipse { aspect }

@@ -1,0 +1,140 @@
+//! Threads that bend round one another stay clear at every pitch, by the clearance report.
+//!
+//! The report itself is held against brute force in `contacts.rs`; some of these cloths are in `clearance.rs`.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
+
+mod cloths;
+
+use texere_core::Section;
+use texere_fabric::{Crimp, Drawdown, FabricWarning, Jam, Shape, Thread, clearance};
+
+use cloths::{cloth, jam, weaves};
+
+/// The furthest pitch, in diameters of the thicker threads.
+const FURTHEST: f64 = 6.0;
+
+/// Radii of an end and a pick, mm, and their half widths and half heights in radii.
+struct Pair {
+    radius: [f32; 2],
+    section: Section,
+    half: [f64; 2],
+}
+
+const EQUAL: Pair = Pair { radius: [0.1, 0.1], section: Section::Circle, half: [1.0; 2] };
+const UNEQUAL: Pair = Pair { radius: [0.1, 0.06], section: Section::Circle, half: [1.0; 2] };
+const FLAT: Pair = Pair {
+    radius: [0.1, 0.1],
+    section: Section::Ellipse { aspect: 2.0 },
+    half: [std::f64::consts::SQRT_2, std::f64::consts::FRAC_1_SQRT_2],
+};
+
+impl Pair {
+    /// Spacings of ends and picks, `ratio` of the least pitch, which each set has by the other's share of the crimp; but no
+    /// set lies closer than side by side.
+    fn threads(&self, share: f32, ratio: f64) -> [Thread; 2] {
+        let [wide, high] = self.half;
+        let radius = self.radius.map(f64::from);
+        let least = |own: usize, share| jam(share) * 2.0 * (wide * radius[own] + high * radius[1 - own]);
+        [(0, 1.0 - share), (1, share)].map(|(own, share)| {
+            Thread::new((ratio * least(own, share)).max(2.0 * wide * radius[own]), self.radius[own])
+        })
+    }
+
+    /// The least clearance of `drawdown` at this share and ratio, or none where a pitch is beyond [`FURTHEST`].
+    fn clearance(&self, drawdown: &Drawdown, share: f32, ratio: f64) -> Option<f64> {
+        let threads = self.threads(share, ratio);
+        let furthest = FURTHEST * 2.0 * f64::from(self.radius[0]);
+        if threads.iter().any(|thread| thread.spacing_mm > furthest) {
+            return None;
+        }
+        let mut cloth = cloth(Shape::Round, drawdown.clone(), threads, self.section.clone());
+        cloth.set_crimp(Crimp::WarpShare(share)).unwrap();
+        assert_eq!(cloth.warnings(), []);
+        Some(clearance(&cloth.yarns().unwrap(), 0.0).unwrap().min)
+    }
+}
+
+/// From `least` times the least pitch on, in steps that grow.
+fn stays_clear(pair: &Pair, share: f32, least: f64) {
+    for (name, drawdown) in weaves() {
+        for growth in [1.0, 1.03, 1.06, 1.1, 1.15, 1.2, 1.3, 1.45, 1.6, 1.8, 2.1, 2.5, 3.0, 3.5] {
+            let ratio = least * growth;
+            if let Some(found) = pair.clearance(&drawdown, share, ratio) {
+                assert!(found >= 0.99, "{name}, share {share}, {ratio} of the least pitch: {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn round_threads_alike_stay_clear_from_the_least_pitch_on() {
+    for (name, drawdown) in weaves() {
+        // From 1.74 diameters, the least pitch and a little over.
+        for step in (174..=600).step_by(6) {
+            let pitch = f64::from(step) / 100.0;
+            let thread = Thread::new(pitch * 0.2, 0.1);
+            let cloth = cloth(Shape::Round, drawdown.clone(), [thread; 2], Section::Circle);
+            assert_eq!(cloth.warnings(), []);
+            let found = clearance(&cloth.yarns().unwrap(), 0.0).unwrap();
+            assert!(found.min >= 0.99, "{name} at {pitch} diameters: {}", found.min);
+            assert!(pitch < 1.98 || found.curvature_min >= 1.0, "{name} at {pitch} diameters folds");
+        }
+    }
+}
+
+#[test]
+fn crimp_splits_stay_clear() {
+    for (share, least) in [(0.35, 1.04), (0.65, 1.04), (0.2, 1.15), (0.8, 1.15)] {
+        stays_clear(&EQUAL, share, least);
+    }
+}
+
+#[test]
+fn unequal_threads_stay_clear() {
+    for (share, least) in [(0.5, 1.0), (0.35, 1.04), (0.65, 1.04), (0.2, 1.15), (0.8, 1.15)] {
+        stays_clear(&UNEQUAL, share, least);
+    }
+}
+
+#[test]
+fn ellipses_stay_clear_by_their_surfaces() {
+    for (share, least) in [(0.5, 1.02), (0.35, 1.1), (0.65, 1.1)] {
+        stays_clear(&FLAT, share, least);
+    }
+}
+
+#[test]
+fn below_the_least_pitch_threads_pierce_and_are_told_of() {
+    for (name, drawdown) in weaves() {
+        for pitch in [1.3, 1.5, 1.65] {
+            let threads = [Thread::new(pitch * 0.2, 0.1), Thread::new(0.8, 0.1)];
+            let mut cloth = cloth(Shape::Round, drawdown.clone(), threads, Section::Circle);
+            cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
+            let jammed = |warning: &FabricWarning| matches!(warning, FabricWarning::Jammed { pitch_mm, .. } if *pitch_mm == pitch * 0.2);
+            assert!(cloth.warnings().iter().any(jammed), "{name} at {pitch} diameters");
+            let report = cloth.relieve(Jam::Report).unwrap();
+            assert!(report.before[0].jammed > 0 && report.before[1].jammed == 0, "{name}: {report:?}");
+            let found = clearance(&cloth.yarns().unwrap(), 0.0).unwrap();
+            assert!(pitch > 1.5 || found.min < 0.99, "{name} at {pitch} diameters: {}", found.min);
+        }
+    }
+}
+
+#[test]
+fn flattening_cures_what_it_can() {
+    for (name, drawdown) in weaves() {
+        for (ends, picks) in [(1.5, 2.4), (1.4, 3.0), (1.3, 2.2), (1.7, 1.7)] {
+            let threads = [ends, picks].map(|pitch: f64| Thread::new(pitch * 0.2, 0.1));
+            let mut cloth = cloth(Shape::Round, drawdown.clone(), threads, Section::Circle);
+            let report = cloth.relieve(Jam::Flatten).unwrap();
+            let after = clearance(&cloth.yarns().unwrap(), 0.0).unwrap().min;
+            let jammed = report.after.map(|set| set.jammed);
+            if jammed == [0, 0] {
+                assert!(after >= 0.99, "{name}, ends {ends}, picks {picks}: {after}");
+            } else {
+                assert!(!cloth.warnings().is_empty(), "{name}, ends {ends}, picks {picks}: {after}");
+            }
+        }
+    }
+}

@@ -60,24 +60,29 @@ impl Part {
         [u.length_squared(), u.dot(v), middle, v.dot(w), w.length_squared()]
     }
 
-    /// Lengths of the coefficients of velocity × acceleration, which is of degree two: as coefficients they stand for no
-    /// less than its length.
-    fn turn(&self) -> [f64; 3] {
+    /// Velocity × acceleration, of degree two. The lengths of its coefficients are coefficients of no less than its length.
+    fn turn(&self) -> [DVec3; 3] {
         let [u, v, w] = self.velocity;
-        [2.0 * u.cross(v), u.cross(w), 2.0 * v.cross(w)].map(|turn| turn.length() / self.length)
+        [2.0 * u.cross(v), u.cross(w), 2.0 * v.cross(w)].map(|turn| turn / self.length)
     }
 
     /// Whether the radius of curvature is at least `least` all along the part: whether |v|³ ≥ least |v × a|.
     ///
-    /// |v|³ is a convex function of |v|² and lies above its tangent, here at the middle's `speed_squared`. What is left
-    /// to show is that a polynomial of degree four is not negative: its coefficients are not.
+    /// Either the slowest place is fast enough for the sharpest turn. Or, closer: |v|³ is a convex function of |v|² and
+    /// lies above its tangent, here at the middle's `speed_squared`. What is left to show is that a polynomial of degree
+    /// four is not negative: its coefficients are not.
     fn bends_less(&self, least: f64, speed_squared: f64) -> bool {
+        let (squares, turn) = (self.speed_squared(), self.turn());
+        let slowest = squares.into_iter().fold(f64::INFINITY, f64::min);
+        let sharpest = turn.iter().map(|turn| turn.length_squared()).fold(0.0, f64::max);
+        if slowest > 0.0 && slowest.powi(3) >= least * least * sharpest {
+            return true;
+        }
         let speed = speed_squared.sqrt();
-        let [a, b, c] = self.turn();
+        let [a, b, c] = turn.map(DVec3::length);
         let turn = [a, (a + b) / 2.0, (a + 4.0 * b + c) / 6.0, (b + c) / 2.0, c];
         let tangent = |square: f64| speed * (1.5 * square - 0.5 * speed_squared);
-        speed > 0.0
-            && self.speed_squared().iter().zip(turn).all(|(square, turn)| tangent(*square) >= least * turn)
+        speed > 0.0 && squares.iter().zip(turn).all(|(square, turn)| tangent(*square) >= least * turn)
     }
 
     /// No less than |velocity| |acceleration| anywhere in the part.
@@ -181,7 +186,7 @@ pub(super) fn tightest(cubic: &Cubic, support: &Support, within: f64) -> Option<
         return None;
     }
     // Rounding of a straight line's derivatives is no bend.
-    let straight = whole.turn().into_iter().all(|turn| turn <= 1e-9 * whole.size());
+    let straight = whole.turn().iter().all(|turn| turn.length() <= 1e-9 * whole.size());
     let radius_floor = cubic.radius_floor();
     let mut search = Search { support, radius_floor, straight, best: (within, None) };
     search.visit(&whole);

@@ -1,11 +1,7 @@
-//! One control interval of a yarn: the cubic in double precision, its box, and chords along it.
+//! One control interval of a yarn: the cubic in double precision, and chords along it.
 
-use std::ops::Range;
-
-use glam::{DVec3, Vec3A, Vec4};
-use texere_core::{ControlPoint, RADIUS_FLOOR, Yarns};
-
-use super::grid::Bounds;
+use glam::DVec3;
+use texere_core::{ControlPoint, RADIUS_FLOOR};
 
 /// The most chords that stand for an interval.
 const CHORDS_MAX: usize = 12;
@@ -111,23 +107,36 @@ impl Cubic {
         0.75 * one.max(other).sqrt()
     }
 
-    /// The largest second derivative, mm.
-    fn acceleration(&self) -> f64 {
-        let [_, _, c2, c3] = self.position;
-        (2.0 * c2).length_squared().max((2.0 * c2 + 6.0 * c3).length_squared()).sqrt()
+    /// The largest second derivative across any chord of the interval, mm, or more.
+    ///
+    /// What is along the interval only changes its speed. A chord within it leans by no more than the velocities do.
+    fn acceleration_across(&self) -> f64 {
+        let [start, .., end] = self.hull();
+        let forward = (end - start).normalize_or_zero();
+        let apart = |vector: DVec3| (vector.dot(forward), vector.reject_from(forward).length());
+        let lean = self.velocities().into_iter().map(apart).fold(0.0, |most: f64, (along, across)| {
+            most.max(if along > across { across / along } else { 1.0 })
+        });
+        let [u, v, w] = self.velocities();
+        let [(along, across), (other_along, other_across)] = [2.0 * (v - u), 2.0 * (w - v)].map(apart);
+        across.max(other_across) + lean * along.abs().max(other_along.abs())
     }
 
     /// Chords that lie within [`SAGITTA`] of the curve (as far as [`CHORDS_MAX`] of them do).
     pub(super) fn chords(&self) -> Chords {
         // A curve lies within an eighth of its largest second derivative of its chord, n chords within 1/n² of that.
-        let wanted =
-            (self.acceleration() / 8.0 / (SAGITTA * self.radius_floor.max(f64::MIN_POSITIVE))).sqrt().ceil();
+        let sagitta = SAGITTA * self.radius_floor.max(f64::MIN_POSITIVE);
+        let wanted = (self.acceleration_across() / 8.0 / sagitta).sqrt().ceil();
         let count = (wanted as usize).clamp(1, CHORDS_MAX);
         let mut corners = [self.position[0]; CHORDS_MAX + 1];
         for (k, corner) in corners.iter_mut().enumerate().take(count + 1).skip(1) {
             *corner = self.position(k as f64 / count as f64);
         }
-        Chords { corners, count }
+        let mut lengths = [0.0; CHORDS_MAX];
+        for (length, ends) in lengths.iter_mut().zip(corners.windows(2)).take(count) {
+            *length = ends[0].distance(ends[1]);
+        }
+        Chords { corners, lengths, count }
     }
 }
 
@@ -135,6 +144,7 @@ impl Cubic {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chords {
     corners: [DVec3; CHORDS_MAX + 1],
+    lengths: [f64; CHORDS_MAX],
     count: usize,
 }
 
@@ -150,7 +160,7 @@ impl Chords {
                 let two = other.chord(column);
                 // Twice the distance of the middles, and twice what both could reach from there.
                 let apart = (one[0] + one[1] - two[0] - two[1]).length_squared();
-                let reach = 2.0 * within + one[0].distance(one[1]) + two[0].distance(two[1]);
+                let reach = 2.0 * within + self.lengths[row] + other.lengths[column];
                 if apart <= reach * reach {
                     near[row * columns + column] = closest(one, two).0;
                 }
@@ -193,94 +203,4 @@ pub(super) fn closest([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (f64, f
     s = share(b * t - c, a);
     t = share(b * s + f, e);
     ((p + along * s).distance_squared(q + other * t), s, t)
-}
-
-/// The four points that steer interval `first`, with the paper's virtual ends where an open yarn has none.
-pub(crate) fn neighbours(points: &[ControlPoint], closed: bool, first: usize) -> [ControlPoint; 4] {
-    if let Some(&[before, start, end, after]) = points.get(first.wrapping_sub(1)..first.wrapping_add(3)) {
-        return [before, start, end, after];
-    }
-    let count = points.len();
-    let at = |index: usize| points[index % count];
-    let (start, end) = (at(first), at(first + 1));
-    let before = if closed || first > 0 { at(first + count - 1) } else { start.reflected(&end) };
-    let after = if closed || first + 2 < count { at(first + 2) } else { end.reflected(&start) };
-    [before, start, end, after]
-}
-
-/// The box that holds whatever lies within `margin` radii of an interval's centreline.
-///
-/// It is for finding neighbours, in single precision and a little too large.
-fn bounds(neighbours: [ControlPoint; 4], s: f32, margin: f32) -> Bounds {
-    let [before, start, end, after] =
-        neighbours.map(|point| Vec4::new(point.x, point.y, point.z, point.radius));
-    // The Bézier polygon, of radii too; the inner two of its corners may lie on either side.
-    let (leaving, arriving) = (start + (end - before) * (s / 3.0), end - (after - start) * (s / 3.0));
-    let (low, high) = (start.min(end).min(leaving).min(arriving), start.max(end).max(leaving).max(arriving));
-    let rounding = 8.0 * f32::EPSILON * low.abs().max(high.abs());
-    let margin = Vec4::splat(margin * (1.0 + 4.0 * f32::EPSILON) * high.w) + rounding;
-    Bounds { low: Vec3A::from_vec4(low - margin), high: Vec3A::from_vec4(high + margin) }
-}
-
-/// Intervals of one yarn that follow one another.
-#[derive(Debug, Clone)]
-pub(super) struct Span {
-    pub(super) yarn: usize,
-    /// Numbers of the control points that they start from.
-    pub(super) points: Range<usize>,
-}
-
-/// All intervals of a fabric. An interval bears the number of the control point that it starts from.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Intervals<'a> {
-    pub(super) yarns: &'a Yarns,
-    s: f64,
-}
-
-impl<'a> Intervals<'a> {
-    pub(super) fn new(yarns: &'a Yarns, tension: f32) -> Self {
-        Self { yarns, s: (1.0 - f64::from(tension)) / 2.0 }
-    }
-
-    /// All intervals in order, `most` at a time at most.
-    pub(super) fn spans(&self, most: usize) -> Vec<Span> {
-        let all = (0..self.yarns.layout().yarns().len()).flat_map(|yarn| {
-            let (first, count, _) = self.of(yarn);
-            let starts = (first..first + count).step_by(most);
-            starts.map(move |start| Span { yarn, points: start..(start + most).min(first + count) })
-        });
-        all.collect()
-    }
-
-    /// The yarn that control point `point` belongs to, which is not before yarn `from`.
-    pub(super) fn yarn(&self, point: usize, from: usize) -> usize {
-        let offsets = self.yarns.layout().offsets();
-        if offsets.get(from + 1).is_some_and(|&end| (point as u64) < end) {
-            return from;
-        }
-        offsets.partition_point(|&start| start <= point as u64).saturating_sub(1)
-    }
-
-    /// A yarn's first control point, how many intervals it has, and whether it is closed.
-    pub(super) fn of(&self, yarn: usize) -> (usize, usize, bool) {
-        let range = self.yarns.range(yarn).unwrap_or(0..0);
-        let closed = self.yarns.layout().yarns()[yarn].closed;
-        (range.start, if closed { range.len() } else { range.len().saturating_sub(1) }, closed)
-    }
-
-    /// Interval `point`, which belongs to `yarn`.
-    pub(super) fn cubic(&self, yarn: usize, point: usize) -> Cubic {
-        Cubic::new(self.neighbours(yarn, point), self.s)
-    }
-
-    /// The box that holds whatever lies within `margin` radii of interval `point` of `yarn`.
-    pub(super) fn bounds(&self, yarn: usize, point: usize, margin: f64) -> Bounds {
-        bounds(self.neighbours(yarn, point), self.s as f32, margin as f32)
-    }
-
-    fn neighbours(&self, yarn: usize, point: usize) -> [ControlPoint; 4] {
-        let closed = self.yarns.layout().yarns()[yarn].closed;
-        let range = self.yarns.range(yarn).unwrap_or(0..0);
-        neighbours(&self.yarns.points()[range.clone()], closed, point - range.start)
-    }
 }

@@ -5,6 +5,7 @@ mod curvature;
 mod found;
 mod grid;
 mod interval;
+mod line;
 mod passing;
 mod search;
 mod support;
@@ -12,7 +13,7 @@ mod support;
 use rayon::prelude::*;
 use texere_core::Yarns;
 
-pub(crate) use self::interval::neighbours;
+pub(crate) use self::line::neighbours;
 
 use self::found::Found;
 use self::grid::Grid;
@@ -120,7 +121,10 @@ pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> 
     }
     let probe = Probe::new(yarns, tension);
     let spans = probe.spans(TASK);
-    let grid = Grid::new(spans.len(), |span| probe.boxes(&spans[span]))?;
+    let grid = Grid::new(spans.len(), |span| {
+        let line = &spans[span].line;
+        spans[span].points.clone().map(|point| (point, line.bounds(point, CLEARANCE_NEAR)))
+    })?;
     let mut found = (0..grid.len().div_ceil(TASK))
         .into_par_iter()
         .map(|task| probe.search(&grid, task * TASK..grid.len().min((task + 1) * TASK)))

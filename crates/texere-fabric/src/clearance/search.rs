@@ -10,19 +10,19 @@ use texere_core::Yarns;
 use super::approach::{Side, refine};
 use super::found::Found;
 use super::grid::{Bounds, Grid};
-use super::interval::{Chords, Cubic, Intervals, SAGITTA, Span, closest};
+use super::interval::{Cubic, SAGITTA, closest};
+use super::line::{Line, Span};
 use super::passing::Passing;
 use super::support::Support;
 use super::{CLEARANCE_NEAR, Contact, YarnPlace, curvature};
 
 /// One interval in a cell.
-struct Part {
+struct Part<'a> {
     point: usize,
-    yarn: usize,
+    line: Line<'a>,
     bounds: Bounds,
     /// The first cell that its box reaches into.
     cell: UVec3,
-    curve: OnceCell<Curve>,
 }
 
 /// What is worked out of an interval once it meets another.
@@ -31,63 +31,77 @@ struct Curve {
     passing: Passing,
     /// How far its surface may lie from the centreline, mm.
     reach: f64,
-    chords: OnceCell<Chords>,
+    /// Whether sections are circles and all alike, so that the distance of the centrelines alone counts.
+    even: bool,
+}
+
+impl Curve {
+    fn new(part: &Part<'_>) -> Self {
+        let (cubic, support) = (part.line.cubic(part.point), part.line.support);
+        let reach = cubic.radius_bound() * support.extent();
+        let even = support.is_circle() && cubic.is_even();
+        Self { passing: Passing::new(&cubic), reach, even, cubic }
+    }
 }
 
 /// The yarns, and how far their sections reach.
 pub(super) struct Probe<'a> {
-    intervals: Intervals<'a>,
+    yarns: &'a Yarns,
     supports: Vec<Support>,
+    /// The factor of the spline's tangents.
+    s: f64,
 }
 
 impl<'a> Probe<'a> {
     pub(super) fn new(yarns: &'a Yarns, tension: f32) -> Self {
-        Self {
-            intervals: Intervals::new(yarns, tension),
-            supports: yarns.layout().sections().iter().map(Support::new).collect(),
-        }
+        let supports = yarns.layout().sections().iter().map(Support::new).collect();
+        Self { yarns, supports, s: (1.0 - f64::from(tension)) / 2.0 }
+    }
+
+    fn line(&self, yarn: usize) -> Line<'_> {
+        let section = self.yarns.layout().yarns()[yarn].section;
+        Line::new(self.yarns, yarn, &self.supports[section as usize], self.s)
+    }
+
+    /// The yarn that control point `point` belongs to.
+    fn line_of(&self, point: usize) -> Line<'_> {
+        let offsets = self.yarns.layout().offsets();
+        self.line(offsets.partition_point(|&start| start <= point as u64).saturating_sub(1))
     }
 
     /// All intervals in order, `most` at a time at most.
-    pub(super) fn spans(&self, most: usize) -> Vec<Span> {
-        self.intervals.spans(most)
-    }
-
-    /// The boxes that hold what lies within [`CLEARANCE_NEAR`] of each interval's centreline.
-    pub(super) fn boxes(&self, span: &Span) -> impl Iterator<Item = (usize, Bounds)> + use<'_, 'a> {
-        let (yarn, margin) = (span.yarn, self.margin(span.yarn));
-        span.points.clone().map(move |point| (point, self.intervals.bounds(yarn, point, margin)))
-    }
-
-    fn support(&self, yarn: usize) -> &Support {
-        &self.supports[self.intervals.yarns.layout().yarns()[yarn].section as usize]
-    }
-
-    /// Half of [`CLEARANCE_NEAR`] between two yarns alike, in radii.
-    fn margin(&self, yarn: usize) -> f64 {
-        CLEARANCE_NEAR * self.support(yarn).extent()
+    pub(super) fn spans(&self, most: usize) -> Vec<Span<'_>> {
+        (0..self.yarns.layout().yarns().len()).flat_map(|yarn| self.line(yarn).spans(most)).collect()
     }
 
     /// All contacts of intervals that meet in `cells`.
     pub(super) fn search(&self, grid: &Grid, cells: Range<usize>) -> Found {
         let mut found = Found::default();
-        let (mut points, mut parts) = (Vec::new(), Vec::new());
+        let mut points = Vec::new();
+        let mut parts: Vec<Part<'_>> = Vec::new();
+        let mut curves = Vec::new();
         for cell in cells {
             points.clear();
             points.extend(grid.entries(cell));
             points.sort_unstable();
             parts.clear();
-            let mut yarn = 0;
-            parts.extend(points.iter().map(|&point| {
-                yarn = self.intervals.yarn(point, yarn);
-                let bounds = self.intervals.bounds(yarn, point, self.margin(yarn));
-                Part { point, yarn, bounds, cell: grid.cell(bounds.low), curve: OnceCell::new() }
-            }));
+            for &point in &points {
+                let line = match parts.last() {
+                    Some(before) if before.line.holds(point) => before.line,
+                    _ => self.line_of(point),
+                };
+                let bounds = line.bounds(point, CLEARANCE_NEAR);
+                parts.push(Part { point, line, bounds, cell: grid.cell(bounds.low) });
+            }
+            curves.clear();
+            curves.resize_with(parts.len(), OnceCell::new);
             for (second, other) in parts.iter().enumerate() {
-                for one in &parts[..second] {
+                for (first, one) in parts[..second].iter().enumerate() {
                     // Two may meet in several cells: where what they share begins they count.
                     if one.bounds.meets(&other.bounds) && grid.number(one.cell.max(other.cell)) == cell {
-                        self.pair(one, other, &mut found);
+                        let [a, b] = [(first, one), (second, other)]
+                            .map(|(number, part)| curves[number].get_or_init(|| Curve::new(part)));
+                        self.pair([(one, a), (other, b)], &mut found);
                     }
                 }
             }
@@ -95,31 +109,19 @@ impl<'a> Probe<'a> {
         found
     }
 
-    fn curve<'p>(&self, part: &'p Part) -> &'p Curve {
-        part.curve.get_or_init(|| {
-            let cubic = self.intervals.cubic(part.yarn, part.point);
-            let reach = cubic.radius_bound() * self.support(part.yarn).extent();
-            Curve { passing: Passing::new(&cubic), reach, cubic, chords: OnceCell::new() }
-        })
-    }
-
-    /// The contacts of two intervals, `one` before `other`.
-    fn pair(&self, one: &Part, other: &Part, found: &mut Found) {
-        let [a, b] = [one, other].map(|part| self.curve(part));
-        if one.yarn == other.yarn && other.point - one.point < 2 && leads_on(&a.cubic, &b.cubic) {
+    /// The contacts of two intervals, the first one's number being the lower.
+    fn pair(&self, [(one, a), (other, b)]: [(&Part<'_>, &Curve); 2], found: &mut Found) {
+        let same = one.line.yarn == other.line.yarn;
+        if same && other.point - one.point < 2 && leads_on(&a.cubic, &b.cubic) {
             return;
         }
         let reach = a.reach + b.reach;
         let within = CLEARANCE_NEAR * reach;
-        let [cut, other_cut] = [one, other].map(|part| self.cut(part));
-        let supports = [one, other].map(|part| self.support(part.yarn));
-        // Of round yarns of even radius the distance of the centrelines alone counts.
-        let even = a.cubic.is_even() && b.cubic.is_even();
-        let round = supports.iter().all(|support| support.is_circle());
-        if even
-            && round
-            && (a.passing.leaves_to_neighbours(&b.passing, cut, within)
-                || b.passing.leaves_to_neighbours(&a.passing, other_cut, within))
+        let cuts = [one, other].map(|part| part.line.cut(part.point));
+        if a.even
+            && b.even
+            && (a.passing.leaves_to_neighbours(&b.passing, cuts[0], within)
+                || b.passing.leaves_to_neighbours(&a.passing, cuts[1], within))
         {
             return;
         }
@@ -128,87 +130,43 @@ impl<'a> Probe<'a> {
         if closest(straight[0], straight[1]).0 > (within + bends).powi(2) {
             return;
         }
-        let [one_chords, other_chords] =
-            [a, b].map(|curve| curve.chords.get_or_init(|| curve.cubic.chords()));
         let sides = [
-            Side { cubic: &a.cubic, support: supports[0], cut },
-            Side { cubic: &b.cubic, support: supports[1], cut: other_cut },
+            Side { cubic: &a.cubic, support: one.line.support, cut: cuts[0] },
+            Side { cubic: &b.cubic, support: other.line.support, cut: cuts[1] },
         ];
-        // Chords may be further from one another than the curves are.
-        let within = within + SAGITTA * reach;
         let mut seen: Vec<DVec2> = Vec::new();
-        one_chords.approaches(other_chords, within, |s, t| {
+        // Chords may be further from one another than the curves are.
+        a.cubic.chords().approaches(&b.cubic.chords(), within + SAGITTA * reach, |s, t| {
             let Some((place, ratio)) = refine(sides[0], sides[1], DVec2::new(s, t)) else { return };
             let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
-            if ratio > CLEARANCE_NEAR || again || self.too_close(one, other, place) {
+            if ratio > CLEARANCE_NEAR || again {
+                return;
+            }
+            // Two places so close along a yarn can only meet in a fold.
+            let radii = a.cubic.at(place.x).radius[0] + b.cubic.at(place.y).radius[0];
+            let window = FRAC_PI_2 * radii * one.line.support.extent();
+            if same && one.line.within(window, (one.point, place.x), (other.point, place.y)) {
                 return;
             }
             seen.push(place);
+            let sources = self.yarns.sources();
             found.add(ratio, || Contact {
-                places: [self.place(one, place.x), self.place(other, place.y)],
+                places: [
+                    one.line.place(one.point, place.x, sources),
+                    other.line.place(other.point, place.y, sources),
+                ],
                 ratio,
             });
         });
     }
 
-    /// Whether an interval begins, and whether it ends, where an open yarn is cut off.
-    fn cut(&self, part: &Part) -> [bool; 2] {
-        let (first, count, closed) = self.intervals.of(part.yarn);
-        [!closed && part.point == first, !closed && part.point + 1 == first + count]
-    }
-
-    /// Whether two places of one yarn are so close along it that only a fold could make them meet.
-    fn too_close(&self, one: &Part, other: &Part, place: DVec2) -> bool {
-        if one.yarn != other.yarn {
-            return false;
-        }
-        let (first, count, closed) = self.intervals.of(one.yarn);
-        let points = self.intervals.yarns.yarn_points(one.yarn).unwrap_or(&[]);
-        let [a, b] = [one, other].map(|part| &self.curve(part).cubic);
-        let radii = a.at(place.x).radius[0] + b.at(place.y).radius[0];
-        let window = FRAC_PI_2 * radii * self.support(one.yarn).extent();
-        // Forward from `from` to `to`, by chords; given up as soon as it is far enough.
-        let near = |from: &Part, s: f64, to: &Part, t: f64| {
-            let mut left =
-                window - self.curve(from).cubic.position(s).distance(self.curve(from).cubic.position(1.0));
-            let mut at = (from.point - first + 1) % count.max(1);
-            while left > 0.0 && at != to.point - first {
-                let next = (at + 1) % points.len();
-                left -= f64::from(points[at].position().distance(points[next].position()));
-                if next == 0 && !closed {
-                    return false;
-                }
-                at = next;
-            }
-            left > self.curve(to).cubic.position(0.0).distance(self.curve(to).cubic.position(t))
-        };
-        near(one, place.x, other, place.y) || (closed && near(other, place.y, one, place.x))
-    }
-
-    fn place(&self, part: &Part, t: f64) -> YarnPlace {
-        self.place_of(part.yarn, part.point, &self.curve(part).cubic, t)
-    }
-
-    fn place_of(&self, yarn: usize, point: usize, cubic: &Cubic, t: f64) -> YarnPlace {
-        let (first, count, closed) = self.intervals.of(yarn);
-        let interval = point - first;
-        let nearer = match (t < 0.5, closed && interval + 1 == count) {
-            (true, _) => interval,
-            (false, true) => 0,
-            (false, false) => interval + 1,
-        };
-        let source = self.intervals.yarns.sources().and_then(|sources| sources.get(first + nearer)).copied();
-        YarnPlace { yarn, interval, t, position: cubic.position(t).to_array(), source }
-    }
-
     /// The tightest bend of the intervals of `span`.
-    pub(super) fn tightest(&self, span: &Span) -> (f64, Option<YarnPlace>) {
-        let support = self.support(span.yarn);
+    pub(super) fn tightest(&self, span: &Span<'_>) -> (f64, Option<YarnPlace>) {
+        let line = &span.line;
         let mut best = (f64::INFINITY, None);
         for point in span.points.clone() {
-            let cubic = self.intervals.cubic(span.yarn, point);
-            if let Some((ratio, t)) = curvature::tightest(&cubic, support, best.0) {
-                best = (ratio, Some(self.place_of(span.yarn, point, &cubic, t)));
+            if let Some((ratio, t)) = curvature::tightest(&line.cubic(point), line.support, best.0) {
+                best = (ratio, Some(line.place(point, t, self.yarns.sources())));
             }
         }
         best

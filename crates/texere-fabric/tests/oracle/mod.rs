@@ -26,6 +26,7 @@ impl Place {
 pub(crate) struct Stretch {
     pub(crate) yarn: usize,
     pub(crate) places: Vec<Place>,
+    segment: Segment,
     middle: DVec3,
     reach: f64,
 }
@@ -58,7 +59,7 @@ pub(crate) fn stretches(yarns: &Yarns, samples: usize) -> Vec<Stretch> {
                 .collect();
             let middle = places[samples / 2].centre;
             let reach = places.iter().map(|place| place.centre.distance(middle)).fold(0.0, f64::max);
-            stretches.push(Stretch { yarn, places, middle, reach });
+            stretches.push(Stretch { yarn, places, segment, middle, reach });
         }
     }
     stretches
@@ -87,6 +88,48 @@ pub(crate) fn round_clearance(yarns: &Yarns, samples: usize) -> f64 {
                 least = least.min(a.centre.distance(b.centre) / (a.radius + b.radius));
             }
         }
+    }
+    least
+}
+
+/// The same, with the nearest samples of each two intervals moved to where they come nearest.
+pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
+    let thickest = yarns.points().iter().fold(0.0f32, |most, point| most.max(point.radius));
+    let stretches = stretches(yarns, samples);
+    let ratio = |one: &Stretch, other: &Stretch, [s, t]: [f64; 2]| {
+        let [a, b] = [(one, s), (other, t)].map(|(stretch, at)| stretch.segment.sample(at as f32));
+        let apart = a.centre.as_dvec3().distance(b.centre.as_dvec3());
+        apart / (f64::from(a.radius) + f64::from(b.radius))
+    };
+    let mut least = 2.0f64;
+    for (one, other) in near(&stretches, 4.0 * f64::from(thickest)) {
+        let mut best = (f64::INFINITY, [0.0; 2]);
+        for (i, a) in one.places.iter().enumerate() {
+            for (j, b) in other.places.iter().enumerate() {
+                let found = a.centre.distance(b.centre) / (a.radius + b.radius);
+                if found < best.0 {
+                    best = (found, [i, j].map(|k| k as f64 / samples as f64));
+                }
+            }
+        }
+        // Compass search: to the best of the places round about, closer and closer.
+        let mut step = 1.0 / samples as f64;
+        while best.0 < 2.0 && step > 1e-6 {
+            let before = best.0;
+            let [s, t] = best.1;
+            for (along, across) in [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)] {
+                let place =
+                    [(s, along), (t, across)].map(|(at, way)| (at + step * f64::from(way)).clamp(0.0, 1.0));
+                let found = ratio(one, other, place);
+                if found < best.0 {
+                    best = (found, place);
+                }
+            }
+            if best.0 == before {
+                step /= 2.0;
+            }
+        }
+        least = least.min(best.0);
     }
     least
 }

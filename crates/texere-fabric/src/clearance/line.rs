@@ -1,0 +1,133 @@
+//! The yarns, interval by interval.
+
+use std::ops::Range;
+
+use glam::{Vec3A, Vec4};
+use texere_core::{ControlPoint, Yarns};
+
+use super::YarnPlace;
+use super::grid::Bounds;
+use super::interval::Cubic;
+use super::support::Support;
+
+/// One yarn. An interval bears the number, in the fabric, of the control point that it starts from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line<'a> {
+    pub(super) yarn: usize,
+    pub(super) support: &'a Support,
+    /// Number of the first control point.
+    first: usize,
+    points: &'a [ControlPoint],
+    closed: bool,
+    /// The factor of the spline's tangents.
+    s: f64,
+}
+
+/// Some intervals of one yarn that follow one another.
+#[derive(Debug, Clone)]
+pub(super) struct Span<'a> {
+    pub(super) line: Line<'a>,
+    pub(super) points: Range<usize>,
+}
+
+impl<'a> Line<'a> {
+    /// Yarn `yarn`, whose section reaches as far as `support` says.
+    pub(super) fn new(yarns: &'a Yarns, yarn: usize, support: &'a Support, s: f64) -> Self {
+        Self {
+            yarn,
+            support,
+            first: yarns.range(yarn).map_or(0, |range| range.start),
+            points: yarns.yarn_points(yarn).unwrap_or(&[]),
+            closed: yarns.layout().yarns()[yarn].closed,
+            s,
+        }
+    }
+
+    /// All its intervals.
+    pub(super) fn intervals(&self) -> Range<usize> {
+        let count = self.points.len();
+        self.first..self.first + if self.closed { count } else { count.saturating_sub(1) }
+    }
+
+    /// All its intervals in order, `most` at a time at most.
+    pub(super) fn spans(self, most: usize) -> impl Iterator<Item = Span<'a>> {
+        let all = self.intervals();
+        let starts = all.clone().step_by(most);
+        starts.map(move |start| Span { line: self, points: start..(start + most).min(all.end) })
+    }
+
+    /// Whether control point `point` is one of its own.
+    pub(super) fn holds(&self, point: usize) -> bool {
+        (self.first..self.first + self.points.len()).contains(&point)
+    }
+
+    /// Whether an interval begins, and whether it ends, where an open yarn is cut off.
+    pub(super) fn cut(&self, point: usize) -> [bool; 2] {
+        let all = self.intervals();
+        [!self.closed && point == all.start, !self.closed && point + 1 == all.end]
+    }
+
+    pub(super) fn cubic(&self, point: usize) -> Cubic {
+        Cubic::new(neighbours(self.points, self.closed, point - self.first), self.s)
+    }
+
+    /// The box that holds whatever lies within `margin` times the section's reach of an interval.
+    ///
+    /// It is for finding neighbours, in single precision and a little too large.
+    pub(super) fn bounds(&self, point: usize, margin: f64) -> Bounds {
+        let [before, start, end, after] = neighbours(self.points, self.closed, point - self.first)
+            .map(|point| Vec4::new(point.x, point.y, point.z, point.radius));
+        // The Bézier polygon, of radii too; the inner two of its corners may lie on either side.
+        let s = self.s as f32 / 3.0;
+        let (leaving, arriving) = (start + (end - before) * s, end - (after - start) * s);
+        let (low, high) =
+            (start.min(end).min(leaving).min(arriving), start.max(end).max(leaving).max(arriving));
+        let margin = (margin * self.support.extent()) as f32 * high.w * (1.0 + 8.0 * f32::EPSILON);
+        let margin = Vec4::splat(margin) + 8.0 * f32::EPSILON * low.abs().max(high.abs());
+        Bounds { low: Vec3A::from_vec4(low - margin), high: Vec3A::from_vec4(high + margin) }
+    }
+
+    /// Whether two places of the yarn, at `s` of interval `from` and at `t` of a later interval `to`, are less than `window`
+    /// apart along it, by its chords.
+    pub(super) fn within(&self, window: f64, (from, s): (usize, f64), (to, t): (usize, f64)) -> bool {
+        let forward = |(from, s): (usize, f64), (to, t): (usize, f64)| {
+            let (cubic, count) = (self.cubic(from), self.points.len());
+            let mut left = window - cubic.position(s).distance(cubic.position(1.0));
+            let mut at = (from - self.first + 1) % count.max(1);
+            // Given up as soon as it is far enough.
+            while left > 0.0 && at != to - self.first {
+                let next = (at + 1) % count;
+                left -= f64::from(self.points[at].position().distance(self.points[next].position()));
+                if next == 0 && !self.closed {
+                    return false;
+                }
+                at = next;
+            }
+            let cubic = self.cubic(to);
+            left > cubic.position(0.0).distance(cubic.position(t))
+        };
+        forward((from, s), (to, t)) || (self.closed && forward((to, t), (from, s)))
+    }
+
+    /// The place at `t` of an interval, `sources` being the fabric's.
+    pub(super) fn place(&self, point: usize, t: f64, sources: Option<&[u32]>) -> YarnPlace {
+        let interval = point - self.first;
+        let nearer = if t < 0.5 { interval } else { (interval + 1) % self.points.len() };
+        let source = sources.and_then(|sources| sources.get(self.first + nearer)).copied();
+        let position = self.cubic(point).position(t).to_array();
+        YarnPlace { yarn: self.yarn, interval, t, position, source }
+    }
+}
+
+/// The four points that steer interval `first`, with the paper's virtual ends where an open yarn has none.
+pub(crate) fn neighbours(points: &[ControlPoint], closed: bool, first: usize) -> [ControlPoint; 4] {
+    if let Some(&[before, start, end, after]) = points.get(first.wrapping_sub(1)..first.wrapping_add(3)) {
+        return [before, start, end, after];
+    }
+    let count = points.len();
+    let at = |index: usize| points[index % count];
+    let (start, end) = (at(first), at(first + 1));
+    let before = if closed || first > 0 { at(first + count - 1) } else { start.reflected(&end) };
+    let after = if closed || first + 2 < count { at(first + 2) } else { end.reflected(&start) };
+    [before, start, end, after]
+}

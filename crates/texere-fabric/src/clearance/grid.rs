@@ -10,6 +10,9 @@ use crate::FabricError;
 /// The most cells that an interval lies in on average, before larger cells are taken.
 const ENTRIES: u64 = 6;
 
+/// A cell's side, in those of boxes on average: so large that most boxes lie in one or two, and few are far from one another.
+const CELL: f64 = 1.75;
+
 /// Cells along an axis that are not worth having: one takes their place.
 const LAYERS: f32 = 4.0;
 
@@ -61,8 +64,8 @@ impl Grid {
                 })
             })
             .reduce(|| (Bounds::NOTHING, 0.0, 0), |a, b| (a.0.joined(b.0), a.1 + b.1, a.2 + b.2));
-        // As large as a box is on average; larger where some boxes are so much larger that they lie in too many.
-        let mut cell = (sides / count.max(1) as f64) as f32;
+        // Larger where some boxes are so much larger that they lie in too many.
+        let mut cell = (CELL * sides / count.max(1) as f64) as f32;
         loop {
             let size = whole.high - whole.low;
             let wanted = (size / cell).floor() + 1.0;

@@ -152,8 +152,10 @@ impl Chords {
     /// Calls `start` with the parameters of two intervals at which their chords come nearest to one another, for each
     /// pair of chords nearer than all pairs beside it, and nearer than `within`.
     pub(super) fn approaches(&self, other: &Self, within: f64, mut start: impl FnMut(f64, f64)) {
+        /// A row of pairs, and one place more on each side.
+        const ROW: usize = CHORDS_MAX + 2;
         let (rows, columns) = (self.count, other.count);
-        let mut near = [f64::INFINITY; CHORDS_MAX * CHORDS_MAX];
+        let mut near = [f64::INFINITY; ROW * ROW];
         for row in 0..rows {
             let one = self.chord(row);
             for column in 0..columns {
@@ -162,21 +164,21 @@ impl Chords {
                 let apart = (one[0] + one[1] - two[0] - two[1]).length_squared();
                 let reach = 2.0 * within + self.lengths[row] + other.lengths[column];
                 if apart <= reach * reach {
-                    near[row * columns + column] = closest(one, two).0;
+                    near[(row + 1) * ROW + column + 1] = closest(one, two).0;
                 }
             }
         }
         for row in 0..rows {
             for column in 0..columns {
-                let own = row * columns + column;
-                if near[own] > within * within {
-                    continue;
-                }
-                let beside = (row.saturating_sub(1)..(row + 2).min(rows)).flat_map(|r| {
-                    (column.saturating_sub(1)..(column + 2).min(columns)).map(move |c| r * columns + c)
-                });
+                let own = (row + 1) * ROW + column + 1;
+                let here = near[own];
                 // Of two alike the first counts.
-                if beside.into_iter().all(|place| (near[place], place) >= (near[own], own)) {
+                let before = [own - ROW - 1, own - ROW, own - ROW + 1, own - 1];
+                let after = [own + 1, own + ROW - 1, own + ROW, own + ROW + 1];
+                if here <= within * within
+                    && before.iter().all(|place| near[*place] > here)
+                    && after.iter().all(|place| near[*place] >= here)
+                {
                     let (_, s, t) = closest(self.chord(row), other.chord(column));
                     start((row as f64 + s) / rows as f64, (column as f64 + t) / columns as f64);
                 }

@@ -1,14 +1,20 @@
 //! The yarns, interval by interval.
 
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 
-use glam::{Vec3A, Vec4};
+use glam::{DVec3, Vec3A, Vec4};
 use texere_core::{ControlPoint, Yarns};
 
-use super::YarnPlace;
 use super::grid::Bounds;
 use super::interval::Cubic;
 use super::support::Support;
+use super::{CLEARANCE_NEAR, YarnPlace};
+
+/// Intervals after the first over which a yarn may be seen to lead straight on.
+const LEAD: usize = 3;
+
+const _: () = assert!(FRAC_1_SQRT_2 * std::f64::consts::FRAC_PI_2 > CLEARANCE_NEAR);
 
 /// One yarn. An interval bears the number, in the fabric, of the control point that it starts from.
 #[derive(Debug, Clone, Copy)]
@@ -74,6 +80,7 @@ impl<'a> Line<'a> {
     /// The box that holds whatever lies within `margin` times the section's reach of an interval.
     ///
     /// It is for finding neighbours, in single precision and a little too large.
+    #[inline]
     pub(super) fn bounds(&self, point: usize, margin: f64) -> Bounds {
         let [before, start, end, after] = neighbours(self.points, self.closed, point - self.first)
             .map(|point| Vec4::new(point.x, point.y, point.z, point.radius));
@@ -85,6 +92,23 @@ impl<'a> Line<'a> {
         let margin = (margin * self.support.extent()) as f32 * high.w * (1.0 + 8.0 * f32::EPSILON);
         let margin = Vec4::splat(margin) + 8.0 * f32::EPSILON * low.abs().max(high.abs());
         Bounds { low: Vec3A::from_vec4(low - margin), high: Vec3A::from_vec4(high + margin) }
+    }
+
+    /// Whether the yarn leads on so straight from one interval to a later one that they meet in common knots alone.
+    ///
+    /// Its tangents lie within 45 degrees of one direction. Then none of its parts leads back, and any two places that are
+    /// π/2 times their reach apart along it are more than [`CLEARANCE_NEAR`] times that apart, whatever the section.
+    pub(super) fn leads_on(&self, from: usize, to: usize) -> bool {
+        if to - from > LEAD {
+            return false;
+        }
+        let cubics: [Option<Cubic>; LEAD + 1] =
+            std::array::from_fn(|step| (from + step <= to).then(|| self.cubic(from + step)));
+        let cubics = cubics.iter().flatten();
+        let forward: DVec3 = cubics.clone().map(|cubic| cubic.position(1.0) - cubic.position(0.0)).sum();
+        let forward = forward.normalize_or_zero();
+        let onward = |step: DVec3| step.dot(forward) >= FRAC_1_SQRT_2 * step.length();
+        cubics.flat_map(Cubic::velocities).all(onward)
     }
 
     /// Whether two places of the yarn, at `s` of interval `from` and at `t` of a later interval `to`, are less than `window`
@@ -120,6 +144,7 @@ impl<'a> Line<'a> {
 }
 
 /// The four points that steer interval `first`, with the paper's virtual ends where an open yarn has none.
+#[inline]
 pub(crate) fn neighbours(points: &[ControlPoint], closed: bool, first: usize) -> [ControlPoint; 4] {
     if let Some(&[before, start, end, after]) = points.get(first.wrapping_sub(1)..first.wrapping_add(3)) {
         return [before, start, end, after];

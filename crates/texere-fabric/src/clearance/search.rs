@@ -1,10 +1,10 @@
 //! The search: which intervals meet in a cell, and where two of them come nearest to one another.
 
 use std::cell::OnceCell;
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
+use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
-use glam::{DVec2, DVec3, UVec3};
+use glam::{DVec2, UVec3};
 use texere_core::Yarns;
 
 use super::approach::{Side, refine};
@@ -111,18 +111,17 @@ impl<'a> Probe<'a> {
 
     /// The contacts of two intervals, the first one's number being the lower.
     fn pair(&self, [(one, a), (other, b)]: [(&Part<'_>, &Curve); 2], found: &mut Found) {
-        let same = one.line.yarn == other.line.yarn;
-        if same && other.point - one.point < 2 && leads_on(&a.cubic, &b.cubic) {
-            return;
-        }
         let reach = a.reach + b.reach;
         let within = CLEARANCE_NEAR * reach;
         let cuts = [one, other].map(|part| part.line.cut(part.point));
-        if a.even
-            && b.even
-            && (a.passing.leaves_to_neighbours(&b.passing, cuts[0], within)
-                || b.passing.leaves_to_neighbours(&a.passing, cuts[1], within))
-        {
+        let same = one.line.yarn == other.line.yarn;
+        let passes_by = if a.even && b.even {
+            a.passing.leaves_to_neighbours(&b.passing, cuts[0], within)
+                || b.passing.leaves_to_neighbours(&a.passing, cuts[1], within)
+        } else {
+            same && one.line.leads_on(one.point, other.point)
+        };
+        if passes_by {
             return;
         }
         let straight = [a, b].map(|curve| [curve.cubic.position(0.0), curve.cubic.position(1.0)]);
@@ -171,12 +170,4 @@ impl<'a> Probe<'a> {
         }
         best
     }
-}
-
-/// Whether an interval and the next one of its yarn lead on so straight that they meet at their common knot alone.
-fn leads_on(one: &Cubic, other: &Cubic) -> bool {
-    let forward = (other.position(1.0) - one.position(0.0)).normalize_or_zero();
-    // Within 45 degrees of one direction, so that any two of its steps add up and none leads back.
-    let onward = |step: &DVec3| step.dot(forward) >= FRAC_1_SQRT_2 * step.length();
-    one.velocities().iter().chain(&other.velocities()).all(onward)
 }

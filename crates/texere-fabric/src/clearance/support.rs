@@ -49,21 +49,29 @@ impl Support {
     }
 
     /// The section's furthest point in `direction`, on a yarn whose unit tangent is `tangent`, in radii of the yarn.
-    /// The section stands upright: side = z × t.
     pub(super) fn furthest(&self, tangent: DVec3, direction: DVec3) -> DVec3 {
-        let across = direction - tangent * direction.dot(tangent);
-        match self {
+        self.furthest_upright(upright(tangent), direction)
+    }
+
+    /// The same with the tangent's upright frame, for more than one direction.
+    pub(super) fn furthest_upright(&self, [side, up]: [DVec3; 2], direction: DVec3) -> DVec3 {
+        let across = DVec2::new(direction.dot(side), direction.dot(up));
+        let point = match self {
             Self::Circle => across.normalize_or_zero(),
             Self::Table { furthest, .. } => {
-                let side = DVec3::Z.cross(tangent);
-                // Where the tangent is within 1e-6 of z, the side is +y.
-                let side = if side.length_squared() > 1e-12 { side.normalize() } else { DVec3::Y };
-                let up = tangent.cross(side);
-                let turns = across.dot(up).atan2(across.dot(side)) / std::f64::consts::TAU;
+                let turns = across.to_angle() / std::f64::consts::TAU;
                 let nearest = (turns.rem_euclid(1.0) * DIRECTIONS as f64).round() as usize % DIRECTIONS;
-                let point = furthest[nearest];
-                side * point.x + up * point.y
+                furthest[nearest]
             }
-        }
+        };
+        side * point.x + up * point.y
     }
+}
+
+/// The frame in which a section stands upright: side = z × t, and up.
+pub(super) fn upright(tangent: DVec3) -> [DVec3; 2] {
+    let side = DVec3::Z.cross(tangent);
+    // Where the tangent is within 1e-6 of z, the side is +y.
+    let side = if side.length_squared() > 1e-12 { side.normalize() } else { DVec3::Y };
+    [side, tangent.cross(side)]
 }

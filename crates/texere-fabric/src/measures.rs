@@ -157,7 +157,16 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
         let intervals = if what.closed { count } else { count.saturating_sub(1) };
         let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
         for first in 0..intervals {
-            let segment = Segment::new(&neighbours(points, what.closed, first), s);
+            let four = neighbours(points, what.closed, first);
+            // Nothing lies beyond the Bézier polygon: most intervals can't be the lowest or the highest.
+            let heights = bezier(&four.map(|point| point.z), s);
+            let thickest = bezier(&four.map(|point| point.radius), s).into_iter().fold(0.0, f32::max);
+            let lowest = heights.into_iter().fold(f32::INFINITY, f32::min) - thickest * below;
+            let highest = heights.into_iter().fold(f32::NEG_INFINITY, f32::max) + thickest * above;
+            if f64::from(lowest) >= extent[0] && f64::from(highest) <= extent[1] {
+                continue;
+            }
+            let segment = Segment::new(&four, s);
             for k in 0..=SAMPLES {
                 let sample = segment.sample(k as f32 / SAMPLES as f32);
                 // A section stands on the centreline: where that climbs, it reaches less far up.
@@ -173,6 +182,11 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
         .map(extent)
         .reduce(|| [f64::INFINITY, f64::NEG_INFINITY], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     (high - low).max(0.0)
+}
+
+/// The Bézier polygon of one component of the spline between the middle two of four points.
+fn bezier([before, start, end, after]: &[f32; 4], s: f32) -> [f32; 4] {
+    [*start, start + (end - before) * s / 3.0, end - (after - start) * s / 3.0, *end]
 }
 
 /// How far a section reaches below and above the centreline, in radii.

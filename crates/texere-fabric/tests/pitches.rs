@@ -7,7 +7,7 @@
 mod cloths;
 
 use texere_core::Section;
-use texere_fabric::{Crimp, Drawdown, FabricWarning, Jam, Shape, Thread, clearance};
+use texere_fabric::{Crimp, Drawdown, FabricWarning, Jam, Shape, Thread, Weave, clearance};
 
 use cloths::{cloth, jam, weaves};
 
@@ -81,6 +81,18 @@ fn round_threads_alike_stay_clear_from_the_least_pitch_on() {
             assert!(pitch < 1.98 || found.curvature_min >= 1.0, "{name} at {pitch} diameters folds");
         }
     }
+}
+
+#[test]
+fn a_figure_in_twill_stays_clear_with_one_point_a_crossing() {
+    // The paper's figure 7a in small: warp-faced twill on weft-faced, three diameters from thread to thread.
+    let [figure, ground] = ["3/1", "1/3"].map(|name| Weave::parse(name).unwrap());
+    let inside = |end: usize, pick: usize| (end as f64 - 50.0).hypot(pick as f64 - 40.0) < 30.0;
+    let up = |end, pick| if inside(end, pick) { figure.up(end, pick) } else { ground.up(end, pick) };
+    let drawdown = Drawdown::from_fn(100, 80, up).unwrap();
+    let cloth = cloth(Shape::Crossing, drawdown, [Thread::new(0.75, 0.125); 2], Section::Circle);
+    let found = clearance(&cloth.yarns().unwrap(), 0.0).unwrap();
+    assert!(found.min >= 0.985 && found.curvature_min > 1.0, "{} and {}", found.min, found.curvature_min);
 }
 
 #[test]

@@ -11,13 +11,15 @@
 //! | `caps.wgsl` | `caps` | closed ends |
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
-//! The OpenCL C twins are in `texere-kernels`, file by file.
+//! Those that make pictures are in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
 //!
 //! ```
 //! use texere_shaders::{MESH, Resource};
 //! assert!(MESH.source.contains("fn mesh("));
 //! assert!(MESH.bindings.iter().any(|binding| binding.resource == Resource::Vertices));
 //! ```
+
+pub mod picture;
 
 /// Workgroups in a row of a launch's grid: what every device allows in a dimension. A launch of n workgroups is
 /// `min(n, GRID_WIDTH)` by `n / GRID_WIDTH`, rounded up.

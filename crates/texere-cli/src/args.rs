@@ -28,6 +28,8 @@ pub(crate) enum Command {
     Mesh(MeshArgs),
     /// Draw a woven design's draft, or print its drawdown
     Draft(DraftArgs),
+    /// Make a picture of a design's cloth
+    Render(crate::render::RenderArgs),
 }
 
 #[derive(Debug, clap::Args)]

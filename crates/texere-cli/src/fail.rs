@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
 
-use texere::{BackendError, FabricError, PipelineError, PlanError, ReadError, WriteError};
+use texere::{BackendError, FabricError, PipelineError, PlanError, ReadError, RenderError, WriteError};
 
 /// A command that failed.
 #[derive(Debug)]
@@ -91,5 +91,15 @@ impl From<WriteError> for Fail {
             _ => WORLD,
         };
         Self { code, source: error.into() }
+    }
+}
+
+impl From<RenderError> for Fail {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::Backend(error) => error.into(),
+            RenderError::Plan(error) => error.into(),
+            _ => Self { code: USAGE, source: error.into() },
+        }
     }
 }

@@ -14,6 +14,7 @@ mod measures;
 mod mesh;
 mod places;
 mod progress;
+mod render;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Mesh(args) => mesh::run(&args),
         Command::Draft(args) => draft::run(&args),
+        Command::Render(args) => render::run(&args),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

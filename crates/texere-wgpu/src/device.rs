@@ -137,6 +137,21 @@ impl WgpuBackend {
     pub fn queue(&self) -> &wgpu::Queue {
         &self.opened.gpu.queue
     }
+
+    /// Runs `work`, a caller's own calls on the device and its queue, so that what goes wrong in them is an error and not
+    /// a panic; `call` names it.
+    ///
+    /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
+    pub fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {
+        self.opened.gpu.scoped(call, work)
+    }
+
+    /// Waits until `submission` is done, and runs the callbacks of all that is.
+    ///
+    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
+    pub fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), BackendError> {
+        self.opened.gpu.wait(submission)
+    }
 }
 
 impl Backend for WgpuBackend {

@@ -120,15 +120,49 @@ fn open_in_family(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     let Some(family) = FAMILIES.iter().find(|known| known.name == family) else {
         return Err(no_device(name));
     };
-    let list = (family.list)()?;
-    let index = which.parse().ok().or_else(|| {
+    match find(&(family.list)()?, which) {
+        Some(index) => (family.open)(index, schedule),
+        None => Err(no_device(name)),
+    }
+}
+
+/// The device of `list` that `which` stands for: its number, or part of its maker's name.
+fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
+    let named = || {
         let which = which.to_lowercase();
         list.iter().position(|device| device.device.to_lowercase().contains(&which))
-    });
-    match index {
-        Some(index) if index < list.len() => (family.open)(index, schedule),
-        _ => Err(no_device(name)),
-    }
+    };
+    which.parse().ok().or_else(named).filter(|index| *index < list.len())
+}
+
+/// Opens a device for pictures by its name: `wgpu`, `wgpu:1`, `wgpu:nvidia`, or `auto`, a discrete GPU, else an
+/// integrated one, else whatever there is, since pictures can't do without.
+///
+/// ```no_run
+/// let design = texere::read("designs/herringbone.wif")?;
+/// let renderer = texere::open_renderer("auto")?;
+/// let mut scene = renderer.scene(&design.yarns()?, &texere::Settings::default())?;
+/// let camera = texere::Camera::face(scene.extent(), [1600, 1200]);
+/// let picture = scene.picture(&camera, texere::Quality::default())?;
+/// texere::write_picture(picture.size, &picture.rgb, "herringbone.png")?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// **Errors**: those of [`open`].
+#[cfg(feature = "render")]
+pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError> {
+    let list = texere_wgpu::WgpuBackend::devices()?;
+    let first = |kind| list.iter().position(|device| device.kind == kind);
+    let index = match name.split_once(':').unwrap_or((name, "0")) {
+        ("auto", _) => first(DeviceKind::DiscreteGpu).or_else(|| first(DeviceKind::IntegratedGpu)).or(Some(0)),
+        ("wgpu", which) => find(&list, which),
+        _ => None,
+    };
+    let Some(index) = index else {
+        let names = list.into_iter().map(|device| device.name);
+        return Err(BackendError::NoDevice { wanted: name.into(), found: names.chain(["auto".into()]).collect() });
+    };
+    texere_render::Renderer::new(texere_wgpu::WgpuBackend::open(index, Schedule::PerRing)?)
 }
 
 fn no_device(wanted: &str) -> BackendError {

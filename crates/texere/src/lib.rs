@@ -23,13 +23,15 @@
 //! # }
 //! ```
 //!
-//! Features: `opencl` and `wgpu` add GPU backends; without them the CPU does the work alone.
+//! Features: `opencl` and `wgpu` add GPU backends; without them the CPU does the work alone. `render` adds pictures.
 //!
 //! A cloth too large for memory is written piece by piece with [`stream`]. Yarns of any other origin come from
 //! [`Yarns::builder`].
 
 mod device;
 
+#[cfg(feature = "render")]
+pub use device::open_renderer;
 pub use device::{Devices, devices, open};
 pub use texere_core::{
     Backend, BackendError, Chunk, ControlPoint, Counts, DeviceInfo, DeviceKind, Frame, Limits, Material,
@@ -41,5 +43,11 @@ pub use texere_fabric::{
     FabricError, FabricWarning, Jam, JamReport, Measures, NO_CROSSING, Pitch, Shape, Shedding, Thread,
     Tightness, Weave, Woven, YarnPlace, clearance, length_mm, lengths_mm,
 };
-pub use texere_formats::write::{Format, Side, Written, draft as write_draft, mesh as write, stream};
+pub use texere_formats::write::{
+    Format, Side, Written, draft as write_draft, mesh as write, picture as write_picture, stream,
+};
 pub use texere_formats::{Design, ReadError, Structure, WriteError, read};
+#[cfg(feature = "render")]
+pub use texere_render::{
+    Camera, Cut, Extent, Picture, PictureTimings, Quality, RenderError, Renderer, Scene,
+};

@@ -5,7 +5,7 @@
 //! | glTF 2.0 binary | `.glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
 //! | binary PLY, little endian | `.ply` | one point set with normals and colours, and its triangles; millimetres |
 //!
-//! Beside meshes there are [drafts](fn@draft), in PNG.
+//! Beside meshes there are [drafts](fn@draft) and [pictures](fn@picture), in PNG.
 //!
 //! What a file holds does not depend on the mesh's [`Topology`]: a plan knows its triangles, so that no index has to
 //! come from a device, and GLB keeps the index pattern that all yarns share once, which halves it.
@@ -17,6 +17,7 @@ mod draft;
 mod error;
 mod feed;
 mod glb;
+mod picture;
 mod ply;
 mod target;
 #[cfg(test)]
@@ -24,6 +25,7 @@ mod tests;
 
 pub use draft::{SHAFTS_MAX, Side, draft};
 pub use error::WriteError;
+pub use picture::picture;
 
 use std::ops::ControlFlow;
 use std::path::Path;

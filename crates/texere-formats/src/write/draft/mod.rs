@@ -19,6 +19,7 @@ use std::path::Path;
 use texere_fabric::{Draft, Shedding, Thread, Woven};
 
 use super::WriteError;
+use super::picture::png_path;
 use super::target::Target;
 use sheet::{Block, INK, PAPER, Rgb, Sheet};
 
@@ -71,10 +72,7 @@ pub fn draft(
     side: Side,
     path: impl AsRef<Path>,
 ) -> Result<[u32; 2], WriteError> {
-    let path = path.as_ref();
-    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        return Err(WriteError::NotPng { path: path.to_owned() });
-    }
+    let path = png_path(path.as_ref())?;
     let loom = draft.filter(|_| side == Side::Face).map(Loom::new).filter(Loom::fits);
     let sheet = lay_out(cloth, loom.as_ref(), side);
     let [width, height] = sheet.size;

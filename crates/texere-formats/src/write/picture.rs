@@ -1,0 +1,48 @@
+//! Pictures that were drawn elsewhere, to PNG.
+
+use std::path::Path;
+
+use super::WriteError;
+use super::target::Target;
+
+/// Writes a picture of `size` pixels (width, height) to a PNG file: `rgb` is three bytes a pixel, sRGB, rows from the
+/// top.
+///
+/// **Errors**: [`WriteError::NotPng`] where `path` does not end in `.png`, [`WriteError::Io`], also for pixels that are
+/// not as many as `size` says.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("red.png");
+/// texere_formats::write::picture([2, 1], &[255, 0, 0, 128, 0, 0], &path)?;
+/// assert_eq!(std::fs::read(&path)?[..4], *b"\x89PNG");
+/// assert!(texere_formats::write::picture([2, 2], &[0; 6], &path).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn picture([width, height]: [u32; 2], rgb: &[u8], path: impl AsRef<Path>) -> Result<(), WriteError> {
+    let mut target = Target::create(png_path(path.as_ref())?)?;
+    let mut encoder = png::Encoder::new(&mut target, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    // Cloth is full of detail that no effort packs much better.
+    encoder.set_compression(png::Compression::Fast);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(rgb)?;
+        writer.finish()
+    });
+    written.map_err(|error| target.failed(error.into()))?;
+    target.commit()?;
+    Ok(())
+}
+
+/// `path`, where it ends in `.png`.
+///
+/// **Errors**: [`WriteError::NotPng`].
+pub(super) fn png_path(path: &Path) -> Result<&Path, WriteError> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        Ok(path)
+    } else {
+        Err(WriteError::NotPng { path: path.to_owned() })
+    }
+}

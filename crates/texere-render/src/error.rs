@@ -1,0 +1,38 @@
+//! What can go wrong between a fabric and its picture.
+
+use texere_core::{BackendError, PlanError};
+use thiserror::Error;
+
+/// Why there is no picture.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The picture is empty, or larger than the device's textures.
+    #[error(
+        "a picture of {width} × {height} pixels, supersampled {supersampling} times, is not between 1 × 1 and {limit} × {limit}"
+    )]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Pixels of the screen for a pixel of the picture, each way.
+        supersampling: u32,
+        /// The longest side that the device allows.
+        limit: u32,
+    },
+    /// A number that a camera was given makes no view.
+    #[error("{what} of {value} makes no view: it must be a finite number above zero")]
+    Camera {
+        /// What the number says.
+        what: &'static str,
+        /// The number.
+        value: f32,
+    },
+    /// The settings make no plan.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The device failed.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+}

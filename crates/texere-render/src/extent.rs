@@ -1,0 +1,58 @@
+//! How much room a fabric takes.
+
+use glam::Vec3;
+use texere_core::Yarns;
+
+/// The box round a fabric, and how thick its yarns are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// The least x, y and z, mm.
+    pub low: [f32; 3],
+    /// The greatest, mm.
+    pub high: [f32; 3],
+    /// The mean radius of its yarns, mm.
+    pub radius: f32,
+}
+
+impl Extent {
+    /// The box round all control points, each as wide as its yarn.
+    #[must_use]
+    pub fn of(yarns: &Yarns) -> Self {
+        let layout = yarns.layout();
+        let (mut low, mut high, mut radii) = (Vec3::INFINITY, Vec3::NEG_INFINITY, 0.0f64);
+        for (number, yarn) in layout.yarns().iter().enumerate() {
+            let section = &layout.sections()[yarn.section as usize];
+            let reach = section.half_width().max(section.half_height());
+            for point in yarns.yarn_points(number).unwrap_or_default() {
+                let (centre, reach) = (Vec3::new(point.x, point.y, point.z), Vec3::splat(point.radius * reach));
+                low = low.min(centre - reach);
+                high = high.max(centre + reach);
+                radii += f64::from(point.radius);
+            }
+        }
+        let radius = (radii / layout.point_count() as f64) as f32;
+        Self { low: low.to_array(), high: high.to_array(), radius }
+    }
+
+    /// Width and length of the cloth, mm.
+    #[must_use]
+    pub fn size(&self) -> [f32; 2] {
+        [self.high[0] - self.low[0], self.high[1] - self.low[1]]
+    }
+
+    pub(crate) fn middle(&self) -> Vec3 {
+        (Vec3::from(self.low) + Vec3::from(self.high)) * 0.5
+    }
+
+    /// Its eight corners.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = Vec3> {
+        let (low, high) = (Vec3::from(self.low), Vec3::from(self.high));
+        (0..8).map(move |corner| {
+            Vec3::select(
+                glam::BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0),
+                high,
+                low,
+            )
+        })
+    }
+}

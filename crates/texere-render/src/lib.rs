@@ -1,0 +1,25 @@
+//! Headless pictures of yarn-level cloth, on wgpu.
+//!
+//! ```text
+//! Yarns ──> Scene ──> screen ──> Picture
+//!           chunks    depth,     light
+//!                     normals
+//! ```
+//!
+//! A [`Renderer`] is an open device with its shaders, a [`Scene`] a fabric on it, a [`Camera`] a view of the fabric. The
+//! mesh is drawn from the very buffers that the mesh stage wrote, chunk after chunk into one depth buffer; then all that
+//! is seen is lit at once.
+
+mod camera;
+mod error;
+mod extent;
+mod renderer;
+mod scene;
+mod screen;
+mod uniform;
+
+pub use camera::{Camera, Cut};
+pub use error::RenderError;
+pub use extent::Extent;
+pub use renderer::Renderer;
+pub use scene::{Picture, PictureTimings, Quality, Scene};

@@ -1,0 +1,231 @@
+//! The pipelines: yarns, visibility, light.
+
+use texere_core::{Backend, BackendError, DeviceInfo, Vertex};
+use texere_shaders::picture;
+use texere_wgpu::WgpuBackend;
+use wgpu::{BindingType, BufferBindingType, ShaderStages, TextureSampleType, TextureViewDimension};
+
+use crate::screen::{COLOR, DEPTH, KEPT, SAMPLES, VISIBILITY};
+
+/// What comes with a draw: one row of a buffer that steps by the instance.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct DrawRow {
+    pub(crate) yarn: u32,
+    /// The yarn's ring number of the chunk's ring 0, counted on beyond zero where it lies before the yarn.
+    pub(crate) first_ring: u32,
+    pub(crate) is_cap: u32,
+    /// From ring to ring, mm.
+    pub(crate) ring_length: f32,
+}
+
+/// An open device with what it takes to make pictures.
+///
+/// ```no_run
+/// use texere_core::{Settings, Yarns};
+/// use texere_render::{Camera, Quality, Renderer};
+/// use texere_wgpu::{Schedule, WgpuBackend};
+/// # fn example(yarns: &Yarns) -> Result<(), texere_render::RenderError> {
+/// let renderer = Renderer::new(WgpuBackend::open(0, Schedule::PerRing)?)?;
+/// let mut scene = renderer.scene(yarns, &Settings::default())?;
+/// let camera = Camera::face(scene.extent(), [800, 600]);
+/// let picture = scene.picture(&camera, Quality::default())?;
+/// assert_eq!(picture.rgb.len(), 3 * 800 * 600);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Renderer {
+    pub(crate) device: WgpuBackend,
+    /// Outsides alone, for views that show no end of a yarn.
+    pub(crate) outsides: wgpu::RenderPipeline,
+    /// Insides, too.
+    pub(crate) all_sides: wgpu::RenderPipeline,
+    pub(crate) visibility: wgpu::RenderPipeline,
+    pub(crate) shade: wgpu::RenderPipeline,
+    pub(crate) layouts: Layouts,
+}
+
+/// Layouts of what the pipelines bind.
+#[derive(Debug)]
+pub(crate) struct Layouts {
+    pub(crate) yarns: wgpu::BindGroupLayout,
+    pub(crate) visibility: wgpu::BindGroupLayout,
+    pub(crate) shade: wgpu::BindGroupLayout,
+}
+
+impl Renderer {
+    /// Compiles the shaders for `device`.
+    ///
+    /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
+    pub fn new(device: WgpuBackend) -> Result<Self, BackendError> {
+        let layouts = device.scoped("Device::create_bind_group_layout", || Layouts::new(device.device()))?;
+        let pipelines = device.scoped("Device::create_render_pipeline", || {
+            let pipelines = Pipelines { device: device.device() };
+            [
+                pipelines.yarns(&layouts.yarns, Some(wgpu::Face::Back)),
+                pipelines.yarns(&layouts.yarns, None),
+                pipelines.screen("visibility", picture::VISIBILITY, &layouts.visibility, VISIBILITY),
+                pipelines.screen("shade", picture::SHADE, &layouts.shade, COLOR),
+            ]
+        })?;
+        let [outsides, all_sides, visibility, shade] = pipelines;
+        Ok(Self { device, outsides, all_sides, visibility, shade, layouts })
+    }
+
+    /// The device.
+    #[must_use]
+    pub fn info(&self) -> &DeviceInfo {
+        self.device.info()
+    }
+
+    /// The longest side of a picture, supersampled, in pixels.
+    #[must_use]
+    pub fn side_limit(&self) -> u32 {
+        self.device.device().limits().max_texture_dimension_2d
+    }
+}
+
+const VIEW: BindingType = BindingType::Buffer {
+    ty: BufferBindingType::Uniform,
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+const fn texture(sample_type: TextureSampleType, multisampled: bool) -> BindingType {
+    BindingType::Texture { sample_type, view_dimension: TextureViewDimension::D2, multisampled }
+}
+
+impl Layouts {
+    fn new(device: &wgpu::Device) -> Self {
+        let kept = texture(TextureSampleType::Uint, true);
+        let screen = [VIEW, texture(TextureSampleType::Depth, true), kept, kept];
+        let visibility = texture(TextureSampleType::Float { filterable: false }, false);
+        let looks = BindingType::Buffer {
+            ty: BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let layout = |label, types: &[BindingType]| {
+            let entries: Vec<_> = (0..)
+                .zip(types)
+                .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
+                    binding,
+                    visibility: ShaderStages::VERTEX_FRAGMENT,
+                    ty,
+                    count: None,
+                })
+                .collect();
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &entries,
+            })
+        };
+        Self {
+            yarns: layout("yarns", &[VIEW]),
+            visibility: layout("visibility", &screen),
+            shade: layout("shade", &[&screen[..], &[visibility, looks]].concat()),
+        }
+    }
+}
+
+/// Makes pipelines.
+struct Pipelines<'a> {
+    device: &'a wgpu::Device,
+}
+
+impl Pipelines<'_> {
+    fn module(&self, label: &str, source: &'static str) -> wgpu::ShaderModule {
+        self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        })
+    }
+
+    fn layout(&self, layout: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+        self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(layout)],
+            immediate_size: 0,
+        })
+    }
+
+    fn yarns(&self, layout: &wgpu::BindGroupLayout, cull_mode: Option<wgpu::Face>) -> wgpu::RenderPipeline {
+        let module = self.module("yarns", picture::YARNS);
+        let corner = |attributes| {
+            Some(wgpu::VertexBufferLayout {
+                array_stride: size_of::<Vertex>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes,
+            })
+        };
+        let row = wgpu::VertexBufferLayout {
+            array_stride: size_of::<DrawRow>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &wgpu::vertex_attr_array![3 => Uint32, 4 => Uint32, 5 => Uint32, 6 => Float32],
+        };
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("yarns"),
+            layout: Some(&self.layout(layout)),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("yarn_corner"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[
+                    corner(&wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3]),
+                    corner(&wgpu::vertex_attr_array![2 => Float32x3]),
+                    Some(row),
+                ],
+            },
+            primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Less),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("yarn_sample"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(KEPT.into()), Some(KEPT.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    /// A pass over the whole screen.
+    fn screen(
+        &self,
+        entry_point: &str,
+        source: &'static str,
+        layout: &wgpu::BindGroupLayout,
+        target: wgpu::TextureFormat,
+    ) -> wgpu::RenderPipeline {
+        let module = self.module(entry_point, source);
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(entry_point),
+            layout: Some(&self.layout(layout)),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("screen"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(target.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}

@@ -1,0 +1,312 @@
+//! A fabric on the device, and pictures of it.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use glam::Vec3;
+use texere_core::{Backend, BackendError, Chunk, ControlPoint, Limits, Plan, Session, Settings, Topology, Yarns};
+use texere_wgpu::WgpuSession;
+use wgpu::{BindingResource, BufferUsages};
+
+use crate::renderer::DrawRow;
+use crate::screen::Screen;
+use crate::uniform::{ViewUniform, YarnLook};
+use crate::{Camera, Extent, RenderError, Renderer};
+
+/// Memory for two chunks of mesh, bytes: enough to keep any device busy, little beside what pictures take.
+const CHUNK_MEMORY: u64 = 256 << 20;
+
+/// How fine a picture is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quality {
+    /// Pixels of the screen for a pixel of the picture, each way. Each has four samples, whatever this is.
+    pub supersampling: u32,
+}
+
+impl Default for Quality {
+    /// Four pixels of the screen, sixteen samples, for a pixel of the picture.
+    fn default() -> Self {
+        Self { supersampling: 2 }
+    }
+}
+
+/// A picture in host memory.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// Red, green and blue, a byte each, sRGB; rows from the top.
+    pub rgb: Vec<u8>,
+    /// How long it took.
+    pub timings: PictureTimings,
+}
+
+/// Time that a picture took, stage by stage, one after the other.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PictureTimings {
+    /// Textures of its size, where the picture before had another.
+    pub screen: Duration,
+    /// Meshing and drawing, chunk after chunk.
+    pub draw: Duration,
+    /// Visibility, light, and the copy to the host.
+    pub shade: Duration,
+}
+
+/// A fabric on a device: control points and tables. Its mesh is made anew, chunk by chunk, for each picture, so that
+/// any fabric takes no more memory than [`Scene::memory_bytes`].
+#[derive(Debug)]
+pub struct Scene<'a> {
+    renderer: &'a Renderer,
+    plan: Arc<Plan>,
+    limits: Limits,
+    session: WgpuSession,
+    extent: Extent,
+    /// For each yarn, from ring to ring, mm.
+    ring_lengths: Vec<f32>,
+    pattern: wgpu::Buffer,
+    looks: wgpu::Buffer,
+    rows: wgpu::Buffer,
+    view: wgpu::Buffer,
+    screen: Option<Screen>,
+}
+
+impl Renderer {
+    /// Sends a fabric to the device. Its topology is set aside for [`Topology::Shared`], which saves every index.
+    ///
+    /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
+    pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene<'_>, RenderError> {
+        let settings = Settings { topology: Topology::Shared, ..*settings };
+        let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+        let limits = Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..Limits::NONE };
+        let limits = limits.min(&self.info().limits);
+        let mut session = self.device.wgpu_session(plan.clone())?;
+        session.upload(0, yarns.points())?;
+        session.scan()?;
+        let buffer = |what, bytes: &[u8], usage| self.filled(what, bytes, usage);
+        Ok(Scene {
+            renderer: self,
+            session,
+            extent: Extent::of(yarns),
+            ring_lengths: ring_lengths(yarns, &plan),
+            pattern: buffer("index pattern", bytemuck::cast_slice(&plan.shared_indices()), BufferUsages::INDEX)?,
+            looks: buffer("looks", bytemuck::cast_slice(&YarnLook::all(yarns)), BufferUsages::STORAGE)?,
+            rows: buffer("draws", &[], BufferUsages::VERTEX)?,
+            view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
+            screen: None,
+            limits,
+            plan,
+        })
+    }
+
+    /// A buffer that holds `bytes`, and can be written again.
+    fn filled(&self, what: &'static str, bytes: &[u8], usage: BufferUsages) -> Result<wgpu::Buffer, BackendError> {
+        let device = &self.device;
+        device.scoped("Device::create_buffer", || {
+            let buffer = device.device().create_buffer(&wgpu::BufferDescriptor {
+                label: Some(what),
+                size: (bytes.len() as u64).max(16),
+                usage: usage | BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            device.queue().write_buffer(&buffer, 0, bytes);
+            buffer
+        })
+    }
+
+    /// Binds `resources` in the order of their numbers.
+    fn bind(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: &[BindingResource<'_>],
+    ) -> Result<wgpu::BindGroup, BackendError> {
+        let entries: Vec<_> = (0..)
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
+            .collect();
+        let device = &self.device;
+        device.scoped("Device::create_bind_group", || {
+            let descriptor = wgpu::BindGroupDescriptor { label: None, layout, entries: &entries };
+            device.device().create_bind_group(&descriptor)
+        })
+    }
+}
+
+impl Scene<'_> {
+    /// How much room the fabric takes.
+    #[must_use]
+    pub const fn extent(&self) -> &Extent {
+        &self.extent
+    }
+
+    /// The plan that its mesh is made by.
+    #[must_use]
+    pub const fn plan(&self) -> &Arc<Plan> {
+        &self.plan
+    }
+
+    /// Cuts chunks to `limits` where the scene's own are wider.
+    #[must_use]
+    pub fn with_limits(self, limits: &Limits) -> Self {
+        Self { limits: self.limits.min(limits), ..self }
+    }
+
+    /// Makes a picture.
+    ///
+    /// **Errors**: [`RenderError::Size`] for one that the device has no textures for, [`RenderError::Plan`] where not
+    /// even one block fits the limits, [`RenderError::Backend`].
+    pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
+        let (size, supersampling) = (camera.size(), quality.supersampling);
+        self.check_size(size, supersampling)?;
+        let start = Instant::now();
+        let device = &self.renderer.device;
+        if self.screen.as_ref().is_none_or(|screen| !screen.fits(size, supersampling)) {
+            self.screen = None;
+            self.screen = Some(Screen::new(device, size, supersampling)?);
+        }
+        let view = ViewUniform::new(camera, supersampling, self.plan.settings().sides);
+        device.scoped("Queue::write_buffer", || {
+            device.queue().write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
+        })?;
+        let screened = Instant::now();
+        self.draw(camera)?;
+        let drawn = Instant::now();
+        let rgb = self.shade()?;
+        let timings = PictureTimings {
+            screen: screened - start,
+            draw: drawn - screened,
+            shade: drawn.elapsed(),
+        };
+        Ok(Picture { size, rgb, timings })
+    }
+
+    fn check_size(&self, [width, height]: [u32; 2], supersampling: u32) -> Result<(), RenderError> {
+        let limit = self.renderer.side_limit();
+        let fits = |side: u32| {
+            let side = u64::from(side) * u64::from(supersampling);
+            (1..=u64::from(limit)).contains(&side)
+        };
+        if fits(width) && fits(height) {
+            Ok(())
+        } else {
+            Err(RenderError::Size { width, height, supersampling, limit })
+        }
+    }
+
+    /// Meshes and draws chunk after chunk. While one is drawn the next is made.
+    fn draw(&mut self, camera: &Camera) -> Result<(), RenderError> {
+        let plan = self.plan.clone();
+        let view = [self.view.as_entire_binding()];
+        let bound = self.renderer.bind(&self.renderer.layouts.yarns, &view)?;
+        let mut before = None;
+        for chunk in plan.chunks(&self.limits)? {
+            self.session.mesh(&chunk)?;
+            let drawn = self.draw_chunk(&chunk, camera, &bound)?;
+            // No more than two chunks are under way, so that each wait is for a chunk and not for a fabric.
+            if let Some(submission) = before.replace(drawn) {
+                self.renderer.device.wait(submission)?;
+            }
+        }
+        match before {
+            Some(submission) => Ok(self.renderer.device.wait(submission)?),
+            None => Ok(()),
+        }
+    }
+
+    fn draw_chunk(
+        &mut self,
+        chunk: &Chunk,
+        camera: &Camera,
+        bound: &wgpu::BindGroup,
+    ) -> Result<wgpu::SubmissionIndex, BackendError> {
+        let (rows, draws) = self.draws(chunk);
+        let bytes: &[u8] = bytemuck::cast_slice(&rows);
+        if self.rows.size() < bytes.len() as u64 {
+            self.rows = self.renderer.filled("draws", bytes, BufferUsages::VERTEX)?;
+        }
+        let (renderer, screen) = (self.renderer, self.screen.as_ref());
+        let vertices = self.session.vertex_buffer(chunk)?;
+        let ring = u64::from(self.plan.settings().sides) * size_of::<texere_core::Vertex>() as u64;
+        renderer.device.scoped("Queue::submit", || {
+            renderer.device.queue().write_buffer(&self.rows, 0, bytes);
+            let mut encoder = renderer.device.device().create_command_encoder(&Default::default());
+            if let Some(screen) = screen {
+                let mut pass = screen.yarn_pass(&mut encoder, chunk.index == 0);
+                pass.set_pipeline(if camera.sees_inside() { &renderer.all_sides } else { &renderer.outsides });
+                pass.set_bind_group(0, bound, &[]);
+                pass.set_vertex_buffer(0, vertices.slice(..));
+                pass.set_vertex_buffer(1, vertices.slice(ring..));
+                pass.set_vertex_buffer(2, self.rows.slice(..));
+                pass.set_index_buffer(self.pattern.slice(..), wgpu::IndexFormat::Uint32);
+                for (row, (indices, base)) in (0..).zip(&draws) {
+                    pass.draw_indexed(indices.clone(), *base, row..row + 1);
+                }
+            }
+            renderer.device.queue().submit([encoder.finish()])
+        })
+    }
+
+    /// The chunk's draws: what comes with each, its indices and its first vertex.
+    fn draws(&self, chunk: &Chunk) -> (Vec<DrawRow>, Vec<(std::ops::Range<u32>, i32)>) {
+        let sides = self.plan.settings().sides;
+        let mut parts = chunk.parts.iter().peekable();
+        let mut first_ring = 0;
+        self.plan
+            .draws(chunk)
+            .map(|draw| {
+                let base = (draw.base_vertex - chunk.first_vertex) as u32;
+                while let Some(part) = parts.next_if(|part| part.first_vertex <= base) {
+                    first_ring = part.first_ring.wrapping_sub(part.first_vertex / sides);
+                }
+                let row = DrawRow {
+                    yarn: draw.yarn,
+                    first_ring,
+                    is_cap: (base >= chunk.rings * sides).into(),
+                    ring_length: self.ring_lengths[draw.yarn as usize],
+                };
+                (row, (draw.indices.start as u32..draw.indices.end as u32, base as i32))
+            })
+            .unzip()
+    }
+
+    /// Visibility, then light, then the copy to the host.
+    fn shade(&self) -> Result<Vec<u8>, RenderError> {
+        let (renderer, Some(screen)) = (self.renderer, &self.screen) else { return Ok(Vec::new()) };
+        let view = |view| BindingResource::TextureView(view);
+        let kept = [
+            self.view.as_entire_binding(),
+            view(&screen.depths),
+            view(&screen.directions),
+            view(&screen.places),
+        ];
+        let seen = renderer.bind(&renderer.layouts.visibility, &kept)?;
+        let all = [&kept[..], &[view(&screen.visibility), self.looks.as_entire_binding()]].concat();
+        let lit = renderer.bind(&renderer.layouts.shade, &all)?;
+        let device = &renderer.device;
+        let submission = device.scoped("Queue::submit", || {
+            let mut encoder = device.device().create_command_encoder(&Default::default());
+            Screen::fill(&mut encoder, &screen.visibility, &renderer.visibility, &seen);
+            Screen::fill(&mut encoder, &screen.color, &renderer.shade, &lit);
+            screen.copy(&mut encoder);
+            let submission = device.queue().submit([encoder.finish()]);
+            screen.map();
+            submission
+        })?;
+        device.wait(submission)?;
+        Ok(screen.take(device)?)
+    }
+}
+
+/// The mean length from ring to ring of each yarn, mm: of its first control points, since no more hangs on it than where
+/// its fibres show.
+fn ring_lengths(yarns: &Yarns, plan: &Plan) -> Vec<f32> {
+    const POINTS: usize = 64;
+    let per_interval = plan.settings().subdivisions as f32 + 1.0;
+    let mean = |yarn| {
+        let points = yarns.yarn_points(yarn).unwrap_or_default();
+        let points = &points[..points.len().min(POINTS)];
+        let place = |point: &ControlPoint| Vec3::new(point.x, point.y, point.z);
+        let length: f32 = points.windows(2).map(|pair| place(&pair[0]).distance(place(&pair[1]))).sum();
+        length / (points.len().max(2) - 1) as f32 / per_interval
+    };
+    (0..yarns.layout().yarns().len()).map(mean).collect()
+}

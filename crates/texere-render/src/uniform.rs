@@ -1,0 +1,151 @@
+//! What shaders are told of the view and of each yarn.
+
+use bytemuck::{Pod, Zeroable};
+use glam::dcamera::rh::proj::directx;
+use glam::dcamera::rh::view;
+use glam::{DMat4, DVec3, Vec3};
+use texere_core::Yarns;
+
+use crate::Camera;
+use crate::camera::{FIELD_OF_VIEW, Projection};
+
+/// How far ambient occlusion looks, radii of a yarn: across to the next yarn but one in a close cloth.
+const REACH_RADII: f32 = 5.0;
+
+/// How far shadows fall, radii of a yarn.
+const SHADOW_RADII: f32 = 9.0;
+
+/// How thick what casts a shadow is taken to be, radii of a yarn: two yarns, one on the other.
+const THICKNESS_RADII: f32 = 4.0;
+
+/// `View` of `view.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct ViewUniform {
+    clip_from_local: [f32; 16],
+    local_from_clip: [f32; 16],
+    target_point: [f32; 3],
+    reach: f32,
+    eye: [f32; 4],
+    light: [f32; 3],
+    shadow: f32,
+    ground: [f32; 4],
+    size: [f32; 2],
+    supersampling: u32,
+    sides: u32,
+    reach_pixels: f32,
+    thickness: f32,
+    has_ground: u32,
+    padding: u32,
+}
+
+const _: () = assert!(size_of::<ViewUniform>() == 224);
+
+impl ViewUniform {
+    pub(crate) fn new(camera: &Camera, supersampling: u32, sides: u32) -> Self {
+        let radius = camera.extent.radius;
+        let size = camera.size().map(|pixels| (pixels * supersampling) as f32);
+        let (clip_from_local, pixels_per_mm) = projection(camera, size[1]);
+        let up = if camera.is_over { Vec3::NEG_Z } else { Vec3::Z };
+        let lowest = if camera.is_over { -camera.extent.high[2] } else { camera.extent.low[2] };
+        let eye = match camera.projection {
+            Projection::Orthographic { .. } => camera.toward.extend(0.0),
+            Projection::Perspective { distance } => (camera.toward * distance).extend(1.0),
+        };
+        Self {
+            clip_from_local: clip_from_local.as_mat4().to_cols_array(),
+            local_from_clip: clip_from_local.inverse().as_mat4().to_cols_array(),
+            target_point: camera.target.to_array(),
+            reach: radius * REACH_RADII,
+            eye: eye.to_array(),
+            light: key_light(camera, up).to_array(),
+            shadow: radius * SHADOW_RADII,
+            ground: up.extend(lowest - camera.target.dot(up)).to_array(),
+            size,
+            supersampling,
+            sides,
+            reach_pixels: radius * REACH_RADII * pixels_per_mm,
+            thickness: radius * THICKNESS_RADII,
+            has_ground: u32::from(!camera.cuts),
+            padding: 0,
+        }
+    }
+}
+
+/// Where a point relative to the camera's target lies in clip space, and pixels a millimetre at the target.
+fn projection(camera: &Camera, pixels_down: f32) -> (DMat4, f32) {
+    // As near as the fabric is, and no farther: depth has 24 bits to tell yarns apart.
+    let depths = camera.extent.corners().map(|corner| (corner - camera.target).dot(camera.toward));
+    let (far, near) = depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
+    let spare = camera.extent.radius;
+    let (far, near) = (f64::from(far - spare), f64::from(near + spare));
+    let (toward, up) = (camera.toward.as_dvec3(), camera.up.as_dvec3());
+    let aspect = f64::from(camera.aspect());
+    match camera.projection {
+        Projection::Orthographic { height } => {
+            let near = if camera.cuts { 0.0 } else { near };
+            let (above, aside) = (0.5 * f64::from(height), 0.5 * f64::from(height) * aspect);
+            let look = view::look_to_mat4(DVec3::ZERO, -toward, up);
+            let projected = directx::orthographic(-aside, aside, -above, above, -near, -far);
+            (projected * look, pixels_down / height)
+        }
+        Projection::Perspective { distance } => {
+            let eye = f64::from(distance);
+            let look = view::look_to_mat4(toward * eye, -toward, up);
+            // What lies behind the eye is not seen; the least distance keeps the far end's depths apart.
+            let nearest = (eye - near).max(eye * 0.02);
+            let projected =
+                directx::perspective(f64::from(FIELD_OF_VIEW), aspect, nearest, (eye - far).max(nearest * 1.01));
+            (projected * look, pixels_down / (2.0 * distance * (FIELD_OF_VIEW * 0.5).tan()))
+        }
+    }
+}
+
+/// The direction to the key light: from the left, high, a little from beyond the cloth, so that threads across and along
+/// shine by turns. For a cut, where beyond is up, from the eye's side.
+fn key_light(camera: &Camera, up: Vec3) -> Vec3 {
+    let [right, above] = camera.across();
+    let (height, beyond) = if camera.cuts {
+        (camera.toward, above)
+    } else {
+        (up, (above - up * above.dot(up)).normalize_or(above))
+    };
+    (right * -0.58 + beyond * 0.3 + height * 0.76).normalize()
+}
+
+/// `YarnLook` of `shade.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct YarnLook {
+    color: [f32; 3],
+    surface_width: f32,
+    volume_width: f32,
+    grain: f32,
+    diffuse: f32,
+    padding: f32,
+}
+
+const _: () = assert!(size_of::<YarnLook>() == 32);
+
+impl YarnLook {
+    /// How each yarn of a fabric looks. A yarn without twist is taken for filament, smooth as silk, one with twist for
+    /// spun staple; widths are of the order that Sadeghi et al. 2013 measured on silk and on linen.
+    pub(crate) fn all(yarns: &Yarns) -> Vec<Self> {
+        let degrees = f32::to_radians;
+        let look = |yarn: &texere_core::Yarn| {
+            let color = yarns.materials()[yarn.material as usize].linear_rgb();
+            let (surface, volume, grain, diffuse) =
+                if yarn.twist == 0.0 { (9.0, 16.0, 0.35, 0.35) } else { (16.0, 28.0, 0.6, 0.5) };
+            Self {
+                color,
+                surface_width: degrees(surface),
+                volume_width: degrees(volume),
+                grain,
+                diffuse,
+                padding: 0.0,
+            }
+        };
+        yarns.layout().yarns().iter().map(look).collect()
+    }
+}
+

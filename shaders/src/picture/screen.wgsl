@@ -1,0 +1,56 @@
+// What the yarns left on the screen, read back. After view.wgsl.
+
+@group(0) @binding(1) var depths: texture_depth_multisampled_2d;
+@group(0) @binding(2) var directions: texture_multisampled_2d<u32>;
+@group(0) @binding(3) var places: texture_multisampled_2d<u32>;
+
+// A triangle that covers the screen.
+@vertex
+fn screen(@builtin(vertex_index) number: u32) -> @builtin(position) vec4<f32> {
+    return vec4(f32(number / 2u) * 4.0 - 1.0, f32(number % 2u) * 4.0 - 1.0, 0.0, 1.0);
+}
+
+fn local_at(pixel: vec2<f32>, depth: f32) -> vec3<f32> {
+    let across = pixel / view.size * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
+    let local = view.local_from_clip * vec4(across, depth, 1.0);
+    return local.xyz / local.w;
+}
+
+// From `local` towards the eye.
+fn to_eye(local: vec3<f32>) -> vec3<f32> {
+    return normalize(view.eye.xyz - local * view.eye.w);
+}
+
+// What a pixel shows: a yarn, or the ground, or neither.
+struct Surface {
+    local: vec3<f32>,
+    normal: vec3<f32>,
+    is_yarn: bool,
+    is_ground: bool,
+}
+
+// The ground where the line of sight through `pixel` meets it.
+fn ground_at(pixel: vec2<f32>) -> Surface {
+    let near = local_at(pixel, 0.0);
+    let sight = -to_eye(near);
+    let fall = dot(view.ground.xyz, sight);
+    let way = (view.ground.w - dot(view.ground.xyz, near)) / fall;
+    let meets = view.has_ground != 0u && fall < -1e-4;
+    return Surface(near + sight * select(0.0, way, meets), view.ground.xyz, false, meets);
+}
+
+fn surface_at(pixel: vec2<i32>) -> Surface {
+    let middle = vec2<f32>(pixel) + 0.5;
+    let depth = textureLoad(depths, pixel, 0);
+    if depth >= 1.0 {
+        return ground_at(middle);
+    }
+    let normal = from_octahedron(textureLoad(directions, pixel, 0).xy);
+    return Surface(local_at(middle, depth), normal, true, false);
+}
+
+// An even pattern of numbers in 0 to 1 (Jimenez 2014, "Next generation post processing in Call of Duty: Advanced
+// Warfare": interleaved gradient noise).
+fn dither(pixel: vec2<f32>) -> f32 {
+    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}

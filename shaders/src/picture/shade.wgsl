@@ -1,0 +1,207 @@
+// Light on what is seen, tone mapping, and the picture's own pixels. After view.wgsl and screen.wgsl.
+
+// Rust: texere_render's YarnLook, 32 bytes.
+struct YarnLook {
+    // Linear light.
+    color: vec3<f32>,
+    // Width of the highlight on a fibre's surface and of the one from within, radians.
+    surface_width: f32,
+    volume_width: f32,
+    // How much fibres stand out one from the other.
+    grain: f32,
+    // The share of light from within that goes everywhere.
+    diffuse: f32,
+    padding: f32,
+}
+
+@group(0) @binding(4) var visibilities: texture_2d<f32>;
+@group(0) @binding(5) var<storage, read> looks: array<YarnLook>;
+
+const PI = 3.14159265;
+const SAMPLES = 4;
+
+// The key light, the fill light, and light from all round: from above and from the ground.
+const KEY = vec3(2.15, 2.08, 1.98);
+const FILL = vec3(0.5, 0.54, 0.6);
+const SKY = vec3(0.46, 0.48, 0.52);
+const FLOOR = vec3(0.24, 0.23, 0.21);
+const GROUND_COLOR = vec3(0.62, 0.61, 0.59);
+
+// A fibre's refraction.
+const ETA = 1.46;
+
+fn gaussian(width: f32, x: f32) -> f32 {
+    return exp(-0.5 * x * x / (width * width)) / (width * sqrt(2.0 * PI));
+}
+
+// Schlick 1994, "An inexpensive BRDF model for physically-based rendering", equation 15.
+fn fresnel(cosine: f32) -> f32 {
+    let straight = (ETA - 1.0) * (ETA - 1.0) / ((ETA + 1.0) * (ETA + 1.0));
+    return straight + (1.0 - straight) * pow(1.0 - cosine, 5.0);
+}
+
+// What a fibre along `fibre` sends to `eye` of light from `light`, its cosine included: Sadeghi, Bisker, De Deken and
+// Jensen 2013, "A practical microcylinder appearance model for cloth rendering", the surface and volume terms of its
+// section 3; a highlight along the fibre as Kajiya and Kay 1989 had it, of the two lobes of Marschner et al. 2003.
+fn microcylinder(look: YarnLook, color: vec3<f32>, fibre: vec3<f32>, light: vec3<f32>, eye: vec3<f32>) -> vec3<f32> {
+    let sine_in = clamp(dot(fibre, light), -1.0, 1.0);
+    let sine_out = clamp(dot(fibre, eye), -1.0, 1.0);
+    let cosine_in = sqrt(1.0 - sine_in * sine_in);
+    let cosine_out = sqrt(1.0 - sine_out * sine_out);
+    let half_angle = 0.5 * (asin(sine_in) + asin(sine_out));
+    let difference = 0.5 * (asin(sine_out) - asin(sine_in));
+    let light_across = light - fibre * sine_in;
+    let eye_across = eye - fibre * sine_out;
+    let azimuth = dot(light_across, eye_across) / max(cosine_in * cosine_out, 1e-4);
+    let half_azimuth = sqrt(clamp(0.5 + 0.5 * azimuth, 0.0, 1.0));
+    let reflected = fresnel(cos(difference) * half_azimuth);
+    let surface = reflected * half_azimuth * gaussian(look.surface_width, half_angle);
+    let through = (1.0 - look.diffuse) * gaussian(look.volume_width, half_angle) + look.diffuse;
+    let volume = color * ((1.0 - reflected) * (1.0 - reflected) * through / (cosine_in + cosine_out + 0.1));
+    return (vec3(surface) + volume) * (cosine_in / (cos(difference) * cos(difference)));
+}
+
+fn hash(cell: vec2<u32>) -> f32 {
+    var x = cell.x * 1597334677u ^ cell.y * 3812015801u;
+    x = (x ^ (x >> 16u)) * 2246822519u;
+    x = (x ^ (x >> 13u)) * 3266489917u;
+    return f32((x ^ (x >> 16u)) >> 8u) / 16777216.0;
+}
+
+// The share of light that reaches the point between fibres, from their place round and along the yarn.
+fn grain(look: YarnLook, yarn: u32, angle: f32, along: f32, fade: f32) -> f32 {
+    let fibres = 26.0;
+    let round = angle * fibres;
+    let row = u32(round);
+    let length = along * 0.9 + hash(vec2(row, yarn)) * 64.0;
+    let cell = u32(length);
+    let bright = mix(hash(vec2(cell, row * 977u + yarn)), hash(vec2(cell + 1u, row * 977u + yarn)), fract(length));
+    let ridge = 1.0 - 2.0 * abs(fract(round) - 0.5);
+    return 1.0 + look.grain * fade * (0.7 * (bright - 0.5) + 0.6 * (ridge - 0.5));
+}
+
+// Light from all round that falls on a surface: a sky above, what the ground sends back below.
+fn surroundings(normal: vec3<f32>) -> vec3<f32> {
+    return mix(FLOOR, SKY, 0.5 + 0.5 * dot(normal, view.ground.xyz));
+}
+
+// The fill light, across from the key light and as high.
+fn fill_direction() -> vec3<f32> {
+    let up = view.ground.xyz;
+    return normalize(2.0 * dot(view.light, up) * up - view.light + 0.3 * up);
+}
+
+fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> vec3<f32> {
+    let packed = textureLoad(directions, pixel, sample);
+    let place = textureLoad(places, pixel, sample);
+    let number = place.x | place.y << 16u;
+    let yarn = number & ~CUT;
+    let look = looks[yarn];
+    let fibre = from_octahedron(packed.zw);
+    let eye = to_eye(here.local);
+    if (number & CUT) != 0u {
+        // Fibres end on: they swallow what falls between them.
+        return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * seen.x);
+    }
+    let fade = clamp(view.reach_pixels / 120.0 - 0.25, 0.0, 1.0);
+    let color = look.color * grain(look, yarn, f32(place.z) / 65536.0, f32(place.w) / 32.0, fade);
+    let fill = fill_direction();
+    // The yarn's body shades its own far side, softly, since light goes through its outer fibres.
+    let facing = clamp((dot(here.normal, view.light) + 0.15) / 1.15, 0.0, 1.0);
+    let fill_facing = clamp((dot(here.normal, fill) + 0.4) / 1.4, 0.0, 1.0);
+    var light = KEY * microcylinder(look, color, fibre, view.light, eye) * (facing * seen.y);
+    light += FILL * microcylinder(look, color, fibre, fill, eye) * (fill_facing * seen.x);
+    // Light that yarns send on to each other takes on their colour, so deep places are not grey (Jimenez et al. 2016,
+    // "Practical real-time strategies for accurate indirect occlusion", equation 10).
+    let a = 2.0404 * color - 0.3324;
+    let b = -4.7951 * color + 0.6417;
+    let c = 2.7552 * color + 0.6903;
+    let open = max(vec3(seen.x), ((seen.x * a + b) * seen.x + c) * seen.x);
+    return light + color * surroundings(here.normal) * open;
+}
+
+fn shade_ground(normal: vec3<f32>, seen: vec2<f32>) -> vec3<f32> {
+    let key = KEY * (max(dot(normal, view.light), 0.0) * seen.y / PI);
+    return GROUND_COLOR * (key + surroundings(normal) * seen.x);
+}
+
+// Khronos PBR neutral tone mapper (2024): colours keep their hue and, below four fifths, their very value.
+fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
+    let start = 0.8 - 0.04;
+    let least = min(light.r, min(light.g, light.b));
+    let offset = select(0.04, least - 6.25 * least * least, least < 0.08);
+    let color = light - offset;
+    let peak = max(color.r, max(color.g, color.b));
+    if peak < start {
+        return color;
+    }
+    let room = 1.0 - start;
+    let pressed = 1.0 - room * room / (peak + room - start);
+    let pale = 1.0 - 1.0 / (0.15 * (peak - pressed) + 1.0);
+    return mix(color * (pressed / peak), vec3(pressed), pale);
+}
+
+// Both visibilities without their dither: the mean of the pixels about, of those that lie near.
+fn smooth_visibility(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
+    let last = vec2<i32>(view.size) - 1;
+    var sum = vec2(0.0);
+    var weights = 0.0;
+    for (var y = -2; y < 2; y++) {
+        for (var x = -2; x < 2; x++) {
+            let there = clamp(pixel + vec2(x, y), vec2(0), last);
+            let depth = textureLoad(depths, there, 0);
+            let away = local_at(vec2<f32>(there) + 0.5, depth) - here.local;
+            let off = dot(away, here.normal) / (0.1 * view.reach);
+            let weight = exp(-off * off) + 1e-3;
+            sum += textureLoad(visibilities, there, 0).xy * weight;
+            weights += weight;
+        }
+    }
+    return sum / weights;
+}
+
+fn sample_color(pixel: vec2<i32>, sample: i32, depth: f32, seen: vec2<f32>) -> vec3<f32> {
+    let middle = vec2<f32>(pixel) + 0.5;
+    if depth >= 1.0 {
+        return tone_mapped(shade_ground(view.ground.xyz, seen));
+    }
+    let normal = from_octahedron(textureLoad(directions, pixel, sample).xy);
+    let here = Surface(local_at(middle, depth), normal, true, false);
+    return tone_mapped(shade_yarn(here, pixel, sample, seen));
+}
+
+// Four samples of a pixel; one is enough where all are of one yarn.
+fn pixel_color(pixel: vec2<i32>) -> vec3<f32> {
+    let here = surface_at(pixel);
+    let seen = smooth_visibility(here, pixel);
+    let first = textureLoad(places, pixel, 0).xy;
+    var alike = true;
+    var depth = array<f32, SAMPLES>();
+    for (var sample = 0; sample < SAMPLES; sample++) {
+        depth[sample] = textureLoad(depths, pixel, sample);
+        let place = textureLoad(places, pixel, sample).xy;
+        alike &= all(place == first) && (depth[sample] >= 1.0) == (depth[0] >= 1.0);
+    }
+    if alike {
+        return sample_color(pixel, 0, depth[0], seen);
+    }
+    var sum = vec3(0.0);
+    for (var sample = 0; sample < SAMPLES; sample++) {
+        sum += sample_color(pixel, sample, depth[sample], seen);
+    }
+    return sum / f32(SAMPLES);
+}
+
+// A pixel of the picture: the mean of its part of the screen.
+@fragment
+fn shade(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let factor = i32(view.supersampling);
+    let corner = vec2<i32>(position.xy) * factor;
+    var sum = vec3(0.0);
+    for (var y = 0; y < factor; y++) {
+        for (var x = 0; x < factor; x++) {
+            sum += pixel_color(corner + vec2(x, y));
+        }
+    }
+    return vec4(clamp(sum / f32(factor * factor), vec3(0.0), vec3(1.0)), 1.0);
+}

@@ -1,0 +1,52 @@
+// What every picture shader reads: the view, and how what is seen is kept until it is shaded.
+
+// Rust: texere_render's ViewUniform, 224 bytes. All positions are relative to the camera's target, since f32 has no
+// tenth of a millimetre left at ten kilometres.
+struct View {
+    clip_from_local: mat4x4<f32>,
+    local_from_clip: mat4x4<f32>,
+    // The camera's target in the fabric's coordinates.
+    target_point: vec3<f32>,
+    // What the ambient occlusion looks round for, mm.
+    reach: f32,
+    // Where the eye is, or with w = 0 the direction to it.
+    eye: vec4<f32>,
+    // The direction to the key light, and how far its shadows fall, mm.
+    light: vec3<f32>,
+    shadow: f32,
+    // The ground: n . p = w.
+    ground: vec4<f32>,
+    // Of the picture before it is scaled down, pixels.
+    size: vec2<f32>,
+    // Pixels of a picture's pixel, each way.
+    supersampling: u32,
+    // Sides of the tubes.
+    sides: u32,
+    // Pixels that `reach` takes, at the target.
+    reach_pixels: f32,
+    // How thick what casts a shadow is taken to be, mm.
+    thickness: f32,
+    // 1 where there is a ground, else 0.
+    has_ground: u32,
+    padding: u32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+
+// Marks the inside of a yarn, seen where the yarn is cut, in the number of a yarn.
+const CUT = 0x80000000u;
+
+// A unit vector as two numbers of 16 bits (Meyer et al. 2010, "On floating-point normal vectors": the octahedron).
+fn octahedron(v: vec3<f32>) -> vec2<u32> {
+    let folded = v.xy / (abs(v.x) + abs(v.y) + abs(v.z));
+    let turned = (1.0 - abs(folded.yx)) * select(vec2(-1.0), vec2(1.0), folded >= vec2(0.0));
+    let flat_vector = select(turned, folded, v.z >= 0.0);
+    return vec2<u32>(round((flat_vector * 0.5 + 0.5) * 65535.0));
+}
+
+fn from_octahedron(packed: vec2<u32>) -> vec3<f32> {
+    let flat_vector = vec2<f32>(packed) / 65535.0 * 2.0 - 1.0;
+    let z = 1.0 - abs(flat_vector.x) - abs(flat_vector.y);
+    let turned = (1.0 - abs(flat_vector.yx)) * select(vec2(-1.0), vec2(1.0), flat_vector >= vec2(0.0));
+    return normalize(vec3(select(turned, flat_vector, z >= 0.0), z));
+}

@@ -1,0 +1,75 @@
+// How much of the surroundings, and of the key light, each pixel sees: both looked for on the screen. After view.wgsl
+// and screen.wgsl.
+
+const OCCLUSION_TAPS = 14u;
+const SHADOW_STEPS = 16u;
+
+// Turns of the spiral that the taps lie on, prime to their number.
+const SPIRAL_TURNS = 9.0;
+
+// Below this many pixels there is nothing to find; what is returned is what yarns have on average.
+const LEAST_PIXELS = 1.5;
+const AVERAGE = vec2(0.8, 0.85);
+
+// Ambient visibility: McGuire, Mara and Luebke 2012, "Scalable ambient obscurance", the estimator of its equation 10
+// with the falloff of Alchemy (McGuire et al. 2011).
+fn ambient(here: Surface, pixel: vec2<i32>, noise: f32) -> f32 {
+    let last = vec2<i32>(view.size) - 1;
+    let reach_squared = view.reach * view.reach;
+    var sum = 0.0;
+    for (var tap = 0u; tap < OCCLUSION_TAPS; tap++) {
+        let share = (f32(tap) + 0.5) / f32(OCCLUSION_TAPS);
+        let angle = (share * SPIRAL_TURNS + noise) * 6.2831853;
+        let offset = vec2(cos(angle), sin(angle)) * share * view.reach_pixels;
+        let there = clamp(pixel + vec2<i32>(round(offset)), vec2(0), last);
+        let depth = textureLoad(depths, there, 0);
+        if depth >= 1.0 {
+            continue;
+        }
+        let away = local_at(vec2<f32>(there) + 0.5, depth) - here.local;
+        let squared = dot(away, away);
+        let rise = dot(away, here.normal) - 0.02 * view.reach;
+        let fade = max(reach_squared - squared, 0.0) / reach_squared;
+        sum += fade * fade * max(rise, 0.0) * inverseSqrt(squared + 1e-4 * reach_squared);
+    }
+    return max(1.0 - 2.2 * sum / f32(OCCLUSION_TAPS), 0.0);
+}
+
+// The key light's share: steps towards it until something on the screen is in front of the way.
+fn lit(here: Surface, noise: f32) -> f32 {
+    let start = here.local + here.normal * (0.04 * view.thickness);
+    let last = vec2<i32>(view.size) - 1;
+    for (var step = 0u; step < SHADOW_STEPS; step++) {
+        let share = (f32(step) + 0.25 + 0.75 * noise) / f32(SHADOW_STEPS);
+        // Shorter steps near the start, where what casts the shadow is thin.
+        let local = start + view.light * (view.shadow * share * share);
+        let clip = view.clip_from_local * vec4(local, 1.0);
+        let ndc = clip.xyz / clip.w;
+        let pixel = vec2<i32>((ndc.xy * vec2(0.5, -0.5) + 0.5) * view.size);
+        if any(pixel < vec2(0)) || any(pixel > last) {
+            break;
+        }
+        let depth = textureLoad(depths, pixel, 0);
+        if depth < ndc.z {
+            let before = dot(local_at(vec2<f32>(pixel) + 0.5, depth) - local, to_eye(local));
+            if before > 0.02 * view.thickness && before < view.thickness {
+                return 0.0;
+            }
+        }
+    }
+    return 1.0;
+}
+
+@fragment
+fn visibility(@builtin(position) position: vec4<f32>) -> @location(0) vec2<f32> {
+    let pixel = vec2<i32>(position.xy);
+    let here = surface_at(pixel);
+    if !here.is_yarn && !here.is_ground {
+        return vec2(1.0);
+    }
+    if view.reach_pixels < LEAST_PIXELS {
+        return select(vec2(1.0), AVERAGE, here.is_yarn);
+    }
+    let noise = dither(position.xy);
+    return vec2(ambient(here, pixel, noise), lit(here, fract(noise * 7.0)));
+}

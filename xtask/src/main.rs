@@ -1,6 +1,7 @@
-//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which CI runs on every change, and
-//! `cargo xtask mutate`, which it runs every week.
+//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which CI runs on every change,
+//! `cargo xtask mutate`, which it runs every week, and pictures.
 
+mod demo;
 mod mutants;
 mod mutate;
 mod steps;
@@ -10,13 +11,14 @@ use std::process::ExitCode;
 use steps::Steps;
 
 /// Crates that go to crates.io.
-const PUBLISHED: [&str; 10] = [
+const PUBLISHED: [&str; 11] = [
     "texere-core",
     "texere-fabric",
     "texere-formats",
     "texere-cpu",
     "texere-kernels",
     "texere-opencl",
+    "texere-render",
     "texere-shaders",
     "texere-wgpu",
     "texere",
@@ -36,12 +38,16 @@ fn main() -> ExitCode {
             check(&mut steps);
             readme(&mut steps);
         }
+        Some("demo") => demo::demo(&mut steps),
+        Some("gallery") => demo::gallery(&mut steps),
         Some("mutate") => {
             install_software_devices(&mut steps);
             return mutate::run(std::env::args().nth(2).as_deref());
         }
         _ => {
-            eprintln!("usage: cargo xtask <test | check | mutate>");
+            eprintln!("usage: cargo xtask <demo | gallery | test | check | mutate>");
+            eprintln!("  demo   a picture of a herringbone; installs a Vulkan driver where there is none");
+            eprintln!("  gallery  the pictures of docs/gallery");
             eprintln!("  test   all tests, doctests and the conformance suite");
             eprintln!("  check  formatting, lints, docs, licences, packages and the README's main command");
             eprintln!(
@@ -71,12 +77,7 @@ fn install_software_devices(steps: &mut Steps) {
     if missing.is_empty() {
         return;
     }
-    let sudo = !steps.succeeds("test", &["-w", "/var/lib/dpkg"]);
-    let apt = if sudo { ["sudo", "apt-get"].as_slice() } else { ["apt-get"].as_slice() };
-    let environment = [("DEBIAN_FRONTEND", "noninteractive")];
-    steps.run("package lists", &[apt, &["update", "--quiet"]].concat(), &environment);
-    let install = [apt, &["install", "--quiet", "--yes", "--no-install-recommends"], &missing].concat();
-    steps.run("software devices", &install, &environment);
+    steps.install("software devices", &missing);
 }
 
 /// What needs no test run.

@@ -39,6 +39,21 @@ impl Steps {
         status.is_ok_and(|status| status.success())
     }
 
+    /// Installs Debian's `packages`.
+    pub(crate) fn install(&mut self, name: &str, packages: &[&str]) {
+        let sudo = !self.succeeds("test", &["-w", "/var/lib/dpkg"]);
+        let apt = if sudo { ["sudo", "apt-get"].as_slice() } else { ["apt-get"].as_slice() };
+        let environment = [("DEBIAN_FRONTEND", "noninteractive")];
+        self.run("package lists", &[apt, &["update", "--quiet"]].concat(), &environment);
+        let install = [apt, &["install", "--quiet", "--yes", "--no-install-recommends"], packages].concat();
+        self.run(name, &install, &environment);
+    }
+
+    /// Whether all steps so far have succeeded.
+    pub(crate) const fn succeed(&self) -> bool {
+        self.failed.is_none()
+    }
+
     /// Prints each step's time, and what failed.
     pub(crate) fn finish(self) -> ExitCode {
         println!();

@@ -41,6 +41,11 @@ impl Fail {
         Self { code: CLOTH, source: format!("{} {faults}", design.display()).into() }
     }
 
+    /// A picture shows one design.
+    pub(crate) fn too_many_designs(designs: usize) -> Self {
+        Self { code: USAGE, source: format!("a picture shows one design, not {designs}").into() }
+    }
+
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(self.code)
     }

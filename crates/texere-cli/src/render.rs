@@ -1,7 +1,9 @@
 //! `texere render`
 
-use std::fmt::Write;
+mod figure;
+
 use std::f32::consts::TAU;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -13,11 +15,16 @@ use crate::fail::Fail;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// A .wif draft or a .toml design
-    design: PathBuf,
+    /// A .wif draft or a .toml design; with --timings any number of them
+    #[arg(required = true)]
+    designs: Vec<PathBuf>,
     /// The picture to write, a .png file; a turntable numbers its pictures: OUT-001.png and so on
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "FILE", required_unless_present = "timings")]
+    output: Option<PathBuf>,
+    /// Time what the paper's figure 5 does, each alone: yarn geometry, buffer creation and rendering, serial against
+    /// parallel; prints a table and draws it to an .svg file
+    #[arg(long, value_name = "FILE", conflicts_with = "output")]
+    timings: Option<PathBuf>,
     /// Width and height, pixels
     #[arg(long, value_name = "WxH", default_value = "1600x1200", value_parser = size)]
     size: [u32; 2],
@@ -88,9 +95,16 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
     let start = Instant::now();
     let renderer = texere::open_renderer(&args.device)?;
     let opened = start.elapsed();
+    let (design, output) = match (&args.designs[..], &args.output, &args.timings) {
+        (designs, _, Some(path)) => {
+            return figure::run(designs, path, &renderer, args.settings.settings(), args.size);
+        }
+        ([design], Some(output), None) => (design, output),
+        (designs, ..) => return Err(Fail::too_many_designs(designs.len())),
+    };
     for number in 0..args.repeat {
         let mut stages = Stages::default();
-        let pictures = whole_run(args, &renderer, &mut stages)?;
+        let pictures = whole_run(design, output, args, &renderer, &mut stages)?;
         let first = if number == 0 { format!("device {}, ", milliseconds(opened)) } else { String::new() };
         crate::print(&format!("{pictures}{first}{stages}\n"))?;
     }
@@ -98,14 +112,20 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
 }
 
 /// From the design file to the picture. Gives a line for what was written.
-fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Result<String, Fail> {
-    let mut design = stages.time("read", || texere::read(&args.design))?;
+fn whole_run(
+    design: &Path,
+    output: &Path,
+    args: &RenderArgs,
+    renderer: &Renderer,
+    stages: &mut Stages,
+) -> Result<String, Fail> {
+    let mut design = stages.time("read", || texere::read(design))?;
     if let Some(section) = &args.settings.section {
         design.set_section(section.clone())?;
     }
     let yarns = stages.time("yarns", || design.yarns())?;
     let mut scene = stages.time("upload", || renderer.scene(&yarns, &args.settings.settings()))?;
-    let cameras = cameras(args, scene.extent())?;
+    let cameras = cameras(output, args, scene.extent())?;
     let quality = Quality { supersampling: args.supersampling };
     let mut text = String::new();
     for (path, camera) in cameras {
@@ -127,7 +147,7 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
 }
 
 /// The cameras, each with the file that its picture goes to.
-fn cameras(args: &RenderArgs, extent: &Extent) -> Result<Vec<(PathBuf, Camera)>, RenderError> {
+fn cameras(output: &Path, args: &RenderArgs, extent: &Extent) -> Result<Vec<(PathBuf, Camera)>, RenderError> {
     let size = args.size;
     let middle = [0, 1].map(|axis| 0.5 * (extent.low[axis] + extent.high[axis]));
     let (at, width) = (args.at.unwrap_or(middle), args.width.unwrap_or(40.0 * extent.radius));
@@ -145,12 +165,12 @@ fn cameras(args: &RenderArgs, extent: &Extent) -> Result<Vec<(PathBuf, Camera)>,
         View::Turntable => {
             let frame = |number| {
                 let turn = TAU * number as f32 / args.frames as f32;
-                (numbered(&args.output, number + 1), Camera::oblique(extent, turn, size))
+                (numbered(output, number + 1), Camera::oblique(extent, turn, size))
             };
             return Ok((0..args.frames).map(frame).collect());
         }
     };
-    Ok(vec![(args.output.clone(), camera)])
+    Ok(vec![(output.to_owned(), camera)])
 }
 
 /// `cloth.png` as `cloth-007.png`.

@@ -120,12 +120,7 @@ impl Camera {
     /// A stretch of `width` mm round the point `at` (x, y), from above and aside.
     ///
     /// **Errors**: [`RenderError::Camera`].
-    pub fn close_up(
-        extent: &Extent,
-        at: [f32; 2],
-        width: f32,
-        size: [u32; 2],
-    ) -> Result<Self, RenderError> {
+    pub fn close_up(extent: &Extent, at: [f32; 2], width: f32, size: [u32; 2]) -> Result<Self, RenderError> {
         let width = checked("a width (mm)", width)?;
         let distance = 0.5 * width / aspect(size) / (FIELD_OF_VIEW * 0.5).tan();
         let camera = Self::above(extent, CLOSE_TURN, CLOSE_HEIGHT, size);

@@ -24,7 +24,8 @@ impl Extent {
             let section = &layout.sections()[yarn.section as usize];
             let reach = section.half_width().max(section.half_height());
             for point in yarns.yarn_points(number).unwrap_or_default() {
-                let (centre, reach) = (Vec3::new(point.x, point.y, point.z), Vec3::splat(point.radius * reach));
+                let (centre, reach) =
+                    (Vec3::new(point.x, point.y, point.z), Vec3::splat(point.radius * reach));
                 low = low.min(centre - reach);
                 high = high.max(centre + reach);
                 radii += f64::from(point.radius);
@@ -48,11 +49,7 @@ impl Extent {
     pub(crate) fn corners(&self) -> impl Iterator<Item = Vec3> {
         let (low, high) = (Vec3::from(self.low), Vec3::from(self.high));
         (0..8).map(move |corner| {
-            Vec3::select(
-                glam::BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0),
-                high,
-                low,
-            )
+            Vec3::select(glam::BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0), high, low)
         })
     }
 }

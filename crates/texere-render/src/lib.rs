@@ -13,13 +13,17 @@
 mod camera;
 mod error;
 mod extent;
+mod phases;
 mod renderer;
 mod scene;
 mod screen;
+#[cfg(test)]
+mod tests;
 mod uniform;
 
 pub use camera::{Camera, Cut};
 pub use error::RenderError;
 pub use extent::Extent;
+pub use phases::Phases;
 pub use renderer::Renderer;
 pub use scene::{Picture, PictureTimings, Quality, Scene};

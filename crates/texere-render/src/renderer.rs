@@ -59,12 +59,17 @@ impl Renderer {
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub fn new(device: WgpuBackend) -> Result<Self, BackendError> {
+        Self::with_yarns(device, picture::YARNS)
+    }
+
+    /// The same with another shader for yarns, such as a broken one that a test must find.
+    pub(crate) fn with_yarns(device: WgpuBackend, source: &str) -> Result<Self, BackendError> {
         let layouts = device.scoped("Device::create_bind_group_layout", || Layouts::new(device.device()))?;
         let pipelines = device.scoped("Device::create_render_pipeline", || {
             let pipelines = Pipelines { device: device.device() };
             [
-                pipelines.yarns(&layouts.yarns, Some(wgpu::Face::Back)),
-                pipelines.yarns(&layouts.yarns, None),
+                pipelines.yarns(source, &layouts.yarns, Some(wgpu::Face::Back)),
+                pipelines.yarns(source, &layouts.yarns, None),
                 pipelines.screen("visibility", picture::VISIBILITY, &layouts.visibility, VISIBILITY),
                 pipelines.screen("shade", picture::SHADE, &layouts.shade, COLOR),
             ]
@@ -86,11 +91,8 @@ impl Renderer {
     }
 }
 
-const VIEW: BindingType = BindingType::Buffer {
-    ty: BufferBindingType::Uniform,
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
+const VIEW: BindingType =
+    BindingType::Buffer { ty: BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
 
 const fn texture(sample_type: TextureSampleType, multisampled: bool) -> BindingType {
     BindingType::Texture { sample_type, view_dimension: TextureViewDimension::D2, multisampled }
@@ -135,10 +137,10 @@ struct Pipelines<'a> {
 }
 
 impl Pipelines<'_> {
-    fn module(&self, label: &str, source: &'static str) -> wgpu::ShaderModule {
+    fn module(&self, label: &str, source: &str) -> wgpu::ShaderModule {
         self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
+            source: wgpu::ShaderSource::Wgsl(source.to_owned().into()),
         })
     }
 
@@ -150,8 +152,13 @@ impl Pipelines<'_> {
         })
     }
 
-    fn yarns(&self, layout: &wgpu::BindGroupLayout, cull_mode: Option<wgpu::Face>) -> wgpu::RenderPipeline {
-        let module = self.module("yarns", picture::YARNS);
+    fn yarns(
+        &self,
+        source: &str,
+        layout: &wgpu::BindGroupLayout,
+        cull_mode: Option<wgpu::Face>,
+    ) -> wgpu::RenderPipeline {
+        let module = self.module("yarns", source);
         let corner = |attributes| {
             Some(wgpu::VertexBufferLayout {
                 array_stride: size_of::<Vertex>() as u64,
@@ -201,7 +208,7 @@ impl Pipelines<'_> {
     fn screen(
         &self,
         entry_point: &str,
-        source: &'static str,
+        source: &str,
         layout: &wgpu::BindGroupLayout,
         target: wgpu::TextureFormat,
     ) -> wgpu::RenderPipeline {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use texere_core::{Backend, BackendError, Chunk, ControlPoint, Limits, Plan, Session, Settings, Topology, Yarns};
+use texere_core::{BackendError, Chunk, ControlPoint, Limits, Plan, Session, Settings, Topology, Yarns};
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
 
@@ -52,8 +52,8 @@ pub struct PictureTimings {
     pub shade: Duration,
 }
 
-/// A fabric on a device: control points and tables. Its mesh is made anew, chunk by chunk, for each picture, so that
-/// any fabric takes no more memory than [`Scene::memory_bytes`].
+/// A fabric on a device: control points and tables. Its mesh is made anew, chunk by chunk, for each picture: whatever the
+/// fabric, no more of it is in memory than two chunks, 256 MiB together.
 #[derive(Debug)]
 pub struct Scene<'a> {
     renderer: &'a Renderer,
@@ -77,8 +77,7 @@ impl Renderer {
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene<'_>, RenderError> {
         let settings = Settings { topology: Topology::Shared, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-        let limits = Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..Limits::NONE };
-        let limits = limits.min(&self.info().limits);
+        let limits = chunk_limits(&plan).min(&self.info().limits);
         let mut session = self.device.wgpu_session(plan.clone())?;
         session.upload(0, yarns.points())?;
         session.scan()?;
@@ -88,7 +87,11 @@ impl Renderer {
             session,
             extent: Extent::of(yarns),
             ring_lengths: ring_lengths(yarns, &plan),
-            pattern: buffer("index pattern", bytemuck::cast_slice(&plan.shared_indices()), BufferUsages::INDEX)?,
+            pattern: buffer(
+                "index pattern",
+                bytemuck::cast_slice(&plan.shared_indices()),
+                BufferUsages::INDEX,
+            )?,
             looks: buffer("looks", bytemuck::cast_slice(&YarnLook::all(yarns)), BufferUsages::STORAGE)?,
             rows: buffer("draws", &[], BufferUsages::VERTEX)?,
             view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
@@ -99,7 +102,12 @@ impl Renderer {
     }
 
     /// A buffer that holds `bytes`, and can be written again.
-    fn filled(&self, what: &'static str, bytes: &[u8], usage: BufferUsages) -> Result<wgpu::Buffer, BackendError> {
+    fn filled(
+        &self,
+        what: &'static str,
+        bytes: &[u8],
+        usage: BufferUsages,
+    ) -> Result<wgpu::Buffer, BackendError> {
         let device = &self.device;
         device.scoped("Device::create_buffer", || {
             let buffer = device.device().create_buffer(&wgpu::BufferDescriptor {
@@ -150,6 +158,15 @@ impl Scene<'_> {
         Self { limits: self.limits.min(limits), ..self }
     }
 
+    /// Makes the mesh alone, chunk after chunk.
+    pub(crate) fn mesh(&mut self) -> Result<(), RenderError> {
+        let plan = self.plan.clone();
+        for chunk in plan.chunks(&self.limits)? {
+            self.session.mesh(&chunk)?;
+        }
+        Ok(())
+    }
+
     /// Makes a picture.
     ///
     /// **Errors**: [`RenderError::Size`] for one that the device has no textures for, [`RenderError::Plan`] where not
@@ -171,11 +188,8 @@ impl Scene<'_> {
         self.draw(camera)?;
         let drawn = Instant::now();
         let rgb = self.shade()?;
-        let timings = PictureTimings {
-            screen: screened - start,
-            draw: drawn - screened,
-            shade: drawn.elapsed(),
-        };
+        let timings =
+            PictureTimings { screen: screened - start, draw: drawn - screened, shade: drawn.elapsed() };
         Ok(Picture { size, rgb, timings })
     }
 
@@ -231,7 +245,11 @@ impl Scene<'_> {
             let mut encoder = renderer.device.device().create_command_encoder(&Default::default());
             if let Some(screen) = screen {
                 let mut pass = screen.yarn_pass(&mut encoder, chunk.index == 0);
-                pass.set_pipeline(if camera.sees_inside() { &renderer.all_sides } else { &renderer.outsides });
+                pass.set_pipeline(if camera.sees_inside() {
+                    &renderer.all_sides
+                } else {
+                    &renderer.outsides
+                });
                 pass.set_bind_group(0, bound, &[]);
                 pass.set_vertex_buffer(0, vertices.slice(..));
                 pass.set_vertex_buffer(1, vertices.slice(ring..));
@@ -294,6 +312,11 @@ impl Scene<'_> {
         device.wait(submission)?;
         Ok(screen.take(device)?)
     }
+}
+
+/// What chunks are cut to on any device.
+pub(crate) fn chunk_limits(plan: &Plan) -> Limits {
+    Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..Limits::NONE }
 }
 
 /// The mean length from ring to ring of each yarn, mm: of its first control points, since no more hangs on it than where

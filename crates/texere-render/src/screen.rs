@@ -153,7 +153,8 @@ impl Screen {
         let pixels = device.scoped("Buffer::get_mapped_range", || {
             self.host.get_mapped_range(..).map(|view| {
                 let rows = view.chunks_exact(row).map(|row| &row[..width]);
-                rows.flat_map(|row| row.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])).collect()
+                rows.flat_map(|row| row.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]))
+                    .collect()
             })
         })?;
         let pixels = pixels.map_err(|source| BackendError::Driver {

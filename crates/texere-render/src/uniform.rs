@@ -76,7 +76,8 @@ impl ViewUniform {
 fn projection(camera: &Camera, pixels_down: f32) -> (DMat4, f32) {
     // As near as the fabric is, and no farther: depth has 24 bits to tell yarns apart.
     let depths = camera.extent.corners().map(|corner| (corner - camera.target).dot(camera.toward));
-    let (far, near) = depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
+    let (far, near) =
+        depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
     let spare = camera.extent.radius;
     let (far, near) = (f64::from(far - spare), f64::from(near + spare));
     let (toward, up) = (camera.toward.as_dvec3(), camera.up.as_dvec3());
@@ -94,8 +95,12 @@ fn projection(camera: &Camera, pixels_down: f32) -> (DMat4, f32) {
             let look = view::look_to_mat4(toward * eye, -toward, up);
             // What lies behind the eye is not seen; the least distance keeps the far end's depths apart.
             let nearest = (eye - near).max(eye * 0.02);
-            let projected =
-                directx::perspective(f64::from(FIELD_OF_VIEW), aspect, nearest, (eye - far).max(nearest * 1.01));
+            let projected = directx::perspective(
+                f64::from(FIELD_OF_VIEW),
+                aspect,
+                nearest,
+                (eye - far).max(nearest * 1.01),
+            );
             (projected * look, pixels_down / (2.0 * distance * (FIELD_OF_VIEW * 0.5).tan()))
         }
     }
@@ -148,4 +153,3 @@ impl YarnLook {
         yarns.layout().yarns().iter().map(look).collect()
     }
 }
-

@@ -154,13 +154,18 @@ pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError
     let list = texere_wgpu::WgpuBackend::devices()?;
     let first = |kind| list.iter().position(|device| device.kind == kind);
     let index = match name.split_once(':').unwrap_or((name, "0")) {
-        ("auto", _) => first(DeviceKind::DiscreteGpu).or_else(|| first(DeviceKind::IntegratedGpu)).or(Some(0)),
+        ("auto", _) => {
+            first(DeviceKind::DiscreteGpu).or_else(|| first(DeviceKind::IntegratedGpu)).or(Some(0))
+        }
         ("wgpu", which) => find(&list, which),
         _ => None,
     };
     let Some(index) = index else {
         let names = list.into_iter().map(|device| device.name);
-        return Err(BackendError::NoDevice { wanted: name.into(), found: names.chain(["auto".into()]).collect() });
+        return Err(BackendError::NoDevice {
+            wanted: name.into(),
+            found: names.chain(["auto".into()]).collect(),
+        });
     };
     texere_render::Renderer::new(texere_wgpu::WgpuBackend::open(index, Schedule::PerRing)?)
 }

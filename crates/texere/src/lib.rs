@@ -49,5 +49,5 @@ pub use texere_formats::write::{
 pub use texere_formats::{Design, ReadError, Structure, WriteError, read};
 #[cfg(feature = "render")]
 pub use texere_render::{
-    Camera, Cut, Extent, Picture, PictureTimings, Quality, RenderError, Renderer, Scene,
+    Camera, Cut, Extent, Phases, Picture, PictureTimings, Quality, RenderError, Renderer, Scene,
 };

@@ -39,18 +39,20 @@ fn ground_at(pixel: vec2<f32>) -> Surface {
     return Surface(near + sight * select(0.0, way, meets), view.ground.xyz, false, meets);
 }
 
-fn surface_at(pixel: vec2<i32>) -> Surface {
+// What one sample of a pixel shows.
+fn surface_at(pixel: vec2<i32>, sample: i32) -> Surface {
     let middle = vec2<f32>(pixel) + 0.5;
-    let depth = textureLoad(depths, pixel, 0);
+    let depth = textureLoad(depths, pixel, sample);
     if depth >= 1.0 {
         return ground_at(middle);
     }
-    let normal = from_octahedron(textureLoad(directions, pixel, 0).xy);
+    let normal = from_octahedron(textureLoad(directions, pixel, sample).xy);
     return Surface(local_at(middle, depth), normal, true, false);
 }
 
-// An even pattern of numbers in 0 to 1 (Jimenez 2014, "Next generation post processing in Call of Duty: Advanced
-// Warfare": interleaved gradient noise).
-fn dither(pixel: vec2<f32>) -> f32 {
-    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+// A number in 0 to 15 that no other pixel of the four by four about has, whichever four by four: the order of Bayer
+// 1973, so that the mean of any such square has all of them.
+fn phase(pixel: vec2<u32>) -> u32 {
+    let mixed = pixel.x ^ pixel.y;
+    return (mixed & 1u) << 3u | (pixel.y & 1u) << 2u | (mixed & 2u) | (pixel.y & 2u) >> 1u;
 }

@@ -21,7 +21,7 @@ const PI = 3.14159265;
 const SAMPLES = 4;
 
 // The key light, the fill light, and light from all round: from above and from the ground.
-const KEY = vec3(2.15, 2.08, 1.98);
+const KEY = vec3(1.78, 1.72, 1.64);
 const FILL = vec3(0.5, 0.54, 0.6);
 const SKY = vec3(0.46, 0.48, 0.52);
 const FLOOR = vec3(0.24, 0.23, 0.21);
@@ -141,8 +141,8 @@ fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
     return mix(color * (pressed / peak), vec3(pressed), pale);
 }
 
-// Both visibilities without their dither: the mean of the pixels about, of those that lie near.
-fn smooth_visibility(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
+// Both visibilities: the mean of the four by four pixels about that lie in the surface's plane, or near it.
+fn visibility_of(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
     let last = vec2<i32>(view.size) - 1;
     var sum = vec2(0.0);
     var weights = 0.0;
@@ -150,9 +150,15 @@ fn smooth_visibility(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
         for (var x = -2; x < 2; x++) {
             let there = clamp(pixel + vec2(x, y), vec2(0), last);
             let depth = textureLoad(depths, there, 0);
-            let away = local_at(vec2<f32>(there) + 0.5, depth) - here.local;
-            let off = dot(away, here.normal) / (0.1 * view.reach);
-            let weight = exp(-off * off) + 1e-3;
+            var weight = 1.0;
+            if depth < 1.0 {
+                let away = local_at(vec2<f32>(there) + 0.5, depth) - here.local;
+                let off = dot(away, here.normal) / (0.1 * view.reach);
+                weight = exp(-off * off);
+            } else if here.is_yarn {
+                weight = 0.0;
+            }
+            weight += 1e-4;
             sum += textureLoad(visibilities, there, 0).xy * weight;
             weights += weight;
         }
@@ -160,34 +166,31 @@ fn smooth_visibility(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
     return sum / weights;
 }
 
-fn sample_color(pixel: vec2<i32>, sample: i32, depth: f32, seen: vec2<f32>) -> vec3<f32> {
-    let middle = vec2<f32>(pixel) + 0.5;
-    if depth >= 1.0 {
-        return tone_mapped(shade_ground(view.ground.xyz, seen));
+fn sample_color(pixel: vec2<i32>, sample: i32) -> vec3<f32> {
+    let here = surface_at(pixel, sample);
+    let seen = visibility_of(here, pixel);
+    if here.is_yarn {
+        return tone_mapped(shade_yarn(here, pixel, sample, seen));
     }
-    let normal = from_octahedron(textureLoad(directions, pixel, sample).xy);
-    let here = Surface(local_at(middle, depth), normal, true, false);
-    return tone_mapped(shade_yarn(here, pixel, sample, seen));
+    return tone_mapped(shade_ground(here.normal, seen));
 }
 
-// Four samples of a pixel; one is enough where all are of one yarn.
+// The mean of a pixel's four samples; one is enough where all are of one yarn.
 fn pixel_color(pixel: vec2<i32>) -> vec3<f32> {
-    let here = surface_at(pixel);
-    let seen = smooth_visibility(here, pixel);
     let first = textureLoad(places, pixel, 0).xy;
+    let is_ground = textureLoad(depths, pixel, 0) >= 1.0;
     var alike = true;
-    var depth = array<f32, SAMPLES>();
-    for (var sample = 0; sample < SAMPLES; sample++) {
-        depth[sample] = textureLoad(depths, pixel, sample);
+    for (var sample = 1; sample < SAMPLES; sample++) {
         let place = textureLoad(places, pixel, sample).xy;
-        alike &= all(place == first) && (depth[sample] >= 1.0) == (depth[0] >= 1.0);
+        let same_ground = (textureLoad(depths, pixel, sample) >= 1.0) == is_ground;
+        alike &= all(place == first) && same_ground;
     }
+    var sum = sample_color(pixel, 0);
     if alike {
-        return sample_color(pixel, 0, depth[0], seen);
+        return sum;
     }
-    var sum = vec3(0.0);
-    for (var sample = 0; sample < SAMPLES; sample++) {
-        sum += sample_color(pixel, sample, depth[sample], seen);
+    for (var sample = 1; sample < SAMPLES; sample++) {
+        sum += sample_color(pixel, sample);
     }
     return sum / f32(SAMPLES);
 }

@@ -2,7 +2,10 @@
 // and screen.wgsl.
 
 const OCCLUSION_TAPS = 14u;
-const SHADOW_STEPS = 16u;
+const SHADOW_STEPS = 18u;
+
+// The key light's radius, seen from the cloth: that of a soft box.
+const LIGHT_RADIUS = 0.13;
 
 // Turns of the spiral that the taps lie on, prime to their number.
 const SPIRAL_TURNS = 9.0;
@@ -13,13 +16,13 @@ const AVERAGE = vec2(0.8, 0.85);
 
 // Ambient visibility: McGuire, Mara and Luebke 2012, "Scalable ambient obscurance", the estimator of its equation 10
 // with the falloff of Alchemy (McGuire et al. 2011).
-fn ambient(here: Surface, pixel: vec2<i32>, noise: f32) -> f32 {
+fn ambient(here: Surface, pixel: vec2<i32>, turn: f32) -> f32 {
     let last = vec2<i32>(view.size) - 1;
     let reach_squared = view.reach * view.reach;
     var sum = 0.0;
     for (var tap = 0u; tap < OCCLUSION_TAPS; tap++) {
         let share = (f32(tap) + 0.5) / f32(OCCLUSION_TAPS);
-        let angle = (share * SPIRAL_TURNS + noise) * 6.2831853;
+        let angle = (share * SPIRAL_TURNS + turn) * 6.2831853;
         let offset = vec2(cos(angle), sin(angle)) * share * view.reach_pixels;
         let there = clamp(pixel + vec2<i32>(round(offset)), vec2(0), last);
         let depth = textureLoad(depths, there, 0);
@@ -32,17 +35,23 @@ fn ambient(here: Surface, pixel: vec2<i32>, noise: f32) -> f32 {
         let fade = max(reach_squared - squared, 0.0) / reach_squared;
         sum += fade * fade * max(rise, 0.0) * inverseSqrt(squared + 1e-4 * reach_squared);
     }
-    return max(1.0 - 2.2 * sum / f32(OCCLUSION_TAPS), 0.0);
+    return max(1.0 - 2.6 * sum / f32(OCCLUSION_TAPS), 0.0);
 }
 
-// The key light's share: steps towards it until something on the screen is in front of the way.
-fn lit(here: Surface, noise: f32) -> f32 {
-    let start = here.local + here.normal * (0.04 * view.thickness);
+// Whether the key light is seen: steps towards one of sixteen points of it until something on the screen is in front of
+// the way.
+fn lit(here: Surface, phase: f32) -> f32 {
+    // The points lie as seeds in a sunflower (Vogel 1979).
+    let side = normalize(cross(view.light, vec3(0.31, 0.23, 0.92)));
+    let spot = LIGHT_RADIUS * sqrt((phase + 0.5) / 16.0);
+    let angle = phase * 2.39996323;
+    let light = normalize(view.light + spot * (cos(angle) * side + sin(angle) * cross(view.light, side)));
+    let start = here.local + here.normal * (0.03 * view.thickness);
     let last = vec2<i32>(view.size) - 1;
     for (var step = 0u; step < SHADOW_STEPS; step++) {
-        let share = (f32(step) + 0.25 + 0.75 * noise) / f32(SHADOW_STEPS);
+        let share = (f32(step) + 0.5 + fract(phase * 0.4375)) / f32(SHADOW_STEPS);
         // Shorter steps near the start, where what casts the shadow is thin.
-        let local = start + view.light * (view.shadow * share * share);
+        let local = start + light * (view.shadow * share * sqrt(share));
         let clip = view.clip_from_local * vec4(local, 1.0);
         let ndc = clip.xyz / clip.w;
         let pixel = vec2<i32>((ndc.xy * vec2(0.5, -0.5) + 0.5) * view.size);
@@ -50,7 +59,7 @@ fn lit(here: Surface, noise: f32) -> f32 {
             break;
         }
         let depth = textureLoad(depths, pixel, 0);
-        if depth < ndc.z {
+        if depth < min(ndc.z, 1.0) {
             let before = dot(local_at(vec2<f32>(pixel) + 0.5, depth) - local, to_eye(local));
             if before > 0.02 * view.thickness && before < view.thickness {
                 return 0.0;
@@ -63,13 +72,13 @@ fn lit(here: Surface, noise: f32) -> f32 {
 @fragment
 fn visibility(@builtin(position) position: vec4<f32>) -> @location(0) vec2<f32> {
     let pixel = vec2<i32>(position.xy);
-    let here = surface_at(pixel);
+    let here = surface_at(pixel, 0);
     if !here.is_yarn && !here.is_ground {
         return vec2(1.0);
     }
     if view.reach_pixels < LEAST_PIXELS {
         return select(vec2(1.0), AVERAGE, here.is_yarn);
     }
-    let noise = dither(position.xy);
-    return vec2(ambient(here, pixel, noise), lit(here, fract(noise * 7.0)));
+    let phase = f32(phase(vec2<u32>(pixel)));
+    return vec2(ambient(here, pixel, phase / 16.0), lit(here, phase));
 }

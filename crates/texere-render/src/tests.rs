@@ -1,0 +1,272 @@
+//! Pictures held against goldens, and against what geometry says they must show.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, OnceLock};
+
+use image::RgbImage;
+use texere_core::{ControlPoint, Limits, Material, Origin, Section, Settings, Yarn, Yarns};
+use texere_shaders::picture;
+use texere_wgpu::{Schedule, WgpuBackend};
+
+use crate::{Camera, Cut, Extent, Quality, RenderError, Renderer};
+
+/// The goldens were drawn by lavapipe, whose device this is.
+const DEVICE: &str = "llvmpipe";
+
+/// How far a picture may be from its golden: the mean of FLIP (Andersson et al. 2020), what an eye sees of the difference.
+/// Other versions of LLVM round some pixels the other way.
+const TOLERANCE: f32 = 0.02;
+
+const SIZE: [u32; 2] = [240, 180];
+const SETTINGS: Settings = Settings {
+    tension: 0.0,
+    subdivisions: 3,
+    sides: 12,
+    frame: texere_core::Frame::Upright,
+    topology: texere_core::Topology::Indexed,
+    caps: false,
+};
+
+const ENDS: usize = 10;
+const PICKS: usize = 8;
+
+fn open(yarns: &str) -> Renderer {
+    let device = WgpuBackend::open_named(DEVICE, Schedule::PerRing)
+        .expect("lavapipe; on Debian and Ubuntu install mesa-vulkan-drivers");
+    Renderer::with_yarns(device, yarns).unwrap()
+}
+
+/// One device for all tests. Pictures are drawn one at a time: lavapipe has all cores to itself then.
+fn renderer() -> &'static Mutex<Renderer> {
+    static RENDERER: OnceLock<Mutex<Renderer>> = OnceLock::new();
+    RENDERER.get_or_init(|| Mutex::new(open(picture::YARNS)))
+}
+
+/// A cloth of the test's own, so that goldens stay what they are when weaves change: 2/2 twill, a millimetre from thread
+/// to thread, warp in two colours and twisted, weft flat.
+struct Cloth {
+    up: fn(usize, usize) -> bool,
+    end_color: fn(usize) -> u32,
+    left_out: Option<Origin>,
+}
+
+const TWILL: Cloth = Cloth {
+    up: |end, pick| (end + 4 * PICKS - pick) % 4 < 2,
+    end_color: |end| u32::from(end % 5 == 4),
+    left_out: None,
+};
+
+impl Cloth {
+    fn yarns(&self) -> Yarns {
+        let mut yarns = Yarns::builder();
+        for (name, srgb) in [("navy", [38, 56, 110]), ("madder", [176, 54, 40]), ("linen", [222, 210, 184])] {
+            yarns.material(Material { name: name.into(), srgb, tex: None });
+        }
+        yarns.section(Section::Circle);
+        yarns.section(Section::Ellipse { aspect: 1.6 });
+        let mut add = |yarn: Yarn, points: Vec<ControlPoint>| {
+            if self.left_out != Some(yarn.origin) {
+                yarns.yarn(yarn, &points);
+            }
+        };
+        let height = |up: bool| if up { 0.3 } else { -0.3 };
+        for end in 0..ENDS {
+            let x = end as f32 + 0.5;
+            let points = (0..PICKS)
+                .map(|pick| ControlPoint::new(x, pick as f32 + 0.5, height((self.up)(end, pick)), 0.3));
+            let origin = Origin::End(end as u32 + 1);
+            let yarn = Yarn { material: (self.end_color)(end), twist: 1.8, origin, ..Yarn::default() };
+            add(yarn, points.collect());
+        }
+        for pick in 0..PICKS {
+            let y = pick as f32 + 0.5;
+            let points = (0..ENDS)
+                .map(|end| ControlPoint::new(end as f32 + 0.5, y, height(!(self.up)(end, pick)), 0.28));
+            let origin = Origin::Pick(pick as u32 + 1);
+            add(Yarn { material: 2, section: 1, origin, ..Yarn::default() }, points.collect());
+        }
+        yarns.build().unwrap()
+    }
+}
+
+/// The views that have goldens.
+fn cameras(extent: &Extent) -> [(&'static str, Camera); 5] {
+    let at = [5.0, 3.5];
+    [
+        ("face", Camera::face(extent, SIZE)),
+        ("back", Camera::face(extent, SIZE).turned_over()),
+        ("oblique", Camera::oblique(extent, -0.5, SIZE)),
+        ("close-up", Camera::close_up(extent, at, 5.0, SIZE).unwrap()),
+        ("cut", Camera::cut(extent, Cut::Warp, at, 8.0, SIZE).unwrap()),
+    ]
+}
+
+fn draw(renderer: &Renderer, yarns: &Yarns, camera: &Camera, limits: &Limits) -> RgbImage {
+    let mut scene = renderer.scene(yarns, &SETTINGS).unwrap().with_limits(limits);
+    let picture = scene.picture(camera, Quality { supersampling: 1 }).unwrap();
+    RgbImage::from_raw(picture.size[0], picture.size[1], picture.rgb).unwrap()
+}
+
+fn picture(yarns: &Yarns, camera: &Camera) -> RgbImage {
+    draw(&renderer().lock().unwrap(), yarns, camera, &Limits::NONE)
+}
+
+/// 0 for the same picture, 1 for black against white.
+fn difference(one: &RgbImage, other: &RgbImage) -> f32 {
+    assert_eq!(one.dimensions(), other.dimensions());
+    let [one, other] = [one, other]
+        .map(|image| nv_flip::FlipImageRgb8::with_data(image.width(), image.height(), image.as_raw()));
+    let map = nv_flip::flip(one, other, nv_flip::DEFAULT_PIXELS_PER_DEGREE);
+    nv_flip::FlipPool::from_image(&map).mean()
+}
+
+fn golden_path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("goldens").join(name).with_extension("png")
+}
+
+fn golden(name: &str) -> RgbImage {
+    image::open(golden_path(name)).unwrap_or_else(|error| panic!("golden {name}: {error}")).into_rgb8()
+}
+
+#[test]
+fn pictures_are_their_goldens() {
+    let yarns = TWILL.yarns();
+    let mut wrong = Vec::new();
+    for (name, camera) in cameras(&Extent::of(&yarns)) {
+        let drawn = picture(&yarns, &camera);
+        let off = image::open(golden_path(name)).map(|golden| difference(&drawn, &golden.into_rgb8()));
+        if !off.as_ref().is_ok_and(|off| *off <= TOLERANCE) {
+            let kept = std::env::temp_dir().join(format!("texere-{name}.png"));
+            drawn.save(&kept).unwrap();
+            wrong.push(format!("{name}: {off:?}; what was drawn is {}", kept.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "look at these, and where they are right put them into goldens/: {wrong:#?}");
+}
+
+/// Each of these must be told from the golden of the face.
+fn assert_seen(what: &str, drawn: &RgbImage) {
+    let off = difference(drawn, &golden("face"));
+    assert!(off > TOLERANCE, "{what} is off by {off} only");
+}
+
+#[test]
+fn broken_cloths_are_not_the_golden() {
+    let camera = Camera::face(&Extent::of(&TWILL.yarns()), SIZE);
+    let broken = [
+        (
+            "a pick shifted by one end",
+            Cloth { up: |end, pick| (end + 4 * PICKS - pick + usize::from(pick == 3)) % 4 < 2, ..TWILL },
+        ),
+        ("a lost end", Cloth { left_out: Some(Origin::End(6)), ..TWILL }),
+        ("a lost pick", Cloth { left_out: Some(Origin::Pick(3)), ..TWILL }),
+        ("two ends of swapped colours", Cloth { end_color: |end| u32::from(end == 3 || end == 9), ..TWILL }),
+    ];
+    for (what, cloth) in broken {
+        assert_seen(what, &picture(&cloth.yarns(), &camera));
+    }
+}
+
+#[test]
+fn a_flipped_normal_is_not_the_golden() {
+    let source = picture::YARNS
+        .replace("seen.normal = normal;", "seen.normal = select(normal, -normal, yarn == 13u);");
+    assert_ne!(source, picture::YARNS);
+    let yarns = TWILL.yarns();
+    let camera = Camera::face(&Extent::of(&yarns), SIZE);
+    assert_seen("a yarn of flipped normals", &draw(&open(&source), &yarns, &camera, &Limits::NONE));
+}
+
+#[test]
+fn a_missing_golden_fails() {
+    assert!(std::panic::catch_unwind(|| golden("never-drawn")).is_err());
+}
+
+#[test]
+fn chunks_draw_the_same_picture() {
+    let yarns = TWILL.yarns();
+    let extent = Extent::of(&yarns);
+    // One block and the ring that it repeats: every yarn of more than 64 rings is cut.
+    let long = Settings { subdivisions: 11, ..SETTINGS };
+    let renderer = renderer().lock().unwrap();
+    for (name, camera) in cameras(&extent) {
+        let mut draw = |limits: &Limits| {
+            let mut scene = renderer.scene(&yarns, &long).unwrap().with_limits(limits);
+            assert!(scene.plan().rings(0) > 64);
+            scene.picture(&camera, Quality { supersampling: 1 }).unwrap().rgb
+        };
+        assert!(draw(&Limits::NONE) == draw(&Limits { blocks: 2, ..Limits::NONE }), "{name}");
+    }
+}
+
+/// Whether a pixel is yarn and not the grey ground.
+fn is_red(image: &RgbImage, x: u32, y: u32) -> bool {
+    let [red, green, blue] = image.get_pixel(x, y).0.map(i32::from);
+    red > green + 25 && red > blue + 25
+}
+
+/// Two red yarns of radius 0.5 along y, at x = 1 and x = 6 mm, the second half as long.
+fn two_yarns() -> Yarns {
+    let mut yarns = Yarns::builder();
+    yarns.material(Material { srgb: [200, 30, 30], ..Material::default() });
+    for (x, length) in [(1.0, 8.0), (6.0, 4.0)] {
+        yarns.yarn(Yarn::default(), &[0.0, length].map(|y| ControlPoint::new(x, y, 0.0, 0.5)));
+    }
+    yarns.build().unwrap()
+}
+
+#[test]
+fn true_scale_is_true() {
+    let yarns = two_yarns();
+    // The box is 0.5 to 6.5 by -0.5 to 8.5, since it takes each point as wide as its yarn.
+    let camera = Camera::true_scale(&Extent::of(&yarns), 0.05).unwrap();
+    assert_eq!(camera.size(), [120, 180]);
+    let drawn = picture(&yarns, &camera);
+    let red_in = |xs: std::ops::Range<u32>, y| xs.filter(|&x| is_red(&drawn, x, y)).count();
+    // A millimetre is twenty pixels; a tube of twelve sides is as wide as its circle.
+    for y in [100, 150] {
+        assert!(red_in(0..60, y).abs_diff(20) <= 1, "{}", red_in(0..60, y));
+        assert!(red_in(60..120, y).abs_diff(20) <= 1, "{}", red_in(60..120, y));
+    }
+    // y = 8 is 0.5 mm below the top, y = 4 is 4.5 mm.
+    let top = |x| (0..180).find(|&y| is_red(&drawn, x, y)).unwrap();
+    assert!(top(10).abs_diff(10) <= 1 && top(110).abs_diff(90) <= 1, "{} {}", top(10), top(110));
+}
+
+#[test]
+fn the_back_is_turned_over_sideways() {
+    let yarns = two_yarns();
+    let extent = Extent::of(&yarns);
+    let shorter_is_left = |camera: Camera| {
+        let drawn = picture(&yarns, &camera);
+        let [wide, high] = camera.size();
+        let reds = |xs: std::ops::Range<u32>| {
+            xs.flat_map(|x| (0..high).map(move |y| (x, y))).filter(|&(x, y)| is_red(&drawn, x, y)).count()
+        };
+        reds(0..wide / 2) < reds(wide / 2..wide)
+    };
+    assert!(!shorter_is_left(Camera::true_scale(&extent, 0.05).unwrap()));
+    assert!(shorter_is_left(Camera::true_scale(&extent, 0.05).unwrap().turned_over()));
+}
+
+#[test]
+fn sizes_that_no_texture_has_and_views_of_nothing_are_refused() {
+    let yarns = two_yarns();
+    let extent = Extent::of(&yarns);
+    let renderer = renderer().lock().unwrap();
+    let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
+    for (size, supersampling) in [([0, 10], 1), ([10, 10], 0), ([1 << 20, 10], 1), ([1 << 31, 1], 2)] {
+        let refused = scene.picture(&Camera::face(&extent, size), Quality { supersampling });
+        assert!(matches!(refused, Err(RenderError::Size { .. })), "{size:?}");
+    }
+    for value in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        let refused = [
+            Camera::true_scale(&extent, value),
+            Camera::close_up(&extent, [1.0, 1.0], value, SIZE),
+            Camera::cut(&extent, Cut::Weft, [1.0, 1.0], value, SIZE),
+        ];
+        assert!(refused.iter().all(|camera| matches!(camera, Err(RenderError::Camera { .. }))), "{value}");
+    }
+}

@@ -1,0 +1,48 @@
+//! The gallery: pictures of every design.
+
+use super::{render, vulkan};
+use crate::steps::Steps;
+
+/// A view: its name in that of the picture, and its options.
+type View = (&'static str, &'static [&'static str]);
+
+/// Where the pictures go, from the repository's root.
+const FOLDER: &str = "docs/gallery";
+
+/// The designs, each with the views of it, beside face and back: name and options.
+const DESIGNS: [(&str, &[View]); 5] = [
+    ("plain.toml", &[CLOSE_UP, CUT]),
+    ("twill.toml", &[CLOSE_UP, CUT]),
+    ("satin.toml", &[CLOSE_UP, CUT]),
+    ("herringbone.wif", &[CLOSE_UP, ("oblique", &["--view", "oblique"])]),
+    ("damask.toml", &[CLOSE_UP]),
+];
+
+const CLOSE_UP: View = ("close-up", &["--view", "close-up"]);
+const CUT: View = ("cut", &["--view", "cut-warp", "--size", "800x260"]);
+
+/// The paper's cloths, whole, with the paper's own sides and subdivisions, so that they have its number of facets.
+const PAPER: [&str; 7] =
+    ["163x150", "489x450", "815x750", "1141x1050", "1630x1500", "2880x1840", "figure-7a"];
+
+/// Draws all pictures of `docs/gallery`.
+pub(crate) fn gallery(steps: &mut Steps) {
+    vulkan::install(steps);
+    for (design, views) in DESIGNS {
+        let path = format!("designs/{design}");
+        let name = design.split('.').next().unwrap_or(design);
+        let sides: [View; 2] = [("face", &["--view", "face"]), ("back", &["--view", "back"])];
+        for (view, options) in sides.iter().chain(views) {
+            let picture = format!("{FOLDER}/{name}-{view}.png");
+            let size: &[&str] = if options.contains(&"--size") { &[] } else { &["--size", "800x600"] };
+            render(steps, &picture, &[&[&path, "-o", &picture], *options, size].concat());
+        }
+    }
+    for name in PAPER {
+        let (path, picture) = (format!("designs/paper/{name}.toml"), format!("{FOLDER}/paper-{name}.png"));
+        // Its threads are as narrow as pixels: more samples, or they beat against them.
+        let options = ["--size", "640x480", "--supersampling", "4"];
+        let args = [&["texere", "render", &path, "-o", &picture], &options[..]].concat();
+        steps.cargo(&picture, &args, &[]);
+    }
+}

@@ -1,0 +1,30 @@
+//! `cargo xtask demo` and `cargo xtask gallery`: pictures of what the repository holds.
+
+mod gallery;
+mod vulkan;
+
+use crate::steps::Steps;
+
+pub(crate) use gallery::gallery;
+
+/// Where the demo's picture lies, from the repository's root.
+const DEMO: &str = "target/demo.png";
+
+/// A picture of a herringbone, near enough to see how its yarns go, on whatever draws here.
+pub(crate) fn demo(steps: &mut Steps) {
+    vulkan::install(steps);
+    render(
+        steps,
+        "the demo",
+        &["designs/herringbone.wif", "-o", DEMO, "--view", "close-up", "--width", "24"],
+    );
+    if steps.succeed() {
+        println!("\nThe picture is {DEMO}. There are more in docs/gallery.");
+    }
+}
+
+/// Draws a picture with round, smooth yarns.
+fn render(steps: &mut Steps, name: &str, args: &[&str]) {
+    let smooth = ["--sides", "12", "--subdivisions", "4"];
+    steps.cargo(name, &[&["texere", "render"], args, &smooth].concat(), &[]);
+}

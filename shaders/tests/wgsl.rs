@@ -8,16 +8,33 @@ use std::mem::offset_of;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
 use texere_core::{BLOCK_RINGS, Block, CapRow, ControlPoint, Params, Ring, SectionPoint, Vertex, YarnRow};
-use texere_shaders::{ALL, Access, GRID_WIDTH, Shader};
+use texere_shaders::{ALL, Access, GRID_WIDTH, Shader, picture};
 
 fn parse(shader: &Shader) -> (Module, ModuleInfo) {
-    let module = naga::front::wgsl::parse_str(shader.source)
-        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(shader.source)));
+    parse_source(shader.source)
+}
+
+fn parse_source(source: &str) -> (Module, ModuleInfo) {
+    let module = naga::front::wgsl::parse_str(source)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
     // No capability: core WGSL, no feature that a device may lack.
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
-        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(shader.source)));
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
     (module, info)
+}
+
+#[test]
+fn picture_shaders_have_their_entry_points() {
+    for (source, vertex, fragment) in [
+        (picture::YARNS, "yarn_corner", "yarn_sample"),
+        (picture::VISIBILITY, "screen", "visibility"),
+        (picture::SHADE, "screen", "shade"),
+    ] {
+        let (module, _) = parse_source(source);
+        let names: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
+        assert_eq!(names, [vertex, fragment]);
+    }
 }
 
 /// Members by name with their offsets, and the stride in an array.

@@ -36,7 +36,7 @@ fn main() -> ExitCode {
         Some("test") => test(&mut steps),
         Some("check") => {
             check(&mut steps);
-            readme(&mut steps);
+            demo::demo(&mut steps);
         }
         Some("demo") => demo::demo(&mut steps),
         Some("gallery") => demo::gallery(&mut steps),
@@ -99,10 +99,4 @@ fn check(steps: &mut Steps) {
         let name = format!("package list of {package}");
         steps.cargo(&name, &["package", "--list", "--allow-dirty", "--package", package], &[]);
     }
-}
-
-/// The README's main command, as it stands there.
-fn readme(steps: &mut Steps) {
-    let mesh = ["texere", "mesh", "designs/herringbone.wif", "-o", "target/herringbone.glb"];
-    steps.cargo("the README's main command", &mesh, &[]);
 }

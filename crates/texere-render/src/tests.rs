@@ -192,7 +192,7 @@ fn chunks_draw_the_same_picture() {
     let long = Settings { subdivisions: 11, ..SETTINGS };
     let renderer = renderer().lock().unwrap();
     for (name, camera) in cameras(&extent) {
-        let mut draw = |limits: &Limits| {
+        let draw = |limits: &Limits| {
             let mut scene = renderer.scene(&yarns, &long).unwrap().with_limits(limits);
             assert!(scene.plan().rings(0) > 64);
             scene.picture(&camera, Quality { supersampling: 1 }).unwrap().rgb

@@ -13,11 +13,7 @@ const DEMO: &str = "target/demo.png";
 /// A picture of a herringbone, near enough to see how its yarns go, on whatever draws here.
 pub(crate) fn demo(steps: &mut Steps) {
     vulkan::install(steps);
-    render(
-        steps,
-        "the demo",
-        &["designs/herringbone.wif", "-o", DEMO, "--view", "close-up", "--width", "24"],
-    );
+    render(steps, "the demo", &["designs/herringbone.wif", "-o", DEMO, "--view", "close-up"]);
     if steps.succeed() {
         println!("\nThe picture is {DEMO}. There are more in docs/gallery.");
     }

@@ -127,7 +127,7 @@ fn each_shape() -> Vec<Case> {
 /// Every shape at once, through the range of each setting.
 fn settings_swept() -> Vec<Case> {
     let mut cases = Vec::new();
-    for sides in [3, 4, 5, 7, 8, 9, 12, 15, 16, 17, 24, 31, 32, 33, 48, 63, 64] {
+    for sides in [3, 4, 5, 7, 8, 9, 12, 15, 16, 17, 24, 31, 32, 33, 48, 63, 64, 128, 192, 193, 255, 256] {
         let settings = Settings { sides, ..USUAL };
         cases.extend(Case::framed(format!("sides-{sides}"), settings, menagerie));
     }

@@ -32,25 +32,6 @@ impl fmt::Display for DeviceKind {
     }
 }
 
-/// How a GPU backend maps the work onto its device: fixed when the backend is opened.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Schedule {
-    /// A lane a ring, a workgroup a block: ours, which does everything.
-    #[default]
-    PerRing,
-    /// A lane a yarn, the paper's algorithms 2 and 4: the yardstick. Upright, untwisted, open, uncapped yarns only.
-    PerYarn,
-}
-
-impl fmt::Display for Schedule {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::PerRing => "per-ring",
-            Self::PerYarn => "per-yarn",
-        })
-    }
-}
-
 /// Who does the work, and within which limits.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DeviceInfo {

@@ -28,12 +28,13 @@ mod plan;
 mod point;
 mod ring;
 mod sampling;
+mod schedule;
 mod section;
 mod spline;
 mod turn;
 mod yarns;
 
-pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule, Session, StageTimings, Traffic, check_output};
+pub use backend::{Backend, DeviceInfo, DeviceKind, Session, StageTimings, Traffic, check_output};
 pub use error::{BackendError, PipelineError, PlanError, SectionError, YarnError};
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;
@@ -48,6 +49,7 @@ pub use plan::{
 pub use point::{COORDINATE_LIMIT, ControlPoint, RADIUS_MAX, RADIUS_MIN};
 pub use ring::{Ring, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
+pub use schedule::Schedule;
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
 pub use spline::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};
 pub use turn::{Turn, atan2_turns};

@@ -1,9 +1,10 @@
 //! The schedule per-yarn: the paper's algorithms 2 and 4.
 
 use bytemuck::bytes_of;
-use texere_core::{BackendError, Block, Chunk, Frame, Params, Plan};
+use texere_core::{BackendError, Chunk, Params, Plan};
 use texere_kernels::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 
+use crate::Schedule;
 use crate::backend::Opened;
 use crate::kernel::{Arg, Kernel};
 use crate::slot::Slot;
@@ -19,44 +20,12 @@ pub(crate) struct PerYarn {
 impl PerYarn {
     /// **Errors**: [`BackendError::Unsupported`] for a plan that asks for more than the paper does.
     pub(crate) fn new(opened: &Opened, plan: &Plan) -> Result<Self, BackendError> {
-        if let Some(what) = beyond(plan) {
-            return Err(BackendError::Unsupported { schedule: opened.name.clone(), what });
-        }
+        Schedule::PerYarn.check(plan, &opened.name)?;
         Ok(Self {
             trajectory: Kernel::new(opened, TRAJECTORY_PER_YARN)?,
             mesh: Kernel::new(opened, MESH_PER_YARN)?,
         })
     }
-}
-
-/// What `plan` asks for that the paper does not do.
-fn beyond(plan: &Plan) -> Option<String> {
-    if plan.settings().frame != Frame::Upright {
-        return Some("the rotation-minimising frame".into());
-    }
-    if plan.settings().caps {
-        return Some("caps".into());
-    }
-    plan.layout().yarns().iter().enumerate().find_map(|(number, yarn)| match yarn {
-        _ if yarn.closed => Some(format!("closed yarns, such as yarn {number}")),
-        _ if yarn.twist != 0.0 => Some(format!("twist, such as that of yarn {number}")),
-        _ => None,
-    })
-}
-
-/// One row a part: its first block's, with all of the part's rings and quads.
-pub(crate) fn part_rows(blocks: &[Block]) -> Vec<Block> {
-    let mut parts: Vec<Block> = Vec::new();
-    for block in blocks {
-        match parts.last_mut() {
-            Some(part) if part.yarn == block.yarn => {
-                part.rings += block.rings;
-                part.quads += block.quads;
-            }
-            _ => parts.push(*block),
-        }
-    }
-    parts
 }
 
 /// The parameters of a launch whose table has one row a part.

@@ -9,7 +9,6 @@ use crate::Schedule;
 use crate::backend::Opened;
 use crate::buffers::Buffer;
 use crate::handles::Handle;
-use crate::per_yarn::part_rows;
 
 /// All of a chunk that a launch or a read takes from the host, once its tables are on the device. Its index is none of
 /// it: chunks of another cut have the same.
@@ -84,7 +83,7 @@ impl Slot {
         let rows = match opened.schedule {
             Schedule::PerRing => &chunk.blocks,
             Schedule::PerYarn => {
-                parts = part_rows(&chunk.blocks);
+                parts = plan.part_rows(chunk, u32::MAX);
                 &parts
             }
         };

@@ -10,6 +10,7 @@ use texere_core::{
     Traffic,
 };
 
+use crate::Schedule;
 use crate::buffers::{Slot, Tables};
 use crate::clock::{Clock, Timed};
 use crate::device::Opened;
@@ -58,7 +59,7 @@ impl WgpuSession {
     pub(crate) fn new(opened: Arc<Opened>, limits: Limits, plan: Arc<Plan>) -> Result<Self, BackendError> {
         let gpu = &opened.gpu;
         if matches!(opened.stages, Stages::PerYarn(_)) {
-            per_yarn::check(&plan, &gpu.name)?;
+            Schedule::PerYarn.check(&plan, &gpu.name)?;
         }
         gpu.probe()?;
         // Tables first: a device that can't hold the points says so before the host makes room for them.
@@ -129,7 +130,7 @@ impl WgpuSession {
             Stages::PerRing(_) => slot.take_tables(gpu, &self.plan, chunk, &chunk.blocks)?,
             Stages::PerYarn(_) => {
                 let most_rings = per_yarn::lane_rings(gpu, self.plan.settings().sides);
-                let rows = per_yarn::part_rows(&chunk.blocks, most_rings);
+                let rows = self.plan.part_rows(chunk, most_rings);
                 slot.take_tables(gpu, &self.plan, chunk, &rows)?;
             }
         }

@@ -12,7 +12,7 @@ pub use factors::{pairwise, product};
 use std::fmt;
 use std::sync::Arc;
 
-use texere_core::{Frame, Section, Settings, Topology, Yarn, Yarns};
+use texere_core::{Frame, SIDES_MAX, Section, Settings, Topology, Yarn, Yarns};
 
 use crate::limits::Tight;
 
@@ -185,10 +185,12 @@ fn papers() -> Vec<Case> {
         let build = move || fabrics::winding(points, Yarn::default());
         cases.push(Case::new(format!("paper-rings-{points}::upright"), settings, build));
     }
-    // More than 65,535 rounds of a lane's loops.
-    let settings = Settings { sides: 24, caps: false, ..USUAL };
-    let build = || fabrics::winding(1_000, Yarn::default());
-    cases.push(Case::new("paper-long::upright".into(), settings, build));
+    // More than 65,535 rounds of a lane's loops, for a few blocks and for a single one.
+    for (name, sides, points) in [("long", 24, 1_000), ("wide", SIDES_MAX, 66)] {
+        let settings = Settings { sides, caps: false, ..USUAL };
+        let build = move || fabrics::winding(points, Yarn::default());
+        cases.push(Case::new(format!("paper-{name}::upright"), settings, build));
+    }
     cases
 }
 

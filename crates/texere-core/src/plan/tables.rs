@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{BLOCK_RINGS, Chunk, Plan};
+use super::{BLOCK_RINGS, Block, Chunk, Plan};
 use crate::{Cap, End, Frame, Topology};
 
 /// A yarn as kernels see it.
@@ -100,6 +100,35 @@ impl Plan {
             .collect()
     }
 
+    /// The block table of `chunk` for a schedule with a lane a part: one row a part, or a few where it has more than
+    /// `most_rings`. Such a row is consecutive rings of a yarn, from any ring on and of any number.
+    #[must_use]
+    pub fn part_rows(&self, chunk: &Chunk, most_rings: u32) -> Vec<Block> {
+        let settings = self.settings();
+        let (per_interval, most_rings) = (settings.subdivisions + 1, most_rings.max(1));
+        let ring_indices = if settings.topology == Topology::Indexed { 6 * settings.sides } else { 0 };
+        let mut rows = Vec::new();
+        // From the blocks, not the parts: it is they that `Plan::holds` vouches for.
+        for part in chunk.blocks.chunk_by(|block, next| block.yarn == next.yarn) {
+            let (first, [rings, quads]) = (part[0], totals(part));
+            for done in (0..rings).step_by(most_rings as usize) {
+                let first_ring = first.first_ring + done;
+                rows.push(Block {
+                    first_ring,
+                    rings: (rings - done).min(most_rings),
+                    quads: (quads - done).min(most_rings),
+                    first_point: first.first_point + first_ring / per_interval
+                        - first.first_ring / per_interval,
+                    chunk_ring: first.chunk_ring + done,
+                    first_vertex: first.first_vertex + done * settings.sides,
+                    first_index: first.first_index + done * ring_indices,
+                    ..first
+                });
+            }
+        }
+        rows
+    }
+
     /// The caps of `chunk` as kernels see them.
     #[must_use]
     pub fn cap_rows(&self, chunk: &Chunk) -> Vec<CapRow> {
@@ -153,5 +182,73 @@ impl Plan {
     }
 }
 
+/// Rings and quads of all of `blocks`.
+fn totals(blocks: &[Block]) -> [u32; 2] {
+    blocks.iter().fold([0, 0], |[rings, quads], block| [rings + block.rings, quads + block.quads])
+}
+
 // A block's number fits the `u32` of these tables.
 const _: () = assert!(super::RINGS_MAX / (BLOCK_RINGS as u64) <= u32::MAX as u64);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ControlPoint, Limits, Settings, Yarn, Yarns};
+
+    /// Chunks of plans of short and long yarns, cut in many places.
+    fn chunks(check: impl Fn(&Plan, &Chunk)) {
+        for (subdivisions, sides) in [(0, 3), (1, 6), (7, 5)] {
+            for topology in [Topology::Indexed, Topology::Shared] {
+                let mut yarns = Yarns::builder();
+                for points in [2, 65, 64, 130, 1_000] {
+                    let points: Vec<_> =
+                        (0..points).map(|k| ControlPoint::new(k as f32, 0.0, 0.0, 0.1)).collect();
+                    yarns.yarn(Yarn::default(), &points);
+                }
+                let settings = Settings { subdivisions, sides, topology, ..Settings::default() };
+                let plan = Plan::new(yarns.build().unwrap().layout().clone(), settings).unwrap();
+                for blocks in [2, 3, 7, u64::MAX] {
+                    plan.chunks(&Limits { blocks, ..Limits::NONE })
+                        .unwrap()
+                        .for_each(|chunk| check(&plan, &chunk));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_is_one_row_unless_it_is_too_long() {
+        chunks(|plan, chunk| {
+            let rows = plan.part_rows(chunk, u32::MAX);
+            let told = rows
+                .iter()
+                .map(|row| [row.yarn, row.first_ring, row.rings, row.first_vertex, row.first_index]);
+            let parts = chunk
+                .parts
+                .iter()
+                .map(|part| [part.yarn, part.first_ring, part.rings, part.first_vertex, part.first_index]);
+            assert!(told.eq(parts), "{rows:?} for {chunk:?}");
+            assert!(rows.iter().all(|row| row.quads + 1 == row.rings), "{rows:?}");
+        });
+    }
+
+    /// The plan's own blocks are rows of 64 rings: these come out again, also from rows of fewer, and no row is longer
+    /// than asked for.
+    #[test]
+    fn rows_of_any_length_say_what_the_blocks_say() {
+        chunks(|plan, chunk| {
+            assert_eq!(plan.part_rows(chunk, BLOCK_RINGS), chunk.blocks);
+            for most in [0, 1, 5, 21, 63, 65, 100] {
+                let rows = plan.part_rows(chunk, most);
+                assert!(rows.iter().all(|row| (1..=most.max(1)).contains(&row.rings)), "{most}: {rows:?}");
+                for row in &rows {
+                    let interval = row.first_ring / (plan.settings().subdivisions + 1);
+                    let point = plan.padded_offsets()[row.yarn as usize] + u64::from(interval);
+                    assert_eq!(u64::from(row.first_point) + chunk.window.start, point, "{row:?}");
+                }
+                let finer = Chunk { blocks: rows, ..chunk.clone() };
+                assert_eq!(plan.part_rows(&finer, BLOCK_RINGS), chunk.blocks, "{most}");
+            }
+        });
+    }
+}

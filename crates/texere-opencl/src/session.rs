@@ -113,9 +113,15 @@ impl OpenClSession {
     }
 
     /// The place of `chunk`'s slot; if it is new, that of the chunk launched longest ago takes it.
+    ///
+    /// **Errors**: [`BackendError::ForeignChunk`] for a chunk that the plan did not cut: no kernel checks its bounds.
     fn claim(&mut self, chunk: &Chunk) -> Result<usize, BackendError> {
         if let Some(place) = self.slots.iter().position(|slot| slot.holds(chunk)) {
             return Ok(place);
+        }
+        // Before any slot is given up: a chunk that is refused takes no place.
+        if !self.plan.holds(chunk) {
+            return Err(BackendError::ForeignChunk { chunk: chunk.index });
         }
         self.slots.swap(0, 1);
         self.slots[1].take(&self.opened, &self.plan, chunk)?;

@@ -69,13 +69,9 @@ impl Slot {
         (self.has_rings, self.has_mesh) = (false, false);
     }
 
-    /// Takes `chunk`: sends its tables, beside the kernels of the other chunk in flight but after this slot's own.
-    ///
-    /// **Errors**: [`BackendError::ForeignChunk`] for a chunk that `plan` did not cut: no kernel checks its bounds.
+    /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after this
+    /// slot's own.
     pub(crate) fn take(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
-        if !plan.holds(chunk) {
-            return Err(BackendError::ForeignChunk { chunk: chunk.index });
-        }
         self.held = None;
         self.forget_results();
         let used = self.ready.take();

@@ -262,14 +262,21 @@ fn chunks_of_another_plan_are_refused() {
     let yarns = cases::winding(100, Yarn::default());
     let mut session = device.session(own.clone()).unwrap();
     session.scan().unwrap();
-    session.mesh(&chunks(&own, 3)[0]).unwrap();
-    let mut forged = chunks(&own, 3)[0].clone();
+    let [first, second, third, ..] = &chunks(&own, 3)[..] else { panic!("too few chunks") };
+    session.mesh(first).unwrap();
+    session.mesh(second).unwrap();
+    let mut forged = first.clone();
     forged.caps.extend_from_within(..);
     for chunk in [&chunks(&other, 3)[0], chunks(&plan(&yarns, TURNING), 3).last().unwrap(), &forged] {
-        for refused in [session.mesh(chunk), session.trajectory(chunk)] {
+        for refused in [session.mesh(chunk), session.trajectory(chunk), session.mesh(chunk)] {
             assert!(matches!(refused, Err(BackendError::ForeignChunk { .. })), "{refused:?}");
         }
     }
+    // What is refused takes no place: the third chunk still takes the first one's.
+    session.mesh(third).unwrap();
+    read(&mut *session, second);
+    let gone = session.read_mesh(first, &mut |_| ControlFlow::Continue(()));
+    assert!(matches!(gone, Err(BackendError::NotInFlight { chunk: 0 })), "{gone:?}");
 }
 
 #[test]

@@ -9,8 +9,8 @@ use wgpu::{BufferUsages, ComputePassTimestampWrites, Features, MapMode, Submissi
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
 /// Whether a device with `features` lets its clock be read. Without, the time of a launch is the host's: from handing the
-/// work over to seeing it done, so with all that it had to wait for. The times of upload and readback are always the
-/// host's.
+/// work over, or seeing the launch before it done where that is later, to seeing it done. The times of upload and
+/// readback are always the host's.
 pub(crate) fn has_clock(features: Features) -> bool {
     features.contains(Features::TIMESTAMP_QUERY)
 }
@@ -34,6 +34,8 @@ const STAMP_BYTES: u64 = 2 * wgpu::QUERY_SIZE as u64;
 pub(crate) struct Clock {
     stamps: Option<Stamps>,
     pending: Vec<Pending>,
+    /// When the last launch timed by the host was seen done.
+    seen: Option<Instant>,
     totals: StageTimings,
 }
 
@@ -62,7 +64,7 @@ struct Stamps {
 impl Clock {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
         let stamps = if has_clock(gpu.device.features()) { Some(Stamps::new(gpu)?) } else { None };
-        Ok(Self { stamps, pending: Vec::new(), totals: StageTimings::default() })
+        Ok(Self { stamps, pending: Vec::new(), seen: None, totals: StageTimings::default() })
     }
 
     /// Runs what `record` writes into a compute pass, and times it.
@@ -133,7 +135,12 @@ impl Clock {
     fn add(&mut self, gpu: &Gpu, launch: &Pending, done: Option<Instant>) {
         let time = match (&mut self.stamps, launch.stamp, done) {
             (Some(stamps), Some(stamp), _) => stamps.take(gpu, stamp),
-            (_, _, Some(done)) => done.duration_since(launch.launched),
+            (_, _, Some(done)) => {
+                // One after the other on the queue, so that no moment counts for two.
+                let started = self.seen.map_or(launch.launched, |seen| seen.max(launch.launched));
+                self.seen = Some(done);
+                done.saturating_duration_since(started)
+            }
             _ => Duration::ZERO,
         };
         let total = match launch.timed {

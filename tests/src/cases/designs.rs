@@ -11,10 +11,10 @@ use super::{Case, USUAL};
 /// Ends, and picks, that a cut cloth has at most.
 const THREADS: usize = 20;
 
-/// `designs/` in the working folder, where the suite was built alone and carried elsewhere, or else in this workspace.
+/// `designs/` of this workspace; in the working folder only where the suite was built alone and carried elsewhere.
 fn folder() -> PathBuf {
-    let here = PathBuf::from("designs");
-    if here.is_dir() { here } else { Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs") }
+    let ours = Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs");
+    if ours.is_dir() { ours } else { PathBuf::from("designs") }
 }
 
 /// The design in `path` within `designs/`.

@@ -107,9 +107,9 @@ impl OpenClBackend {
         Self::with(chosen.id, context, queue, chosen.info, schedule)
     }
 
-    /// Works on a queue of the caller's under the name `opencl`, in its context and on its device; all three are retained for as long as the
-    /// backend or a session of it lives. Kernels and uploads go to this queue in the order of the calls; results are
-    /// read through a queue of our own.
+    /// Works on a queue of the caller's, in its context and on its device, under the name `opencl` or `opencl/per-yarn`.
+    /// Queue and context are retained for as long as the backend or a session of it lives. Kernels and uploads go to
+    /// this queue in the order of the calls; results are read through a queue of our own.
     ///
     /// A queue without profiling takes no times of its commands: each stage is then waited for, and timed by the host's
     /// clock.

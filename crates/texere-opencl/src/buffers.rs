@@ -28,20 +28,21 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// `bytes` of memory for `what`, not yet written.
+    /// `bytes` of memory for `what`. Its first word is 0, the rest whatever was there.
     pub(crate) fn new(opened: &Opened, what: &'static str, bytes: u64) -> Result<Self, BackendError> {
         if bytes == 0 {
             return Ok(Self::default());
         }
-        let refused = not_allocated(&opened.name, "clCreateBuffer", what, bytes);
+        let refused = |call| not_allocated(&opened.name, call, what, bytes);
         let size = usize::try_from(bytes).map_err(|_| BackendError::OutOfMemory { what, bytes })?;
         // SAFETY: no host memory is handed over.
         let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
-        let memory = Handle::memory(memory).map_err(&refused)?;
+        let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
         let mut buffer = Self { memory: Some(memory), bytes };
         // Drivers put memory off until its first use; used now, they say now that there is none. Not by
         // clEnqueueMigrateMemObjects: NVIDIA's driver (580) dies where two threads call that on one queue.
-        buffer.enqueue_write(&opened.transfers, 0, &[0u32], None).map_err(refused)?;
+        let claimed = buffer.enqueue_write(&opened.transfers, 0, &[0u32], None);
+        claimed.map_err(refused("clEnqueueWriteBuffer"))?;
         Ok(buffer)
     }
 

@@ -217,6 +217,33 @@ fn read_mesh(
     Ok(())
 }
 
+/// A chunk's mesh as a session lends it, all pieces one after the other.
+#[derive(Debug, Default, PartialEq)]
+pub struct Lent {
+    /// Its vertices.
+    pub vertices: Vec<Vertex>,
+    /// Its indices.
+    pub indices: Vec<u32>,
+}
+
+impl Lent {
+    /// Reads the mesh of `chunk`, which must be in flight.
+    ///
+    /// **Errors**: those of [`Session::read_mesh`].
+    pub fn read(session: &mut dyn Session, chunk: &Chunk) -> Result<Self, BackendError> {
+        let mut lent = Self::default();
+        let _ = session.read_mesh(chunk, &mut |piece| {
+            match piece {
+                MeshPiece::Vertices { vertices, .. } => lent.vertices.extend_from_slice(vertices),
+                MeshPiece::Indices { indices, .. } => lent.indices.extend_from_slice(indices),
+                _ => {}
+            }
+            ControlFlow::Continue(())
+        })?;
+        Ok(lent)
+    }
+}
+
 fn proceed(fits: bool) -> ControlFlow<()> {
     if fits { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 }

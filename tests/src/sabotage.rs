@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
+use std::time::Duration;
 
 use glam::Vec3;
 use texere_core::{
@@ -12,7 +13,7 @@ use texere_core::{
 use texere_cpu::SerialBackend;
 
 use crate::compare::Fault;
-use crate::drive::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+use crate::drive::{Lent, POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
 /// What a broken backend does wrong. Unless it says otherwise it does so once, in its second chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,10 +53,16 @@ pub enum Sabotage {
     LastBit,
     /// A cap covers a part of itself twice, in every chunk that has one.
     OpenCap,
-    /// All stages take no time, on a device that says it has a clock.
+    /// Stage 2 takes no time.
     StoppedClock,
+    /// Stage 2 takes a day.
+    FastClock,
     /// Every upload sends the whole fabric.
     WholeUpload,
+    /// Each read of a mesh counts a byte more than it lends.
+    InflatedRead,
+    /// Control points that came once stay, whatever comes after them.
+    LostEdit,
     /// It calls itself per-yarn, and refuses nothing.
     Eager,
     /// It calls itself per-yarn, and refuses everything.
@@ -89,7 +96,10 @@ impl Sabotage {
             Self::None
             | Self::LastBit
             | Self::StoppedClock
+            | Self::FastClock
             | Self::WholeUpload
+            | Self::InflatedRead
+            | Self::LostEdit
             | Self::Eager
             | Self::Lazy => &[],
             Self::ShiftedVertex => &[Fault::Position],
@@ -128,10 +138,8 @@ impl SabotagedBackend {
         let serial = SerialBackend::new();
         let limits = Limits { blocks: 2, ..Limits::NONE };
         let mut info = DeviceInfo { name: format!("{sabotage:?}"), limits, ..serial.info().clone() };
-        match sabotage {
-            Sabotage::StoppedClock => info.timed_by_device = true,
-            Sabotage::Eager | Sabotage::Lazy => info.schedule = Schedule::PerYarn.to_string(),
-            _ => {}
+        if matches!(sabotage, Sabotage::Eager | Sabotage::Lazy) {
+            info.schedule = Schedule::PerYarn.to_string();
         }
         Self { info, serial, sabotage }
     }
@@ -148,7 +156,14 @@ impl Backend for SabotagedBackend {
             return Err(BackendError::Unsupported { schedule, what });
         }
         let serial = self.serial.session(plan.clone())?;
-        Ok(Box::new(SabotagedSession { plan, serial, sabotage: self.sabotage, uploads: 0 }))
+        Ok(Box::new(SabotagedSession {
+            plan,
+            serial,
+            sabotage: self.sabotage,
+            uploads: 0,
+            read: 0,
+            kept: Vec::new(),
+        }))
     }
 }
 
@@ -158,6 +173,10 @@ struct SabotagedSession {
     serial: Box<dyn Session>,
     sabotage: Sabotage,
     uploads: u64,
+    /// Bytes read, as [`Sabotage::InflatedRead`] counts them.
+    read: u64,
+    /// The first upload, which [`Sabotage::LostEdit`] holds fast to.
+    kept: Vec<ControlPoint>,
 }
 
 /// The chunk that most sabotage happens in.
@@ -256,6 +275,13 @@ fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
 impl Session for SabotagedSession {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), BackendError> {
         self.uploads += 1;
+        if self.sabotage == Sabotage::LostEdit {
+            let range = first as usize..first as usize + points.len();
+            if let Some(old) = self.kept.get(range) {
+                return self.serial.upload(first, old);
+            }
+            self.kept = points.to_vec();
+        }
         self.serial.upload(first, points)
     }
 
@@ -290,15 +316,8 @@ impl Session for SabotagedSession {
         chunk: &Chunk,
         sink: &mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let (mut vertices, mut indices) = (Vec::new(), Vec::new());
-        let _ = self.serial.read_mesh(chunk, &mut |piece| {
-            match piece {
-                MeshPiece::Vertices { vertices: piece, .. } => vertices.extend_from_slice(piece),
-                MeshPiece::Indices { indices: piece, .. } => indices.extend_from_slice(piece),
-                _ => {}
-            }
-            ControlFlow::Continue(())
-        })?;
+        let Lent { mut vertices, mut indices } = Lent::read(&mut *self.serial, chunk)?;
+        self.read += (size_of_val(&vertices[..]) + size_of_val(&indices[..])) as u64 + 1;
         self.spoil_mesh(chunk, &mut vertices, &mut indices);
         let first = u32::from(self.sabotage == Sabotage::MisplacedPiece && chunk.index == VICTIM);
         let flow = sink(MeshPiece::Vertices { first, vertices: &vertices });
@@ -317,9 +336,11 @@ impl Session for SabotagedSession {
     }
 
     fn timings(&self) -> StageTimings {
+        let timings = self.serial.timings();
         match self.sabotage {
-            Sabotage::StoppedClock => StageTimings::default(),
-            _ => self.serial.timings(),
+            Sabotage::StoppedClock => StageTimings { mesh: Duration::ZERO, ..timings },
+            Sabotage::FastClock => StageTimings { mesh: Duration::from_secs(24 * 60 * 60), ..timings },
+            _ => timings,
         }
     }
 
@@ -329,6 +350,7 @@ impl Session for SabotagedSession {
             Sabotage::WholeUpload => {
                 Traffic { uploaded: self.uploads * self.plan.resident_bytes(), ..traffic }
             }
+            Sabotage::InflatedRead => Traffic { read: self.read, ..traffic },
             _ => traffic,
         }
     }

@@ -1,4 +1,4 @@
-//! What every session promises besides its output: where its work was done, and what an edit moves.
+//! What every session promises besides its output: times that can be true, and an edit that moves one yarn.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::{Arc, OnceLock};
@@ -6,11 +6,12 @@ use std::time::{Duration, Instant};
 
 use libtest_mimic::{Failed, Trial};
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, Frame, Limits, MeshPiece, Plan, Schedule, Session, Settings,
+    Backend, BackendError, Chunk, ControlPoint, Frame, Limits, Plan, Schedule, Session, Settings,
     StageTimings, Vertex, Yarn, Yarns,
 };
 
 use crate::cases;
+use crate::drive::Lent;
 
 /// A name, and whether a device keeps the promise.
 type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);
@@ -36,8 +37,7 @@ fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
     (settings, Yarn { twist: 1.0, ..Yarn::default() })
 }
 
-/// Each stage took time, and all of them together no more than there was. Where the device has a clock of its own, that
-/// is the proof that it did the work.
+/// Each stage took time, and all of them together no more than there was.
 fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     let (settings, yarn) = all_of(device);
     let yarns = cases::winding(2_500, yarn);
@@ -74,7 +74,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
         }
     }
     if upload + scan + trajectory + mesh + readback > there_was {
-        return Err(format!("{times:?} in {there_was:?}").into());
+        return Err(format!("more time than there was, {there_was:?}: {times:?}").into());
     }
     Ok(())
 }
@@ -150,26 +150,10 @@ fn moved(what: &str, bytes: u64, expected: u64) -> Result<(), Failed> {
     if bytes == expected { Ok(()) } else { Err(format!("{what}: {bytes} bytes, not {expected}").into()) }
 }
 
-/// What a session makes of a chunk.
-#[derive(Default, PartialEq)]
-struct Made {
-    vertices: Vec<Vertex>,
-    indices: Vec<u32>,
-}
-
-fn meshes(session: &mut dyn Session, chunks: &[Chunk]) -> Result<Vec<Made>, BackendError> {
+fn meshes(session: &mut dyn Session, chunks: &[Chunk]) -> Result<Vec<Lent>, BackendError> {
     let read = |chunk| {
-        let mut made = Made::default();
         session.mesh(chunk)?;
-        let _ = session.read_mesh(chunk, &mut |piece| {
-            match piece {
-                MeshPiece::Vertices { vertices, .. } => made.vertices.extend_from_slice(vertices),
-                MeshPiece::Indices { indices, .. } => made.indices.extend_from_slice(indices),
-                _ => {}
-            }
-            ControlFlow::Continue(())
-        })?;
-        Ok(made)
+        Lent::read(session, chunk)
     };
     chunks.iter().map(read).collect()
 }

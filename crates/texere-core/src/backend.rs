@@ -50,7 +50,7 @@ pub struct DeviceInfo {
     /// What chunks are cut to.
     pub limits: Limits,
     /// Whether [`Session::timings`] of scan, trajectory and mesh are by a clock of the device's own, from the start of the
-    /// work to its end, so that they prove where it was done. Otherwise they are by the host's clock.
+    /// work to its end. Otherwise they are by the host's clock.
     pub timed_by_device: bool,
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use texere_core::{Backend, BackendError, Schedule};
+use texere_core::{Backend, BackendError, DeviceInfo, Schedule};
 use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
@@ -16,9 +16,9 @@ use crate::cases::{self, Case};
 /// use std::sync::Arc;
 /// use texere_conformance::Entry;
 /// use texere_cpu::ParallelBackend;
-/// let entry = Entry::exact("cpu", || Ok(vec![Arc::new(ParallelBackend::new())]));
-/// assert_eq!((entry.open)()?.len(), 1);
-/// # Ok::<(), texere_core::BackendError>(())
+/// let entry = Entry::exact("cpu", || vec![Ok(Arc::new(ParallelBackend::new()))]);
+/// let (devices, missing) = entry.devices();
+/// assert_eq!((devices.len(), missing.len()), (1, 0));
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
@@ -26,14 +26,15 @@ pub struct Entry {
     pub name: &'static str,
     /// Whether its output must equal the gold reference to the bit.
     pub exact: bool,
-    /// Opens all devices that it has, a schedule a device. An error, or no device, and the backend counts as missing.
+    /// Opens all devices that it has, a schedule a device. What does not open counts as missing, and so does a backend
+    /// without any.
     pub open: OpenAll,
     /// The cases that its devices get.
     pub cases: fn() -> Vec<Case>,
 }
 
-/// Opens all devices of a backend.
-pub type OpenAll = fn() -> Result<Vec<Arc<dyn Backend>>, BackendError>;
+/// Opens all devices of a backend, and says of each that does not open why.
+pub type OpenAll = fn() -> Vec<Result<Arc<dyn Backend>, BackendError>>;
 
 impl Entry {
     /// A backend whose output equals the gold reference to the bit.
@@ -53,23 +54,51 @@ impl Entry {
     pub const fn with_cases(self, cases: fn() -> Vec<Case>) -> Self {
         Self { cases, ..self }
     }
+
+    /// The devices that open, and for each that does not, or for a backend without any, the reason.
+    #[must_use]
+    pub fn devices(&self) -> (Vec<Arc<dyn Backend>>, Vec<String>) {
+        let (mut devices, mut missing) = (Vec::new(), Vec::new());
+        let opened = (self.open)();
+        let count = opened.len();
+        for (number, device) in (1..).zip(opened) {
+            match device {
+                Ok(device) => devices.push(device),
+                Err(error) => missing.push(format!("device {number} of {count}: {}", chain(&error))),
+            }
+        }
+        if count == 0 {
+            missing.push("it has no device".into());
+        }
+        (devices, missing)
+    }
 }
 
 /// The backends of this workspace.
 pub const REGISTRY: &[Entry] = &[
-    Entry::exact("cpu", || Ok(vec![Arc::new(SerialBackend::new()), Arc::new(ParallelBackend::new())])),
-    Entry::exact("deferred", || Ok(vec![Arc::new(DeferredBackend::new())])),
-    Entry::near("opencl", || open_each(OpenClBackend::devices()?.len(), OpenClBackend::open)),
-    Entry::near("wgpu", || open_each(WgpuBackend::devices()?.len(), WgpuBackend::open)),
+    Entry::exact("cpu", || vec![Ok(Arc::new(SerialBackend::new())), Ok(Arc::new(ParallelBackend::new()))]),
+    Entry::exact("deferred", || vec![Ok(Arc::new(DeferredBackend::new()))]),
+    Entry::near("opencl", || open_each(OpenClBackend::devices(), OpenClBackend::open)),
+    Entry::near("wgpu", || open_each(WgpuBackend::devices(), WgpuBackend::open)),
 ];
 
-/// Opens devices 0 to `count`, each with either schedule.
+/// Opens each of the devices `listed`, with either schedule.
 fn open_each<B: Backend + 'static>(
-    count: usize,
+    listed: Result<Vec<DeviceInfo>, BackendError>,
     open: fn(usize, Schedule) -> Result<B, BackendError>,
-) -> Result<Vec<Arc<dyn Backend>>, BackendError> {
+) -> Vec<Result<Arc<dyn Backend>, BackendError>> {
+    let count = match listed {
+        Ok(devices) => devices.len(),
+        Err(error) => return vec![Err(error)],
+    };
     (0..count)
         .flat_map(|index| [Schedule::PerRing, Schedule::PerYarn].map(|schedule| (index, schedule)))
         .map(|(index, schedule)| Ok(Arc::new(open(index, schedule)?) as Arc<dyn Backend>))
         .collect()
+}
+
+/// An error with all its causes, on one line.
+pub(crate) fn chain(error: &dyn std::error::Error) -> String {
+    let causes = std::iter::successors(Some(error), |error| error.source());
+    causes.map(ToString::to_string).collect::<Vec<_>>().join(": ")
 }

@@ -10,7 +10,7 @@ use texere_core::Backend;
 
 use crate::cases::{self, Case};
 use crate::check::check_within;
-use crate::registry::Entry;
+use crate::registry::{Entry, chain};
 use crate::schedule::{beyond, refuses};
 use crate::sessions;
 use crate::worst::Table;
@@ -26,15 +26,16 @@ const FULL: &str = "--full";
 /// `args` are those of a test program, its name first: `--list` and a filter among them. `--full` adds the cases of
 /// [`cases::product`], and `--worst` prints how near the outputs came to their bounds.
 ///
-/// Each trial is named `case::device`. A backend that is missing shows as ignored, with the reason, or as failed where
-/// it is among `required`: names with commas between them. A backend of one's own takes one line in a test target
-/// without harness:
+/// Each trial is named `case::device`. A backend that is missing, or a device of it that does not open, shows as ignored
+/// with the reason, or as failed where the backend is among `required`: names with commas between them. A backend of
+/// one's own takes one line in a test target without harness:
 ///
 /// ```no_run
-/// # use texere_cpu::ParallelBackend as MyBackend;
+/// # use texere_wgpu::{Schedule, WgpuBackend as MyBackend};
 /// use std::sync::Arc;
 /// use texere_conformance::{Entry, run};
-/// run(std::env::args_os(), &[Entry::near("mine", || Ok(vec![Arc::new(MyBackend::new())]))], "mine");
+/// let mine = Entry::near("mine", || vec![MyBackend::open(0, Schedule::PerRing).map(|mine| Arc::new(mine) as _)]);
+/// run(std::env::args_os(), &[mine], "mine");
 /// ```
 pub fn run(
     args: impl IntoIterator<Item = impl Into<OsString>>,
@@ -54,25 +55,19 @@ pub fn run(
 }
 
 fn trials(registry: &[Entry], required: &str, full: bool, worst: &Table) -> Vec<Trial> {
-    let mut required: BTreeSet<_> =
-        required.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+    let mut required: BTreeSet<_> = names(required).collect();
     let mut trials = Vec::new();
     for entry in registry {
         let must = required.remove(entry.name);
-        match (entry.open)() {
-            Ok(devices) if !devices.is_empty() => {
-                let product = full.then(cases::product);
-                let cases: Vec<_> =
-                    (entry.cases)().into_iter().chain(product.into_iter().flatten()).map(Arc::new).collect();
-                for device in devices {
-                    let of_case = |case: &Arc<Case>| trial(case.clone(), device.clone(), entry.exact, worst);
-                    trials.extend(cases.iter().map(of_case));
-                    trials.extend(sessions::trials(&device));
-                }
-            }
-            Ok(_) => trials.push(missing(entry.name, must, "it has no device".into())),
-            Err(error) => trials.push(missing(entry.name, must, chain(&error))),
+        let (devices, reasons) = entry.devices();
+        let product = if full { cases::product() } else { Vec::new() };
+        let cases: Vec<_> = (entry.cases)().into_iter().chain(product).map(Arc::new).collect();
+        for device in devices {
+            let of_case = |case: &Arc<Case>| trial(case.clone(), device.clone(), entry.exact, worst);
+            trials.extend(cases.iter().map(of_case));
+            trials.extend(sessions::trials(&device));
         }
+        trials.extend(reasons.into_iter().map(|reason| missing(entry.name, must, reason)));
     }
     trials
         .extend(required.into_iter().map(|name| missing(name, true, "the registry does not have it".into())));
@@ -83,9 +78,8 @@ fn trial(case: Arc<Case>, device: Arc<dyn Backend>, exact: bool, worst: &Table) 
     let (name, worst) = (format!("{}::{}", case.name, device.info().name), worst.clone());
     Trial::test(name.clone(), move || {
         let yarns = case.yarns();
-        let reasons = beyond(device.info(), &yarns, &case.settings);
-        if !reasons.is_empty() {
-            return refuses(&*device, &yarns, case.settings, &reasons);
+        if beyond(device.info(), &yarns, &case.settings) {
+            return refuses(&*device, &yarns, case.settings);
         }
         let report = check_within(&yarns, case.settings, case.tight, &*device, exact)
             .map_err(|error| Failed::from(chain(&error)))?;
@@ -94,15 +88,14 @@ fn trial(case: Arc<Case>, device: Arc<dyn Backend>, exact: bool, worst: &Table) 
     })
 }
 
-/// Stands for the trials of a backend that is not there.
+/// The names in a list with commas between them.
+pub(crate) fn names(list: &str) -> impl Iterator<Item = &str> {
+    list.split(',').map(str::trim).filter(|name| !name.is_empty())
+}
+
+/// Stands for the trials of a backend, or of a device of it, that is not there.
 fn missing(name: &str, must: bool, reason: String) -> Trial {
     Trial::ignorable_test(format!("{name}::missing"), move || {
         if must { Err(reason.into()) } else { Ok(Completion::ignored_with(reason)) }
     })
-}
-
-/// An error with all its causes, on one line.
-fn chain(error: &dyn std::error::Error) -> String {
-    let causes = std::iter::successors(Some(error), |error| error.source());
-    causes.map(ToString::to_string).collect::<Vec<_>>().join(": ")
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use texere_conformance::compare::{Fault, Report};
 use texere_conformance::{Entry, OpenAll, REGISTRY, Sabotage, SabotagedBackend, check, run};
-use texere_core::{BackendError, ControlPoint, Frame, Settings, Yarn, Yarns};
+use texere_core::{Backend, BackendError, ControlPoint, Frame, Settings, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 
 /// Two yarns that fit one block each, then one of several blocks.
@@ -83,24 +83,40 @@ fn a_report_names_the_place_and_both_values() {
     assert!(told.ends_with("2 mismatches: 2 Position"), "{told}");
 }
 
-const BROKEN: &[Entry] =
-    &[Entry::near("broken", || Ok(vec![Arc::new(SabotagedBackend::new(Sabotage::Zeros))]))];
+const BROKEN: &[Entry] = &[Entry::near("broken", || sabotaged(Sabotage::Zeros))];
 
-const STOPPED: &[Entry] =
-    &[Entry::near("stopped", || Ok(vec![Arc::new(SabotagedBackend::new(Sabotage::StoppedClock))]))];
+const STOPPED: &[Entry] = &[Entry::near("stopped", || sabotaged(Sabotage::StoppedClock))];
 
-const WASTEFUL: &[Entry] =
-    &[Entry::near("wasteful", || Ok(vec![Arc::new(SabotagedBackend::new(Sabotage::WholeUpload))]))];
+const FAST: &[Entry] = &[Entry::near("fast", || sabotaged(Sabotage::FastClock))];
 
-const EAGER: &[Entry] =
-    &[Entry::near("eager", || Ok(vec![Arc::new(SabotagedBackend::new(Sabotage::Eager))]))];
+const WASTEFUL: &[Entry] = &[Entry::near("wasteful", || sabotaged(Sabotage::WholeUpload))];
 
-const LAZY: &[Entry] = &[Entry::near("lazy", || Ok(vec![Arc::new(SabotagedBackend::new(Sabotage::Lazy))]))];
+const INFLATED: &[Entry] = &[Entry::near("inflated", || sabotaged(Sabotage::InflatedRead))];
 
-const MISSING: &[Entry] = &[
-    Entry::near("absent", || Err(BackendError::NoDevice { wanted: "absent".into(), found: Vec::new() })),
-    Entry::near("empty", || Ok(Vec::new())),
-];
+const STALE: &[Entry] = &[Entry::near("stale", || sabotaged(Sabotage::LostEdit))];
+
+const EAGER: &[Entry] = &[Entry::near("eager", || sabotaged(Sabotage::Eager))];
+
+const LAZY: &[Entry] = &[Entry::near("lazy", || sabotaged(Sabotage::Lazy))];
+
+fn sabotaged(sabotage: Sabotage) -> Vec<Result<Arc<dyn Backend>, BackendError>> {
+    vec![Ok(Arc::new(SabotagedBackend::new(sabotage)))]
+}
+
+fn no_device(wanted: &str) -> BackendError {
+    BackendError::NoDevice { wanted: wanted.into(), found: Vec::new() }
+}
+
+const MISSING: &[Entry] =
+    &[Entry::near("absent", || vec![Err(no_device("absent"))]), Entry::near("empty", Vec::new)];
+
+/// Of three devices the second does not open.
+const GAPPY: &[Entry] = &[Entry::near("gappy", || {
+    let mut opened = sabotaged(Sabotage::None);
+    opened.push(Err(no_device("the second")));
+    opened.extend(sabotaged(Sabotage::Zeros));
+    opened
+})];
 
 /// Runs the trials with `filter` in their names; gives back whether all passed, and what was printed.
 fn run_trials(filter: &str, registry: &[Entry], required: &str) -> (bool, String) {
@@ -116,10 +132,15 @@ fn run_trials(filter: &str, registry: &[Entry], required: &str) -> (bool, String
 /// The names of the trials with `filter` in their names that fail.
 fn failures(filter: &str, registry: &[Entry], required: &str) -> Vec<String> {
     let (passed, printed) = run_trials(filter, registry, required);
-    let failed = printed.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
-    let failed: Vec<_> = failed.map(|name| name.trim_end().to_owned()).collect();
+    let failed = failed(&printed);
     assert_eq!(passed, failed.is_empty(), "{printed}");
     failed
+}
+
+/// The names of the trials that failed, by what was `printed`.
+fn failed(printed: &str) -> Vec<String> {
+    let failed = printed.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
+    failed.map(|name| name.trim_end().to_owned()).collect()
 }
 
 #[test]
@@ -128,14 +149,31 @@ fn a_broken_backend_fails_the_run() {
     assert_eq!(failed, ["rings-193::upright::Zeros"]);
 }
 
-#[test]
-fn a_backend_whose_clock_stands_still_fails_by_name() {
-    assert_eq!(failures("every-stage", STOPPED, ""), ["session::every-stage-is-timed::StoppedClock"]);
+/// Asserts that of the trials with `filter` in their names `trial` alone fails, for a reason that begins with `why`.
+fn assert_fails(filter: &str, registry: &[Entry], trial: &str, why: &str) {
+    let (_, printed) = run_trials(filter, registry, "");
+    assert_eq!(failed(&printed), [trial]);
+    let told = printed.split_once(&format!("---- {trial} ----\n")).map(|(_, told)| told.trim_start());
+    assert!(told.is_some_and(|told| told.starts_with(why)), "{printed}");
 }
 
 #[test]
-fn a_backend_that_sends_the_whole_fabric_again_fails_by_name() {
-    assert_eq!(failures("an-edit", WASTEFUL, ""), ["session::an-edit-moves-one-yarn::WholeUpload"]);
+fn a_clock_that_stands_still_or_runs_fast_is_told() {
+    let timed = |registry, device, why| {
+        assert_fails("every-stage", registry, &format!("session::every-stage-is-timed::{device}"), why);
+    };
+    timed(STOPPED, "StoppedClock", "mesh took no time: ");
+    timed(FAST, "FastClock", "more time than there was, ");
+}
+
+#[test]
+fn an_edit_that_moves_too_much_or_nothing_is_told() {
+    let edited = |registry, device, why| {
+        assert_fails("an-edit", registry, &format!("session::an-edit-moves-one-yarn::{device}"), why);
+    };
+    edited(WASTEFUL, "WholeUpload", "the edited yarn: ");
+    edited(INFLATED, "InflatedRead", "its chunks: ");
+    edited(STALE, "LostEdit", "a new session makes another mesh of the edited cloth");
 }
 
 #[test]
@@ -147,10 +185,23 @@ fn a_missing_backend_is_ignored_unless_it_is_required() {
     assert_eq!(failures("unheard-of"), ["unheard-of::missing"]);
 }
 
+/// One device that does not open hides none of those that do, and is not hidden by them.
+#[test]
+fn a_device_that_does_not_open_is_missing_alone() {
+    assert_fails("rings-193::upright", GAPPY, "rings-193::upright::Zeros", "");
+    let (_, printed) = run_trials("rings-193::upright", GAPPY, "gappy");
+    assert!(printed.contains("rings-193::upright::None"), "{printed}");
+    let (passed, printed) = run_trials("missing", GAPPY, "");
+    assert!(passed, "{printed}");
+    let (_, printed) = run_trials("missing", GAPPY, "gappy");
+    assert_eq!(failed(&printed), ["gappy::missing"]);
+    assert!(printed.contains("device 2 of 3: ") && printed.contains("the second"), "{printed}");
+}
+
 #[test]
 fn a_backend_taken_out_of_the_registry_fails_by_name_where_it_is_required() {
     // Which devices there are here does not matter.
-    let open: OpenAll = || Ok(vec![Arc::new(SerialBackend::new())]);
+    let open: OpenAll = || vec![Ok(Arc::new(SerialBackend::new()))];
     let registry: Vec<_> = REGISTRY.iter().map(|entry| Entry { open, ..*entry }).collect();
     let required = registry.iter().map(|entry| entry.name).collect::<Vec<_>>().join(",");
     assert_eq!(failures("missing", &registry, &required), [""; 0]);

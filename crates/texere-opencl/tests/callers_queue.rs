@@ -13,10 +13,10 @@ use texere_core::{Backend, BackendError};
 use texere_opencl::{OpenClBackend, Schedule};
 
 fn main() -> ExitCode {
-    run(std::env::args_os(), &[Entry::near("opencl", open).with_cases(cases::pairwise)], "opencl")
+    run(std::env::args_os(), &[Entry::near("opencl", || vec![open()]).with_cases(cases::pairwise)], "opencl")
 }
 
-fn open() -> Result<Vec<Arc<dyn Backend>>, BackendError> {
+fn open() -> Result<Arc<dyn Backend>, BackendError> {
     // The backend's own list first: it minds that first calls are for one thread alone.
     OpenClBackend::devices()?;
     let queue = callers_queue().map_err(|source| BackendError::Driver {
@@ -24,7 +24,7 @@ fn open() -> Result<Vec<Arc<dyn Backend>>, BackendError> {
         source: source.into(),
     })?;
     // SAFETY: the queue is valid; the backend retains it.
-    Ok(vec![Arc::new(unsafe { OpenClBackend::on_queue(queue.get(), Schedule::PerRing) }?)])
+    Ok(Arc::new(unsafe { OpenClBackend::on_queue(queue.get(), Schedule::PerRing) }?))
 }
 
 fn callers_queue() -> Result<CommandQueue, ClError> {

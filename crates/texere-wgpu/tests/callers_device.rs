@@ -8,10 +8,10 @@ use texere_core::{Backend, BackendError};
 use texere_wgpu::{Schedule, WgpuBackend};
 
 fn main() -> ExitCode {
-    run(std::env::args_os(), &[Entry::near("wgpu", open).with_cases(cases::pairwise)], "wgpu")
+    run(std::env::args_os(), &[Entry::near("wgpu", || vec![open()]).with_cases(cases::pairwise)], "wgpu")
 }
 
-fn open() -> Result<Vec<Arc<dyn Backend>>, BackendError> {
+fn open() -> Result<Arc<dyn Backend>, BackendError> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wgpu::Backends::PRIMARY,
         ..wgpu::InstanceDescriptor::new_without_display_handle()
@@ -22,5 +22,5 @@ fn open() -> Result<Vec<Arc<dyn Backend>>, BackendError> {
         )?;
     let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))
         .map_err(|source| BackendError::Driver { call: "Adapter::request_device", source: source.into() })?;
-    Ok(vec![Arc::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)])
+    Ok(Arc::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?))
 }

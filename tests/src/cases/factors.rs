@@ -97,11 +97,12 @@ pub fn pairwise() -> Vec<Case> {
 }
 
 /// Every combination of the values of [`pairwise`], but of subdivisions only 0, 1, 2, 4 and 8, and of sides only 3 to 8,
-/// 16, 33 and 64: 77,760 cases. Made one at a time, since together they take some room.
-pub fn product() -> impl Iterator<Item = Case> {
+/// 16, 33 and 64: 77,760 cases.
+#[must_use]
+pub fn product() -> Vec<Case> {
     let counts = Counts::thinned();
     let sizes = counts.sizes();
-    (0..sizes.iter().product()).map(move |number: usize| {
+    let case = |number: usize| {
         let mut rest = number;
         let row = sizes.map(|size| {
             let value = rest % size;
@@ -109,7 +110,8 @@ pub fn product() -> impl Iterator<Item = Case> {
             value
         });
         counts.case("product", &row)
-    })
+    };
+    (0..sizes.iter().product()).map(case).collect()
 }
 
 #[cfg(test)]
@@ -151,7 +153,7 @@ mod tests {
 
     #[test]
     fn the_product_has_every_combination_once() {
-        let names: BTreeSet<_> = product().map(|case| case.name).collect();
+        let names: BTreeSet<_> = product().into_iter().map(|case| case.name).collect();
         assert_eq!(names.len(), 77_760);
     }
 }

@@ -4,11 +4,12 @@
 
 mod support;
 
+use texere_conformance::drive::Lent;
 use texere_conformance::{cases, check};
 use texere_core::{Backend, BackendError, Frame, Limits, Session, Settings, Yarn};
 use texere_wgpu::{Schedule, WgpuBackend};
 
-use support::{INSTALL, backend, plan, read, waves};
+use support::{INSTALL, backend, plan, waves};
 
 /// A device as a viewer might open it: no features.
 fn callers_device(limits: wgpu::Limits) -> (wgpu::Device, wgpu::Queue) {
@@ -86,7 +87,7 @@ fn a_callers_device_does_as_well() {
     own.map_async(wgpu::MapMode::Read, .., |answer| answer.unwrap());
     device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
     let copied = own.get_mapped_range(..).unwrap().to_vec();
-    assert_eq!(copied, bytemuck::cast_slice::<_, u8>(&read(&mut session, &chunk).0));
+    assert_eq!(copied, bytemuck::cast_slice::<_, u8>(&Lent::read(&mut session, &chunk).unwrap().vertices));
 }
 
 #[test]
@@ -148,5 +149,5 @@ fn a_lost_device_is_an_error_and_never_a_panic() {
     session.upload(0, yarns.points()).unwrap();
     session.scan().unwrap();
     session.mesh(&chunk).unwrap();
-    assert_eq!(read(&mut session, &chunk).0.len(), chunk.vertices as usize);
+    assert_eq!(Lent::read(&mut session, &chunk).unwrap().vertices.len(), chunk.vertices as usize);
 }

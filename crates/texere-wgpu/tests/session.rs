@@ -1,4 +1,4 @@
-//! The contract of a session: order of calls, what is in flight, what moves, what is timed.
+//! The contract of a session: order of calls, what is in flight, what is read, what is timed. The suite tries edits.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
@@ -7,14 +7,15 @@ mod support;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+use texere_conformance::drive::Lent;
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, Frame, Layout, Limits, MeshMut, MeshPiece, Plan, Ring,
-    Section, Session, Settings, Traffic, Vertex, Yarn,
+    Backend, BackendError, Chunk, Frame, Layout, Limits, MeshMut, MeshPiece, Plan, Ring, Section, Session,
+    Settings, Traffic, Vertex, Yarn,
 };
 use texere_cpu::SerialBackend;
 use texere_wgpu::{Schedule, WgpuBackend};
 
-use support::{INSTALL, backend, plan, read, waves};
+use support::{INSTALL, backend, plan, waves};
 
 const ROLLED: Settings = Settings {
     tension: 0.0,
@@ -94,44 +95,6 @@ fn a_chunk_of_another_plan_is_refused() {
 }
 
 #[test]
-fn an_edit_moves_one_yarn_and_gives_what_a_new_session_gives() {
-    let mut yarns = waves(50, 100, Yarn { twist: 0.2, ..Yarn::default() });
-    let plan = plan(&yarns, ROLLED);
-    let chunk = whole(&plan);
-    let mut session = backend().wgpu_session(plan.clone()).unwrap();
-    session.upload(0, yarns.points()).unwrap();
-    session.scan().unwrap();
-    session.mesh(&chunk).unwrap();
-    let before = read(&mut session, &chunk);
-    let uploaded = session.traffic().uploaded;
-    assert_eq!(uploaded, plan.resident_bytes());
-
-    let moved: Vec<_> = yarns
-        .yarn_points(7)
-        .unwrap()
-        .iter()
-        .map(|point| ControlPoint { z: point.z + 1.0, ..*point })
-        .collect();
-    yarns.set_points(7, &moved).unwrap();
-    session.upload(700, &moved).unwrap();
-    // Its hundred points and two virtual ones.
-    assert_eq!(session.traffic().uploaded - uploaded, 102 * 16);
-    session.scan().unwrap();
-    session.mesh(&chunk).unwrap();
-    let after = read(&mut session, &chunk);
-
-    let mut fresh = backend().wgpu_session(plan.clone()).unwrap();
-    fresh.upload(0, yarns.points()).unwrap();
-    fresh.scan().unwrap();
-    fresh.mesh(&chunk).unwrap();
-    assert_eq!(after, read(&mut fresh, &chunk));
-    let part = chunk.parts[7];
-    let own = part.first_vertex as usize..(part.first_vertex + part.rings * 6) as usize;
-    assert_eq!(before.0[..own.start], after.0[..own.start]);
-    assert!(before.0[own.clone()].iter().zip(&after.0[own]).all(|(before, after)| before != after));
-}
-
-#[test]
 fn reading_moves_the_results_and_no_more() {
     let yarns = waves(4, 100, Yarn::default());
     let plan = plan(&yarns, Settings::default());
@@ -140,7 +103,7 @@ fn reading_moves_the_results_and_no_more() {
     session.upload(0, yarns.points()).unwrap();
     session.mesh(&chunk).unwrap();
     assert_eq!(session.traffic().read, 0);
-    read(&mut session, &chunk);
+    Lent::read(&mut session, &chunk).unwrap();
     let mesh = u64::from(chunk.vertices) * 24 + u64::from(chunk.indices) * 4;
     assert_eq!(session.traffic().read, mesh);
     let mut rings = 0;
@@ -186,9 +149,9 @@ fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
     let mut gold = SerialBackend::new().session(plan).unwrap();
     gold.upload(0, yarns.points()).unwrap();
     gold.mesh(&chunk).unwrap();
-    let gold = read(&mut *gold, &chunk);
-    assert_eq!(indices, gold.1);
-    for (ours, gold) in vertices.iter().zip(&gold.0) {
+    let gold = Lent::read(&mut *gold, &chunk).unwrap();
+    assert_eq!(indices, gold.indices);
+    for (ours, gold) in vertices.iter().zip(&gold.vertices) {
         for (ours, gold) in ours.position.iter().zip(gold.position) {
             assert!((ours - gold).abs() <= 2e-5 + 4.0 * f32::EPSILON * gold.abs(), "{ours} for {gold}");
         }
@@ -196,18 +159,15 @@ fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
 }
 
 #[test]
-fn each_stage_is_timed_on_the_device() {
+fn stages_are_timed_apart_however_often_they_run() {
     let yarns = waves(20, 500, Yarn { twist: 0.1, ..Yarn::default() });
     let plan = plan(&yarns, ROLLED);
     let chunk = whole(&plan);
     let mut session = backend().wgpu_session(plan).unwrap();
-    assert!(backend().info().timed_by_device);
     session.upload(0, yarns.points()).unwrap();
     let uploaded = session.timings();
-    assert!(uploaded.upload > Duration::ZERO);
     assert_eq!([uploaded.scan, uploaded.trajectory, uploaded.mesh, uploaded.readback], [Duration::ZERO; 4]);
     session.scan().unwrap();
-    assert!(session.timings().scan > Duration::ZERO);
     // More launches than can be timed at once.
     for _ in 0..40 {
         session.mesh(&chunk).unwrap();
@@ -215,9 +175,9 @@ fn each_stage_is_timed_on_the_device() {
     let meshed = session.timings();
     assert!(meshed.mesh > Duration::ZERO && meshed.trajectory == Duration::ZERO);
     session.trajectory(&chunk).unwrap();
-    read(&mut session, &chunk);
+    Lent::read(&mut session, &chunk).unwrap();
     let all = session.timings();
-    assert!(all.trajectory > Duration::ZERO && all.readback > Duration::ZERO && all.mesh == meshed.mesh);
+    assert!(all.trajectory > Duration::ZERO && all.mesh == meshed.mesh);
 }
 
 #[test]

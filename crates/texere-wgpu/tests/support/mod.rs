@@ -2,10 +2,9 @@
 
 #![allow(dead_code, clippy::expect_used, reason = "not every test needs all of it, and a test may panic")]
 
-use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
 
-use texere_core::{Chunk, ControlPoint, MeshPiece, Plan, Session, Settings, Vertex, Yarn, Yarns};
+use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
 use texere_wgpu::{Schedule, WgpuBackend};
 
 /// What to do where a test finds no device.
@@ -38,20 +37,4 @@ pub(crate) fn waves(yarns: usize, points: usize, yarn: Yarn) -> Yarns {
 
 pub(crate) fn plan(yarns: &Yarns, settings: Settings) -> Arc<Plan> {
     Arc::new(Plan::new(yarns.layout().clone(), settings).expect("a plan"))
-}
-
-/// The mesh of a chunk that is in flight.
-pub(crate) fn read(session: &mut dyn Session, chunk: &Chunk) -> (Vec<Vertex>, Vec<u32>) {
-    let (mut vertices, mut indices) = (Vec::new(), Vec::new());
-    let _ = session
-        .read_mesh(chunk, &mut |piece| {
-            match piece {
-                MeshPiece::Vertices { vertices: piece, .. } => vertices.extend_from_slice(piece),
-                MeshPiece::Indices { indices: piece, .. } => indices.extend_from_slice(piece),
-                _ => {}
-            }
-            ControlFlow::Continue(())
-        })
-        .expect("a mesh");
-    (vertices, indices)
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns};
 
 use super::selvedge::{self, TURN_POINTS};
-use super::shape::{Course, Set};
+use super::shape::{Course, Set, Shape};
 use super::{POINTS_MAX, Thread, Woven, zeroed};
 use crate::FabricError;
 
@@ -126,6 +126,15 @@ impl Woven {
 impl Loom<'_> {
     /// Control points of one yarn.
     fn points(&self, strand: &Strand) -> usize {
+        if self.cloth.shape() == Shape::Crossing {
+            // One a crossing and one at each end need not be laid to be counted.
+            return match strand {
+                Strand::End(_) => self.weft.at.len() + 2,
+                Strand::Picks(picks) => {
+                    picks.len() * self.warp.at.len() + 2 + (picks.len() - 1) * TURN_POINTS
+                }
+            };
+        }
         let mut count = 0;
         self.lay(strand, |_, _| count += 1);
         count

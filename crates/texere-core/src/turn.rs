@@ -23,13 +23,26 @@ use bytemuck::{Pod, Zeroable};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Pod, Zeroable)]
 pub struct Turn(pub u32);
 
-/// Steps in a full turn.
-const STEPS: f32 = 4_294_967_296.0;
+/// The sine's coefficients of x³, x⁵ and x⁷, for x within an eighth of a turn.
+pub const SINE: [f32; 3] = [-1.666_665_5e-1, 8.332_161e-3, -1.951_529_6e-4];
 
-/// Radians in one step.
-const RADIANS_PER_STEP: f32 = (std::f64::consts::TAU / 4_294_967_296.0) as f32;
+/// The cosine's coefficients of x⁴, x⁶ and x⁸, likewise.
+pub const COSINE: [f32; 3] = [4.166_664_6e-2, -1.388_731_6e-3, 2.443_315_7e-5];
+
+/// The arctangent's coefficients of q, q³ and so on to q⁹, in turns, for q up to [`TAN_EIGHTH`].
+pub const ARCTANGENT: [f32; 5] =
+    [0.159_154_94, -5.305_101_6e-2, 3.179_573e-2, -2.208_701_8e-2, 1.281_793_2e-2];
+
+/// tan(π/8), where the arctangent's range is cut in two.
+pub const TAN_EIGHTH: f32 = 0.414_213_57;
 
 impl Turn {
+    /// Steps in a full turn.
+    pub const STEPS: f32 = 4_294_967_296.0;
+
+    /// Radians in one step.
+    pub const RADIANS_PER_STEP: f32 = (std::f64::consts::TAU / 4_294_967_296.0) as f32;
+
     /// No turn at all.
     pub const ZERO: Self = Self(0);
 
@@ -39,20 +52,20 @@ impl Turn {
     pub fn from_turns(turns: f32) -> Self {
         // In [-1/2, 1/2]; the subtraction may round a hair below -1/2, which `max` takes back into range.
         let wrapped = (turns - (turns + 0.5).floor()).max(-0.5);
-        Self(((wrapped * STEPS + 0.5).floor() as i32).cast_unsigned())
+        Self(((wrapped * Self::STEPS + 0.5).floor() as i32).cast_unsigned())
     }
 
     /// The angle as a signed fraction of a turn, in \[-1/2, 1/2).
     #[must_use]
     #[inline]
     pub fn turns(self) -> f32 {
-        self.0.cast_signed() as f32 / STEPS
+        self.0.cast_signed() as f32 / Self::STEPS
     }
 
     /// The angle in radians, in \[-π, π).
     #[must_use]
     pub fn radians(self) -> f64 {
-        f64::from(self.0.cast_signed()) * (std::f64::consts::TAU / f64::from(STEPS))
+        f64::from(self.0.cast_signed()) * (std::f64::consts::TAU / f64::from(Self::STEPS))
     }
 
     /// Sine and cosine, each within 1.2e-7 of the truth.
@@ -62,10 +75,11 @@ impl Turn {
         // The nearest quarter turn, and what is left of it, at most an eighth either way: exact in integers.
         let quarter = self.0.wrapping_add(1 << 29) >> 30;
         let rest = self.0.wrapping_sub(quarter << 30).cast_signed();
-        let x = rest as f32 * RADIANS_PER_STEP;
+        let x = rest as f32 * Self::RADIANS_PER_STEP;
         let z = x * x;
-        let sin = ((-1.951_529_6e-4 * z + 8.332_161e-3) * z - 1.666_665_5e-1) * z * x + x;
-        let cos = ((2.443_315_7e-5 * z - 1.388_731_6e-3) * z + 4.166_664_6e-2) * z * z - 0.5 * z + 1.0;
+        let ([s1, s2, s3], [c1, c2, c3]) = (SINE, COSINE);
+        let sin = ((s3 * z + s2) * z + s1) * z * x + x;
+        let cos = ((c3 * z + c2) * z + c1) * z * z - 0.5 * z + 1.0;
         // Without a jump, so that loops over many turns can run in vectors.
         let (sin, cos) = if quarter & 1 == 0 { (sin, cos) } else { (cos, sin) };
         (if quarter & 2 == 0 { sin } else { -sin }, if (quarter + 1) & 2 == 0 { cos } else { -cos })
@@ -108,16 +122,15 @@ impl std::iter::Sum for Turn {
 #[must_use]
 #[inline]
 pub fn atan2_turns(y: f32, x: f32) -> f32 {
-    /// tan(π/8), where the arctangent's range is cut in two.
-    const TAN_EIGHTH: f32 = 0.414_213_57;
     let (along, across) = (x.abs(), y.abs());
     let (low, high) = if across > along { (along, across) } else { (across, along) };
     let (numerator, denominator, eighth) =
         if low > TAN_EIGHTH * high { (low - high, low + high, 0.125) } else { (low, high, 0.0) };
     let q = numerator / denominator;
     let z = q * q;
-    let series = ((1.281_793_2e-2 * z - 2.208_701_8e-2) * z + 3.179_573e-2) * z - 5.305_101_6e-2;
-    let octant = eighth + (series * z * q + 0.159_154_94 * q);
+    let [a1, a3, a5, a7, a9] = ARCTANGENT;
+    let series = ((a9 * z + a7) * z + a5) * z + a3;
+    let octant = eighth + (series * z * q + a1 * q);
     let quadrant = if across > along { 0.25 - octant } else { octant };
     let half = if x < 0.0 { 0.5 - quadrant } else { quadrant };
     let signed = if y < 0.0 { -half } else { half };

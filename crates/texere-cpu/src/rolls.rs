@@ -7,6 +7,9 @@ use texere_core::{Plan, Turn};
 pub(crate) struct Rolls {
     /// The roll at each block's first ring, before a closed yarn's whole turn is spread. Empty where no yarn turns.
     pub(crate) at_block: Vec<Turn>,
+    /// The steps from a block's first ring to each ring, added up, yarn after yarn. Empty where no yarn turns, and where the
+    /// stages add them up again.
+    pub(crate) in_block: Vec<Turn>,
     /// The whole turn of each yarn. Empty where no yarn turns.
     pub(crate) whole: Vec<Turn>,
 }

@@ -32,7 +32,7 @@ pub(crate) struct ChunkRings {
 pub(crate) trait Stages: Debug + Send + 'static {
     /// Whether `mesh` works out its rings itself.
     const FUSED: bool;
-    fn scan(plan: &Plan, points: &PaddedPoints) -> Rolls;
+    fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError>;
     fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings);
     /// `rings` are those of `chunk`, unless fused.
     fn mesh(work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>);
@@ -114,8 +114,8 @@ impl<S: Stages> CpuSession<S> {
             return Ok(());
         }
         let mut rings = std::mem::take(&mut slot.rings);
-        resize("rings", &mut rings.rings, chunk.rings)?;
-        resize("slopes", &mut rings.slopes, chunk.rings)?;
+        resize("rings", &mut rings.rings, chunk.rings.into())?;
+        resize("slopes", &mut rings.slopes, chunk.rings.into())?;
         timed(&mut self.timings.trajectory, || S::trajectory(&self.work, chunk, &mut rings));
         let slot = self.claim(chunk);
         (slot.rings, slot.has_rings) = (rings, true);
@@ -124,22 +124,23 @@ impl<S: Stages> CpuSession<S> {
 }
 
 /// Makes `buffer` `length` long; what it held is lost. Memory that is large enough is kept.
-fn resize<T: bytemuck::Zeroable>(
+pub(crate) fn resize<T: bytemuck::Zeroable>(
     what: &'static str,
     buffer: &mut Vec<T>,
-    length: u32,
+    length: u64,
 ) -> Result<(), BackendError> {
-    if buffer.capacity() < length as usize {
-        *buffer = zeroed(what, u64::from(length))?;
+    if (buffer.capacity() as u64) < length {
+        *buffer = zeroed(what, length)?;
     }
     buffer.resize_with(length as usize, T::zeroed);
     Ok(())
 }
 
-fn timed(total: &mut Duration, work: impl FnOnce()) {
+fn timed<T>(total: &mut Duration, work: impl FnOnce() -> T) -> T {
     let start = Instant::now();
-    work();
+    let result = work();
     *total += start.elapsed();
+    result
 }
 
 impl<S: Stages> Session for CpuSession<S> {
@@ -158,8 +159,8 @@ impl<S: Stages> Session for CpuSession<S> {
 
     fn scan(&mut self) -> Result<(), BackendError> {
         if self.work.plan.needs_scan() {
-            let Self { work, timings, .. } = self;
-            timed(&mut timings.scan, || work.rolls = S::scan(&work.plan, &work.points));
+            let Self { work: Work { plan, points, rolls }, timings, .. } = self;
+            timed(&mut timings.scan, || S::scan(plan, points, rolls))?;
         }
         self.scanned = true;
         Ok(())
@@ -174,8 +175,8 @@ impl<S: Stages> Session for CpuSession<S> {
         let slot = self.claim(chunk);
         let (mut vertices, mut indices) =
             (std::mem::take(&mut slot.vertices), std::mem::take(&mut slot.indices));
-        resize("vertices", &mut vertices, chunk.vertices)?;
-        resize("indices", &mut indices, chunk.indices)?;
+        resize("vertices", &mut vertices, chunk.vertices.into())?;
+        resize("indices", &mut indices, chunk.indices.into())?;
         self.mesh_into(chunk, MeshMut { vertices: &mut vertices, indices: &mut indices })?;
         let slot = self.claim(chunk);
         (slot.vertices, slot.indices, slot.has_mesh) = (vertices, indices, true);

@@ -2,26 +2,92 @@
 #![allow(unsafe_code, reason = "vector instructions and streaming stores")]
 
 use std::arch::x86_64::{
-    __m256, __m256i, _CMP_EQ_OQ, _mm_sfence, _mm256_add_epi32, _mm256_add_ps, _mm256_blendv_ps,
-    _mm256_cmp_ps, _mm256_div_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_mul_ps, _mm256_permute2f128_ps,
-    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps, _mm256_shuffle_ps, _mm256_sqrt_ps,
-    _mm256_storeu_ps, _mm256_stream_ps, _mm256_stream_si256, _mm256_sub_ps, _mm256_unpackhi_ps,
-    _mm256_unpacklo_ps,
+    __m256, __m256i, _CMP_EQ_OQ, _CMP_LT_OQ, _mm_loadu_ps, _mm_sfence, _mm_storeu_ps, _mm256_add_epi32,
+    _mm256_add_ps, _mm256_alignr_epi8, _mm256_and_si256, _mm256_andnot_ps, _mm256_blend_epi32,
+    _mm256_blendv_ps, _mm256_castps_si256, _mm256_castps256_ps128, _mm256_castsi256_ps, _mm256_cmp_ps,
+    _mm256_cmpeq_epi32, _mm256_cvtepi32_ps, _mm256_cvtsi256_si32, _mm256_cvttps_epi32, _mm256_div_ps,
+    _mm256_extractf128_ps, _mm256_floor_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_max_ps,
+    _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permute2x128_si256, _mm256_permutevar8x32_epi32,
+    _mm256_permutevar8x32_ps, _mm256_set_m128, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps,
+    _mm256_setzero_si256, _mm256_shuffle_epi32, _mm256_shuffle_ps, _mm256_slli_epi32, _mm256_slli_si256,
+    _mm256_sqrt_ps, _mm256_srli_epi32, _mm256_storeu_ps, _mm256_storeu_si256, _mm256_stream_ps,
+    _mm256_stream_si256, _mm256_sub_epi32, _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps,
+    _mm256_xor_ps,
 };
+use std::ops::{Add, Div, Mul, Sub};
 
-use super::vector::Vector;
+use super::vector::{LINE, Line, Vector};
 
 // SAFETY, for all blocks in this file: the instructions need AVX2, and `Path` calls code that is generic over vectors with
 // this type only where the processor has it. What is said at a block is about its pointers.
 
-/// Bytes that a streaming store's address has to be a multiple of.
-const ALIGN: usize = 32;
-
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Avx2(__m256);
 
+impl Add for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_add_ps(self.0, other.0) })
+    }
+}
+
+impl Sub for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
+    }
+}
+
+impl Mul for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+    }
+}
+
+impl Div for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_div_ps(self.0, other.0) })
+    }
+}
+
+/// Each half's four by four values, rows for columns.
+#[inline(always)]
+fn transpose(rows: [__m256; 4]) -> [__m256; 4] {
+    // SAFETY: no pointers.
+    unsafe {
+        let [a, b, c, d] = rows;
+        let (low_ab, high_ab) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+        let (low_cd, high_cd) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0x44>(low_ab, low_cd),
+            _mm256_shuffle_ps::<0xee>(low_ab, low_cd),
+            _mm256_shuffle_ps::<0x44>(high_ab, high_cd),
+            _mm256_shuffle_ps::<0xee>(high_ab, high_cd),
+        ]
+    }
+}
+
+/// Two points, one in each half.
+#[inline(always)]
+fn pair(low: &[f32; 4], high: &[f32; 4]) -> __m256 {
+    // SAFETY: each load reads four values, and need not be aligned.
+    unsafe { _mm256_set_m128(_mm_loadu_ps(high.as_ptr()), _mm_loadu_ps(low.as_ptr())) }
+}
+
 impl Vector for Avx2 {
     const LANES: usize = 8;
+    type Mask = __m256;
+    type Whole = __m256i;
 
     #[inline(always)]
     fn load(from: &[f32]) -> Self {
@@ -31,109 +97,237 @@ impl Vector for Avx2 {
     }
 
     #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        let to = &mut to[..8];
+        // SAFETY: eight places are there; the store need not be aligned.
+        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) }
+    }
+
+    #[inline(always)]
     fn splat(value: f32) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_set1_ps(value) })
     }
 
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
+    fn sqrt(self) -> Self {
         // SAFETY: no pointers.
-        Self(unsafe { _mm256_add_ps(self.0, other.0) })
+        Self(unsafe { _mm256_sqrt_ps(self.0) })
     }
 
     #[inline(always)]
-    fn sub(self, other: Self) -> Self {
+    fn floor(self) -> Self {
         // SAFETY: no pointers.
-        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
+        Self(unsafe { _mm256_floor_ps(self.0) })
     }
 
     #[inline(always)]
-    fn mul(self, other: Self) -> Self {
+    fn abs(self) -> Self {
         // SAFETY: no pointers.
-        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+        Self(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) })
     }
 
     #[inline(always)]
-    fn inverse_root(self) -> Self {
+    fn negate(self) -> Self {
         // SAFETY: no pointers.
-        Self(unsafe { _mm256_div_ps(_mm256_set1_ps(1.0), _mm256_sqrt_ps(self.0)) })
+        Self(unsafe { _mm256_xor_ps(_mm256_set1_ps(-0.0), self.0) })
     }
 
     #[inline(always)]
-    fn where_zero(self, here: Self, elsewhere: Self) -> Self {
+    fn min(self, other: Self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> __m256 {
+        // SAFETY: no pointers.
+        unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) }
+    }
+
+    #[inline(always)]
+    fn is_zero(self) -> __m256 {
+        // SAFETY: no pointers.
+        unsafe { _mm256_cmp_ps::<_CMP_EQ_OQ>(self.0, _mm256_setzero_ps()) }
+    }
+
+    #[inline(always)]
+    fn select(mask: __m256, yes: Self, no: Self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_blendv_ps(no.0, yes.0, mask) })
+    }
+
+    #[inline(always)]
+    fn bits(mask: __m256) -> u32 {
+        // SAFETY: no pointers.
+        unsafe { _mm256_movemask_ps(mask) }.cast_unsigned()
+    }
+
+    #[inline(always)]
+    fn pick(from: Self, places: __m256i) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_permutevar8x32_ps(from.0, places) })
+    }
+
+    #[inline(always)]
+    fn preceding(before: Self, here: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe {
-            let zero = _mm256_cmp_ps::<_CMP_EQ_OQ>(self.0, _mm256_setzero_ps());
-            _mm256_blendv_ps(elsewhere.0, here.0, zero)
+            let (before, here) = (_mm256_castps_si256(before.0), _mm256_castps_si256(here.0));
+            // The last half of the one and the first half of the other, from which each half gets its first lane.
+            let middle = _mm256_permute2x128_si256::<0x21>(before, here);
+            _mm256_castsi256_ps(_mm256_alignr_epi8::<12>(here, middle))
         })
     }
 
     #[inline(always)]
-    fn scatter(rows: &[Self], out: &mut [f32], stride: usize) {
-        let (rows, out) = (&rows[..8], &mut out[..7 * stride + 8]);
+    fn components(points: &[[f32; 4]]) -> [Self; 4] {
+        let points = &points[..8];
+        let (a, b) = (pair(&points[0], &points[4]), pair(&points[1], &points[5]));
+        let (c, d) = (pair(&points[2], &points[6]), pair(&points[3], &points[7]));
+        let [a, b, c, d] = transpose([a, b, c, d]);
+        [Self(a), Self(b), Self(c), Self(d)]
+    }
+
+    #[inline(always)]
+    fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize) {
+        let out = &mut out[..7 * stride + 4];
+        let to = out.as_mut_ptr();
+        let [a, b, c, d] = rows;
+        let columns = transpose([a.0, b.0, c.0, d.0]);
         // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
         unsafe {
-            // Pairs of rows, then fours, then halves: the usual transpose of eight by eight.
-            let pairs = |a: usize| {
-                (_mm256_unpacklo_ps(rows[a].0, rows[a + 1].0), _mm256_unpackhi_ps(rows[a].0, rows[a + 1].0))
-            };
-            let ((l01, h01), (l23, h23), (l45, h45), (l67, h67)) = (pairs(0), pairs(2), pairs(4), pairs(6));
-            let low = |a, b| (_mm256_shuffle_ps::<0x44>(a, b), _mm256_shuffle_ps::<0xee>(a, b));
-            let ((a0, a1), (a2, a3)) = (low(l01, l23), low(h01, h23));
-            let ((b0, b1), (b2, b3)) = (low(l45, l67), low(h45, h67));
-            let to = out.as_mut_ptr();
-            for (lane, (a, b)) in [(a0, b0), (a1, b1), (a2, b2), (a3, b3)].into_iter().enumerate() {
-                _mm256_storeu_ps(to.add(lane * stride), _mm256_permute2f128_ps::<0x20>(a, b));
-                _mm256_storeu_ps(to.add((lane + 4) * stride), _mm256_permute2f128_ps::<0x31>(a, b));
+            let half = to.add(4 * stride);
+            for (lane, column) in columns.into_iter().enumerate() {
+                _mm_storeu_ps(to.add(lane * stride), _mm256_castps256_ps128(column));
+                _mm_storeu_ps(half.add(lane * stride), _mm256_extractf128_ps::<1>(column));
             }
         }
     }
 
     #[inline(always)]
-    fn stream(from: &[f32], to: &mut [f32]) {
-        let from = &from[..to.len()];
-        let head = (to.as_ptr().align_offset(ALIGN)).min(to.len());
-        let vectors = (to.len() - head) / 8;
-        to[..head].copy_from_slice(&from[..head]);
-        // SAFETY: `vectors` times eight values lie behind `head` in both, and `to` is aligned there.
+    fn load_whole(from: &[u32]) -> __m256i {
+        let from = &from[..8];
+        // SAFETY: eight values are there; the load need not be aligned.
+        unsafe { _mm256_loadu_si256(from.as_ptr().cast()) }
+    }
+
+    #[inline(always)]
+    fn store_whole(values: __m256i, to: &mut [u32]) {
+        let to = &mut to[..8];
+        // SAFETY: eight places are there; the store need not be aligned.
+        unsafe { _mm256_storeu_si256(to.as_mut_ptr().cast(), values) }
+    }
+
+    #[inline(always)]
+    fn splat_whole(value: u32) -> __m256i {
+        // SAFETY: no pointers.
+        unsafe { _mm256_set1_epi32(value.cast_signed()) }
+    }
+
+    #[inline(always)]
+    fn add_whole(a: __m256i, b: __m256i) -> __m256i {
+        // SAFETY: no pointers.
+        unsafe { _mm256_add_epi32(a, b) }
+    }
+
+    #[inline(always)]
+    fn sub_whole(a: __m256i, b: __m256i) -> __m256i {
+        // SAFETY: no pointers.
+        unsafe { _mm256_sub_epi32(a, b) }
+    }
+
+    #[inline(always)]
+    fn first(a: __m256i) -> u32 {
+        // SAFETY: no pointers.
+        unsafe { _mm256_cvtsi256_si32(a) }.cast_unsigned()
+    }
+
+    #[inline(always)]
+    fn without_first(a: __m256i) -> __m256i {
+        // SAFETY: no pointers.
+        unsafe { _mm256_blend_epi32::<1>(a, _mm256_setzero_si256()) }
+    }
+
+    #[inline(always)]
+    fn running_sum(a: __m256i) -> __m256i {
+        // SAFETY: no pointers.
         unsafe {
-            let (source, target) = (from.as_ptr().add(head), to.as_mut_ptr().add(head));
-            for vector in 0..vectors {
-                _mm256_stream_ps(target.add(8 * vector), _mm256_loadu_ps(source.add(8 * vector)));
-            }
+            let a = _mm256_add_epi32(a, _mm256_slli_si256::<4>(a));
+            let a = _mm256_add_epi32(a, _mm256_slli_si256::<8>(a));
+            // Each half has its own sums; the second lacks the last one of the first.
+            let first = _mm256_permute2x128_si256::<0x08>(a, a);
+            _mm256_add_epi32(a, _mm256_shuffle_epi32::<0xff>(first))
         }
-        let tail = head + 8 * vectors;
-        to[tail..].copy_from_slice(&from[tail..]);
     }
 
     #[inline(always)]
-    fn stream_pattern(table: &[u32], period: usize, growth: u32, mut base: u32, out: &mut [u32]) {
-        let table = &table[..period + 8];
-        let head = out.as_ptr().align_offset(ALIGN).min(out.len()).min(8);
-        let (first, mut rest) = out.split_at_mut(head);
-        for (index, offset) in first.iter_mut().zip(table) {
-            *index = base + offset;
+    fn splat_last(a: __m256i) -> __m256i {
+        // SAFETY: no pointers.
+        unsafe { _mm256_permutevar8x32_epi32(a, _mm256_set1_epi32(7)) }
+    }
+
+    #[inline(always)]
+    fn shift_left<const BY: i32>(a: __m256i) -> __m256i {
+        // SAFETY: no pointers.
+        unsafe { _mm256_slli_epi32::<BY>(a) }
+    }
+
+    #[inline(always)]
+    fn shift_right<const BY: i32>(a: __m256i) -> __m256i {
+        // SAFETY: no pointers.
+        unsafe { _mm256_srli_epi32::<BY>(a) }
+    }
+
+    #[inline(always)]
+    fn has_bit(a: __m256i, bit: u32) -> __m256 {
+        let bit = Self::splat_whole(bit);
+        // SAFETY: no pointers.
+        unsafe { _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(a, bit), bit)) }
+    }
+
+    #[inline(always)]
+    fn from_signed(a: __m256i) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_cvtepi32_ps(a) })
+    }
+
+    #[inline(always)]
+    fn from_bits(a: __m256i) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_castsi256_ps(a) })
+    }
+
+    #[inline(always)]
+    fn to_signed(self) -> __m256i {
+        // SAFETY: no pointers.
+        unsafe { _mm256_cvttps_epi32(self.0) }
+    }
+
+    #[inline(always)]
+    fn stream(from: &[f32; LINE], to: &mut Line) {
+        let to = to.0.as_mut_ptr();
+        // SAFETY: a line is two aligned vectors; loads need not be aligned.
+        unsafe {
+            _mm256_stream_ps(to, _mm256_loadu_ps(from.as_ptr()));
+            _mm256_stream_ps(to.add(8), _mm256_loadu_ps(from.as_ptr().add(8)));
         }
-        while rest.len() >= period {
-            let (stretch, others) = rest.split_at_mut(period);
-            // SAFETY: `period` is a multiple of eight; `head` is at most eight, and the table has eight values more than
-            // `period`. `stretch` is aligned: it lies whole vectors behind `head`.
-            unsafe {
-                let bases = _mm256_set1_epi32(base.cast_signed());
-                let (source, target) = (table.as_ptr().add(head), stretch.as_mut_ptr());
-                for vector in 0..period / 8 {
-                    let offsets = _mm256_loadu_si256(source.add(8 * vector).cast::<__m256i>());
-                    let target = target.add(8 * vector).cast::<__m256i>();
-                    _mm256_stream_si256(target, _mm256_add_epi32(bases, offsets));
-                }
-            }
-            base += growth;
-            rest = others;
-        }
-        for (k, index) in rest.iter_mut().enumerate() {
-            let place = head + k;
-            *index = if place < period { base + table[place] } else { base + growth + table[place - period] };
+    }
+
+    #[inline(always)]
+    fn stream_indices(table: &[u32; LINE], base: u32, to: &mut Line) {
+        let (bases, to) = (Self::splat_whole(base), to.0.as_mut_ptr());
+        let (first, second) = (Self::load_whole(table), Self::load_whole(&table[8..]));
+        // SAFETY: a line is two aligned vectors.
+        unsafe {
+            _mm256_stream_si256(to.cast(), _mm256_add_epi32(bases, first));
+            _mm256_stream_si256(to.add(8).cast(), _mm256_add_epi32(bases, second));
         }
     }
 

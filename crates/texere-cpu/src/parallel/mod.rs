@@ -2,36 +2,37 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+mod lines;
+mod pages;
 mod path;
+mod portable;
 mod rings;
 mod runs;
 mod scan;
+mod spline;
 mod turns;
 mod vector;
 mod vertices;
 
 use rayon::prelude::*;
-use texere_core::{BLOCK_RINGS, Chunk, MeshMut, PaddedPoints, Plan, Topology, Vertex};
+use texere_core::{
+    BLOCK_RINGS, BackendError, Block, Chunk, MeshMut, PaddedPoints, Plan, Ring, Topology, Vertex,
+};
 
 use crate::caps::caps;
 use crate::rolls::Rolls;
 use crate::session::{ChunkRings, Stages, Work};
+use lines::{IndexLines, IndexTable, VertexLines};
+use path::Job;
 pub(crate) use path::Path;
-use rings::BlockRings;
-use runs::{MeshRun, mesh_runs, ring_runs};
-use vector::{Portable, Vector};
-use vertices::{IndexTable, OVERHANG, vertices};
+use rings::{Rings, Source, Stretch, Walk};
+use runs::{MeshRun, RingRun, mesh_runs, ring_runs, take};
+use spline::Places;
+use vector::{LANES_MAX, LINE, Vector};
+use vertices::{Surface, VERTEX};
 
 #[derive(Debug)]
 pub(crate) struct Parallel;
-
-/// What is the same for all runs of a mesh.
-pub(crate) struct MeshJob<'a> {
-    work: &'a Work,
-    indices: Option<IndexTable>,
-    /// Whether the output is too large for any cache, so that stores had better go past them.
-    streams: bool,
-}
 
 /// Bytes of output from which on stores go past the caches: as much as the last cache of a large processor holds.
 const STREAM_BYTES: usize = 32 << 20;
@@ -39,66 +40,165 @@ const STREAM_BYTES: usize = 32 << 20;
 impl Stages for Parallel {
     const FUSED: bool = true;
 
-    fn scan(plan: &Plan, points: &PaddedPoints) -> Rolls {
-        scan::scan(plan, points)
+    fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
+        scan::scan(plan, points, rolls)
     }
 
     fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
-        ring_runs(chunk, out).into_par_iter().for_each(|run| {
-            let mut rings = BlockRings::new();
-            let mut out = run.rings.iter_mut().zip(run.slopes);
-            for (block, number) in run.blocks.iter().zip(run.first_block..) {
-                rings.make(work, block, number);
-                for (k, (ring, slope)) in (0..rings.count).zip(&mut out) {
-                    (*ring, *slope) = (rings.ring(k), rings.slope[k]);
-                }
-            }
-        });
+        let (path, maker) = (Path::detect(), Maker::new(work));
+        ring_runs(chunk, out).into_par_iter().for_each(|run| path.run(RingJob { maker: &maker, run }));
     }
 
     fn mesh(work: &Work, chunk: &Chunk, _rings: &ChunkRings, mut out: MeshMut<'_>) {
         let (settings, path) = (work.plan.settings(), Path::detect());
         let indexed = settings.topology == Topology::Indexed;
-        let bytes = size_of_val(out.vertices) + size_of_val(out.indices);
-        let indices = indexed.then(|| IndexTable::new(settings.sides));
-        let job = MeshJob { work, indices, streams: bytes >= STREAM_BYTES };
+        pages::prefer_huge(out.vertices);
+        pages::prefer_huge(out.indices);
+        let streams = size_of_val(out.vertices) + size_of_val(out.indices) >= STREAM_BYTES;
+        let (maker, table) = (Maker::new(work), indexed.then(|| IndexTable::new(settings.sides)));
+        let (maker, table) = (&maker, table.as_ref());
         mesh_runs(chunk, settings.sides as usize, indexed, &mut out)
             .into_par_iter()
-            .for_each(|run| path.mesh_run(&job, run));
+            .for_each(|run| path.run(MeshJob { maker, table, streams, run }));
         caps(work, chunk, out);
     }
 }
 
-/// Both stages for a run of blocks.
-#[inline(always)]
-fn mesh_run<V: Vector>(job: &MeshJob<'_>, run: MeshRun<'_>) {
-    let plan = &job.work.plan;
-    let sides = plan.settings().sides as usize;
-    let floats = sides * (size_of::<Vertex>() / size_of::<f32>());
-    let mut scratch = vec![0.0; BLOCK_RINGS as usize * floats + OVERHANG];
-    let mut rings = BlockRings::new();
-    let mut vertices_left: &mut [f32] = bytemuck::cast_slice_mut(run.vertices);
-    let mut indices_left = run.indices;
-    for (block, number) in run.blocks.iter().zip(run.first_block..) {
-        rings.make(job.work, block, number);
-        let outline = plan.outline(plan.yarn(block.yarn as usize).section as usize);
-        vertices::<V>(&rings, outline, &mut scratch);
-        let (own, others) = vertices_left.split_at_mut(rings.count * floats);
-        if job.streams {
-            V::stream(&scratch[..own.len()], own);
-        } else {
-            own.copy_from_slice(&scratch[..own.len()]);
-        }
-        vertices_left = others;
-        if let Some(table) = &job.indices {
-            let (own, others) = indices_left.split_at_mut(block.quads as usize * sides * 6);
-            if job.streams {
-                table.write::<V>(block.first_vertex, own);
-            } else {
-                table.write::<Portable>(block.first_vertex, own);
+/// What is the same for all runs.
+struct Maker<'a> {
+    work: &'a Work,
+    places: Places,
+}
+
+impl<'a> Maker<'a> {
+    fn new(work: &'a Work) -> Self {
+        Self { work, places: Places::new(&work.plan) }
+    }
+
+    /// Calls `take` with the rings of `blocks`, which are one yarn's and follow each other, the first of them number `number`
+    /// among all of the plan: a vector of rings at a time, with their rolls, and how many of them there are.
+    #[inline(always)]
+    fn rings<V: Vector>(&self, blocks: &[Block], number: u64, sink: &mut impl Sink) {
+        let Work { plan, points, rolls } = self.work;
+        let source = Source { plan, points, places: &self.places };
+        let (yarn, first) = (blocks[0].yarn as usize, blocks[0].first_ring);
+        let stretch = Stretch { yarn, first, count: blocks.iter().map(|block| block.rings).sum() };
+        let mut walk = Walk::<V>::new(source, stretch);
+        if plan.settings().frame.is_level(plan.twist_turns(yarn)) {
+            while let count @ 1.. = walk.left() {
+                sink.take(&walk.next(), V::splat_whole(0), count);
             }
-            indices_left = others;
+        } else {
+            while let count @ 1.. = walk.left() {
+                let block = number + u64::from(walk.done / BLOCK_RINGS);
+                let roll = turns::rolls::<V>(plan, rolls, yarn, first + walk.done, block);
+                sink.take(&walk.next().turned(roll), roll, count);
+            }
         }
     }
-    V::fence();
+}
+
+/// What becomes of rings.
+trait Sink {
+    /// Takes the first `count` rings of a vector. It must be inlined, so that it is compiled for the instructions of its
+    /// path.
+    fn take<V: Vector>(&mut self, rings: &Rings<V>, roll: V::Whole, count: usize);
+}
+
+/// Stage 1 for a run of blocks.
+struct RingJob<'a> {
+    maker: &'a Maker<'a>,
+    run: RingRun<'a>,
+}
+
+impl Job for RingJob<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let RingRun { blocks, first_block, rings, slopes } = self.run;
+        let (mut number, mut sink) = (first_block, RingSink { rings, slopes });
+        for blocks in blocks.chunk_by(|a, b| a.yarn == b.yarn) {
+            self.maker.rings::<V>(blocks, number, &mut sink);
+            number += blocks.len() as u64;
+        }
+    }
+}
+
+/// Where a trajectory goes.
+struct RingSink<'a> {
+    rings: &'a mut [Ring],
+    slopes: &'a mut [f32],
+}
+
+impl Sink for RingSink<'_> {
+    #[inline(always)]
+    fn take<V: Vector>(&mut self, rings: &Rings<V>, roll: V::Whole, count: usize) {
+        let mut out = [Ring::default(); LANES_MAX];
+        rings.store(roll, &mut out);
+        take(&mut self.rings, count).copy_from_slice(&out[..count]);
+        let mut slopes = [0.0; LANES_MAX];
+        rings.slope.store(&mut slopes);
+        take(&mut self.slopes, count).copy_from_slice(&slopes[..count]);
+    }
+}
+
+/// Both stages for a run of blocks.
+struct MeshJob<'a> {
+    maker: &'a Maker<'a>,
+    /// What indices are made from, if there are any.
+    table: Option<&'a IndexTable>,
+    /// Whether the output is too large for any cache, so that stores had better go past them.
+    streams: bool,
+    run: MeshRun<'a>,
+}
+
+impl Job for MeshJob<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { maker, table, streams, run } = self;
+        let plan = &maker.work.plan;
+        let sides = plan.settings().sides as usize;
+        let mut scratch = VertexLines::scratch(sides * VERTEX);
+        let (mut vertices_left, mut indices_left) = (run.vertices, run.indices);
+        let mut number = run.first_block;
+        for blocks in run.blocks.chunk_by(|a, b| a.yarn == b.yarn) {
+            let rings: usize = blocks.iter().map(|block| block.rings as usize).sum();
+            let quads: usize = blocks.iter().map(|block| block.quads as usize).sum();
+            let own: &mut [Vertex] = take(&mut vertices_left, rings * sides);
+            let vertices = VertexLines::new(bytemuck::cast_slice_mut(own), streams, &mut scratch);
+            let indices = table.map(|table| {
+                let own = take(&mut indices_left, quads * sides * 6);
+                IndexLines::new(own, streams, table, blocks[0].first_vertex)
+            });
+            let section = plan.yarn(blocks[0].yarn as usize).section as usize;
+            let surface = Surface::new(plan.outline(section));
+            let mut sink = MeshSink { surface, floats: sides * VERTEX, vertices, indices };
+            maker.rings::<V>(blocks, number, &mut sink);
+            sink.vertices.finish();
+            if let Some(indices) = sink.indices {
+                indices.finish::<V>();
+            }
+            number += blocks.len() as u64;
+        }
+        V::fence();
+    }
+}
+
+/// Where a mesh goes.
+struct MeshSink<'a> {
+    surface: Surface<'a>,
+    /// Floats of the vertices of a ring, as many as it has indices.
+    floats: usize,
+    vertices: VertexLines<'a>,
+    indices: Option<IndexLines<'a>>,
+}
+
+impl Sink for MeshSink<'_> {
+    #[inline(always)]
+    fn take<V: Vector>(&mut self, rings: &Rings<V>, _roll: V::Whole, count: usize) {
+        self.surface.write(rings, self.vertices.next());
+        self.vertices.send::<V>(count * self.floats);
+        if let Some(indices) = &mut self.indices {
+            indices.send::<V>(V::LANES * self.floats / LINE);
+        }
+    }
 }

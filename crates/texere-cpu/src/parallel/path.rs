@@ -1,14 +1,10 @@
 //! Which instructions the parallel backend uses, found out at run time.
 #![allow(unsafe_code, reason = "calls functions that need the instructions just asked for")]
 
-use texere_core::{PaddedPoints, Plan, Turn};
+use super::portable::Portable;
+use super::vector::Vector;
 
-use super::runs::MeshRun;
-use super::scan::scan_run;
-use super::vector::Portable;
-use super::{MeshJob, mesh_run};
-
-/// A way through the scan and the mesh, and its vectors.
+/// A way through the stages, and its vectors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Path {
     /// What every processor of the target has.
@@ -16,6 +12,12 @@ pub(crate) enum Path {
     /// x86-64 with AVX2.
     #[cfg(target_arch = "x86_64")]
     Avx2,
+}
+
+/// Work that is written once for all vectors.
+pub(super) trait Job {
+    /// Does it. It must be inlined, so that it is compiled for the instructions of its path.
+    fn run<V: Vector>(self);
 }
 
 /// The environment variable that forces a path, by its name.
@@ -49,33 +51,18 @@ impl Path {
         }
     }
 
-    pub(super) fn scan_run(self, plan: &Plan, points: &PaddedPoints, first: u64, turns: &mut [Turn]) {
+    pub(super) fn run(self, job: impl Job) {
         match self {
-            Self::Portable => scan_run(plan, points, first, turns),
+            Self::Portable => job.run::<Portable>(),
             // SAFETY: `detect` gives this path only where the processor has AVX2.
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => unsafe { scan_run_avx2(plan, points, first, turns) },
-        }
-    }
-
-    pub(super) fn mesh_run(self, job: &MeshJob<'_>, run: MeshRun<'_>) {
-        match self {
-            Self::Portable => mesh_run::<Portable>(job, run),
-            // SAFETY: `detect` gives this path only where the processor has AVX2.
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => unsafe { mesh_run_avx2(job, run) },
+            Self::Avx2 => unsafe { avx2(job) },
         }
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn mesh_run_avx2(job: &MeshJob<'_>, run: MeshRun<'_>) {
-    mesh_run::<super::avx2::Avx2>(job, run);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn scan_run_avx2(plan: &Plan, points: &PaddedPoints, first: u64, turns: &mut [Turn]) {
-    scan_run(plan, points, first, turns);
+fn avx2(job: impl Job) {
+    job.run::<super::avx2::Avx2>();
 }

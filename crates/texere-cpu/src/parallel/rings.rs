@@ -1,255 +1,210 @@
-//! Stage 1 for a block: rings in lanes, one array for each component, in loops that vectorise.
+//! Stage 1 in lanes: consecutive rings of a yarn, a vector of them at a time.
 //!
-//! The formulas and their order are those of `Segment`, `Basis` and `Frame` in the core, so the bits are the same. Where
-//! those branch for a rare case (a yarn at rest, a tangent along z), the loops here only notice it, and the core's own
-//! function is called for that ring.
+//! The formulas and their order are those of `Segment` and `Basis` in the core, so the bits are the same. Where those
+//! branch for a rare case (a yarn at rest, a tangent along z, a yarn's last ring), the lanes only notice it, and the core's
+//! own functions are called for that ring.
 
-use texere_core::{
-    BLOCK_RINGS, Basis, Block, ControlPoint, NO_LENGTH, PaddedPoints, Plan, RADIUS_FLOOR, Ring, SLOPE_LIMIT,
-    Turn, VERTICAL, ZERO_VELOCITY,
-};
+use texere_core::{Basis, ControlPoint, PaddedPoints, Plan, Ring, SLOPE_LIMIT, VERTICAL};
 
-use crate::session::Work;
+use super::spline::{Cubics, Places, xyz};
+use super::vector::{LANES_MAX, Vector, dot, plus, scale};
 
-/// Rings in a full block.
-pub(super) const FULL: usize = BLOCK_RINGS as usize;
-
-/// Room for the rings of a block and the one after it, in whole vectors.
-pub(super) const N: usize = FULL + 8;
-
-/// One component of all rings of a block.
-pub(super) type Lane = [f32; N];
-
-/// The rings of a block, with all that their vertices need.
-pub(super) struct BlockRings {
-    pub(super) count: usize,
-    pub(super) centre: [Lane; 3],
-    pub(super) radius: Lane,
-    pub(super) tangent: [Lane; 3],
-    pub(super) slope: Lane,
-    pub(super) side: [Lane; 3],
-    pub(super) up: [Lane; 3],
-    pub(super) roll: [Turn; N],
-    /// From each centre to the next one.
-    pub(super) chord: [Lane; 3],
-    /// While a block is made: what counts as no velocity, and as too thin.
-    still: Lane,
-    floor: Lane,
+/// What rings are made from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) points: &'a PaddedPoints,
+    pub(super) places: &'a Places,
 }
 
-impl BlockRings {
-    pub(super) fn new() -> Self {
-        const ZERO: Lane = [0.0; N];
+/// Consecutive rings of one yarn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch {
+    pub(super) yarn: usize,
+    pub(super) first: u32,
+    pub(super) count: u32,
+}
+
+/// A vector of consecutive rings, with all that their vertices need.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rings<V> {
+    pub(super) centre: [V; 3],
+    pub(super) radius: V,
+    pub(super) tangent: [V; 3],
+    pub(super) slope: V,
+    pub(super) side: [V; 3],
+    pub(super) up: [V; 3],
+    /// Centre relative to the interval's start, and the interval's end: what chords are made of.
+    pub(super) offset: [V; 3],
+    pub(super) span: [V; 3],
+    /// Zero where an interval starts.
+    pub(super) t: V,
+}
+
+/// Goes along a stretch, a vector of upright rings at a time.
+#[derive(Debug)]
+pub(super) struct Walk<'a, V> {
+    source: Source<'a>,
+    stretch: Stretch,
+    points: &'a [[f32; 4]],
+    /// How many rings of the stretch lie behind, and the next one's interval and place in it.
+    pub(super) done: u32,
+    interval: usize,
+    place: usize,
+    /// The cubics of the intervals from number `first_cubic` on.
+    cubics: Cubics<V>,
+    first_cubic: usize,
+}
+
+impl<'a, V: Vector> Walk<'a, V> {
+    #[inline(always)]
+    pub(super) fn new(source: Source<'a>, stretch: Stretch) -> Self {
+        let Source { plan, points, places } = source;
+        let points = &points.points()[plan.padded_offsets()[stretch.yarn] as usize..];
+        let points = bytemuck::cast_slice::<ControlPoint, _>(points);
+        let per_interval = places.0.len();
+        let interval = stretch.first as usize / per_interval;
         Self {
-            count: 0,
-            centre: [ZERO; 3],
-            radius: ZERO,
-            tangent: [ZERO; 3],
-            slope: ZERO,
-            side: [ZERO; 3],
-            up: [ZERO; 3],
-            roll: [Turn::ZERO; N],
-            chord: [ZERO; 3],
-            still: ZERO,
-            floor: ZERO,
+            source,
+            stretch,
+            points,
+            done: 0,
+            interval,
+            place: stretch.first as usize % per_interval,
+            cubics: Cubics::new(points, interval, plan.sampling().s()),
+            first_cubic: interval,
         }
     }
 
-    /// Makes the rings of `block`, whose number among all of the plan is `number`.
+    /// How many rings there are in the next vector; 0 at the end.
     #[inline(always)]
-    pub(super) fn make(&mut self, work: &Work, block: &Block, number: u64) {
-        let yarn = block.yarn as usize;
-        self.upright(&work.plan, &work.points, yarn, block.first_ring, block.rings as usize);
-        if work.plan.settings().frame.is_level(work.plan.twist_turns(yarn)) {
-            self.roll = [Turn::ZERO; N];
-        } else {
-            self.turn(work, block, number);
+    pub(super) fn left(&self) -> usize {
+        ((self.stretch.count - self.done) as usize).min(V::LANES)
+    }
+
+    /// The next vector of rings. Past the end of the stretch its lanes hold nothing of meaning.
+    #[inline(always)]
+    pub(super) fn next(&mut self) -> Rings<V> {
+        let Source { plan, places, .. } = self.source;
+        let seats = &places.0[self.place];
+        if self.interval + seats.interval[V::LANES - 1] as usize >= self.first_cubic + V::LANES {
+            self.first_cubic = self.interval;
+            self.cubics = Cubics::new(self.points, self.interval, plan.sampling().s());
         }
-    }
-
-    /// Makes `count` rings of `yarn` from `first` on, without rolls.
-    #[inline(always)]
-    pub(super) fn upright(
-        &mut self,
-        plan: &Plan,
-        points: &PaddedPoints,
-        yarn: usize,
-        first: u32,
-        count: usize,
-    ) {
-        self.count = count;
-        self.evaluate(plan, points, yarn, first);
-        self.tangents(plan, points, yarn, first);
-        self.bases();
-    }
-
-    /// Ring `k` of the block.
-    #[inline]
-    pub(super) fn ring(&self, k: usize) -> Ring {
-        Ring {
-            centre: [self.centre[0][k], self.centre[1][k], self.centre[2][k]],
-            radius: self.radius[k],
-            tangent: [self.tangent[0][k], self.tangent[1][k], self.tangent[2][k]],
-            roll: self.roll[k],
+        let behind = V::splat_whole((self.interval - self.first_cubic) as u32);
+        let interval = V::add_whole(V::load_whole(&seats.interval), behind);
+        let t = V::load(&seats.t);
+        let (mut rings, rare) = upright(&self.cubics, interval, t);
+        if rare != 0 || self.stretch.count - self.done <= V::LANES as u32 {
+            rings = self.mended(rings, rare);
         }
+
+        self.done += self.left() as u32;
+        self.place += V::LANES;
+        while self.place >= places.0.len() {
+            self.place -= places.0.len();
+            self.interval += 1;
+        }
+        rings
     }
 
-    /// Centre, radius, velocity (in `tangent`), growth (in `slope`) and chord: each interval's cubic, at each of its rings.
+    /// Has the core make those of the next rings whose bits are set in `rare`, and an open yarn's last ring.
     #[inline(always)]
-    fn evaluate(&mut self, plan: &Plan, points: &PaddedPoints, yarn: usize, first: u32) {
-        let points: &[[f32; 4]] = bytemuck::cast_slice::<ControlPoint, _>(points.yarn(plan, yarn));
-        let (s, step, per_interval) =
-            (plan.sampling().s(), plan.sampling().step(), plan.settings().subdivisions + 1);
-        // The last ring of an open yarn is t = 1 of the interval before.
-        let last = if plan.yarn(yarn).closed { u32::MAX } else { plan.rings(yarn) - 1 };
-        let mut interval = (first / per_interval) as usize - usize::from(first == last);
-        let mut place = first % per_interval;
-        let mut cubic = Cubic::new(points, interval, s);
-        for k in 0..self.count {
-            let at_end = first + k as u32 == last;
-            if k > 0 && place == 0 && !at_end {
-                interval += 1;
-                cubic = Cubic::new(points, interval, s);
+    fn mended(&self, rings: Rings<V>, rare: u32) -> Rings<V> {
+        let mut fields = rings.fields();
+        let mut lanes = [[0.0; LANES_MAX]; FIELDS];
+        for (field, lane) in fields.iter().zip(&mut lanes) {
+            field.store(lane);
+        }
+        mend(&self.source, self.stretch, self.done, rare, &mut lanes);
+        for (field, lane) in fields.iter_mut().zip(&lanes) {
+            *field = V::load(lane);
+        }
+        rings.with_fields(fields)
+    }
+}
+
+/// What a ring that is mended has new.
+const FIELDS: usize = 14;
+
+impl<V: Vector> Rings<V> {
+    /// Writes them to the first `LANES` places of a slice.
+    #[inline(always)]
+    pub(super) fn store(&self, roll: V::Whole, out: &mut [Ring]) {
+        const FLOATS: usize = size_of::<Ring>() / size_of::<f32>();
+        let out: &mut [f32] = bytemuck::cast_slice_mut(out);
+        let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);
+        V::scatter([cx, cy, cz, self.radius], out, FLOATS);
+        V::scatter([tx, ty, tz, V::from_bits(roll)], &mut out[FLOATS / 2..], FLOATS);
+    }
+
+    #[inline(always)]
+    fn fields(&self) -> [V; FIELDS] {
+        let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);
+        let ([sx, sy, sz], [ux, uy, uz]) = (self.side, self.up);
+        [cx, cy, cz, self.radius, tx, ty, tz, self.slope, sx, sy, sz, ux, uy, uz]
+    }
+
+    #[inline(always)]
+    fn with_fields(self, fields: [V; FIELDS]) -> Self {
+        let [cx, cy, cz, radius, tx, ty, tz, slope, sx, sy, sz, ux, uy, uz] = fields;
+        let (centre, tangent) = ([cx, cy, cz], [tx, ty, tz]);
+        Self { centre, radius, tangent, slope, side: [sx, sy, sz], up: [ux, uy, uz], ..self }
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut [[f32; LANES_MAX]; FIELDS]) {
+    let Source { plan, points, .. } = *source;
+    let (yarn, rings) = (stretch.yarn, plan.rings(stretch.yarn));
+    let (padded, closed) = (points.yarn(plan, yarn), plan.yarn(yarn).closed);
+    for (lane, ring) in (done..stretch.count).take(LANES_MAX).map(|k| stretch.first + k).enumerate() {
+        if rare >> lane & 1 == 1 || (!closed && ring + 1 == rings) {
+            let sample = plan.sampling().sample(padded, ring, rings, closed).sample;
+            let (c, t, basis) = (sample.centre, sample.tangent, Basis::upright(sample.tangent));
+            let (s, u) = (basis.side, basis.up);
+            let new =
+                [c.x, c.y, c.z, sample.radius, t.x, t.y, t.z, sample.slope, s.x, s.y, s.z, u.x, u.y, u.z];
+            for (field, value) in lanes.iter_mut().zip(new) {
+                field[lane] = value;
             }
-            let t = if at_end { 1.0 } else { place as f32 * step };
-            let (offset, velocity) = cubic.at(t);
-            let ends_interval = place + 1 == per_interval;
-            for axis in 0..3 {
-                self.centre[axis][k] = cubic.start[axis] + offset[axis];
-                self.tangent[axis][k] = velocity[axis];
-                // Within an interval the next ring completes the chord.
-                self.chord[axis][k] =
-                    if ends_interval { cubic.span[axis] - offset[axis] } else { -offset[axis] };
-                if k > 0 && place > 0 {
-                    self.chord[axis][k - 1] += offset[axis];
-                }
-            }
-            (self.radius[k], self.slope[k]) = (cubic.start[3] + offset[3], velocity[3]);
-            (self.still[k], self.floor[k]) = (cubic.still, cubic.floor);
-            place = if ends_interval { 0 } else { place + 1 };
-        }
-    }
-
-    /// Unit tangents from velocities, slopes from growths, radii held above their floor.
-    #[inline(always)]
-    fn tangents(&mut self, plan: &Plan, points: &PaddedPoints, yarn: usize, first: u32) {
-        let [vx, vy, vz] = &mut self.tangent;
-        let mut at_rest = false;
-        for k in 0..N {
-            let speed_squared = vx[k] * vx[k] + vy[k] * vy[k] + vz[k] * vz[k];
-            // Past `count` lie the leavings of another block, which may rest.
-            at_rest |= k < self.count && (speed_squared <= self.still[k]);
-            let inverse = 1.0 / speed_squared.sqrt();
-            vx[k] *= inverse;
-            vy[k] *= inverse;
-            vz[k] *= inverse;
-            self.slope[k] = (self.slope[k] * inverse).clamp(-SLOPE_LIMIT, SLOPE_LIMIT);
-            self.still[k] -= speed_squared;
-        }
-        if at_rest {
-            self.mend_rest(plan, points, yarn, first);
-        }
-        for k in 0..N {
-            let held = self.radius[k] < self.floor[k];
-            self.radius[k] = if held { self.floor[k] } else { self.radius[k] };
-            self.slope[k] = if held { 0.0 } else { self.slope[k] };
-        }
-    }
-
-    /// Rings without velocity: the core knows their direction.
-    #[cold]
-    fn mend_rest(&mut self, plan: &Plan, points: &PaddedPoints, yarn: usize, first: u32) {
-        let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
-        for k in (0..self.count).filter(|&k| self.still[k] >= 0.0) {
-            let sample = plan.sampling().sample(padded, first + k as u32, rings, closed).sample;
-            for axis in 0..3 {
-                self.tangent[axis][k] = sample.tangent[axis];
-            }
-            self.slope[k] = sample.slope;
-        }
-    }
-
-    /// Upright sides and ups.
-    #[inline(always)]
-    fn bases(&mut self) {
-        let ([tx, ty, tz], [sx, sy, sz], [ux, uy, uz]) = (&self.tangent, &mut self.side, &mut self.up);
-        let mut vertical = false;
-        for k in 0..N {
-            let level = tx[k] * tx[k] + ty[k] * ty[k];
-            vertical |= k < self.count && level < VERTICAL;
-            let inverse = 1.0 / level.sqrt();
-            let (x, y) = (-ty[k] * inverse, tx[k] * inverse);
-            (sx[k], sy[k], sz[k]) = (x, y, 0.0);
-            (ux[k], uy[k], uz[k]) = (-tz[k] * y, tz[k] * x, tx[k] * y - ty[k] * x);
-        }
-        if vertical {
-            self.mend_vertical();
-        }
-    }
-
-    /// Rings whose tangent is along z: the core knows their side.
-    #[cold]
-    fn mend_vertical(&mut self) {
-        for k in 0..self.count {
-            let tangent = glam::Vec3::from_array(self.ring(k).tangent);
-            self.set_basis(k, &Basis::upright(tangent));
-        }
-    }
-
-    fn set_basis(&mut self, k: usize, basis: &Basis) {
-        for axis in 0..3 {
-            self.side[axis][k] = basis.side[axis];
-            self.up[axis][k] = basis.up[axis];
         }
     }
 }
 
-/// One interval of the spline: the coefficients of `Segment`, four components at a time.
-struct Cubic {
-    start: [f32; 4],
-    span: [f32; 4],
-    terms: [[f32; 4]; 3],
-    still: f32,
-    floor: f32,
-}
-
-/// `f` of each of the four components.
+/// Upright rings at `t` of each lane's interval, which is number `interval` of `cubics`, and a bit for each that the core
+/// has to mend.
 #[inline(always)]
-fn each(f: impl FnMut(usize) -> f32) -> [f32; 4] {
-    std::array::from_fn(f)
-}
+fn upright<V: Vector>(cubics: &Cubics<V>, interval: V::Whole, t: V) -> (Rings<V>, u32) {
+    let (one, zero) = (V::splat(1.0), V::splat(0.0));
+    let sampled = cubics.sample(interval, t);
+    let (offset, velocity) = (xyz(sampled.offset), xyz(sampled.velocity));
 
-impl Cubic {
-    #[inline(always)]
-    fn new(points: &[[f32; 4]], interval: usize, s: f32) -> Self {
-        let [before, start, end, after] =
-            [points[interval], points[interval + 1], points[interval + 2], points[interval + 3]];
-        let a = each(|k| before[k] - start[k]);
-        let b = each(|k| end[k] - start[k]);
-        let c = each(|k| after[k] - start[k]);
-        let (doubled, rest, less) = (2.0 * s, 3.0 - 2.0 * s, s - 2.0);
-        let squared = |v: [f32; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-        Self {
-            start,
-            span: b,
-            terms: [
-                each(|k| (b[k] - a[k]) * s),
-                each(|k| a[k] * doubled + b[k] * rest - c[k] * s),
-                each(|k| (c[k] - a[k]) * s + b[k] * less),
-            ],
-            still: (ZERO_VELOCITY * (squared(a) + squared(b) + squared(c))).max(NO_LENGTH),
-            floor: start[3].min(end[3]) * RADIUS_FLOOR,
-        }
-    }
+    let speed_squared = dot(velocity, velocity);
+    let moves = V::less(sampled.at_rest, speed_squared);
+    let inverse = one / speed_squared.sqrt();
+    let tangent = scale(velocity, inverse);
+    let limit = V::splat(SLOPE_LIMIT);
+    let slope = (sampled.velocity[3] * inverse).max(limit.negate()).min(limit);
+    let radius = sampled.start[3] + sampled.offset[3];
+    let held = V::less(radius, sampled.floor);
 
-    /// Offset from the start, and derivative, at `t`.
-    #[inline(always)]
-    fn at(&self, t: f32) -> ([f32; 4], [f32; 4]) {
-        let [c1, c2, c3] = &self.terms;
-        let thrice = 3.0 * t;
-        (
-            each(|k| (c1[k] + (c2[k] + c3[k] * t) * t) * t),
-            each(|k| c1[k] + (c2[k] * 2.0 + c3[k] * thrice) * t),
-        )
-    }
+    let [x, y, z] = tangent;
+    let level = x * x + y * y;
+    let vertical = V::less(level, V::splat(VERTICAL));
+    let inverse = one / level.sqrt();
+    let (side_x, side_y) = (y.negate() * inverse, x * inverse);
+    let rings = Rings {
+        centre: plus(xyz(sampled.start), offset),
+        radius: V::select(held, sampled.floor, radius),
+        tangent,
+        slope: V::select(held, zero, slope),
+        side: [side_x, side_y, zero],
+        up: [z.negate() * side_y, z * side_x, x * side_y - y * side_x],
+        offset,
+        span: sampled.span,
+        t,
+    };
+    (rings, (V::bits(moves) ^ V::ALL) | V::bits(vertical))
 }

@@ -61,7 +61,7 @@ pub(super) fn mesh_runs<'a>(
 }
 
 /// Splits the first `count` values off `left`.
-fn take<'a, T>(left: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+pub(super) fn take<'a, T>(left: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let (taken, rest) = std::mem::take(left).split_at_mut(count);
     *left = rest;
     taken

@@ -1,54 +1,100 @@
-//! Rolls at block starts: each block adds up its own steps, then a running sum along each yarn.
+//! Rolls: each block adds up its own steps, then a running sum along each yarn.
 
 use rayon::prelude::*;
-use texere_core::{BLOCK_RINGS, PaddedPoints, Plan, Turn};
+use texere_core::{BLOCK_RINGS, BackendError, PaddedPoints, Plan, Turn};
 
-use super::path::Path;
-use super::rings::{BlockRings, FULL};
+use super::path::{Job, Path};
+use super::rings::{Source, Stretch, Walk};
+use super::runs::take;
+use super::spline::Places;
+use super::turns::Steps;
+use super::vector::{LANES_MAX, Vector};
 use crate::rolls::Rolls;
+use crate::session::resize;
 
-/// Blocks that one rayon item adds up: 4,096 rings.
-const BLOCKS_AT_ONCE: usize = 64;
+/// Rings that one rayon item goes along, whole blocks.
+const RUN_RINGS: u32 = 64 * BLOCK_RINGS;
 
-pub(super) fn scan(plan: &Plan, points: &PaddedPoints) -> Rolls {
-    let mut rolls = Rolls { at_block: vec![Turn::ZERO; plan.block_count() as usize], whole: Vec::new() };
-    let offsets = plan.block_offsets();
-    let path = Path::detect();
-    rolls.at_block.par_chunks_mut(BLOCKS_AT_ONCE).enumerate().for_each(|(run, turns)| {
-        path.scan_run(plan, points, (run * BLOCKS_AT_ONCE) as u64, turns);
-    });
-    for bounds in offsets.windows(2) {
+pub(super) fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
+    let Rolls { at_block, in_block, whole } = rolls;
+    resize("rolls", at_block, plan.block_count())?;
+    // A vector may reach past the last ring.
+    resize("rolls", in_block, plan.counts().rings + LANES_MAX as u64)?;
+    let (path, places) = (Path::detect(), Places::new(plan));
+    let source = Source { plan, points, places: &places };
+    runs(plan, at_block, in_block).into_par_iter().for_each(|run| path.run(ScanRun { source, run }));
+    whole.clear();
+    for bounds in plan.block_offsets().windows(2) {
         let mut roll = Turn::ZERO;
-        for turn in &mut rolls.at_block[bounds[0] as usize..bounds[1] as usize] {
+        for turn in &mut at_block[bounds[0] as usize..bounds[1] as usize] {
             let here = roll;
             roll = roll + *turn;
             *turn = here;
         }
-        rolls.whole.push(roll);
+        whole.push(roll);
     }
-    rolls
+    Ok(())
 }
 
-/// Each block's own steps, added up; the first block is number `first` among all of the plan.
-#[inline(always)]
-pub(super) fn scan_run(plan: &Plan, points: &PaddedPoints, first: u64, turns: &mut [Turn]) {
-    let offsets = plan.block_offsets();
-    let mut rings = BlockRings::new();
-    let mut yarn = offsets.partition_point(|&start| start <= first) - 1;
-    for (turn, block) in turns.iter_mut().zip(first..) {
-        if block == offsets[yarn + 1] {
-            yarn += 1;
+/// Consecutive blocks of one yarn, and where their sums go.
+struct Run<'a> {
+    yarn: usize,
+    first_ring: u32,
+    /// For each block, all its steps: to the next one's first ring, or to the yarn's last ring.
+    blocks: &'a mut [Turn],
+    /// For each ring, the steps to it from its block's first ring.
+    rings: &'a mut [Turn],
+}
+
+fn runs<'a>(plan: &Plan, mut blocks: &'a mut [Turn], mut rings: &'a mut [Turn]) -> Vec<Run<'a>> {
+    let mut runs = Vec::new();
+    for yarn in 0..plan.layout().yarns().len() {
+        let mut first_ring = 0;
+        while first_ring < plan.rings(yarn) {
+            let count = (plan.rings(yarn) - first_ring).min(RUN_RINGS);
+            let blocks = take(&mut blocks, count.div_ceil(BLOCK_RINGS) as usize);
+            runs.push(Run { yarn, first_ring, blocks, rings: take(&mut rings, count as usize) });
+            first_ring += count;
         }
-        *turn = block_turn(&mut rings, plan, points, yarn, (block - offsets[yarn]) as u32 * BLOCK_RINGS);
     }
+    runs
 }
 
-/// The steps from ring `first` of `yarn` to the first ring of the next block, or to the yarn's end, added up.
-#[inline(always)]
-fn block_turn(rings: &mut BlockRings, plan: &Plan, points: &PaddedPoints, yarn: usize, first: u32) -> Turn {
-    let count = (plan.rings(yarn) - 1 - first).min(BLOCK_RINGS) as usize;
-    rings.upright(plan, points, yarn, first, count + 1);
-    let mut steps = [Turn::ZERO; FULL];
-    rings.steps(plan.settings().frame, plan.twist_turns(yarn), &mut steps);
-    steps.into_iter().take(count).sum()
+struct ScanRun<'a> {
+    source: Source<'a>,
+    run: Run<'a>,
+}
+
+impl Job for ScanRun<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { source, run: Run { yarn, first_ring, blocks, rings } } = self;
+        // One more than its own, unless the yarn ends: the step to that one is the last block's.
+        let count = (rings.len() as u32 + 1).min(source.plan.rings(yarn) - first_ring);
+        let mut walk = Walk::<V>::new(source, Stretch { yarn, first: first_ring, count });
+        let mut steps = Steps::<V>::new(&source, yarn);
+        for (number, rings) in rings.chunks_mut(BLOCK_RINGS as usize).enumerate() {
+            let mut sum = V::splat_whole(0);
+            for (group, rings) in rings.chunks_mut(V::LANES).enumerate() {
+                let mut own = steps.next(&walk.next());
+                if group == 0 {
+                    if let Some(before) = number.checked_sub(1) {
+                        blocks[before] = blocks[before] + Turn(V::first(own));
+                    }
+                    own = V::without_first(own);
+                }
+                let mut sums = [0; LANES_MAX];
+                sum = V::add_whole(V::splat_last(sum), V::running_sum(own));
+                V::store_whole(sum, &mut sums);
+                rings.copy_from_slice(&bytemuck::cast_slice(&sums)[..rings.len()]);
+            }
+            blocks[number] = rings.last().copied().unwrap_or_default();
+        }
+        if walk.left() > 0 {
+            let own = steps.next(&walk.next());
+            if let Some(last) = blocks.last_mut() {
+                *last = *last + Turn(V::first(own));
+            }
+        }
+    }
 }

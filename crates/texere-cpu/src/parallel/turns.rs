@@ -1,63 +1,159 @@
-//! Rolls of a block's rings: each step's turn in lanes, then their sum.
+//! Rolls in lanes: `Frame::step` and `Turn` of the core, without their jumps.
 
-use glam::Vec3;
-use texere_core::{Block, Frame, NO_LENGTH, NO_MIRROR, Turn, atan2_turns};
+use texere_core::{ARCTANGENT, COSINE, Frame, NO_LENGTH, NO_MIRROR, Plan, SINE, TAN_EIGHTH, Turn};
 
-use super::rings::{BlockRings, FULL, N};
-use crate::session::Work;
+use super::rings::{Rings, Source};
+use super::vector::{LANES_MAX, Vector, difference, dot, plus, scale, select};
+use crate::rolls::Rolls;
 
-impl BlockRings {
-    /// Rolls from the block's start on, and the bases turned by them.
+/// The steps along upright rings.
+#[derive(Debug)]
+pub(super) struct Steps<V> {
+    minimizing: bool,
+    /// Turns per mm; none where it is zero.
+    twist: Option<V>,
+    /// The vector of rings before the present one, if there is one.
+    before: Option<Rings<V>>,
+}
+
+impl<V: Vector> Steps<V> {
     #[inline(always)]
-    pub(super) fn turn(&mut self, work: &Work, block: &Block, number: u64) {
-        let (plan, yarn) = (&work.plan, block.yarn as usize);
-        let mut steps = [Turn::ZERO; FULL];
-        self.steps(plan.settings().frame, plan.twist_turns(yarn), &mut steps);
-        let mut sum = work.rolls.at_block(number);
-        for (k, step) in steps.into_iter().enumerate().take(self.count) {
-            self.roll[k] = work.rolls.closed_up(plan, yarn, block.first_ring + k as u32, sum);
-            sum = sum + step;
-        }
-        for k in 0..N {
-            let (sin, cos) = self.roll[k].sin_cos();
-            let level = self.roll[k] == Turn::ZERO;
-            for axis in 0..3 {
-                let (side, up) = (self.side[axis][k], self.up[axis][k]);
-                self.side[axis][k] = if level { side } else { side * cos + up * sin };
-                self.up[axis][k] = if level { up } else { up * cos - side * sin };
-            }
+    pub(super) fn new(source: &Source<'_>, yarn: usize) -> Self {
+        let twist = source.plan.twist_turns(yarn);
+        Self {
+            minimizing: source.plan.settings().frame == Frame::RotationMinimizing,
+            twist: (twist != 0.0).then(|| V::splat(twist)),
+            before: None,
         }
     }
 
-    /// The turn from each ring to the next one, from upright bases: `Frame::step`, without its jumps.
+    /// The step to each of the next rings from the one before it. That to the very first means nothing.
     #[inline(always)]
-    pub(super) fn steps(&self, frame: Frame, twist: f32, steps: &mut [Turn; FULL]) {
-        let minimizing = frame == Frame::RotationMinimizing;
-        let at = |lanes: &[[f32; N]; 3], k: usize| Vec3::new(lanes[0][k], lanes[1][k], lanes[2][k]);
-        let mut turns = [0.0; FULL];
-        if minimizing {
-            for (k, turn) in turns.iter_mut().enumerate() {
-                let (tangent, chord) = (at(&self.tangent, k), at(&self.chord, k));
-                let length_squared = chord.length_squared();
-                let apart = length_squared > NO_LENGTH;
-                let mirror = if apart { chord } else { tangent };
-                let mirror_squared = if apart { length_squared } else { 1.0 };
-                let side = reflect(at(&self.side, k), mirror, mirror_squared);
-                let second = at(&self.tangent, k + 1) - reflect(tangent, mirror, mirror_squared);
-                let second_squared = second.length_squared();
-                let twice = reflect(side, second, second_squared);
-                let side = if second_squared > NO_MIRROR { twice } else { side };
-                *turn = atan2_turns(side.dot(at(&self.up, k + 1)), side.dot(at(&self.side, k + 1)));
-            }
-        }
-        for (k, (step, turn)) in steps.iter_mut().zip(turns).enumerate() {
-            *step = Turn::from_turns(turn + twist * at(&self.chord, k).length_squared().sqrt());
+    pub(super) fn next(&mut self, rings: &Rings<V>) -> V::Whole {
+        let before = self.before.replace(*rings).unwrap_or(*rings);
+        self.between(&before, rings)
+    }
+
+    #[inline(always)]
+    fn between(&self, before: &Rings<V>, rings: &Rings<V>) -> V::Whole {
+        let offset = preceding(before.offset, rings.offset);
+        let span = preceding(before.span, rings.span);
+        // The last ring of an interval is followed by the start of the next one.
+        let chord = difference(select(rings.t.is_zero(), span, rings.offset), offset);
+        let length_squared = dot(chord, chord);
+        let turn =
+            if self.minimizing { transport(before, rings, chord, length_squared) } else { V::splat(0.0) };
+        match self.twist {
+            Some(twist) => from_turns(turn + twist * length_squared.sqrt()),
+            None => from_turns(turn),
         }
     }
 }
 
+impl<V: Vector> Rings<V> {
+    /// These rings with their bases turned by `roll`.
+    #[inline(always)]
+    pub(super) fn turned(&self, roll: V::Whole) -> Self {
+        let (sin, cos) = sin_cos::<V>(roll);
+        let level = V::from_signed(roll).is_zero();
+        let (side, up) = (self.side, self.up);
+        Self {
+            side: select(level, side, plus(scale(side, cos), scale(up, sin))),
+            up: select(level, up, difference(scale(up, cos), scale(side, sin))),
+            ..*self
+        }
+    }
+}
+
+/// Rolls of a vector of rings of `yarn`, from ring `first` in block `block` on.
+#[inline(always)]
+pub(super) fn rolls<V: Vector>(plan: &Plan, rolls: &Rolls, yarn: usize, first: u32, block: u64) -> V::Whole {
+    let place = (plan.ring_offsets()[yarn] + u64::from(first)) as usize;
+    let in_block = V::load_whole(bytemuck::cast_slice(&rolls.in_block[place..]));
+    let sums = V::add_whole(V::splat_whole(rolls.at_block(block).0), in_block);
+    if !plan.yarn(yarn).closed {
+        return sums;
+    }
+    let mut lanes = [0; LANES_MAX];
+    V::store_whole(sums, &mut lanes);
+    for (roll, ring) in lanes.iter_mut().zip(first..plan.rings(yarn)) {
+        *roll = rolls.closed_up(plan, yarn, ring, Turn(*roll)).0;
+    }
+    V::load_whole(&lanes)
+}
+
+/// The vectors of the rings before `here`, the first of which is the last one in `before`.
+#[inline(always)]
+fn preceding<V: Vector>(before: [V; 3], here: [V; 3]) -> [V; 3] {
+    [V::preceding(before[0], here[0]), V::preceding(before[1], here[1]), V::preceding(before[2], here[2])]
+}
+
+/// Double reflection from the rings before to `rings`, in turns.
+#[inline(always)]
+fn transport<V: Vector>(before: &Rings<V>, rings: &Rings<V>, chord: [V; 3], length_squared: V) -> V {
+    let tangent = preceding(before.tangent, rings.tangent);
+    let apart = V::less(V::splat(NO_LENGTH), length_squared);
+    let mirror = select(apart, chord, tangent);
+    let mirror_squared = V::select(apart, length_squared, V::splat(1.0));
+    let side = reflect(preceding(before.side, rings.side), mirror, mirror_squared);
+    let second = difference(rings.tangent, reflect(tangent, mirror, mirror_squared));
+    let second_squared = dot(second, second);
+    let bends = V::less(V::splat(NO_MIRROR), second_squared);
+    let side = select(bends, reflect(side, second, second_squared), side);
+    atan2_turns(dot(side, rings.up), dot(side, rings.side))
+}
+
 /// `v` mirrored in the plane at right angles to `mirror`.
 #[inline(always)]
-fn reflect(v: Vec3, mirror: Vec3, mirror_squared: f32) -> Vec3 {
-    v - mirror * (2.0 * v.dot(mirror) / mirror_squared)
+fn reflect<V: Vector>(v: [V; 3], mirror: [V; 3], mirror_squared: V) -> [V; 3] {
+    let share = V::splat(2.0) * dot(v, mirror) / mirror_squared;
+    difference(v, scale(mirror, share))
+}
+
+/// `Turn::from_turns`
+#[inline(always)]
+fn from_turns<V: Vector>(turns: V) -> V::Whole {
+    let half = V::splat(0.5);
+    let wrapped = (turns - (turns + half).floor()).max(half.negate());
+    (wrapped * V::splat(Turn::STEPS) + half).floor().to_signed()
+}
+
+/// `Turn::sin_cos`
+#[inline(always)]
+fn sin_cos<V: Vector>(turn: V::Whole) -> (V, V) {
+    let quarter = V::shift_right::<30>(V::add_whole(turn, V::splat_whole(1 << 29)));
+    let rest = V::sub_whole(turn, V::shift_left::<30>(quarter));
+    let x = V::from_signed(rest) * V::splat(Turn::RADIANS_PER_STEP);
+    let z = x * x;
+    let ([s1, s2, s3], [c1, c2, c3]) = (SINE, COSINE);
+    let (s1, s2, s3) = (V::splat(s1), V::splat(s2), V::splat(s3));
+    let (c1, c2, c3) = (V::splat(c1), V::splat(c2), V::splat(c3));
+    let sin = ((s3 * z + s2) * z + s1) * z * x + x;
+    let cos = ((c3 * z + c2) * z + c1) * z * z - V::splat(0.5) * z + V::splat(1.0);
+    let odd = V::has_bit(quarter, 1);
+    let (sin, cos) = (V::select(odd, cos, sin), V::select(odd, sin, cos));
+    let below = V::has_bit(quarter, 2);
+    let left = V::has_bit(V::add_whole(quarter, V::splat_whole(1)), 2);
+    (V::select(below, sin.negate(), sin), V::select(left, cos.negate(), cos))
+}
+
+/// `atan2_turns` of the core
+#[inline(always)]
+fn atan2_turns<V: Vector>(y: V, x: V) -> V {
+    let (along, across) = (x.abs(), y.abs());
+    let steep = V::less(along, across);
+    let (low, high) = (V::select(steep, along, across), V::select(steep, across, along));
+    let beyond = V::less(V::splat(TAN_EIGHTH) * high, low);
+    let numerator = V::select(beyond, low - high, low);
+    let denominator = V::select(beyond, low + high, high);
+    let eighth = V::select(beyond, V::splat(0.125), V::splat(0.0));
+    let q = numerator / denominator;
+    let z = q * q;
+    let [a1, a3, a5, a7, a9] = ARCTANGENT;
+    let series = ((V::splat(a9) * z + V::splat(a7)) * z + V::splat(a5)) * z + V::splat(a3);
+    let octant = eighth + (series * z * q + V::splat(a1) * q);
+    let quadrant = V::select(steep, V::splat(0.25) - octant, octant);
+    let half = V::select(V::less(x, V::splat(0.0)), V::splat(0.5) - quadrant, quadrant);
+    let signed = V::select(V::less(y, V::splat(0.0)), half.negate(), half);
+    V::select(high.is_zero(), V::splat(0.0), signed)
 }

@@ -1,123 +1,173 @@
-//! Vectors of `f32`, one implementation for each kind of processor.
+//! Vectors of `f32` and of `u32`, one implementation for each kind of processor.
 
-/// What stage 2 needs of a vector.
+use std::ops::{Add, Div, Mul, Sub};
+
+use bytemuck::{Pod, Zeroable};
+
+/// Floats of a cache line.
+pub(super) const LINE: usize = 16;
+
+/// A cache line of the output: what can be written past the caches without a read before it.
+#[repr(C, align(64))]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(super) struct Line(pub(super) [f32; LINE]);
+
+/// The most lanes that an implementation has.
+pub(super) const LANES_MAX: usize = 16;
+
+/// What the stages need of a vector.
 ///
 /// Arithmetic is plain IEEE, lane by lane, without fused multiply-add, so that every implementation gives the same bits.
 /// The methods of an implementation may be called only on a processor that has its instructions: generic code is reached
 /// by way of [`Path`](super::path::Path) alone, which has asked.
-pub(super) trait Vector: Copy {
-    /// Lanes: a power of two, at most 8.
+pub(super) trait Vector:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// Lanes: a power of two, from 4 to [`LANES_MAX`].
     const LANES: usize;
+
+    /// The bits of a mask that says yes in all lanes.
+    const ALL: u32 = (1 << Self::LANES) - 1;
+
+    /// Yes or no in each lane.
+    type Mask: Copy;
+
+    /// As many lanes of `u32`.
+    type Whole: Copy;
 
     /// The first `LANES` values of a slice.
     fn load(from: &[f32]) -> Self;
 
+    /// Writes the lanes to the first `LANES` places of a slice.
+    fn store(self, to: &mut [f32]);
+
     /// One value in all lanes.
     fn splat(value: f32) -> Self;
 
-    /// `self + other`
-    fn add(self, other: Self) -> Self;
+    /// The root, rounded correctly.
+    fn sqrt(self) -> Self;
 
-    /// `self - other`
-    fn sub(self, other: Self) -> Self;
+    /// The next whole number below.
+    fn floor(self) -> Self;
 
-    /// `self * other`
-    fn mul(self, other: Self) -> Self;
+    /// The value without its sign.
+    fn abs(self) -> Self;
 
-    /// `1 / √self`, by a division and a root that are rounded correctly.
-    fn inverse_root(self) -> Self;
+    /// The value with its sign turned over.
+    fn negate(self) -> Self;
 
-    /// `here` in the lanes where `self` is zero, `elsewhere` in the others.
-    fn where_zero(self, here: Self, elsewhere: Self) -> Self;
+    /// The smaller one; neither is NaN.
+    fn min(self, other: Self) -> Self;
 
-    /// Stores lane l of row r, of `LANES` rows, at `out[l * stride + r]`.
-    fn scatter(rows: &[Self], out: &mut [f32], stride: usize);
+    /// The larger one; neither is NaN.
+    fn max(self, other: Self) -> Self;
 
-    /// Copies past the caches, where the processor can: for outputs that no cache would hold anyway. Only a
+    /// `self < other`
+    fn less(self, other: Self) -> Self::Mask;
+
+    /// `self == 0`
+    fn is_zero(self) -> Self::Mask;
+
+    /// `yes` where `mask` says so, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// A bit for each lane, the first lane's lowest.
+    fn bits(mask: Self::Mask) -> u32;
+
+    /// Lane l is lane `places[l]` of `from`; places are below `LANES`.
+    fn pick(from: Self, places: Self::Whole) -> Self;
+
+    /// Lane l is lane l - 1 of `here`, the first one the last of `before`.
+    fn preceding(before: Self, here: Self) -> Self;
+
+    /// The four components of `LANES` points.
+    fn components(points: &[[f32; 4]]) -> [Self; 4];
+
+    /// Stores lane l of row r at `out[l * stride + r]`.
+    fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize);
+
+    /// The first `LANES` values of a slice.
+    fn load_whole(from: &[u32]) -> Self::Whole;
+
+    /// Writes the lanes to the first `LANES` places of a slice.
+    fn store_whole(values: Self::Whole, to: &mut [u32]);
+
+    /// One value in all lanes.
+    fn splat_whole(value: u32) -> Self::Whole;
+
+    /// `a + b`, wrapping.
+    fn add_whole(a: Self::Whole, b: Self::Whole) -> Self::Whole;
+
+    /// `a - b`, wrapping.
+    fn sub_whole(a: Self::Whole, b: Self::Whole) -> Self::Whole;
+
+    /// The first lane.
+    fn first(a: Self::Whole) -> u32;
+
+    /// `a`, but 0 in the first lane.
+    fn without_first(a: Self::Whole) -> Self::Whole;
+
+    /// Each lane and those before it, added up, wrapping.
+    fn running_sum(a: Self::Whole) -> Self::Whole;
+
+    /// The last lane in all lanes.
+    fn splat_last(a: Self::Whole) -> Self::Whole;
+
+    /// `a << BY`
+    fn shift_left<const BY: i32>(a: Self::Whole) -> Self::Whole;
+
+    /// `a >> BY`
+    fn shift_right<const BY: i32>(a: Self::Whole) -> Self::Whole;
+
+    /// `a & bit != 0`
+    fn has_bit(a: Self::Whole, bit: u32) -> Self::Mask;
+
+    /// The nearest floats to lanes taken as `i32`.
+    fn from_signed(a: Self::Whole) -> Self;
+
+    /// The floats that have the lanes' bits.
+    fn from_bits(a: Self::Whole) -> Self;
+
+    /// Whole numbers within the range of `i32`.
+    fn to_signed(self) -> Self::Whole;
+
+    /// Copies a line past the caches, where the processor can: for outputs that no cache would hold anyway. Only a
     /// [`Vector::fence`] makes the copy sure to be seen by other threads.
-    fn stream(from: &[f32], to: &mut [f32]);
+    fn stream(from: &[f32; LINE], to: &mut Line);
 
-    /// Writes `base + table[start + i]` to `out[i]`, past the caches where the processor can; from `period` on the table
-    /// goes on from its start with `base` grown by `growth`. `table` has a vector's lanes more than `period`, and `period`
-    /// is a multiple of them.
-    fn stream_pattern(table: &[u32], period: usize, growth: u32, base: u32, out: &mut [u32]);
+    /// Writes the line `base + table[i]`, past the caches where the processor can.
+    fn stream_indices(table: &[u32; LINE], base: u32, to: &mut Line);
 
     /// Ends streaming: what was written is there for other threads.
     fn fence();
 }
 
-/// Four lanes in plain Rust, which the compiler turns into whatever vectors there are.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Portable([f32; 4]);
-
-impl Portable {
-    #[inline(always)]
-    fn each(f: impl Fn(usize) -> f32) -> Self {
-        Self([f(0), f(1), f(2), f(3)])
-    }
+/// Dot product, added up in the order of `Vec3::dot`.
+#[inline(always)]
+pub(super) fn dot<V: Vector>(a: [V; 3], b: [V; 3]) -> V {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-impl Vector for Portable {
-    const LANES: usize = 4;
+/// `v * factor`
+#[inline(always)]
+pub(super) fn scale<V: Vector>(v: [V; 3], factor: V) -> [V; 3] {
+    [v[0] * factor, v[1] * factor, v[2] * factor]
+}
 
-    #[inline(always)]
-    fn load(from: &[f32]) -> Self {
-        Self([from[0], from[1], from[2], from[3]])
-    }
+/// `a + b`
+#[inline(always)]
+pub(super) fn plus<V: Vector>(a: [V; 3], b: [V; 3]) -> [V; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
 
-    #[inline(always)]
-    fn splat(value: f32) -> Self {
-        Self([value; 4])
-    }
+/// `a - b`
+#[inline(always)]
+pub(super) fn difference<V: Vector>(a: [V; 3], b: [V; 3]) -> [V; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self::each(|lane| self.0[lane] + other.0[lane])
-    }
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self::each(|lane| self.0[lane] - other.0[lane])
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self::each(|lane| self.0[lane] * other.0[lane])
-    }
-
-    #[inline(always)]
-    fn inverse_root(self) -> Self {
-        Self::each(|lane| 1.0 / self.0[lane].sqrt())
-    }
-
-    #[inline(always)]
-    fn where_zero(self, here: Self, elsewhere: Self) -> Self {
-        Self::each(|lane| if self.0[lane] == 0.0 { here.0[lane] } else { elsewhere.0[lane] })
-    }
-
-    #[inline(always)]
-    fn scatter(rows: &[Self], out: &mut [f32], stride: usize) {
-        for lane in 0..4 {
-            let place = &mut out[lane * stride..][..4];
-            place.copy_from_slice(&Self::each(|row| rows[row].0[lane]).0);
-        }
-    }
-
-    #[inline(always)]
-    fn stream(from: &[f32], to: &mut [f32]) {
-        to.copy_from_slice(from);
-    }
-
-    #[inline(always)]
-    fn stream_pattern(table: &[u32], period: usize, growth: u32, mut base: u32, out: &mut [u32]) {
-        for stretch in out.chunks_mut(period) {
-            for (index, offset) in stretch.iter_mut().zip(table) {
-                *index = base + offset;
-            }
-            base += growth;
-        }
-    }
-
-    #[inline(always)]
-    fn fence() {}
+/// `yes` where `mask` says so, else `no`.
+#[inline(always)]
+pub(super) fn select<V: Vector>(mask: V::Mask, yes: [V; 3], no: [V; 3]) -> [V; 3] {
+    [V::select(mask, yes[0], no[0]), V::select(mask, yes[1], no[1]), V::select(mask, yes[2], no[2])]
 }

@@ -1,82 +1,83 @@
-//! Stage 2 for a block: vertices of several rings at a time, a ring in each lane, then a transpose into place.
+//! Stage 2 in lanes: vertices of several rings at a time, a ring in each lane, then a transpose into place.
 
 use texere_core::SectionPoint;
 
-use super::rings::{BlockRings, Lane};
+use super::rings::Rings;
 use super::vector::Vector;
 
 /// Floats of a vertex: position and normal.
-const VERTEX: usize = 6;
+pub(super) const VERTEX: usize = 6;
 
-/// Vertices that are worked out before their rows are stored: four times six floats are whole vectors of any width.
-const UNIT: usize = 4;
+/// Rows that are stored at a time.
+const ROWS: usize = 4;
 
-/// Floats that the scratch space needs beyond a block's vertices: a ring's last store may reach that far over its end.
-pub(super) const OVERHANG: usize = 8;
+/// Vertices that are worked out before their rows are stored: two times six floats are three stores.
+const UNIT: usize = 2;
 
-/// What the rings in the lanes of a vector bring to their vertices.
-struct Lanes<V> {
-    centre: [V; 3],
-    radius: V,
-    side: [V; 3],
-    up: [V; 3],
-    tangent: [V; 3],
-    slope: V,
+/// Floats by which the stores of a ring may reach over its end.
+pub(super) const OVERHANG: usize = 2;
+
+/// A section's outline, and what of `Ring::vertex` its shape leaves to do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Surface<'a> {
+    outline: &'a [SectionPoint],
+    /// Whether each normal is its point, as on a circle.
+    round: bool,
 }
 
-/// Writes the vertices of all rings of a block, `outline.len()` each, to `scratch`, which is longer by [`OVERHANG`].
-#[inline(always)]
-pub(super) fn vertices<V: Vector>(rings: &BlockRings, outline: &[SectionPoint], scratch: &mut [f32]) {
-    let stride = outline.len() * VERTEX;
-    let mut first = 0;
-    while first < rings.count {
-        let load = |lane: &Lane| V::load(&lane[first..]);
-        let load3 = |lanes: &[Lane; 3]| [load(&lanes[0]), load(&lanes[1]), load(&lanes[2])];
-        let lanes = Lanes {
-            centre: load3(&rings.centre),
-            radius: load(&rings.radius),
-            side: load3(&rings.side),
-            up: load3(&rings.up),
-            tangent: load3(&rings.tangent),
-            slope: load(&rings.slope),
-        };
-        let out = &mut scratch[first * stride..];
-        if rings.slope[first..first + V::LANES].iter().any(|slope| *slope != 0.0) {
-            rings_vertices::<V, true>(&lanes, outline, out, stride);
+impl<'a> Surface<'a> {
+    pub(super) fn new(outline: &'a [SectionPoint]) -> Self {
+        let round = outline.iter().all(|point| [point.x, point.y] == [point.normal_x, point.normal_y]);
+        Self { outline, round }
+    }
+
+    /// Writes the vertices of `rings` to `out`, ring after ring.
+    #[inline(always)]
+    pub(super) fn write<V: Vector>(&self, rings: &Rings<V>, out: &mut [f32]) {
+        if V::bits(rings.slope.is_zero()) != V::ALL {
+            vertices::<V, SLOPED>(rings, self.outline, out);
+        } else if !self.round {
+            vertices::<V, PLAIN>(rings, self.outline, out);
+        } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
+            // The paper's tube has loops and strides known beforehand.
+            vertices::<V, ROUND>(rings, outline, out);
         } else {
-            rings_vertices::<V, false>(&lanes, outline, out, stride);
+            vertices::<V, ROUND>(rings, self.outline, out);
         }
-        first += V::LANES;
     }
 }
 
-/// All vertices of the rings in `lanes`, the last ones first: a store that reaches over the end of its ring is then
-/// followed by the next ring's own.
+/// The radius grows or shrinks, so that normals lean.
+const SLOPED: u8 = 0;
+/// It does not.
+const PLAIN: u8 = 1;
+/// Nor do the section's normals differ from its points.
+const ROUND: u8 = 2;
+
+/// All vertices of `rings`, the last ones first: a store that reaches over the end of its ring is then followed by the next
+/// ring's own.
 #[inline(always)]
-fn rings_vertices<V: Vector, const SLOPED: bool>(
-    lanes: &Lanes<V>,
-    outline: &[SectionPoint],
-    out: &mut [f32],
-    stride: usize,
-) {
+fn vertices<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
+    let stride = outline.len() * VERTEX;
+    let out = &mut out[..V::LANES * stride + OVERHANG];
     let (units, last) = outline.as_chunks::<UNIT>();
-    let at = &mut out[units.len() * UNIT * VERTEX..];
-    match *last {
-        [a] => unit::<V, 1, SLOPED>(lanes, &[a], at, stride),
-        [a, b] => unit::<V, 2, SLOPED>(lanes, &[a, b], at, stride),
-        [a, b, c] => unit::<V, 3, SLOPED>(lanes, &[a, b, c], at, stride),
-        _ => {}
+    if let [point] = last {
+        let out = &mut out[units.len() * UNIT * VERTEX..];
+        unit::<V, KIND>(rings, &[*point, SectionPoint::default()], VERTEX.div_ceil(ROWS), out, stride);
     }
     for (number, points) in units.iter().enumerate().rev() {
-        unit::<V, UNIT, SLOPED>(lanes, points, &mut out[number * UNIT * VERTEX..], stride);
+        let out = &mut out[number * UNIT * VERTEX..];
+        unit::<V, KIND>(rings, points, UNIT * VERTEX / ROWS, out, stride);
     }
 }
 
-/// `COUNT` vertices of the rings in `lanes`: rows of x, y, z and so on, a ring in each lane, stored as columns.
+/// Two vertices of `rings`: rows of x, y, z and so on, a ring in each lane, of which `stores` times four are stored as
+/// columns.
 #[inline(always)]
-fn unit<V: Vector, const COUNT: usize, const SLOPED: bool>(
-    lanes: &Lanes<V>,
-    points: &[SectionPoint; COUNT],
+fn unit<V: Vector, const KIND: u8>(
+    rings: &Rings<V>,
+    points: &[SectionPoint; UNIT],
+    stores: usize,
     out: &mut [f32],
     stride: usize,
 ) {
@@ -84,48 +85,28 @@ fn unit<V: Vector, const COUNT: usize, const SLOPED: bool>(
     for (k, point) in points.iter().enumerate() {
         let (x, y) = (V::splat(point.x), V::splat(point.y));
         let (normal_x, normal_y) = (V::splat(point.normal_x), V::splat(point.normal_y));
-        let lean = lanes.slope.mul(V::splat(point.reach()));
-        let steep = if SLOPED { V::splat(1.0).add(lean.mul(lean)).inverse_root() } else { lean };
+        let (lean, steep) = if KIND == SLOPED {
+            let lean = rings.slope * V::splat(point.reach());
+            (lean, V::splat(1.0) / (V::splat(1.0) + lean * lean).sqrt())
+        } else {
+            (rings.slope, rings.slope)
+        };
         for axis in 0..3 {
-            let outward = lanes.side[axis].mul(x).add(lanes.up[axis].mul(y));
-            rows[k * VERTEX + axis] = lanes.centre[axis].add(outward.mul(lanes.radius));
-            let across = lanes.side[axis].mul(normal_x).add(lanes.up[axis].mul(normal_y));
-            rows[k * VERTEX + 3 + axis] = if SLOPED {
-                let leaning = across.sub(lanes.tangent[axis].mul(lean)).mul(steep);
-                lanes.slope.where_zero(across, leaning)
+            let outward = rings.side[axis] * x + rings.up[axis] * y;
+            rows[k * VERTEX + axis] = rings.centre[axis] + outward * rings.radius;
+            let across = match KIND {
+                ROUND => outward,
+                _ => rings.side[axis] * normal_x + rings.up[axis] * normal_y,
+            };
+            rows[k * VERTEX + 3 + axis] = if KIND == SLOPED {
+                let leaning = (across - rings.tangent[axis] * lean) * steep;
+                V::select(rings.slope.is_zero(), across, leaning)
             } else {
                 across
             };
         }
     }
-    let stores = (COUNT * VERTEX).div_ceil(V::LANES);
-    for store in (0..stores).rev() {
-        V::scatter(&rows[store * V::LANES..][..V::LANES], &mut out[store * V::LANES..], stride);
-    }
-}
-
-/// The index pattern of four rings, a multiple of every vector's lanes, and the start of the fifth.
-#[derive(Debug)]
-pub(super) struct IndexTable {
-    table: Vec<u32>,
-    period: usize,
-    growth: u32,
-}
-
-/// Rings whose indices are whole vectors, whatever the sides: four times six a side.
-const INDEX_RINGS: u32 = 4;
-
-impl IndexTable {
-    pub(super) fn new(sides: u32) -> Self {
-        let pattern = texere_core::index_pattern(sides);
-        let rings = (0..=INDEX_RINGS).flat_map(|ring| pattern.iter().map(move |index| ring * sides + index));
-        let period = pattern.len() * INDEX_RINGS as usize;
-        Self { table: rings.take(period + 8).collect(), period, growth: INDEX_RINGS * sides }
-    }
-
-    /// Writes the indices of consecutive rings' quads, the first ring's vertices starting at `first_vertex`.
-    #[inline(always)]
-    pub(super) fn write<V: Vector>(&self, first_vertex: u32, out: &mut [u32]) {
-        V::stream_pattern(&self.table, self.period, self.growth, first_vertex, out);
+    for (store, rows) in rows.as_chunks::<ROWS>().0.iter().enumerate().take(stores) {
+        V::scatter(*rows, &mut out[store * ROWS..], stride);
     }
 }

@@ -4,7 +4,7 @@ mod mesh;
 mod scan;
 mod trajectory;
 
-use texere_core::{Chunk, MeshMut, PaddedPoints, Plan};
+use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan};
 
 use crate::rolls::Rolls;
 use crate::session::{ChunkRings, Stages, Work};
@@ -15,8 +15,9 @@ pub(crate) struct Serial;
 impl Stages for Serial {
     const FUSED: bool = false;
 
-    fn scan(plan: &Plan, points: &PaddedPoints) -> Rolls {
-        scan::scan(plan, points)
+    fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
+        *rolls = scan::scan(plan, points);
+        Ok(())
     }
 
     fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {

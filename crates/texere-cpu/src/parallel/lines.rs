@@ -1,0 +1,169 @@
+//! Output in whole cache lines, which can go past the caches.
+//!
+//! A line that is written past the caches costs no read before it, but only so many such lines can be under way. They are
+//! sent a few at a time between other work, so that the processor need not wait for memory.
+
+use super::portable::Portable;
+use super::runs::take;
+use super::vector::{LANES_MAX, LINE, Line, Vector};
+use super::vertices::OVERHANG;
+
+/// Where the lines of a slice go, in order.
+#[derive(Debug)]
+struct Lines<'a> {
+    /// What lies before the first whole line, and after the last.
+    head: &'a mut [f32],
+    tail: &'a mut [f32],
+    lines: &'a mut [Line],
+    /// Whether lines go past the caches.
+    streams: bool,
+}
+
+impl<'a> Lines<'a> {
+    fn new(out: &'a mut [f32], streams: bool) -> Self {
+        let (head, lines, tail) = bytemuck::pod_align_to_mut::<f32, Line>(out);
+        Self { head, tail, lines, streams }
+    }
+}
+
+/// Vertices on their way.
+///
+/// They are written to scratch memory, where they lie as they will lie in memory: lines start at multiples of a line's
+/// length. Whole lines are sent, and what is left moves to the front. The scratch memory is that of one vector of rings,
+/// so that it stays in the nearest cache.
+#[derive(Debug)]
+pub(super) struct VertexLines<'a> {
+    out: Lines<'a>,
+    scratch: &'a mut [f32],
+    /// Where in the scratch memory the next vertices go.
+    end: usize,
+    /// Whether the first line is still to be sent.
+    starts: bool,
+}
+
+impl<'a> VertexLines<'a> {
+    /// Floats of scratch memory for vectors of rings that have `floats` each.
+    pub(super) fn scratch(floats: usize) -> Vec<Line> {
+        vec![Line([0.0; LINE]); 1 + (LANES_MAX * floats + OVERHANG).div_ceil(LINE)]
+    }
+
+    pub(super) fn new(out: &'a mut [f32], streams: bool, scratch: &'a mut [Line]) -> Self {
+        let out = Lines::new(out, streams);
+        let end = out.head.len().wrapping_neg() % LINE;
+        Self { starts: end > 0, end, out, scratch: bytemuck::cast_slice_mut(scratch) }
+    }
+
+    /// Where the next vertices go. A few floats after them may be overwritten.
+    #[inline(always)]
+    pub(super) fn next(&mut self) -> &mut [f32] {
+        &mut self.scratch[self.end..]
+    }
+
+    /// Sends `floats` values that have been written.
+    #[inline(always)]
+    pub(super) fn send<V: Vector>(&mut self, floats: usize) {
+        let mut first = 0;
+        self.end += floats;
+        if self.starts && self.end >= LINE {
+            self.out.head.copy_from_slice(&self.scratch[LINE - self.out.head.len()..LINE]);
+            (self.starts, first) = (false, LINE);
+        }
+        let whole = self.end / LINE * LINE;
+        if whole > 0 {
+            let (from, _) = self.scratch[first..whole].as_chunks::<LINE>();
+            let to = take(&mut self.out.lines, from.len());
+            if self.out.streams {
+                to.iter_mut().zip(from).for_each(|(to, from)| V::stream(from, to));
+            } else {
+                to.iter_mut().zip(from).for_each(|(to, from)| to.0 = *from);
+            }
+            self.scratch.copy_within(whole..whole + LINE, 0);
+            self.end -= whole;
+        }
+    }
+
+    /// Sends the rest.
+    pub(super) fn finish(self) {
+        let Lines { head, tail, .. } = self.out;
+        if self.starts {
+            head.copy_from_slice(&self.scratch[self.end - head.len()..self.end]);
+        } else {
+            tail.copy_from_slice(&self.scratch[..tail.len()]);
+        }
+    }
+}
+
+/// The index pattern of some rings that are whole lines, and the start of the next one.
+#[derive(Debug)]
+pub(super) struct IndexTable {
+    table: Vec<u32>,
+    period: usize,
+    growth: u32,
+}
+
+/// Rings whose indices are whole lines, whatever the sides: eight times six a side.
+const INDEX_RINGS: u32 = 8;
+
+impl IndexTable {
+    pub(super) fn new(sides: u32) -> Self {
+        let pattern = texere_core::index_pattern(sides);
+        let rings = (0..=INDEX_RINGS).flat_map(|ring| pattern.iter().map(move |index| ring * sides + index));
+        let period = pattern.len() * INDEX_RINGS as usize;
+        Self { table: rings.take(period + LINE).collect(), period, growth: INDEX_RINGS * sides }
+    }
+}
+
+/// Indices on their way.
+#[derive(Debug)]
+pub(super) struct IndexLines<'a> {
+    out: Lines<'a>,
+    table: &'a IndexTable,
+    /// Where in the table the next line starts, and what to add there.
+    place: usize,
+    base: u32,
+}
+
+impl<'a> IndexLines<'a> {
+    /// The indices of consecutive rings' quads, the first ring's vertices starting at `first_vertex`.
+    pub(super) fn new(out: &'a mut [u32], streams: bool, table: &'a IndexTable, first_vertex: u32) -> Self {
+        let out = Lines::new(bytemuck::cast_slice_mut(out), streams);
+        put(out.head, &table.table, first_vertex);
+        Self { place: out.head.len(), out, table, base: first_vertex }
+    }
+
+    /// Sends the next lines, `count` at most.
+    #[inline(always)]
+    pub(super) fn send<V: Vector>(&mut self, count: usize) {
+        let count = count.min(self.out.lines.len());
+        for line in take(&mut self.out.lines, count) {
+            if self.place >= self.table.period {
+                self.place -= self.table.period;
+                self.base = self.base.wrapping_add(self.table.growth);
+            }
+            let (offsets, _) = self.table.table[self.place..].as_chunks::<LINE>();
+            if let [offsets, ..] = offsets {
+                if self.out.streams {
+                    V::stream_indices(offsets, self.base, line);
+                } else {
+                    Portable::stream_indices(offsets, self.base, line);
+                }
+            }
+            self.place += LINE;
+        }
+    }
+
+    /// Sends the rest.
+    #[inline(always)]
+    pub(super) fn finish<V: Vector>(mut self) {
+        self.send::<V>(usize::MAX);
+        let (place, base) = (self.place, self.base);
+        put(self.out.tail, &self.table.table[place..], base);
+    }
+}
+
+/// Writes `base + table[i]`.
+fn put(out: &mut [f32], table: &[u32], base: u32) {
+    for (index, offset) in out.iter_mut().zip(table) {
+        *index = f32::from_bits(base.wrapping_add(*offset));
+    }
+}

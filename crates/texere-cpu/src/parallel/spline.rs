@@ -1,0 +1,128 @@
+//! The spline in lanes: the cubics of consecutive intervals, and where on them rings lie.
+
+use texere_core::{NO_LENGTH, Plan, RADIUS_FLOOR, ZERO_VELOCITY};
+
+use super::vector::{LANES_MAX, Vector, dot};
+
+/// Where on their cubics a vector of consecutive rings lies: each one's interval, counted from the first one's, and its
+/// parameter.
+#[derive(Debug)]
+pub(super) struct Seats {
+    pub(super) interval: [u32; LANES_MAX],
+    pub(super) t: [f32; LANES_MAX],
+}
+
+/// The seats for each place in an interval at which a vector's first ring can lie.
+#[derive(Debug)]
+pub(crate) struct Places(pub(super) Vec<Seats>);
+
+impl Places {
+    pub(crate) fn new(plan: &Plan) -> Self {
+        let (per_interval, step) = (plan.settings().subdivisions + 1, plan.sampling().step());
+        let seats = |place: u32| Seats {
+            interval: std::array::from_fn(|lane| (place + lane as u32) / per_interval),
+            t: std::array::from_fn(|lane| ((place + lane as u32) % per_interval) as f32 * step),
+        };
+        Self((0..per_interval).map(seats).collect())
+    }
+}
+
+/// The coefficients of `Segment` in the core, an interval in each lane.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cubics<V> {
+    /// Position and radius at t = 0.
+    start: [V; 4],
+    /// Position at t = 1, relative to the start.
+    span: [V; 3],
+    /// What goes with t, t² and t³.
+    terms: [[V; 4]; 3],
+    /// A squared velocity that counts as none.
+    at_rest: V,
+    /// The least radius.
+    floor: V,
+}
+
+/// The cubics of rings, a ring in each lane, at its own parameter.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sampled<V> {
+    pub(super) start: [V; 4],
+    /// From the start, and the derivative there: position and radius.
+    pub(super) offset: [V; 4],
+    pub(super) velocity: [V; 4],
+    pub(super) span: [V; 3],
+    pub(super) at_rest: V,
+    pub(super) floor: V,
+}
+
+impl<V: Vector> Cubics<V> {
+    /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on.
+    #[inline(always)]
+    pub(super) fn new(points: &[[f32; 4]], first: usize, s: f32) -> Self {
+        let last;
+        let window = match points.get(first..first + V::LANES + 3) {
+            Some(window) => window,
+            None => {
+                last = last_points(points, first);
+                &last[..V::LANES + 3]
+            }
+        };
+        let (before, start) = (V::components(window), V::components(&window[1..]));
+        let (end, after) = (V::components(&window[2..]), V::components(&window[3..]));
+        let (doubled, rest, less) = (V::splat(2.0 * s), V::splat(3.0 - 2.0 * s), V::splat(s - 2.0));
+        let (s, zero) = (V::splat(s), V::splat(0.0));
+        let (mut a, mut b, mut c) = ([zero; 4], [zero; 4], [zero; 4]);
+        let mut terms = [[zero; 4]; 3];
+        for k in 0..4 {
+            a[k] = before[k] - start[k];
+            b[k] = end[k] - start[k];
+            c[k] = after[k] - start[k];
+            terms[0][k] = (b[k] - a[k]) * s;
+            terms[1][k] = a[k] * doubled + b[k] * rest - c[k] * s;
+            terms[2][k] = (c[k] - a[k]) * s + b[k] * less;
+        }
+        let ([a, b, c], radii) = ([xyz(a), xyz(b), xyz(c)], start[3].min(end[3]));
+        Self {
+            start,
+            span: b,
+            terms,
+            at_rest: (V::splat(ZERO_VELOCITY) * (dot(a, a) + dot(b, b) + dot(c, c))).max(V::splat(NO_LENGTH)),
+            floor: radii * V::splat(RADIUS_FLOOR),
+        }
+    }
+
+    /// The spline at `t` of each lane's interval, which is number `interval` of these.
+    #[inline(always)]
+    pub(super) fn sample(&self, interval: V::Whole, t: V) -> Sampled<V> {
+        let zero = V::splat(0.0);
+        let thrice = V::splat(3.0) * t;
+        let (mut start, mut offset, mut velocity) = ([zero; 4], [zero; 4], [zero; 4]);
+        for k in 0..4 {
+            let c1 = V::pick(self.terms[0][k], interval);
+            let c2 = V::pick(self.terms[1][k], interval);
+            let c3 = V::pick(self.terms[2][k], interval);
+            start[k] = V::pick(self.start[k], interval);
+            offset[k] = (c1 + (c2 + c3 * t) * t) * t;
+            velocity[k] = c1 + (c2 * V::splat(2.0) + c3 * thrice) * t;
+        }
+        let [x, y, z] = self.span;
+        let span = [V::pick(x, interval), V::pick(y, interval), V::pick(z, interval)];
+        let (at_rest, floor) = (V::pick(self.at_rest, interval), V::pick(self.floor, interval));
+        Sampled { start, offset, velocity, span, at_rest, floor }
+    }
+}
+
+/// The first three components.
+#[inline(always)]
+pub(super) fn xyz<V: Vector>([x, y, z, _]: [V; 4]) -> [V; 3] {
+    [x, y, z]
+}
+
+/// The points from number `first` on, and zeros past the last one.
+#[cold]
+fn last_points(points: &[[f32; 4]], first: usize) -> [[f32; 4]; LANES_MAX + 3] {
+    let mut window = [[0.0; 4]; LANES_MAX + 3];
+    for (point, left) in window.iter_mut().zip(points.iter().skip(first)) {
+        *point = *left;
+    }
+    window
+}

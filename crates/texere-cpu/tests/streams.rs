@@ -1,0 +1,77 @@
+//! Outputs too large for the caches go past them, in whole lines: the same bits, wherever they start in a line.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::sync::Arc;
+
+use texere_core::{
+    Backend, ControlPoint, Frame, Limits, MeshMut, Pipeline, Plan, Settings, Topology, Vertex, Yarn, Yarns,
+};
+use texere_cpu::{ParallelBackend, SerialBackend};
+
+/// A long coil, one with a growing radius and a closed one: 60,000 rings with one point inserted.
+fn yarns() -> Yarns {
+    let coil = |count: usize, growth: f32| -> Vec<_> {
+        let point = |k: usize| {
+            let angle = k as f32 * 0.37;
+            ControlPoint::new(angle.cos(), angle.sin(), k as f32 * 0.05, 0.1 + growth * k as f32)
+        };
+        (0..count).map(point).collect()
+    };
+    let mut yarns = Yarns::builder();
+    yarns.yarn(Yarn::default(), &coil(25_003, 0.0));
+    yarns.yarn(Yarn { twist: 1.5, ..Yarn::default() }, &coil(3_001, 1e-4));
+    yarns.yarn(Yarn { closed: true, ..Yarn::default() }, &coil(2_000, 0.0));
+    yarns.build().unwrap()
+}
+
+/// Vertices and indices written from place `skew` of larger buffers on, which must stay as they were elsewhere.
+fn mesh(yarns: &Yarns, settings: Settings, skew: usize) -> (Vec<u32>, Vec<u32>) {
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
+    let chunks: Vec<_> = plan.chunks(&Limits::NONE).unwrap().collect();
+    let (count, indices) = (plan.counts().vertices as usize, plan.counts().indices as usize);
+    let untouched = Vertex { position: [-7.0; 3], normal: [-7.0; 3] };
+    let mut vertex_room = vec![untouched; count + 2 * skew];
+    let mut index_room = vec![u32::MAX; indices + 2 * skew];
+    let mut session = ParallelBackend::new().session(plan).unwrap();
+    session.upload(0, yarns.points()).unwrap();
+    session.scan().unwrap();
+    let out =
+        MeshMut { vertices: &mut vertex_room[skew..][..count], indices: &mut index_room[skew..][..indices] };
+    session.mesh_into(&chunks[0], out).unwrap();
+    assert!(
+        vertex_room[..skew].iter().chain(&vertex_room[skew + count..]).all(|vertex| *vertex == untouched)
+    );
+    assert!(index_room[..skew].iter().chain(&index_room[skew + indices..]).all(|index| *index == u32::MAX));
+    (bits(&vertex_room[skew..][..count]), index_room[skew..][..indices].to_vec())
+}
+
+fn bits(vertices: &[Vertex]) -> Vec<u32> {
+    let floats = vertices.iter().flat_map(|vertex| vertex.position.into_iter().chain(vertex.normal));
+    floats.map(f32::to_bits).collect()
+}
+
+#[test]
+fn streamed_meshes_equal_serial_ones_to_the_bit() {
+    let yarns = yarns();
+    for (sides, frame) in [(12, Frame::Upright), (13, Frame::RotationMinimizing)] {
+        let settings = Settings { sides, frame, ..Settings::default() };
+        let gold = Pipeline::new(&yarns).settings(settings).mesh(&SerialBackend::new()).unwrap();
+        assert!(size_of_val(&gold.vertices[..]) + size_of_val(&gold.indices[..]) > 32 << 20);
+        for skew in [0, 1, 2] {
+            let (vertices, indices) = mesh(&yarns, settings, skew);
+            assert!(
+                vertices == bits(&gold.vertices),
+                "vertices, {sides} sides, {skew} vertices into the buffer"
+            );
+            assert!(indices == gold.indices, "indices, {sides} sides, {skew} indices into the buffer");
+        }
+    }
+}
+
+#[test]
+fn meshes_without_indices_stream_too() {
+    let yarns = yarns();
+    let settings = Settings { sides: 25, topology: Topology::None, ..Settings::default() };
+    let gold = Pipeline::new(&yarns).settings(settings).mesh(&SerialBackend::new()).unwrap();
+    assert!(mesh(&yarns, settings, 1).0 == bits(&gold.vertices));
+}

@@ -136,10 +136,6 @@ impl<'a> IndexLines<'a> {
     pub(super) fn send<V: Vector>(&mut self, count: usize) {
         let count = count.min(self.out.lines.len());
         for line in take(&mut self.out.lines, count) {
-            if self.place >= self.table.period {
-                self.place -= self.table.period;
-                self.base = self.base.wrapping_add(self.table.growth);
-            }
             let (offsets, _) = self.table.table[self.place..].as_chunks::<LINE>();
             if let [offsets, ..] = offsets {
                 if self.out.streams {
@@ -149,6 +145,11 @@ impl<'a> IndexLines<'a> {
                 }
             }
             self.place += LINE;
+            // At once, since what is left after the last line is put from here, too.
+            if self.place >= self.table.period {
+                self.place -= self.table.period;
+                self.base = self.base.wrapping_add(self.table.growth);
+            }
         }
     }
 

@@ -48,3 +48,10 @@ pub fn session(
     session.scan()?;
     Ok(session)
 }
+
+/// The middle one of some times or ratios.
+#[must_use]
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}

@@ -24,3 +24,4 @@ mod serial;
 mod session;
 
 pub use backend::{ParallelBackend, SerialBackend};
+pub use parallel::fill;

@@ -2,6 +2,7 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+mod fill;
 mod lines;
 mod pages;
 mod path;
@@ -22,6 +23,7 @@ use texere_core::{
 use crate::caps::caps;
 use crate::rolls::Rolls;
 use crate::session::{ChunkRings, Stages, Work};
+pub use fill::fill;
 use lines::{IndexLines, IndexTable, VertexLines};
 use path::Job;
 pub(crate) use path::Path;

@@ -1,0 +1,139 @@
+//! The CPU's mesh stage beside a plain fill of as many bytes, in turn and in one process.
+//!
+//! `cargo run --release -p texere-bench --bin shares -- [ENDS PICKS [ROUNDS]]`
+//!
+//! For each kind of mesh on one thread and on two it prints the medians of the rounds: triangles per second into buffers
+//! that are used again, the share of the fill's bandwidth (the median of the rounds' own ratios, and the best), and the same
+//! for a first mesh in memory of its own, set-up and allocation included.
+
+use std::error::Error;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use rayon::ThreadPoolBuilder;
+use texere::{Frame, Limits, Pipeline, Plan, Settings, Topology, Vertex, Yarns};
+use texere_bench::{median, paper_cloth, session};
+use texere_core::{Chunk, MeshMut, Session};
+use texere_cpu::ParallelBackend;
+
+/// A kind of mesh, ready to be made.
+struct Case {
+    name: &'static str,
+    plan: Arc<Plan>,
+    chunks: Vec<Chunk>,
+    session: Box<dyn Session>,
+    rounds: Vec<Round>,
+}
+
+/// How long everything took in one round.
+struct Round {
+    fill: Duration,
+    scan: Duration,
+    mesh: Duration,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut numbers = std::env::args().skip(1).map(|argument| argument.parse::<usize>());
+    let mut next = |default| numbers.next().unwrap_or(Ok(default));
+    let (ends, picks, rounds) = (next(1630)?, next(1500)?, next(9)?);
+    let yarns = paper_cloth(ends, picks)?.yarns()?;
+    let minimizing = Settings { frame: Frame::RotationMinimizing, ..Settings::default() };
+    let bare = Settings { topology: Topology::None, ..Settings::default() };
+    let kinds = [("upright", Settings::default()), ("rotation minimising", minimizing), ("no indices", bare)];
+
+    let mut room: (Vec<Vertex>, Vec<u32>) = (Vec::new(), Vec::new());
+    for threads in [1, 2] {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
+        let mut cases = Vec::new();
+        for (name, settings) in kinds {
+            cases.push(case(name, settings, &yarns)?);
+        }
+        for _ in 0..rounds {
+            for case in &mut cases {
+                let counts = *case.plan.counts();
+                let length = |had: usize, wanted: u64| had.max(wanted as usize);
+                room.0.resize(length(room.0.len(), counts.vertices), Vertex::default());
+                room.1.resize(length(room.1.len(), counts.indices), 0);
+                let (vertices, indices) =
+                    (&mut room.0[..counts.vertices as usize], &mut room.1[..counts.indices as usize]);
+                let round = pool.install(|| case.round(&yarns, vertices, indices))?;
+                case.rounds.push(round);
+            }
+        }
+        for case in &cases {
+            case.print(threads);
+        }
+        let times = (0..rounds.min(5)).map(|_| -> Result<_, Box<dyn Error + Send + Sync>> {
+            let start = Instant::now();
+            let mesh = pool.install(|| Pipeline::new(&yarns).mesh(&ParallelBackend::new()))?;
+            let time = start.elapsed();
+            drop(mesh);
+            Ok(time)
+        });
+        let times: Vec<_> = times.collect::<Result<_, _>>().map_err(|error| error as Box<dyn Error>)?;
+        let triangles = cases[0].plan.counts().triangles as f64;
+        let time = median(times.iter().map(Duration::as_secs_f64).collect());
+        println!(
+            "{threads} thread(s), one mesh in fresh memory: {:.1} M triangles/s",
+            triangles / time / 1e6
+        );
+    }
+    Ok(())
+}
+
+fn case(name: &'static str, settings: Settings, yarns: &Yarns) -> Result<Case, Box<dyn Error>> {
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+    let chunks = plan.chunks(&Limits::NONE)?.collect();
+    let session = session(&ParallelBackend::new(), &plan, yarns)?;
+    Ok(Case { name, plan, chunks, session, rounds: Vec::new() })
+}
+
+impl Case {
+    fn round(
+        &mut self,
+        yarns: &Yarns,
+        vertices: &mut [Vertex],
+        indices: &mut [u32],
+    ) -> Result<Round, texere::BackendError> {
+        let start = Instant::now();
+        texere_cpu::fill(bytemuck::cast_slice_mut(vertices), 1.0);
+        texere_cpu::fill(bytemuck::cast_slice_mut(indices), 1.0);
+        let fill = start.elapsed();
+
+        // An upload makes the session forget its rolls; one point costs next to nothing.
+        self.session.upload(0, &yarns.points()[..1])?;
+        let start = Instant::now();
+        self.session.scan()?;
+        let scan = start.elapsed();
+
+        let start = Instant::now();
+        let (mut vertices, mut indices) = (vertices, indices);
+        for chunk in &self.chunks {
+            let (own_vertices, others) = vertices.split_at_mut(chunk.vertices as usize);
+            let (own_indices, other_indices) = indices.split_at_mut(chunk.indices as usize);
+            (vertices, indices) = (others, other_indices);
+            self.session.mesh_into(chunk, MeshMut { vertices: own_vertices, indices: own_indices })?;
+        }
+        Ok(Round { fill, scan, mesh: start.elapsed() })
+    }
+
+    fn print(&self, threads: usize) {
+        let seconds =
+            |of: fn(&Round) -> Duration| self.rounds.iter().map(move |round| of(round).as_secs_f64());
+        let (fill, mesh) =
+            (median(seconds(|round| round.fill).collect()), median(seconds(|round| round.mesh).collect()));
+        let shares: Vec<_> =
+            self.rounds.iter().map(|round| round.fill.as_secs_f64() / round.mesh.as_secs_f64()).collect();
+        let best = shares.iter().copied().fold(0.0, f64::max);
+        let counts = self.plan.counts();
+        println!(
+            "{threads} thread(s), {}: {:.1} M triangles/s, {:.0} % of the fill's {:.1} GB/s (best round {:.0} %), scan {:.0} % of the mesh",
+            self.name,
+            counts.triangles as f64 / mesh / 1e6,
+            100.0 * median(shares),
+            counts.bytes() as f64 / fill / 1e9,
+            100.0 * best,
+            100.0 * median(seconds(|round| round.scan).collect()) / mesh,
+        );
+    }
+}

@@ -1,0 +1,40 @@
+//! A plain fill, the yardstick of the mesh stage: writing is all the work that has to be done.
+
+use rayon::prelude::*;
+
+use super::path::{Job, Path};
+use super::vector::{LINE, Line, Vector};
+
+/// Floats that one rayon item fills: a megabyte.
+const FILL_FLOATS: usize = 1 << 18;
+
+/// Fills `out` past the caches, on all threads of the present rayon pool, with the widest stores that the processor has.
+///
+/// No mesh of as many bytes can be written faster, so that benchmarks state a mesh's share of this.
+///
+/// ```
+/// let mut out = vec![0.0; 1000];
+/// texere_cpu::fill(&mut out, 1.5);
+/// assert!(out.iter().all(|value| *value == 1.5));
+/// ```
+pub fn fill(out: &mut [f32], value: f32) {
+    let path = Path::detect();
+    out.par_chunks_mut(FILL_FLOATS).for_each(|out| path.run(Fill { out, value }));
+}
+
+struct Fill<'a> {
+    out: &'a mut [f32],
+    value: f32,
+}
+
+impl Job for Fill<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let (head, lines, tail) = bytemuck::pod_align_to_mut::<f32, Line>(self.out);
+        head.fill(self.value);
+        tail.fill(self.value);
+        let from = [self.value; LINE];
+        lines.iter_mut().for_each(|line| V::stream(&from, line));
+        V::fence();
+    }
+}

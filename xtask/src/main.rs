@@ -2,6 +2,7 @@
 //! `cargo xtask mutate`, which it runs every week, and pictures.
 
 mod demo;
+mod instructions;
 mod mutants;
 mod mutate;
 mod steps;
@@ -37,22 +38,28 @@ fn main() -> ExitCode {
         Some("check") => {
             check(&mut steps);
             demo::demo(&mut steps);
+            install(&mut steps, "valgrind", &["valgrind"]);
+            instructions::check(&mut steps);
         }
         Some("demo") => demo::demo(&mut steps),
         Some("gallery") => demo::gallery(&mut steps),
         Some("mutate") => {
-            install_software_devices(&mut steps);
+            install(&mut steps, "software devices", &SOFTWARE_DEVICES);
             return mutate::run(std::env::args().nth(2).as_deref());
         }
+        Some("instructions") => instructions::record(&mut steps),
         _ => {
-            eprintln!("usage: cargo xtask <demo | gallery | test | check | mutate>");
+            eprintln!("usage: cargo xtask <demo | gallery | test | check | mutate | instructions>");
             eprintln!("  demo   a picture of a herringbone; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
             eprintln!("  test   all tests, doctests and the conformance suite");
-            eprintln!("  check  formatting, lints, docs, licences, packages and the README's main command");
+            eprintln!(
+                "  check  formatting, lints, docs, licences, packages, the README's main command, and instructions"
+            );
             eprintln!(
                 "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
             );
+            eprintln!("  instructions  counts those of the mesh stage anew and keeps them as the baseline");
             return ExitCode::from(2);
         }
     }
@@ -61,23 +68,23 @@ fn main() -> ExitCode {
 
 /// All tests: units, integration, conformance, doctests.
 fn test(steps: &mut Steps) {
-    install_software_devices(steps);
+    install(steps, "software devices", &SOFTWARE_DEVICES);
     steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
 }
 
-/// Where Debian's packages can be installed, sees to it that the tests find an OpenCL and a Vulkan device. Elsewhere the
-/// suite shows a backend without a device as ignored, or failed where `TEXERE_REQUIRE` names it.
-fn install_software_devices(steps: &mut Steps) {
+/// Where Debian's packages can be installed, sees to it that these are. Without the software devices the suite shows a
+/// backend as ignored, or failed where `TEXERE_REQUIRE` names it.
+fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     let installed = |package: &str| steps.succeeds("dpkg", &["--status", package]);
     if !cfg!(target_os = "linux") || !steps.succeeds("apt-get", &["--version"]) {
         return;
     }
-    let missing: Vec<_> = SOFTWARE_DEVICES.into_iter().filter(|package| !installed(package)).collect();
+    let missing: Vec<_> = packages.iter().copied().filter(|package| !installed(package)).collect();
     if missing.is_empty() {
         return;
     }
-    steps.install("software devices", &missing);
+    steps.install(what, &missing);
 }
 
 /// What needs no test run.

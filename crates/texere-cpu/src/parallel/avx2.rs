@@ -321,13 +321,13 @@ impl Vector for Avx2 {
     }
 
     #[inline(always)]
-    fn stream_indices(table: &[u32; LINE], base: u32, to: &mut Line) {
-        let (bases, to) = (Self::splat_whole(base), to.0.as_mut_ptr());
+    fn stream_indices(table: &[u32; LINE], base: Self::Whole, to: &mut Line) {
+        let to = to.0.as_mut_ptr();
         let (first, second) = (Self::load_whole(table), Self::load_whole(&table[8..]));
         // SAFETY: a line is two aligned vectors.
         unsafe {
-            _mm256_stream_si256(to.cast(), _mm256_add_epi32(bases, first));
-            _mm256_stream_si256(to.add(8).cast(), _mm256_add_epi32(bases, second));
+            _mm256_stream_si256(to.cast(), _mm256_add_epi32(base, first));
+            _mm256_stream_si256(to.add(8).cast(), _mm256_add_epi32(base, second));
         }
     }
 

@@ -3,7 +3,6 @@
 //! A line that is written past the caches costs no read before it, but only so many such lines can be under way. They are
 //! sent a few at a time between other work, so that the processor need not wait for memory.
 
-use super::portable::Portable;
 use super::runs::take;
 use super::vector::{LANES_MAX, LINE, Line, Vector};
 use super::vertices::OVERHANG;
@@ -117,10 +116,12 @@ impl IndexTable {
 #[derive(Debug)]
 pub(super) struct IndexLines<'a> {
     out: Lines<'a>,
-    table: &'a IndexTable,
-    /// Where in the table the next line starts, and what to add there.
-    place: usize,
+    /// The pattern from the first whole line on, over and over, each time with `base` grown by `growth`.
+    pattern: &'a [[u32; LINE]],
+    growth: u32,
     base: u32,
+    /// The line of the pattern that comes next.
+    next: usize,
 }
 
 impl<'a> IndexLines<'a> {
@@ -128,27 +129,35 @@ impl<'a> IndexLines<'a> {
     pub(super) fn new(out: &'a mut [u32], streams: bool, table: &'a IndexTable, first_vertex: u32) -> Self {
         let out = Lines::new(bytemuck::cast_slice_mut(out), streams);
         put(out.head, &table.table, first_vertex);
-        Self { place: out.head.len(), out, table, base: first_vertex }
+        let (pattern, _) = table.table[out.head.len()..][..table.period].as_chunks();
+        Self { out, pattern, growth: table.growth, base: first_vertex, next: 0 }
     }
 
     /// Sends the next lines, `count` at most.
     #[inline(always)]
     pub(super) fn send<V: Vector>(&mut self, count: usize) {
-        let count = count.min(self.out.lines.len());
-        for line in take(&mut self.out.lines, count) {
-            let (offsets, _) = self.table.table[self.place..].as_chunks::<LINE>();
-            if let [offsets, ..] = offsets {
-                if self.out.streams {
-                    V::stream_indices(offsets, self.base, line);
-                } else {
-                    Portable::stream_indices(offsets, self.base, line);
+        let mut left = count.min(self.out.lines.len());
+        while left > 0 {
+            let offsets = &self.pattern[self.next..];
+            let lines = take(&mut self.out.lines, left.min(offsets.len()));
+            let base = V::splat_whole(self.base);
+            if self.out.streams {
+                lines
+                    .iter_mut()
+                    .zip(offsets)
+                    .for_each(|(line, offsets)| V::stream_indices(offsets, base, line));
+            } else {
+                for (line, offsets) in lines.iter_mut().zip(offsets) {
+                    for k in (0..LINE).step_by(V::LANES) {
+                        let indices = V::add_whole(V::load_whole(&offsets[k..]), base);
+                        V::from_bits(indices).store(&mut line.0[k..]);
+                    }
                 }
             }
-            self.place += LINE;
-            // At once, since what is left after the last line is put from here, too.
-            if self.place >= self.table.period {
-                self.place -= self.table.period;
-                self.base = self.base.wrapping_add(self.table.growth);
+            left -= lines.len();
+            self.next += lines.len();
+            if self.next == self.pattern.len() {
+                (self.next, self.base) = (0, self.base.wrapping_add(self.growth));
             }
         }
     }
@@ -157,8 +166,7 @@ impl<'a> IndexLines<'a> {
     #[inline(always)]
     pub(super) fn finish<V: Vector>(mut self) {
         self.send::<V>(usize::MAX);
-        let (place, base) = (self.place, self.base);
-        put(self.out.tail, &self.table.table[place..], base);
+        put(self.out.tail, &self.pattern[self.next], self.base);
     }
 }
 

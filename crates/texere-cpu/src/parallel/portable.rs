@@ -222,9 +222,9 @@ impl Vector for Portable {
     }
 
     #[inline(always)]
-    fn stream_indices(table: &[u32; LINE], base: u32, to: &mut Line) {
-        for (index, offset) in to.0.iter_mut().zip(table) {
-            *index = f32::from_bits(base.wrapping_add(*offset));
+    fn stream_indices(table: &[u32; LINE], base: Self::Whole, to: &mut Line) {
+        for (place, offset) in table.iter().enumerate() {
+            to.0[place] = f32::from_bits(base[place % 4].wrapping_add(*offset));
         }
     }
 

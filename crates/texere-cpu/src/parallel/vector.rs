@@ -135,8 +135,8 @@ pub(super) trait Vector:
     /// [`Vector::fence`] makes the copy sure to be seen by other threads.
     fn stream(from: &[f32; LINE], to: &mut Line);
 
-    /// Writes the line `base + table[i]`, past the caches where the processor can.
-    fn stream_indices(table: &[u32; LINE], base: u32, to: &mut Line);
+    /// Writes the line `base + table[i]`, `base` the same in all lanes, past the caches where the processor can.
+    fn stream_indices(table: &[u32; LINE], base: Self::Whole, to: &mut Line);
 
     /// Ends streaming: what was written is there for other threads.
     fn fence();

@@ -1,5 +1,14 @@
 //! What the benchmarks of all stages share: the paper's benchmark cloth, and sessions that are ready to run.
 
+#[cfg(feature = "gpu")]
+pub mod fill;
+#[cfg(feature = "gpu")]
+pub mod floor;
+#[cfg(feature = "gpu")]
+pub mod measure;
+#[cfg(feature = "gpu")]
+pub mod tables;
+
 use std::sync::Arc;
 
 use texere::{

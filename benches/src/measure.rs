@@ -1,0 +1,130 @@
+//! What a device takes for the stages of one fabric.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use texere::{Backend, BackendError, Limits, Plan, PlanError, Settings, Yarns};
+use texere_core::{Chunk, Session, StageTimings};
+use thiserror::Error;
+
+/// What can go wrong before there is anything to measure.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MeasureError {
+    /// The yarns fit no plan.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The device gave up.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+}
+
+/// A fabric on a device, ready to be meshed again and again.
+#[derive(Debug)]
+pub struct Bench {
+    /// Its plan.
+    pub plan: Arc<Plan>,
+    chunks: Vec<Chunk>,
+    session: Box<dyn Session>,
+    yarns: Yarns,
+    /// Getting memory and sending tables, by the host's clock.
+    pub creation: Duration,
+    /// Sending the control points, by the host's clock.
+    pub upload: Duration,
+}
+
+impl Bench {
+    /// Uploads `yarns` to `device`.
+    ///
+    /// **Errors**: [`MeasureError`].
+    pub fn new(device: &dyn Backend, yarns: Yarns, settings: Settings) -> Result<Self, MeasureError> {
+        let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+        let limits = device.info().limits.min(&Limits { memory_bytes: HOST_SHARE, ..Limits::NONE });
+        let chunks = plan.chunks(&limits)?.collect();
+        let start = Instant::now();
+        let mut session = device.session(plan.clone())?;
+        let creation = start.elapsed();
+        let start = Instant::now();
+        session.upload(0, yarns.points())?;
+        // Times are of what has ended.
+        session.timings();
+        let upload = start.elapsed();
+        Ok(Self { plan, chunks, session, yarns, creation, upload })
+    }
+
+    /// Scan and mesh once, both stages fused where the device fuses them. Times of this run alone.
+    ///
+    /// **Errors**: [`BackendError`] from the device.
+    pub fn fused(&mut self) -> Result<StageTimings, BackendError> {
+        self.run(|session, chunk| session.mesh(chunk))
+    }
+
+    /// Scan, then stage 1 and stage 2 one after the other for each chunk. Times of this run alone; a device that always
+    /// fuses does stage 1 twice.
+    ///
+    /// **Errors**: [`BackendError`] from the device.
+    pub fn staged(&mut self) -> Result<StageTimings, BackendError> {
+        self.run(|session, chunk| {
+            session.trajectory(chunk)?;
+            session.mesh(chunk)
+        })
+    }
+
+    fn run(
+        &mut self,
+        stages: impl Fn(&mut dyn Session, &Chunk) -> Result<(), BackendError>,
+    ) -> Result<StageTimings, BackendError> {
+        // An upload makes the session forget what it has made; one point costs next to nothing.
+        self.session.upload(0, &self.yarns.points()[..1])?;
+        let before = self.session.timings();
+        self.session.scan()?;
+        for chunk in &self.chunks {
+            stages(&mut *self.session, chunk)?;
+        }
+        let after = self.session.timings();
+        Ok(StageTimings {
+            upload: Duration::ZERO,
+            scan: after.scan - before.scan,
+            trajectory: after.trajectory - before.trajectory,
+            mesh: after.mesh - before.mesh,
+            readback: Duration::ZERO,
+        })
+    }
+
+    /// Reads the whole mesh, piece by piece, and gives back the time that takes by the host's clock: the bytes are lent
+    /// where the driver puts them, and not looked at.
+    ///
+    /// **Errors**: [`BackendError`] from the device.
+    pub fn read(&mut self) -> Result<Duration, BackendError> {
+        let mut time = Duration::ZERO;
+        for chunk in &self.chunks {
+            self.session.mesh(chunk)?;
+            self.session.timings();
+            let start = Instant::now();
+            let _ = self.session.read_mesh(chunk, &mut |_| ControlFlow::Continue(()))?;
+            time += start.elapsed();
+        }
+        Ok(time)
+    }
+
+    /// Gives all memory back, and the time that takes by the host's clock.
+    #[must_use]
+    pub fn clean_up(self) -> Duration {
+        let Self { session, .. } = self;
+        let start = Instant::now();
+        drop(session);
+        start.elapsed()
+    }
+}
+
+/// Bytes that two chunks in flight may take: on a device whose memory is the host's, the cloths of the tables would not
+/// leave room for the rest.
+const HOST_SHARE: u64 = 12 << 30;
+
+/// The middle one of some times.
+#[must_use]
+pub fn median(times: &mut [Duration]) -> Duration {
+    times.sort_unstable();
+    times.get(times.len() / 2).copied().unwrap_or_default()
+}

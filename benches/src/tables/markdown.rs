@@ -1,0 +1,137 @@
+//! The report as Markdown.
+
+use std::fmt::Write;
+use std::time::Duration;
+
+use super::{Cloth, Column, Run};
+
+/// Triangles a second that the paper states for its largest cloth: its GPU, its CPU.
+const PAPER: [(&str, f64); 2] = [("the paper, RTX 5070 Ti", 37.99e6), ("the paper, i7-8700K", 3.84e6)];
+
+pub(super) fn report(cloths: &[Cloth], columns: &[Column], rounds: usize) -> String {
+    let mut text =
+        String::from("# Benchmarks\n\nThe paper's cloth, K = 1, six sides, indexed, upright, no caps.");
+    // Writing to a string can't fail.
+    let _ = writeln!(
+        text,
+        " Stages are medians of {rounds} warm runs, by the device's own clock where it has one; everything else is by \
+         the host's.\n\n## Devices\n"
+    );
+    table(&mut text, &["name", "device", "driver", "work is split", "timed by"], |rows| {
+        for Column { info, .. } in columns {
+            let clock = if info.timed_by_device { "the device" } else { "the host" };
+            rows.push(
+                vec![&*info.name, &*info.device, &*info.driver, &*info.schedule, clock]
+                    .into_iter()
+                    .map(Into::into)
+                    .collect(),
+            );
+        }
+    });
+
+    text.push_str("\n## Table 1: the cloths\n\n");
+    table(&mut text, &["cloth", "yarns", "control points", "rings", "triangles", "bytes"], |rows| {
+        for Cloth { name, counts } in cloths {
+            let counts =
+                [counts.yarns, counts.control_points, counts.rings, counts.triangles, counts.bytes()];
+            rows.push([name.clone()].into_iter().chain(counts.map(|count| count.to_string())).collect());
+        }
+    });
+
+    text.push_str(
+        "\n## Table 2: time of the stages, ms\n\nAlgorithms 1 and 3 are the paper's serial ones, 2 and 4 its \
+                   parallel ones. The schedule per-ring and `cpu` run both stages as one.\n\n",
+    );
+    table(
+        &mut text,
+        &[
+            "cloth",
+            "device",
+            "trajectory (1, 2)",
+            "mesh (3, 4)",
+            "both",
+            "million triangles/s",
+            "times the first",
+        ],
+        |rows| {
+            for (number, cloth) in cloths.iter().enumerate() {
+                let first = columns.first().and_then(|column| column.runs.get(number)).map(|run| run.whole);
+                for Column { info, runs } in columns {
+                    rows.push(stages(cloth, &info.name, &runs[number], first));
+                }
+                if number + 1 == cloths.len() {
+                    for (name, rate) in PAPER {
+                        let time = Duration::from_secs_f64(cloth.counts.triangles as f64 / rate);
+                        let mut row = vec![cloth.name.clone(), name.into(), "-".into(), "-".into(), ms(time)];
+                        row.extend([format!("{:.2}", rate / 1e6), "-".into()]);
+                        rows.push(row);
+                    }
+                }
+            }
+        },
+    );
+
+    text.push_str(
+        "\n## Table 3: what comes on top, ms\n\nOpening a device makes its context and compiles its kernels, \
+                   once for all cloths. Creation gets memory and sends tables.\n\n",
+    );
+    table(
+        &mut text,
+        &["cloth", "device", "opening", "creation", "upload", "mesh to the host", "GB/s", "clean-up"],
+        |rows| {
+            for (number, cloth) in cloths.iter().enumerate() {
+                for Column { info, runs } in columns {
+                    let run = &runs[number];
+                    let rate = run.readback.map_or("-".into(), |time| {
+                        format!("{:.1}", cloth.counts.bytes() as f64 / time.as_secs_f64() / 1e9)
+                    });
+                    rows.push(vec![
+                        cloth.name.clone(),
+                        info.name.clone(),
+                        ms(run.opening),
+                        ms(run.creation),
+                        ms(run.upload),
+                        run.readback.map_or("-".into(), ms),
+                        rate,
+                        ms(run.clean_up),
+                    ]);
+                }
+            }
+        },
+    );
+    text.push_str(
+        "\n## Figure 5: phases\n\n![Geometry against buffers](figure-5.svg)\n\nGeometry is both stages; buffers are \
+         creation and upload. `texere render --timings` adds the drawing.\n\n## Figure 6: devices\n\n![Both stages on \
+         every device](figure-6.svg)\n",
+    );
+    text
+}
+
+fn stages(cloth: &Cloth, device: &str, run: &Run, first: Option<Duration>) -> Vec<String> {
+    let stage = |time: Option<Duration>| time.map_or("-".into(), ms);
+    let rate = cloth.counts.triangles as f64 / run.whole.as_secs_f64() / 1e6;
+    let ratio =
+        first.map_or("-".into(), |first| format!("{:.1}", first.as_secs_f64() / run.whole.as_secs_f64()));
+    vec![
+        cloth.name.clone(),
+        device.into(),
+        stage(run.staged.map(|staged| staged.trajectory)),
+        stage(run.staged.map(|staged| staged.mesh)),
+        ms(run.whole),
+        format!("{rate:.2}"),
+        ratio,
+    ]
+}
+
+fn ms(time: Duration) -> String {
+    format!("{:.3}", time.as_secs_f64() * 1e3)
+}
+
+fn table(text: &mut String, titles: &[&str], fill: impl FnOnce(&mut Vec<Vec<String>>)) {
+    let mut rows = Vec::new();
+    fill(&mut rows);
+    let _ = writeln!(text, "| {} |\n|{}", titles.join(" | "), "---|".repeat(titles.len()));
+    for row in rows {
+        let _ = writeln!(text, "| {} |", row.join(" | "));
+    }
+}

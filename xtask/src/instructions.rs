@@ -37,7 +37,7 @@ pub(crate) fn check(steps: &mut Steps) {
         match known {
             Some(known) if counted <= known * TOLERANCE => println!("{name}: {counted:.1}, baseline {known:.1}"),
             Some(known) => steps.fail(format!(
-                "{name}: {counted:.1} instructions a ring, baseline {known:.1} (if that is meant: cargo xtask instructions)"
+                "{name}: {counted:.1} instructions a ring, baseline {known:.1} (if that is meant: cargo xtask instructions record)"
             )),
             None => steps.fail(format!("{name}: not in benches/instructions.txt")),
         }

@@ -3,9 +3,9 @@
 //! `valgrind --tool=callgrind` counts them. What start-up takes falls out of the difference between two runs.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::PathBuf;
 
-use crate::steps::Steps;
+use crate::steps::{Steps, root};
 
 /// Ways through the CPU backend. Valgrind knows no AVX-512.
 const PATHS: [&str; 2] = ["portable", "avx2"];
@@ -21,13 +21,13 @@ const TIMES: u32 = 10;
 const TOLERANCE: f64 = 1.05;
 
 /// A line for each path and kind: path, kind, instructions a ring.
-fn baseline() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../benches/instructions.txt")
+fn baseline() -> PathBuf {
+    root().join("benches/instructions.txt")
 }
 
 /// Compares with the baseline, where there is a valgrind.
 pub(crate) fn check(steps: &mut Steps) {
-    if !steps.fine() || !steps.succeeds("valgrind", &["--version"]) {
+    if !steps.succeed() || !steps.succeeds("valgrind", &["--version"]) {
         println!("instructions: left out");
         return;
     }
@@ -78,7 +78,7 @@ fn count(steps: &mut Steps) -> Vec<(String, f64)> {
 
 /// Instructions of a run, and the rings that it says it has.
 fn collected(steps: &Steps, path: &str, kind: &str, times: u32) -> Option<(f64, f64)> {
-    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/release/instructions");
+    let program = root().join("target/release/instructions");
     let times = times.to_string();
     let valgrind = ["--tool=callgrind", "--callgrind-out-file=/dev/null", program.to_str()?, kind, &times];
     let environment = [("TEXERE_SIMD", path), ("RAYON_NUM_THREADS", "1")];

@@ -9,6 +9,7 @@ mod steps;
 
 use std::process::ExitCode;
 
+use demo::vulkan;
 use steps::Steps;
 
 /// Crates that go to crates.io.
@@ -28,7 +29,7 @@ const PUBLISHED: [&str; 11] = [
 
 /// Debian's packages that run both GPU backends on a CPU: an OpenCL loader with PoCL, a Vulkan loader with lavapipe.
 const SOFTWARE_DEVICES: [&str; 4] =
-    ["ocl-icd-libopencl1", "pocl-opencl-icd", "libvulkan1", "mesa-vulkan-drivers"];
+    ["ocl-icd-libopencl1", "pocl-opencl-icd", vulkan::PACKAGES[0], vulkan::PACKAGES[1]];
 
 fn main() -> ExitCode {
     let task = std::env::args().nth(1);

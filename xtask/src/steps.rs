@@ -45,11 +45,6 @@ impl Steps {
         self.failed.get_or_insert(failure);
     }
 
-    /// Whether nothing has failed so far.
-    pub(crate) fn fine(&self) -> bool {
-        self.failed.is_none()
-    }
-
     /// Whether a command runs and succeeds; what it prints is dropped.
     pub(crate) fn succeeds(&self, program: &str, args: &[&str]) -> bool {
         let status = command(program, args).stdout(Stdio::null()).stderr(Stdio::null()).status();

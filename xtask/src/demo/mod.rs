@@ -1,7 +1,7 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: pictures of what the repository holds.
 
 mod gallery;
-mod vulkan;
+pub(crate) mod vulkan;
 
 use crate::steps::Steps;
 

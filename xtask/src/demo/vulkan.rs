@@ -9,7 +9,7 @@ const DRIVER_FOLDERS: [&str; 3] =
     ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d"];
 
 /// Debian's packages for drawing on a CPU: a Vulkan loader and lavapipe.
-const PACKAGES: [&str; 2] = ["libvulkan1", "mesa-vulkan-drivers"];
+pub(crate) const PACKAGES: [&str; 2] = ["libvulkan1", "mesa-vulkan-drivers"];
 
 /// Installs lavapipe where there is no Vulkan driver and it may; where it may not, says what to install. Metal and
 /// Direct3D 12 come with their systems.

@@ -6,7 +6,7 @@ use std::time::Duration;
 use texere::{Frame, Settings, Topology};
 
 use crate::fill::rig;
-use crate::measure::{Bench, median};
+use crate::measure::{Bench, median_time};
 use crate::paper_cloth;
 
 /// What is asked of the mesh stage.
@@ -62,7 +62,7 @@ fn print_case(
         mesh.push(stages.trajectory + stages.mesh);
     }
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
-    let (fill, scan, mesh) = (median(&mut fill), median(&mut scan), median(&mut mesh));
+    let (fill, scan, mesh) = (median_time(&fill), median_time(&scan), median_time(&mesh));
     println!(
         "| {device} | {ends} x {picks} | {name} | {:.3} | {:.0} | {:.3} | {:.3} | {:.2} | {:.1} |",
         ms(fill),

@@ -8,6 +8,8 @@ use texere::{Backend, BackendError, Limits, Plan, PlanError, Settings, Yarns};
 use texere_core::{Chunk, Session, StageTimings};
 use thiserror::Error;
 
+use crate::median;
+
 /// What can go wrong before there is anything to measure.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -124,7 +126,7 @@ const HOST_SHARE: u64 = 12 << 30;
 
 /// The middle one of some times.
 #[must_use]
-pub fn median(times: &mut [Duration]) -> Duration {
-    times.sort_unstable();
-    times.get(times.len() / 2).copied().unwrap_or_default()
+pub fn median_time(times: &[Duration]) -> Duration {
+    // Of no times at all the median is no number.
+    Duration::try_from_secs_f64(median(times.iter().map(Duration::as_secs_f64).collect())).unwrap_or_default()
 }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use texere::{Counts, DeviceInfo, Settings};
 use texere_core::StageTimings;
 
-use crate::measure::{Bench, median};
+use crate::measure::{Bench, median_time};
 use crate::paper_cloth;
 
 /// One device's work on one cloth.
@@ -105,8 +105,8 @@ fn run(
     }
     let fuses = info.schedule == texere::Schedule::PerRing.to_string();
     let staged = StageTimings {
-        trajectory: median(&mut trajectory),
-        mesh: median(&mut mesh),
+        trajectory: median_time(&trajectory),
+        mesh: median_time(&mesh),
         ..StageTimings::default()
     };
     bench.read()?;
@@ -115,7 +115,7 @@ fn run(
         creation: bench.creation,
         upload: bench.upload,
         staged: (!fuses).then_some(staged),
-        whole: median(&mut whole),
+        whole: median_time(&whole),
         readback: if info.timed_by_device { Some(bench.read()?) } else { None },
         clean_up: Duration::ZERO,
     })

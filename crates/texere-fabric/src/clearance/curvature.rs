@@ -182,7 +182,12 @@ impl Search<'_> {
 /// `within` is about as little or less. It is exact to [`ACCURACY`], and 0 where the yarn turns straight back.
 pub(super) fn tightest(cubic: &Cubic, support: &Support, within: f64) -> Option<(f64, f64)> {
     let whole = Part::whole(cubic);
-    if whole.velocity == [DVec3::ZERO; 3] {
+    let [u, v, w] = whole.velocity;
+    let least = (1.0 - ACCURACY) * within * cubic.radius_bound() * support.extent();
+    // Most intervals bend so little that this is all.
+    if whole.bends_less(least, (u + 2.0 * v + w).length_squared() / 16.0)
+        || whole.velocity == [DVec3::ZERO; 3]
+    {
         return None;
     }
     // Rounding of a straight line's derivatives is no bend.

@@ -1,6 +1,6 @@
 //! A uniform grid over the boxes of all intervals.
 
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use glam::{UVec3, Vec3A};
 use rayon::prelude::*;
@@ -81,15 +81,12 @@ impl Grid {
                     ends: Vec::new(),
                     entries: Vec::new(),
                 };
-                let reached = |(_, each): (usize, Bounds)| {
-                    (grid.cell(each.high) - grid.cell(each.low) + 1).as_u64vec3().element_product()
-                };
-                let entries: u64 =
-                    (0..tasks).into_par_iter().map(|task| boxes(task).map(reached).sum::<u64>()).sum();
-                if entries <= ENTRIES * count.max(1) || total <= 1.0 {
-                    grid.ends = zeroed("a grid's cells", total as u64)?;
+                grid.ends = zeroed("a grid's cells", total as u64)?;
+                let most = if total <= 1.0 { u64::MAX } else { ENTRIES * count };
+                let entries = grid.count(tasks, &boxes, most);
+                if entries <= most {
                     grid.entries = zeroed("a grid's entries", entries)?;
-                    grid.fill(tasks, boxes);
+                    grid.fill(tasks, &boxes);
                     return Ok(grid);
                 }
             }
@@ -97,15 +94,31 @@ impl Grid {
         }
     }
 
-    fn fill<I: Iterator<Item = (usize, Bounds)>>(&mut self, tasks: usize, boxes: impl Fn(usize) -> I + Sync) {
-        let grid = &*self;
+    /// Counts the boxes that reach into each cell, and how many these are in all. Above `most` it stops: a few boxes
+    /// that reach into every cell would keep it for hours.
+    fn count<I: Iterator<Item = (usize, Bounds)>>(
+        &self,
+        tasks: usize,
+        boxes: impl Fn(usize) -> I + Sync,
+        most: u64,
+    ) -> u64 {
+        let reached = AtomicU64::new(0);
         (0..tasks).into_par_iter().for_each(|task| {
             for (_, each) in boxes(task) {
-                grid.each_cell(&each, |cell| {
-                    grid.ends[cell].fetch_add(1, Ordering::Relaxed);
+                let cells = (self.cell(each.high) - self.cell(each.low) + 1).as_u64vec3().element_product();
+                if reached.fetch_add(cells, Ordering::Relaxed) > most.saturating_sub(cells) {
+                    return;
+                }
+                self.each_cell(&each, |cell| {
+                    self.ends[cell].fetch_add(1, Ordering::Relaxed);
                 });
             }
         });
+        reached.into_inner()
+    }
+
+    /// Makes counts places, and puts each box's number there.
+    fn fill<I: Iterator<Item = (usize, Bounds)>>(&mut self, tasks: usize, boxes: impl Fn(usize) -> I + Sync) {
         let mut start = 0;
         for end in &mut self.ends {
             let count = *end.get_mut();

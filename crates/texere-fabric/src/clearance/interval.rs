@@ -30,8 +30,10 @@ pub(super) struct At {
 impl Cubic {
     /// The interval between the middle two of four control points, with the factor `s` of the spline's tangents.
     pub(super) fn new([before, start, end, after]: [ControlPoint; 4], s: f64) -> Self {
-        let [p, q, r, u] = [before, start, end, after].map(|point| point.position().as_dvec3());
-        let [pr, qr, rr, ur] = [before, start, end, after].map(|point| f64::from(point.radius));
+        let place = |point: ControlPoint| point.position().as_dvec3();
+        let (p, q, r, u) = (place(before), place(start), place(end), place(after));
+        let radius = |point: ControlPoint| f64::from(point.radius);
+        let (pr, qr, rr, ur) = (radius(before), radius(start), radius(end), radius(after));
         let (m0, m1) = ((r - p) * s, (u - q) * s);
         let (n0, n1) = ((rr - pr) * s, (ur - qr) * s);
         Self {
@@ -107,27 +109,39 @@ impl Cubic {
         0.75 * one.max(other).sqrt()
     }
 
-    /// The largest second derivative across any chord of the interval, mm, or more.
-    ///
-    /// What is along the interval only changes its speed. A chord within it leans by no more than the velocities do.
-    fn acceleration_across(&self) -> f64 {
-        let [start, .., end] = self.hull();
-        let forward = (end - start).normalize_or_zero();
-        let apart = |vector: DVec3| (vector.dot(forward), vector.reject_from(forward).length());
-        let lean = self.velocities().into_iter().map(apart).fold(0.0, |most: f64, (along, across)| {
-            most.max(if along > across { across / along } else { 1.0 })
-        });
-        let [u, v, w] = self.velocities();
-        let [(along, across), (other_along, other_across)] = [2.0 * (v - u), 2.0 * (w - v)].map(apart);
-        across.max(other_across) + lean * along.abs().max(other_along.abs())
+    /// How far the interval lies from `count` chords at most, mm, squared.
+    fn off_chords_squared(&self, count: usize) -> f64 {
+        let [_, c1, c2, c3] = self.position;
+        let step = 1.0 / count as f64;
+        let mut most = 0.0_f64;
+        let (mut start, mut leaving) = (self.position[0], c1 * step / 3.0);
+        for k in 1..=count {
+            let t = k as f64 * step;
+            let (end, arriving) = (self.position(t), (c1 + (2.0 * c2 + 3.0 * c3 * t) * t) * step / 3.0);
+            let chord = end - start;
+            let apart = |corner: DVec3| {
+                let along = share(corner.dot(chord), chord.length_squared());
+                corner.distance_squared(chord * along)
+            };
+            most = most.max(apart(leaving)).max(apart(chord - arriving));
+            (start, leaving) = (end, arriving);
+        }
+        // The inner two of the four Bézier weights add up to 3/4 at most.
+        0.5625 * most
     }
 
     /// Chords that lie within [`SAGITTA`] of the curve (as far as [`CHORDS_MAX`] of them do).
     pub(super) fn chords(&self) -> Chords {
-        // A curve lies within an eighth of its largest second derivative of its chord, n chords within 1/n² of that.
         let sagitta = SAGITTA * self.radius_floor.max(f64::MIN_POSITIVE);
-        let wanted = (self.acceleration_across() / 8.0 / sagitta).sqrt().ceil();
-        let count = (wanted as usize).clamp(1, CHORDS_MAX);
+        let mut count = 1;
+        while count < CHORDS_MAX {
+            // n chords lie 1/n² as far from a curve as one does, or little more.
+            let times = (self.off_chords_squared(count).sqrt() / sagitta).sqrt();
+            if times <= 1.0 {
+                break;
+            }
+            count = ((count as f64 * times).ceil() as usize).clamp(count + 1, CHORDS_MAX);
+        }
         let mut corners = [self.position[0]; CHORDS_MAX + 1];
         for (k, corner) in corners.iter_mut().enumerate().take(count + 1).skip(1) {
             *corner = self.position(k as f64 / count as f64);
@@ -197,7 +211,6 @@ impl Chords {
 pub(super) fn closest([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (f64, f64, f64) {
     let (along, other, apart) = (p_end - p, q_end - q, p - q);
     let (a, e, f) = (along.length_squared(), other.length_squared(), other.dot(apart));
-    let share = |over: f64, under: f64| if under > 0.0 { (over / under).clamp(0.0, 1.0) } else { 0.0 };
     let (c, b) = (along.dot(apart), along.dot(other));
     let mut s = share(b * f - c * e, a * e - b * b);
     let mut t = share(b * s + f, e);
@@ -205,4 +218,9 @@ pub(super) fn closest([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (f64, f
     s = share(b * t - c, a);
     t = share(b * s + f, e);
     ((p + along * s).distance_squared(q + other * t), s, t)
+}
+
+/// The part that `over` is of `under`, held between none and all of it.
+fn share(over: f64, under: f64) -> f64 {
+    if under > 0.0 { (over / under).clamp(0.0, 1.0) } else { 0.0 }
 }

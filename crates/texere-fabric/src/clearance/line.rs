@@ -82,8 +82,10 @@ impl<'a> Line<'a> {
     /// It is for finding neighbours, in single precision and a little too large.
     #[inline]
     pub(super) fn bounds(&self, point: usize, margin: f64) -> Bounds {
-        let [before, start, end, after] = neighbours(self.points, self.closed, point - self.first)
-            .map(|point| Vec4::new(point.x, point.y, point.z, point.radius));
+        let [before, start, end, after] = neighbours(self.points, self.closed, point - self.first);
+        // One by one: a map over the array stays a call, in the innermost of loops.
+        let whole = |point: ControlPoint| Vec4::new(point.x, point.y, point.z, point.radius);
+        let (before, start, end, after) = (whole(before), whole(start), whole(end), whole(after));
         // The Bézier polygon, of radii too; the inner two of its corners may lie on either side.
         let s = self.s as f32 / 3.0;
         let (leaving, arriving) = (start + (end - before) * s, end - (after - start) * s);

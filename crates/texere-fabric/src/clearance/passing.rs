@@ -48,13 +48,14 @@ impl Passing {
     /// largest coefficient of (A - B) · A', of degree five in its own parameter and three in the other's.
     fn slopes(&self, other: &Self) -> [f64; 2] {
         let shift = other.start - self.start;
-        let along = self.velocities.map(|velocity| -> [f64; 4] {
-            let [x, y, z] = &other.corners;
+        let [x, y, z] = &other.corners;
+        let along = |velocity: DVec3| -> [f64; 4] {
             std::array::from_fn(|k| {
                 (shift.x + x[k]) * velocity.x + (shift.y + y[k]) * velocity.y + (shift.z + z[k]) * velocity.z
             })
-        });
-        let [a, b, c] = along;
+        };
+        let [u, v, w] = self.velocities;
+        let (a, b, c) = (along(u), along(v), along(w));
         let [mut least, mut most] = [[f64::INFINITY; 4], [f64::NEG_INFINITY; 4]];
         for k in 0..4 {
             // B · A', raised from degree two to five.

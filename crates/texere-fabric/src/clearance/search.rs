@@ -10,7 +10,7 @@ use texere_core::Yarns;
 use super::approach::{Side, refine};
 use super::found::Found;
 use super::grid::{Bounds, Grid};
-use super::interval::{Cubic, SAGITTA, closest};
+use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{Line, Span};
 use super::passing::Passing;
 use super::support::Support;
@@ -25,7 +25,24 @@ struct Part<'a> {
     cell: UVec3,
 }
 
-/// What is worked out of an interval once it meets another.
+/// What is worked out of an interval once it is asked for.
+#[derive(Default)]
+struct Met {
+    curve: OnceCell<Curve>,
+    chords: OnceCell<Chords>,
+}
+
+impl Met {
+    fn curve(&self, part: &Part<'_>) -> &Curve {
+        self.curve.get_or_init(|| Curve::new(part))
+    }
+
+    fn chords(&self, curve: &Curve) -> &Chords {
+        self.chords.get_or_init(|| curve.cubic.chords())
+    }
+}
+
+/// An interval that meets another.
 struct Curve {
     cubic: Cubic,
     passing: Passing,
@@ -79,7 +96,7 @@ impl<'a> Probe<'a> {
         let mut found = Found::default();
         let mut points = Vec::new();
         let mut parts: Vec<Part<'_>> = Vec::new();
-        let mut curves = Vec::new();
+        let mut met: Vec<Met> = Vec::new();
         for cell in cells {
             points.clear();
             points.extend(grid.entries(cell));
@@ -93,15 +110,13 @@ impl<'a> Probe<'a> {
                 let bounds = line.bounds(point, CLEARANCE_NEAR);
                 parts.push(Part { point, line, bounds, cell: grid.cell(bounds.low) });
             }
-            curves.clear();
-            curves.resize_with(parts.len(), OnceCell::new);
+            met.clear();
+            met.resize_with(parts.len(), Met::default);
             for (second, other) in parts.iter().enumerate() {
                 for (first, one) in parts[..second].iter().enumerate() {
                     // Two may meet in several cells: where what they share begins they count.
                     if one.bounds.meets(&other.bounds) && grid.number(one.cell.max(other.cell)) == cell {
-                        let [a, b] = [(first, one), (second, other)]
-                            .map(|(number, part)| curves[number].get_or_init(|| Curve::new(part)));
-                        self.pair([(one, a), (other, b)], &mut found);
+                        self.pair([(one, &met[first]), (other, &met[second])], &mut found);
                     }
                 }
             }
@@ -110,7 +125,8 @@ impl<'a> Probe<'a> {
     }
 
     /// The contacts of two intervals, the first one's number being the lower.
-    fn pair(&self, [(one, a), (other, b)]: [(&Part<'_>, &Curve); 2], found: &mut Found) {
+    fn pair(&self, [(one, first), (other, second)]: [(&Part<'_>, &Met); 2], found: &mut Found) {
+        let (a, b) = (first.curve(one), second.curve(other));
         let reach = a.reach + b.reach;
         let within = CLEARANCE_NEAR * reach;
         let cuts = [one, other].map(|part| part.line.cut(part.point));
@@ -135,7 +151,7 @@ impl<'a> Probe<'a> {
         ];
         let mut seen: Vec<DVec2> = Vec::new();
         // Chords may be further from one another than the curves are.
-        a.cubic.chords().approaches(&b.cubic.chords(), within + SAGITTA * reach, |s, t| {
+        first.chords(a).approaches(second.chords(b), within + SAGITTA * reach, |s, t| {
             let Some((place, ratio)) = refine(sides[0], sides[1], DVec2::new(s, t)) else { return };
             let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
             if ratio > CLEARANCE_NEAR || again {

@@ -16,6 +16,9 @@ const MARGIN: f64 = 0.05;
 /// Steps of refinement.
 const STEPS: usize = 40;
 
+/// The longest step, in intervals.
+const STRIDE: f64 = 0.25;
+
 /// A step this short, in intervals, ends refinement: what is left changes a ratio by its square.
 const SHORT: f64 = 1e-5;
 
@@ -79,10 +82,13 @@ pub(super) fn refine(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DV
 /// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967).
 fn refine_round(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
     let ratio = |a: &At, b: &At| (a.position - b.position).length() / (a.radius[0] + b.radius[0]);
-    let mut place = DVec2::new(one.held(start.x), other.held(start.y));
+    let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
+    let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));
+    let mut place = held_at(start);
+    let (mut a, mut b) = at(place);
+    let mut lambda = ratio(&a, &b);
     for _ in 0..STEPS {
-        let (a, b) = (one.cubic.at(place.x), other.cubic.at(place.y));
-        let (apart, radii, lambda) = (a.position - b.position, a.radius[0] + b.radius[0], ratio(&a, &b));
+        let (apart, radii) = (a.position - b.position, a.radius[0] + b.radius[0]);
         let held = lambda * lambda;
         let gradient = DVec2::new(
             apart.dot(a.velocity) - held * radii * a.radius[1],
@@ -96,41 +102,63 @@ fn refine_round(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, 
             (flat, bent)
         };
         let ((flat_a, bent_a), (flat_b, bent_b)) = (own(&a, 1.0), own(&b, -1.0));
-        // Where the distance is not convex the straight lines through both places stand in. A hair more on the
-        // diagonal holds parallel lines where they are.
-        let convex = bent_a > 0.0 && bent_a * bent_b > across * across;
-        let (aa, bb) = if convex { (bent_a, bent_b) } else { (flat_a, flat_b) };
-        let (aa, bb) = (aa + 1e-9 * flat_a + f64::MIN_POSITIVE, bb + 1e-9 * flat_b + f64::MIN_POSITIVE);
-        // A parameter that is held where it would go on downhill stays; the other one goes on alone.
-        let stuck =
-            |side: &Side<'_>, t: f64, slope: f64| slope != 0.0 && side.held(t - CLOSE * slope.signum()) == t;
+        // Where the distance is not convex, enough is added on the diagonal, by the measure of the straight lines through
+        // both places, that it becomes so. A hair more holds parallel lines where they are.
+        let scale = DVec2::new(flat_a, flat_b) + f64::MIN_POSITIVE;
+        let short = if bent_a > 0.0 && bent_a * bent_b > across * across {
+            0.0
+        } else {
+            let (own, across) = (DVec2::new(bent_a, bent_b) / scale, across / (scale.x * scale.y).sqrt());
+            let least = own.x + own.y - (own.x - own.y).hypot(2.0 * across);
+            (-least).max(0.0)
+        };
+        let added = scale * (short + 1e-9);
+        let (aa, bb) = (bent_a + added.x, bent_b + added.y);
         if one.is_gone(place.x, -gradient.x) || other.is_gone(place.y, -gradient.y) {
             return None;
         }
-        let fixed = [stuck(&one, place.x, gradient.x), stuck(&other, place.y, gradient.y)];
-        let step = match fixed {
-            [true, true] => DVec2::ZERO,
-            [true, false] => DVec2::new(0.0, -gradient.y / bb),
-            [false, true] => DVec2::new(-gradient.x / aa, 0.0),
+        // A parameter that is held where it would go on stays; the other one goes on alone.
+        let held_from = |towards: DVec2| {
+            let stays = |side: &Side<'_>, t: f64, towards: f64| {
+                towards != 0.0 && side.held(t + CLOSE * towards.signum()) == t
+            };
+            [stays(&one, place.x, towards.x), stays(&other, place.y, towards.y)]
+        };
+        let alone = |fixed: [bool; 2]| {
+            let step = DVec2::new(-gradient.x / aa, -gradient.y / bb);
+            DVec2::select(fixed.into(), DVec2::ZERO, step)
+        };
+        let step = match held_from(-gradient) {
             [false, false] => {
                 let hessian = DMat2::from_cols(DVec2::new(aa, across), DVec2::new(across, bb));
-                if hessian.determinant() > 1e-12 * aa * bb {
-                    -(hessian.inverse() * gradient)
-                } else {
-                    DVec2::new(-gradient.x / aa, -gradient.y / bb) / 2.0
+                let step = -(hessian.inverse() * gradient);
+                match held_from(step) {
+                    [false, false] => step,
+                    fixed => alone(fixed),
                 }
             }
+            fixed => alone(fixed),
         };
-        let next = place + step.clamp(DVec2::splat(-0.25), DVec2::splat(0.25));
-        let next = DVec2::new(one.held(next.x), other.held(next.y));
-        let moved = (next - place).abs().max_element();
-        place = next;
+        // A yarn that stands still at a place has no way to go there.
+        let step = if step.is_finite() { step } else { DVec2::ZERO };
+        let mut step = step * (STRIDE / step.abs().max_element()).min(1.0);
+        // It leads downhill, but it may lead too far: round a sharp bend it would go back and forth for ever.
+        let moved = loop {
+            let next = held_at(place + step);
+            let moved = (next - place).abs().max_element();
+            let (next_a, next_b) = at(next);
+            let next_lambda = ratio(&next_a, &next_b);
+            if next_lambda <= lambda || moved < CLOSE {
+                (place, a, b, lambda) = (next, next_a, next_b, next_lambda);
+                break moved;
+            }
+            step /= 2.0;
+        };
         if moved < CLOSE {
             break;
         }
     }
-    let (a, b) = (one.cubic.at(place.x), other.cubic.at(place.y));
-    Some((place, ratio(&a, &b)))
+    Some((place, lambda))
 }
 
 /// Both yarns' tangent tubes at two places: the factor at which they touch, and how far along each the touching point
@@ -153,7 +181,7 @@ fn refine_flat(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f
             return None;
         }
         // Outside a tight bend the whole way would overshoot.
-        let step = (0.6 * last.offset).clamp(DVec2::splat(-0.25), DVec2::splat(0.25));
+        let step = (0.6 * last.offset).clamp(DVec2::splat(-STRIDE), DVec2::splat(STRIDE));
         let next = DVec2::new(one.held(place.x + step.x), other.held(place.y + step.y));
         let moved = (next - place).abs().max_element();
         place = next;

@@ -22,7 +22,7 @@ const STRIDE: f64 = 0.25;
 /// A step this short, in intervals, ends refinement: what is left changes a ratio by its square.
 const SHORT: f64 = 1e-5;
 
-/// The same for Newton's method, which has then less than 1e-12 left.
+/// A step so short that it leads nowhere, in intervals.
 const CLOSE: f64 = 1e-7;
 
 /// The sine of the angle below which two tangents count as parallel: a crossing so flat is found by its neighbours.
@@ -154,7 +154,8 @@ fn refine_round(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, 
             }
             step /= 2.0;
         };
-        if moved < CLOSE {
+        // Where nothing was added, what is left is the square of it.
+        if moved < if short == 0.0 { SHORT } else { CLOSE } {
             break;
         }
     }

@@ -9,7 +9,7 @@ use super::support::Support;
 const ACCURACY: f64 = 1e-3;
 
 /// Times that an interval is halved. A velocity that turns round within so short a part turns straight back.
-const HALVINGS: u32 = 12;
+const HALVINGS: u32 = 20;
 
 /// Times that an interval is halved until a section that is no circle reaches as far everywhere in a part as in its
 /// middle.

@@ -44,44 +44,40 @@ impl Passing {
         }
     }
 
-    /// Bounds of half the slope of the squared distance to any point of `other`, along this interval: the least and the
-    /// largest coefficient of (A - B) · A', of degree five in its own parameter and three in the other's.
-    fn slopes(&self, other: &Self) -> [f64; 2] {
-        let shift = other.start - self.start;
+    /// Half the slope of the squared distance to the `corner`th corner of `other`'s Bézier polygon, along this interval:
+    /// the coefficients of (A - B) · A', of degree five in its own parameter.
+    #[inline]
+    fn slopes(&self, other: &Self, corner: usize) -> [f64; 6] {
         let [x, y, z] = &other.corners;
-        let along = |velocity: DVec3| -> [f64; 4] {
-            std::array::from_fn(|k| {
-                (shift.x + x[k]) * velocity.x + (shift.y + y[k]) * velocity.y + (shift.z + z[k]) * velocity.z
-            })
-        };
+        let place = other.start - self.start + DVec3::new(x[corner], y[corner], z[corner]);
         let [u, v, w] = self.velocities;
-        let (a, b, c) = (along(u), along(v), along(w));
-        let [mut least, mut most] = [[f64::INFINITY; 4], [f64::NEG_INFINITY; 4]];
-        for k in 0..4 {
-            // B · A', raised from degree two to five.
-            let raised = [
-                a[k],
-                0.6 * a[k] + 0.4 * b[k],
-                0.3 * a[k] + 0.6 * b[k] + 0.1 * c[k],
-                0.1 * a[k] + 0.6 * b[k] + 0.3 * c[k],
-                0.4 * b[k] + 0.6 * c[k],
-                c[k],
-            ];
-            for (own, others) in self.own.iter().zip(raised) {
-                let slope = own - others;
-                least[k] = if slope < least[k] { slope } else { least[k] };
-                most[k] = if slope > most[k] { slope } else { most[k] };
-            }
-        }
-        [least.into_iter().fold(f64::INFINITY, f64::min), most.into_iter().fold(f64::NEG_INFINITY, f64::max)]
+        let (a, b, c) = (place.dot(u), place.dot(v), place.dot(w));
+        let own = &self.own;
+        // B · A', raised from degree two to five.
+        [
+            own[0] - a,
+            own[1] - (0.6 * a + 0.4 * b),
+            own[2] - (0.3 * a + 0.6 * b + 0.1 * c),
+            own[3] - (0.1 * a + 0.6 * b + 0.3 * c),
+            own[4] - (0.4 * b + 0.6 * c),
+            own[5] - c,
+        ]
     }
 
     /// Whether the interval comes nearest to `other` at one of its knots whatever the place on `other`, and that knot
     /// is another interval's to report. `cut` says which of its ends are an open yarn's, `within` how near the two
     /// may be.
     pub(super) fn leaves_to_neighbours(&self, other: &Self, cut: [bool; 2], within: f64) -> bool {
-        let [least, most] = self.slopes(other);
         let level = |velocity: DVec3| LEVEL * within * velocity.length();
-        (!cut[0] && least > 2.0 * level(self.velocities[0])) || (!cut[1] && most <= level(self.velocities[2]))
+        let (rises, falls) = (2.0 * level(self.velocities[0]), level(self.velocities[2]));
+        (!cut[0] && self.all_slopes(other, |slope| slope > rises))
+            || (!cut[1] && self.all_slopes(other, |slope| slope <= falls))
+    }
+
+    /// Whether it `holds` for all slopes, wherever on `other`: they lie between their coefficients in its parameter, too.
+    #[inline]
+    fn all_slopes(&self, other: &Self, holds: impl Fn(f64) -> bool) -> bool {
+        (0..4)
+            .all(|corner| self.slopes(other, corner).into_iter().fold(true, |all, slope| all & holds(slope)))
     }
 }

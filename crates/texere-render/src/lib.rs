@@ -17,6 +17,7 @@ mod phases;
 mod renderer;
 mod scene;
 mod screen;
+mod sieve;
 #[cfg(test)]
 mod tests;
 mod uniform;

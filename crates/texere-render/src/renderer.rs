@@ -1,23 +1,11 @@
-//! The pipelines: yarns, visibility, light.
+//! The pipelines: sieve, yarns, visibility, light.
 
-use texere_core::{Backend, BackendError, DeviceInfo, Vertex};
+use texere_core::{Backend, BackendError, DeviceInfo};
 use texere_shaders::picture;
 use texere_wgpu::WgpuBackend;
 use wgpu::{BindingType, BufferBindingType, ShaderStages, TextureSampleType, TextureViewDimension};
 
 use crate::screen::{COLOR, DEPTH, KEPT, SAMPLES, VISIBILITY};
-
-/// What comes with a draw: one row of a buffer that steps by the instance.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct DrawRow {
-    pub(crate) yarn: u32,
-    /// The yarn's ring number of the chunk's ring 0, counted on beyond zero where it lies before the yarn.
-    pub(crate) first_ring: u32,
-    pub(crate) is_cap: u32,
-    /// From ring to ring, mm.
-    pub(crate) ring_length: f32,
-}
 
 /// An open device with what it takes to make pictures.
 ///
@@ -37,6 +25,7 @@ pub(crate) struct DrawRow {
 #[derive(Debug)]
 pub struct Renderer {
     pub(crate) device: WgpuBackend,
+    pub(crate) sieve: wgpu::ComputePipeline,
     /// Outsides alone, for views that show no end of a yarn.
     pub(crate) outsides: wgpu::RenderPipeline,
     /// Insides, too.
@@ -49,6 +38,7 @@ pub struct Renderer {
 /// Layouts of what the pipelines bind.
 #[derive(Debug)]
 pub(crate) struct Layouts {
+    pub(crate) sieve: wgpu::BindGroupLayout,
     pub(crate) yarns: wgpu::BindGroupLayout,
     pub(crate) visibility: wgpu::BindGroupLayout,
     pub(crate) shade: wgpu::BindGroupLayout,
@@ -59,23 +49,26 @@ impl Renderer {
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub fn new(device: WgpuBackend) -> Result<Self, BackendError> {
-        Self::with_yarns(device, picture::YARNS)
+        Self::with_shaders(device, picture::SIEVE, picture::YARNS)
     }
 
-    /// The same with another shader for yarns, such as a broken one that a test must find.
-    pub(crate) fn with_yarns(device: WgpuBackend, source: &str) -> Result<Self, BackendError> {
+    /// The same with other shaders for yarns, such as a broken one that a test must find.
+    pub(crate) fn with_shaders(device: WgpuBackend, sieve: &str, yarns: &str) -> Result<Self, BackendError> {
         let layouts = device.scoped("Device::create_bind_group_layout", || Layouts::new(device.device()))?;
+        let sieve = device.scoped("Device::create_compute_pipeline", || {
+            Pipelines { device: device.device() }.sieve(sieve, &layouts.sieve)
+        })?;
         let pipelines = device.scoped("Device::create_render_pipeline", || {
             let pipelines = Pipelines { device: device.device() };
             [
-                pipelines.yarns(source, &layouts.yarns, Some(wgpu::Face::Back)),
-                pipelines.yarns(source, &layouts.yarns, None),
+                pipelines.yarns(yarns, &layouts.yarns, Some(wgpu::Face::Back)),
+                pipelines.yarns(yarns, &layouts.yarns, None),
                 pipelines.screen("visibility", picture::VISIBILITY, &layouts.visibility, VISIBILITY),
                 pipelines.screen("shade", picture::SHADE, &layouts.shade, COLOR),
             ]
         })?;
         let [outsides, all_sides, visibility, shade] = pipelines;
-        Ok(Self { device, outsides, all_sides, visibility, shade, layouts })
+        Ok(Self { device, sieve, outsides, all_sides, visibility, shade, layouts })
     }
 
     /// The device.
@@ -103,20 +96,16 @@ impl Layouts {
         let kept = texture(TextureSampleType::Uint, true);
         let screen = [VIEW, texture(TextureSampleType::Depth, true), kept, kept];
         let visibility = texture(TextureSampleType::Float { filterable: false }, false);
-        let looks = BindingType::Buffer {
-            ty: BufferBindingType::Storage { read_only: true },
+        let storage = |read_only| BindingType::Buffer {
+            ty: BufferBindingType::Storage { read_only },
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let layout = |label, types: &[BindingType]| {
+        let (read, written) = (storage(true), storage(false));
+        let layout = |label, visibility, types: &[BindingType]| {
             let entries: Vec<_> = (0..)
                 .zip(types)
-                .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
-                    binding,
-                    visibility: ShaderStages::VERTEX_FRAGMENT,
-                    ty,
-                    count: None,
-                })
+                .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None })
                 .collect();
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some(label),
@@ -124,9 +113,10 @@ impl Layouts {
             })
         };
         Self {
-            yarns: layout("yarns", &[VIEW]),
-            visibility: layout("visibility", &screen),
-            shade: layout("shade", &[&screen[..], &[visibility, looks]].concat()),
+            sieve: layout("sieve", ShaderStages::COMPUTE, &[VIEW, read, read, written, written]),
+            yarns: layout("yarns", ShaderStages::VERTEX_FRAGMENT, &[VIEW, read, read, read]),
+            visibility: layout("visibility", ShaderStages::FRAGMENT, &screen),
+            shade: layout("shade", ShaderStages::FRAGMENT, &[&screen[..], &[visibility, read]].concat()),
         }
     }
 }
@@ -152,6 +142,17 @@ impl Pipelines<'_> {
         })
     }
 
+    fn sieve(&self, source: &str, layout: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
+        self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("sieve"),
+            layout: Some(&self.layout(layout)),
+            module: &self.module("sieve", source),
+            entry_point: Some("sieve"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        })
+    }
+
     fn yarns(
         &self,
         source: &str,
@@ -159,18 +160,6 @@ impl Pipelines<'_> {
         cull_mode: Option<wgpu::Face>,
     ) -> wgpu::RenderPipeline {
         let module = self.module("yarns", source);
-        let corner = |attributes| {
-            Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes,
-            })
-        };
-        let row = wgpu::VertexBufferLayout {
-            array_stride: size_of::<DrawRow>() as u64,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &wgpu::vertex_attr_array![3 => Uint32, 4 => Uint32, 5 => Uint32, 6 => Float32],
-        };
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("yarns"),
             layout: Some(&self.layout(layout)),
@@ -178,11 +167,7 @@ impl Pipelines<'_> {
                 module: &module,
                 entry_point: Some("yarn_corner"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[
-                    corner(&wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3]),
-                    corner(&wgpu::vertex_attr_array![2 => Float32x3]),
-                    Some(row),
-                ],
+                buffers: &[],
             },
             primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
             depth_stencil: Some(wgpu::DepthStencilState {

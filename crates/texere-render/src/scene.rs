@@ -8,13 +8,16 @@ use texere_core::{BackendError, Chunk, ControlPoint, Limits, Plan, Session, Sett
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
 
-use crate::renderer::DrawRow;
 use crate::screen::Screen;
+use crate::sieve::Sieve;
 use crate::uniform::{ViewUniform, YarnLook};
 use crate::{Camera, Extent, RenderError, Renderer};
 
 /// Memory for two chunks of mesh, bytes: enough to keep any device busy, little beside what pictures take.
-const CHUNK_MEMORY: u64 = 256 << 20;
+const CHUNK_MEMORY: u64 = 128 << 20;
+
+// The list of one chunk's triangles is a single binding.
+const _: () = assert!(Sieve::list_bytes(CHUNK_MEMORY / 2) <= 128 << 20);
 
 /// How fine a picture is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,7 +56,7 @@ pub struct PictureTimings {
 }
 
 /// A fabric on a device: control points and tables. Its mesh is made anew, chunk by chunk, for each picture: whatever the
-/// fabric, no more of it is in memory than two chunks, 256 MiB together.
+/// fabric, no more of it is in memory than two chunks and what may be seen of one, 214 MiB together.
 #[derive(Debug)]
 pub struct Scene<'a> {
     renderer: &'a Renderer,
@@ -63,19 +66,18 @@ pub struct Scene<'a> {
     extent: Extent,
     /// For each yarn, from ring to ring, mm.
     ring_lengths: Vec<f32>,
-    pattern: wgpu::Buffer,
     looks: wgpu::Buffer,
-    rows: wgpu::Buffer,
+    sieve: Sieve,
     view: wgpu::Buffer,
     screen: Option<Screen>,
 }
 
 impl Renderer {
-    /// Sends a fabric to the device. Its topology is set aside for [`Topology::Shared`], which saves every index.
+    /// Sends a fabric to the device. Its topology is set aside: pictures list their own triangles.
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene<'_>, RenderError> {
-        let settings = Settings { topology: Topology::Shared, ..*settings };
+        let settings = Settings { topology: Topology::None, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let limits = chunk_limits(&plan).min(&self.info().limits);
         let mut session = self.device.wgpu_session(plan.clone())?;
@@ -87,13 +89,8 @@ impl Renderer {
             session,
             extent: Extent::of(yarns),
             ring_lengths: ring_lengths(yarns, &plan),
-            pattern: buffer(
-                "index pattern",
-                bytemuck::cast_slice(&plan.shared_indices()),
-                BufferUsages::INDEX,
-            )?,
             looks: buffer("looks", bytemuck::cast_slice(&YarnLook::all(yarns)), BufferUsages::STORAGE)?,
-            rows: buffer("draws", &[], BufferUsages::VERTEX)?,
+            sieve: Sieve::new(self)?,
             view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
             screen: None,
             limits,
@@ -102,7 +99,7 @@ impl Renderer {
     }
 
     /// A buffer that holds `bytes`, and can be written again.
-    fn filled(
+    pub(crate) fn filled(
         &self,
         what: &'static str,
         bytes: &[u8],
@@ -209,12 +206,10 @@ impl Scene<'_> {
     /// Meshes and draws chunk after chunk. While one is drawn the next is made.
     fn draw(&mut self, camera: &Camera) -> Result<(), RenderError> {
         let plan = self.plan.clone();
-        let view = [self.view.as_entire_binding()];
-        let bound = self.renderer.bind(&self.renderer.layouts.yarns, &view)?;
         let mut before = None;
         for chunk in plan.chunks(&self.limits)? {
             self.session.mesh(&chunk)?;
-            let drawn = self.draw_chunk(&chunk, camera, &bound)?;
+            let drawn = self.draw_chunk(&chunk, camera)?;
             // No more than two chunks are under way, so that each wait is for a chunk and not for a fabric.
             if let Some(submission) = before.replace(drawn) {
                 self.renderer.device.wait(submission)?;
@@ -226,64 +221,39 @@ impl Scene<'_> {
         }
     }
 
-    fn draw_chunk(
-        &mut self,
-        chunk: &Chunk,
-        camera: &Camera,
-        bound: &wgpu::BindGroup,
-    ) -> Result<wgpu::SubmissionIndex, BackendError> {
-        let (rows, draws) = self.draws(chunk);
-        let bytes: &[u8] = bytemuck::cast_slice(&rows);
-        if self.rows.size() < bytes.len() as u64 {
-            self.rows = self.renderer.filled("draws", bytes, BufferUsages::VERTEX)?;
-        }
-        let (renderer, screen) = (self.renderer, self.screen.as_ref());
-        let vertices = self.session.vertex_buffer(chunk)?;
-        let ring = u64::from(self.plan.settings().sides) * size_of::<texere_core::Vertex>() as u64;
-        renderer.device.scoped("Queue::submit", || {
-            renderer.device.queue().write_buffer(&self.rows, 0, bytes);
-            let mut encoder = renderer.device.device().create_command_encoder(&Default::default());
-            if let Some(screen) = screen {
+    /// Lists the triangles that may be seen, and draws them.
+    fn draw_chunk(&mut self, chunk: &Chunk, camera: &Camera) -> Result<wgpu::SubmissionIndex, RenderError> {
+        let renderer = self.renderer;
+        self.sieve.fill(renderer, &self.plan, chunk, &self.ring_lengths)?;
+        let vertices = self.session.vertex_buffer(chunk)?.as_entire_binding();
+        let [runs, triangles] = self.sieve.bindings();
+        let listed = [self.view.as_entire_binding(), vertices, runs, triangles];
+        let drawn = renderer.bind(&renderer.layouts.yarns, &listed)?;
+        let all = [&listed[..], &[self.sieve.draw.as_entire_binding()]].concat();
+        let sieved = renderer.bind(&renderer.layouts.sieve, &all)?;
+        let device = &renderer.device;
+        let submission = device.scoped("Queue::submit", || {
+            let mut encoder = device.device().create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                pass.set_pipeline(&renderer.sieve);
+                pass.set_bind_group(0, &sieved, &[]);
+                let [across, down] = self.sieve.groups();
+                pass.dispatch_workgroups(across, down, 1);
+            }
+            if let Some(screen) = &self.screen {
                 let mut pass = screen.yarn_pass(&mut encoder, chunk.index == 0);
                 pass.set_pipeline(if camera.sees_inside() {
                     &renderer.all_sides
                 } else {
                     &renderer.outsides
                 });
-                pass.set_bind_group(0, bound, &[]);
-                pass.set_vertex_buffer(0, vertices.slice(..));
-                pass.set_vertex_buffer(1, vertices.slice(ring..));
-                pass.set_vertex_buffer(2, self.rows.slice(..));
-                pass.set_index_buffer(self.pattern.slice(..), wgpu::IndexFormat::Uint32);
-                for (row, (indices, base)) in (0..).zip(&draws) {
-                    pass.draw_indexed(indices.clone(), *base, row..row + 1);
-                }
+                pass.set_bind_group(0, &drawn, &[]);
+                pass.draw_indirect(&self.sieve.draw, 0);
             }
-            renderer.device.queue().submit([encoder.finish()])
-        })
-    }
-
-    /// The chunk's draws: what comes with each, its indices and its first vertex.
-    fn draws(&self, chunk: &Chunk) -> (Vec<DrawRow>, Vec<(std::ops::Range<u32>, i32)>) {
-        let sides = self.plan.settings().sides;
-        let mut parts = chunk.parts.iter().peekable();
-        let mut first_ring = 0;
-        self.plan
-            .draws(chunk)
-            .map(|draw| {
-                let base = (draw.base_vertex - chunk.first_vertex) as u32;
-                while let Some(part) = parts.next_if(|part| part.first_vertex <= base) {
-                    first_ring = part.first_ring.wrapping_sub(part.first_vertex / sides);
-                }
-                let row = DrawRow {
-                    yarn: draw.yarn,
-                    first_ring,
-                    is_cap: (base >= chunk.rings * sides).into(),
-                    ring_length: self.ring_lengths[draw.yarn as usize],
-                };
-                (row, (draw.indices.start as u32..draw.indices.end as u32, base as i32))
-            })
-            .unzip()
+            device.queue().submit([encoder.finish()])
+        })?;
+        Ok(submission)
     }
 
     /// Visibility, then light, then the copy to the host.

@@ -32,16 +32,16 @@ const SETTINGS: Settings = Settings {
 const ENDS: usize = 10;
 const PICKS: usize = 8;
 
-fn open(yarns: &str) -> Renderer {
+fn open(sieve: &str, yarns: &str) -> Renderer {
     let device = WgpuBackend::open_named(DEVICE, Schedule::PerRing)
         .expect("lavapipe; on Debian and Ubuntu install mesa-vulkan-drivers");
-    Renderer::with_yarns(device, yarns).unwrap()
+    Renderer::with_shaders(device, sieve, yarns).unwrap()
 }
 
 /// One device for all tests. Pictures are drawn one at a time: lavapipe has all cores to itself then.
 fn renderer() -> &'static Mutex<Renderer> {
     static RENDERER: OnceLock<Mutex<Renderer>> = OnceLock::new();
-    RENDERER.get_or_init(|| Mutex::new(open(picture::YARNS)))
+    RENDERER.get_or_init(|| Mutex::new(open(picture::SIEVE, picture::YARNS)))
 }
 
 /// A cloth of the test's own, so that goldens stay what they are when weaves change: 2/2 twill, a millimetre from thread
@@ -172,11 +172,14 @@ fn broken_cloths_are_not_the_golden() {
 #[test]
 fn a_flipped_normal_is_not_the_golden() {
     let source = picture::YARNS
-        .replace("seen.normal = normal;", "seen.normal = select(normal, -normal, yarn == 13u);");
+        .replace("seen.normal = normal;", "seen.normal = select(normal, -normal, run.yarn == 13u);");
     assert_ne!(source, picture::YARNS);
     let yarns = TWILL.yarns();
     let camera = Camera::face(&Extent::of(&yarns), SIZE);
-    assert_seen("a yarn of flipped normals", &draw(&open(&source), &yarns, &camera, &Limits::NONE));
+    assert_seen(
+        "a yarn of flipped normals",
+        &draw(&open(picture::SIEVE, &source), &yarns, &camera, &Limits::NONE),
+    );
 }
 
 #[test]
@@ -198,6 +201,32 @@ fn chunks_draw_the_same_picture() {
             scene.picture(&camera, Quality { supersampling: 1 }).unwrap().rgb
         };
         assert!(draw(&Limits::NONE) == draw(&Limits { blocks: 2, ..Limits::NONE }), "{name}");
+    }
+}
+
+#[test]
+fn triangles_that_are_left_out_would_not_be_seen() {
+    let yarns = TWILL.yarns();
+    let extent = Extent::of(&yarns);
+    let sieve = |from: &str, to: &str| {
+        let source = picture::SIEVE.replace(from, to);
+        assert_ne!(source, picture::SIEVE);
+        open(&source, picture::YARNS)
+    };
+    let whole = sieve("    if min(p.w, min(q.w, r.w)) < 1e-6 {", "    if true {");
+    // Threads of one and a half pixels, and less: a dozen triangles for each sample.
+    let small = [0.6, 1.1].map(|scale| ("small", Camera::true_scale(&extent, scale).unwrap()));
+    for (name, camera) in cameras(&extent).into_iter().chain(small.clone()) {
+        let all = draw(&whole, &yarns, &camera, &Limits::NONE);
+        assert!(picture(&yarns, &camera) == all, "{name}");
+    }
+    // It would be seen if samples were not where the sieve looks for them, or if it took the back for the face.
+    for (from, to) in [("0.375, 0.875", "0.125, 0.375"), ("let outside = -area", "let outside = area")] {
+        let broken = sieve(from, to);
+        for (name, camera) in &small {
+            let all = draw(&whole, &yarns, camera, &Limits::NONE);
+            assert!(draw(&broken, &yarns, camera, &Limits::NONE) != all, "{name}, {to}");
+        }
     }
 }
 

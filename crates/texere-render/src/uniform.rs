@@ -36,7 +36,7 @@ pub(crate) struct ViewUniform {
     reach_pixels: f32,
     thickness: f32,
     has_ground: u32,
-    padding: u32,
+    sees_inside: u32,
 }
 
 const _: () = assert!(size_of::<ViewUniform>() == 224);
@@ -67,7 +67,7 @@ impl ViewUniform {
             reach_pixels: radius * REACH_RADII * pixels_per_mm,
             thickness: radius * THICKNESS_RADII,
             has_ground: u32::from(!camera.cuts),
-            padding: 0,
+            sees_inside: u32::from(camera.sees_inside()),
         }
     }
 }

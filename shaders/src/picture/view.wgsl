@@ -28,7 +28,8 @@ struct View {
     thickness: f32,
     // 1 where there is a ground, else 0.
     has_ground: u32,
-    padding: u32,
+    // 1 where yarns may be seen from inside, else 0.
+    sees_inside: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;

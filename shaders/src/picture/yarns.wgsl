@@ -1,4 +1,4 @@
-// The yarns themselves: what is nearest in each sample, unlit. After view.wgsl.
+// The yarns themselves: what is nearest in each sample, unlit. After view.wgsl and chunk.wgsl.
 
 struct Seen {
     @builtin(position) position: vec4<f32>,
@@ -14,27 +14,30 @@ struct Seen {
 
 const TAU = 6.2831853;
 
-// `next` is the position one ring on; past a part's last ring it is of another part, or nothing, but no facet's first
-// corner lies there. `yarn`, `first_ring`, `is_cap` and `ring_length` (mm) come with the draw.
+// Three vertices and the run, for each triangle.
+@group(0) @binding(3) var<storage, read> triangles: array<vec4<u32>>;
+
 @vertex
-fn yarn_corner(
-    @builtin(vertex_index) number: u32,
-    @location(0) position: vec3<f32>,
-    @location(1) normal: vec3<f32>,
-    @location(2) next: vec3<f32>,
-    @location(3) yarn: u32,
-    @location(4) first_ring: u32,
-    @location(5) is_cap: u32,
-    @location(6) ring_length: f32,
-) -> Seen {
-    let angle = f32(number % view.sides) * (TAU / f32(view.sides));
+fn yarn_corner(@builtin(vertex_index) corner: u32) -> Seen {
+    let triangle = triangles[corner / 3u];
+    let is_cap = (triangle.w & CAP) != 0u;
+    let run = runs[triangle.w & ~CAP];
+    let number = triangle[corner % 3u];
+    let position = position_of(number);
+    let normal = vec3(vertices[6u * number + 3u], vertices[6u * number + 4u], vertices[6u * number + 5u]);
+    let inside = number - run.first_vertex;
+    let angle = f32(inside % view.sides) * (TAU / f32(view.sides));
     var seen: Seen;
-    seen.position = view.clip_from_local * vec4(position - view.target_point, 1.0);
+    seen.position = clip_of(position);
     seen.normal = normal;
-    seen.fibre = select(next - position, normal, is_cap != 0u);
+    // To the next ring. Past a run's last ring there is another run or nothing, but no facet's first corner lies there.
+    seen.fibre = normal;
+    if !is_cap && inside < run.gaps * view.sides {
+        seen.fibre = position_of(number + view.sides) - position;
+    }
     seen.around = vec2(cos(angle), sin(angle));
-    seen.along = f32(number / view.sides + first_ring) * ring_length;
-    seen.yarn = select(yarn, yarn | CUT, is_cap != 0u);
+    seen.along = f32(inside / view.sides + run.first_ring) * run.ring_length;
+    seen.yarn = select(run.yarn, run.yarn | CUT, is_cap);
     return seen;
 }
 

@@ -1,6 +1,7 @@
 //! How much room a fabric takes.
 
 use glam::Vec3;
+use rayon::prelude::*;
 use texere_core::Yarns;
 
 /// The box round a fabric, and how thick its yarns are.
@@ -19,18 +20,22 @@ impl Extent {
     #[must_use]
     pub fn of(yarns: &Yarns) -> Self {
         let layout = yarns.layout();
-        let (mut low, mut high, mut radii) = (Vec3::INFINITY, Vec3::NEG_INFINITY, 0.0f64);
-        for (number, yarn) in layout.yarns().iter().enumerate() {
+        let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY, 0.0f64);
+        let each = layout.yarns().par_iter().enumerate().map(|(number, yarn)| {
             let section = &layout.sections()[yarn.section as usize];
             let reach = section.half_width().max(section.half_height());
-            for point in yarns.yarn_points(number).unwrap_or_default() {
+            let points = yarns.yarn_points(number).unwrap_or_default();
+            points.iter().fold(nothing, |(low, high, radii), point| {
                 let (centre, reach) =
                     (Vec3::new(point.x, point.y, point.z), Vec3::splat(point.radius * reach));
-                low = low.min(centre - reach);
-                high = high.max(centre + reach);
-                radii += f64::from(point.radius);
-            }
-        }
+                (low.min(centre - reach), high.max(centre + reach), radii + f64::from(point.radius))
+            })
+        });
+        // In order, so that a sum is the same every time.
+        let (low, high, radii) = each
+            .collect::<Vec<_>>()
+            .into_iter()
+            .fold(nothing, |one, other| (one.0.min(other.0), one.1.max(other.1), one.2 + other.2));
         let radius = (radii / layout.point_count() as f64) as f32;
         Self { low: low.to_array(), high: high.to_array(), radius }
     }

@@ -152,9 +152,11 @@ impl Screen {
         let width = (self.size[0] * COLOR_BYTES) as usize;
         let pixels = device.scoped("Buffer::get_mapped_range", || {
             self.host.get_mapped_range(..).map(|view| {
-                let rows = view.chunks_exact(row).map(|row| &row[..width]);
-                rows.flat_map(|row| row.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]))
-                    .collect()
+                let mut rgb = Vec::with_capacity(view.len() / 4 * 3);
+                for row in view.chunks_exact(row) {
+                    row[..width].chunks_exact(4).for_each(|pixel| rgb.extend_from_slice(&pixel[..3]));
+                }
+                rgb
             })
         })?;
         let pixels = pixels.map_err(|source| BackendError::Driver {

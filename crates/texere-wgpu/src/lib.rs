@@ -33,6 +33,7 @@ mod per_yarn;
 mod readback;
 mod session;
 mod stages;
+mod upload;
 
 pub use device::WgpuBackend;
 pub use session::WgpuSession;

@@ -17,6 +17,7 @@ use crate::device::Opened;
 use crate::per_yarn;
 use crate::readback::Readback;
 use crate::stages::{Stage, Stages};
+use crate::upload;
 
 /// One fabric on one wgpu device: a [`Session`] that lends its buffers besides.
 ///
@@ -161,7 +162,7 @@ impl Session for WgpuSession {
             self.points.points().get(padded.start as usize..padded.end as usize).unwrap_or_default();
         let bytes: &[u8] = bytemuck::cast_slice(touched);
         let gpu = &self.opened.gpu;
-        gpu.write(&self.tables.points, padded.start * size_of::<ControlPoint>() as u64, bytes)?;
+        upload::send(gpu, &self.tables.points, padded.start * size_of::<ControlPoint>() as u64, bytes)?;
         // Hands the copy over now, so that wgpu's own copy of the points does not wait until the first launch.
         gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
         gpu.probe()?;

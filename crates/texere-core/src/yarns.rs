@@ -269,24 +269,38 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
     Ok(())
 }
 
+/// What a control point's components may be, mm.
+const BOUNDS: [(&str, f32, f32); 4] = [
+    ("x", -COORDINATE_LIMIT, COORDINATE_LIMIT),
+    ("y", -COORDINATE_LIMIT, COORDINATE_LIMIT),
+    ("z", -COORDINATE_LIMIT, COORDINATE_LIMIT),
+    ("radius", RADIUS_MIN, RADIUS_MAX),
+];
+
 fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
+    // All of them in vectors; which one is at fault is asked only where one is.
+    let mut sound = [true; 4];
+    for each in bytemuck::cast_slice::<_, [f32; 4]>(points) {
+        for ((sound, value), (_, low, high)) in sound.iter_mut().zip(each).zip(BOUNDS) {
+            *sound &= (*value >= low) & (*value <= high);
+        }
+    }
+    if sound == [true; 4] {
+        return Ok(());
+    }
     for (point, each) in points.iter().enumerate() {
-        for (field, value) in [("x", each.x), ("y", each.y), ("z", each.z), ("radius", each.radius)] {
+        let values: [f32; 4] = bytemuck::cast(*each);
+        for (value, (field, low, high)) in values.into_iter().zip(BOUNDS) {
             if !value.is_finite() {
                 return Err(YarnError::NotFinite { yarn, point, field, value });
             }
-            if field != "radius" && value.abs() > COORDINATE_LIMIT {
-                return Err(YarnError::TooFar { yarn, point, field, value, limit: COORDINATE_LIMIT });
+            if !(low..=high).contains(&value) {
+                return Err(if field == "radius" {
+                    YarnError::Radius { yarn, point, radius: value, low, high }
+                } else {
+                    YarnError::TooFar { yarn, point, field, value, limit: high }
+                });
             }
-        }
-        if !(RADIUS_MIN..=RADIUS_MAX).contains(&each.radius) {
-            return Err(YarnError::Radius {
-                yarn,
-                point,
-                radius: each.radius,
-                low: RADIUS_MIN,
-                high: RADIUS_MAX,
-            });
         }
     }
     Ok(())

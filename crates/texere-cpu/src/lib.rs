@@ -18,6 +18,7 @@
 
 mod backend;
 mod caps;
+mod pages;
 mod parallel;
 mod rolls;
 mod serial;

@@ -3,18 +3,20 @@
 
 /// Asks the system for huge pages where `memory` has not been touched yet. What has been stays as it is.
 #[cfg(target_os = "linux")]
-pub(super) fn prefer_huge<T: bytemuck::Pod>(memory: &mut [T]) {
+pub(crate) fn prefer_huge<T: bytemuck::Pod>(memory: &[T]) {
     /// The size of every page that is not huge is a power of two up to this: the largest on any Linux system.
     const PAGE: usize = 64 << 10;
-    let memory: &mut [u8] = bytemuck::cast_slice_mut(memory);
+    let memory: &[u8] = bytemuck::cast_slice(memory);
     let start = memory.as_ptr().align_offset(PAGE);
-    if let Some(whole) = memory.get_mut(start..) {
+    if let Some(whole) = memory.get(start..) {
         // SAFETY: the range is memory of ours, and the advice changes nothing of what it holds. Where the system does not
         // take it, pages stay small, which is why the answer does not matter.
-        unsafe { libc::madvise(whole.as_mut_ptr().cast(), whole.len() / PAGE * PAGE, libc::MADV_HUGEPAGE) };
+        unsafe {
+            libc::madvise(whole.as_ptr().cast_mut().cast(), whole.len() / PAGE * PAGE, libc::MADV_HUGEPAGE)
+        };
     }
 }
 
 /// Other systems choose their pages themselves.
 #[cfg(not(target_os = "linux"))]
-pub(super) fn prefer_huge<T: bytemuck::Pod>(_memory: &mut [T]) {}
+pub(crate) fn prefer_huge<T: bytemuck::Pod>(_memory: &[T]) {}

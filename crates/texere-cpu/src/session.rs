@@ -11,6 +11,7 @@ use texere_core::{
     Traffic, Vertex, check_output, zeroed,
 };
 
+use crate::pages;
 use crate::rolls::Rolls;
 
 /// What the stages read.
@@ -70,6 +71,7 @@ pub(crate) struct CpuSession<S> {
 impl<S: Stages> CpuSession<S> {
     pub(crate) fn new(plan: Arc<Plan>) -> Result<Self, BackendError> {
         let points = PaddedPoints::new(&plan)?;
+        pages::prefer_huge(points.points());
         Ok(Self {
             work: Work { plan, points, rolls: Rolls::default() },
             scanned: false,

@@ -4,7 +4,6 @@
 mod avx2;
 mod fill;
 mod lines;
-mod pages;
 mod path;
 mod portable;
 mod rings;
@@ -21,6 +20,7 @@ use texere_core::{
 };
 
 use crate::caps::caps;
+use crate::pages;
 use crate::rolls::Rolls;
 use crate::session::{ChunkRings, Stages, Work};
 pub use fill::fill;

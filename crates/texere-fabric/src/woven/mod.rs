@@ -1,5 +1,7 @@
 //! Woven cloth: warp and weft that cross at right angles.
 
+mod bend;
+mod course;
 mod crimp;
 mod crossing;
 mod draft;

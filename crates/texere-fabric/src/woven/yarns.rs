@@ -1,12 +1,12 @@
 //! From cloth to yarns: the control points of every end and every pick.
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns};
 
+use super::bend::Bend;
+use super::course::Course;
 use super::selvedge::{self, TURN_POINTS};
-use super::shape::{Course, Set, Shape};
+use super::shape::Set;
 use super::{POINTS_MAX, Thread, Woven, zeroed};
 use crate::FabricError;
 
@@ -16,13 +16,12 @@ pub const NO_CROSSING: u32 = u32::MAX;
 /// Every crossing has two control points, so that none is numbered as high as [`NO_CROSSING`].
 const _: () = assert!(POINTS_MAX / 2 < NO_CROSSING as u64);
 
-/// What one yarn is woven as.
-#[derive(Debug, Clone)]
-enum Strand {
-    /// This end.
+/// What is woven in one go: an end, or a pick after the turn that leads to it.
+#[derive(Debug, Clone, Copy)]
+enum Pass {
     End(usize),
-    /// These picks.
-    Picks(Range<usize>),
+    /// A pick, and whether it is cut off at its beginning and at its end.
+    Pick(usize, [bool; 2]),
 }
 
 /// A cloth's threads, measured.
@@ -53,15 +52,19 @@ impl Woven {
     /// **Source**: one control point a crossing is the paper's count; the height of a crossing and round threads follow
     /// Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937 (h₁ + h₂ = d₁ + d₂).
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
-        let loom = self.loom();
-        let strands = self.strands();
-        let counts: Vec<usize> = strands.par_iter().map(|strand| loom.points(strand)).collect();
-        let mut offsets = vec![0u64];
+        let (loom, passes) = (self.loom(), self.passes());
+        let counts = loom.counts(&passes);
+        let mut table = Vec::new();
+        let mut offsets = Vec::new();
         let mut total = 0;
-        offsets.extend(counts.iter().map(|&count| {
+        for (pass, &count) in passes.iter().zip(&counts) {
+            if let Some(yarn) = self.yarn(pass) {
+                table.push(yarn);
+                offsets.push(total);
+            }
             total += count as u64;
-            total
-        }));
+        }
+        offsets.push(total);
         if total > POINTS_MAX {
             let (ends, picks) = (self.warp().len(), self.weft().len());
             return Err(FabricError::Points { ends, picks, points: total, limit: POINTS_MAX });
@@ -69,19 +72,16 @@ impl Woven {
 
         let mut points: Vec<ControlPoint> = zeroed("control points", total)?;
         let mut sources: Vec<u32> = zeroed("sources", total)?;
-        let mut parts = Vec::with_capacity(strands.len());
         let (mut points_left, mut sources_left) = (points.as_mut_slice(), sources.as_mut_slice());
-        for (strand, &count) in strands.iter().zip(&counts) {
-            let (points, points_after) = points_left.split_at_mut(count);
-            let (sources, sources_after) = sources_left.split_at_mut(count);
-            (points_left, sources_left) = (points_after, sources_after);
-            parts.push((strand, Pen { points: points.iter_mut(), sources: sources.iter_mut() }));
-        }
-        parts.into_par_iter().for_each(|(strand, mut pen)| {
-            loom.lay(strand, |point, source| pen.write(point, source));
+        let pens = counts.into_iter().map(|count| {
+            let points = points_left.split_off_mut(..count).unwrap_or_default();
+            let sources = sources_left.split_off_mut(..count).unwrap_or_default();
+            Pen { points: points.iter_mut(), sources: sources.iter_mut() }
+        });
+        loom.each(&passes, pens, |course, pass, mut pen| {
+            loom.lay(course, pass, &mut |point, source| pen.write(point, source));
         });
 
-        let table = strands.iter().map(|strand| self.yarn(strand)).collect();
         let layout = Layout::new(table, offsets, self.sections().to_vec())?;
         Ok(Yarns::new(layout, self.materials().to_vec(), points)?.with_sources(sources)?)
     }
@@ -89,8 +89,7 @@ impl Woven {
     /// Control points of all yarns, in the present [`Shape`] and with or without selvedge.
     #[must_use]
     pub fn point_count(&self) -> u64 {
-        let loom = self.loom();
-        self.strands().par_iter().map(|strand| loom.points(strand) as u64).sum()
+        self.loom().counts(&self.passes()).into_iter().map(|count| count as u64).sum()
     }
 
     fn loom(&self) -> Loom<'_> {
@@ -102,122 +101,147 @@ impl Woven {
         }
     }
 
-    fn strands(&self) -> Vec<Strand> {
-        let ends = (0..self.warp().len()).map(Strand::End);
-        ends.chain(selvedge::runs(self.weft(), self.selvedge()).into_iter().map(Strand::Picks)).collect()
+    /// All ends, then all picks.
+    fn passes(&self) -> Vec<Pass> {
+        let ends = (0..self.warp().len()).map(Pass::End);
+        let runs = selvedge::runs(self.weft(), self.selvedge());
+        let picks = runs.into_iter().flat_map(|run| {
+            run.clone().map(move |pick| Pass::Pick(pick, [pick == run.start, pick + 1 == run.end]))
+        });
+        ends.chain(picks).collect()
     }
 
-    /// What belongs to a yarn beside its control points.
-    fn yarn(&self, strand: &Strand) -> Yarn {
-        let (thread, origin): (Thread, _) = match strand {
-            Strand::End(end) => (self.warp()[*end], Origin::End(*end as u32 + 1)),
-            Strand::Picks(picks) => (self.weft()[picks.start], Origin::Pick(picks.start as u32 + 1)),
+    /// What belongs to the yarn that begins with a pass beside its control points; none where none begins.
+    fn yarn(&self, pass: &Pass) -> Option<Yarn> {
+        let (thread, origin): (Thread, _) = match *pass {
+            Pass::End(end) => (self.warp()[end], Origin::End(end as u32 + 1)),
+            Pass::Pick(pick, [true, _]) => (self.weft()[pick], Origin::Pick(pick as u32 + 1)),
+            Pass::Pick(..) => return None,
         };
-        Yarn {
+        Some(Yarn {
             material: thread.material,
             section: thread.section,
             closed: false,
             twist: thread.twist,
             origin,
-        }
+        })
     }
 }
 
 impl Loom<'_> {
-    /// Control points of one yarn.
-    fn points(&self, strand: &Strand) -> usize {
-        if self.cloth.shape() == Shape::Crossing {
-            // One a crossing and one at each end need not be laid to be counted.
-            return match strand {
-                Strand::End(_) => self.weft.at.len() + 2,
-                Strand::Picks(picks) => {
-                    picks.len() * self.warp.at.len() + 2 + (picks.len() - 1) * TURN_POINTS
-                }
-            };
+    /// Calls `work` on all threads for each pass and what there is for it, with the course that passes of its kind take.
+    fn each<T: Send>(
+        &self,
+        passes: &[Pass],
+        with: impl IntoIterator<Item = T>,
+        work: impl Fn(&Course<'_>, Pass, T) + Sync,
+    ) {
+        let kind = |pass: Pass| match pass {
+            Pass::End(end) => (false, false, self.warp.half_height[end].to_bits()),
+            Pass::Pick(pick, _) => (true, self.runs_left(pick), self.weft.half_height[pick].to_bits()),
+        };
+        let mut passes: Vec<(Pass, T)> = passes.iter().copied().zip(with).collect();
+        passes.sort_by_key(|(pass, _)| kind(*pass));
+        let mut kinds = Vec::new();
+        while let Some(&(first, _)) = passes.last() {
+            let start = passes.partition_point(|(pass, _)| kind(*pass) < kind(first));
+            kinds.push(passes.split_off(start));
         }
-        let mut count = 0;
-        self.lay(strand, |_, _| count += 1);
-        count
+        kinds.into_par_iter().for_each(|passes| {
+            let Some(&(first, _)) = passes.first() else { return };
+            let course = match first {
+                Pass::End(end) => Course::new(self.warp_bend(end), false),
+                Pass::Pick(pick, _) => Course::new(self.weft_bend(pick), self.runs_left(pick)),
+            };
+            passes.into_par_iter().for_each(|(pass, with)| work(&course, pass, with));
+        });
     }
 
-    /// Calls `write` with each control point of a yarn and its source.
-    fn lay(&self, strand: &Strand, mut write: impl FnMut(ControlPoint, u32)) {
-        match strand {
-            Strand::End(end) => self.lay_end(*end, &mut write),
-            Strand::Picks(picks) => {
-                for pick in picks.clone() {
-                    if pick > picks.start {
-                        self.turn(pick).into_iter().for_each(|point| write(point, NO_CROSSING));
-                    }
-                    self.lay_pick(pick, [pick == picks.start, pick + 1 == picks.end], &mut write);
+    /// Control points of each pass.
+    fn counts(&self, passes: &[Pass]) -> Vec<usize> {
+        let mut counts = vec![0; passes.len()];
+        self.each(passes, &mut counts, |course, pass, count| match course.fixed_count(pass.cut()) {
+            Some(fixed) => *count = fixed + if pass.turns() { TURN_POINTS } else { 0 },
+            None => self.lay(course, pass, &mut |_, _| *count += 1),
+        });
+        counts
+    }
+
+    /// Calls `write` with each control point of a pass and its source.
+    fn lay(&self, course: &Course<'_>, pass: Pass, write: &mut impl FnMut(ControlPoint, u32)) {
+        let (drawdown, ends) = (self.cloth.drawdown(), self.warp.at.len());
+        let cut = pass.cut();
+        match pass {
+            Pass::End(end) => {
+                let (x, radius) = (self.warp.at[end], self.cloth.warp()[end].radius_mm);
+                let above = |pick| drawdown.up(end, pick);
+                course.walk(above, cut, |stop| {
+                    let source = stop.crossing.map_or(NO_CROSSING, |pick| (pick * ends + end) as u32);
+                    write(ControlPoint::new(x, stop.along, stop.z, radius), source);
+                });
+            }
+            Pass::Pick(pick, _) => {
+                if pass.turns() {
+                    self.turn(pick).into_iter().for_each(|point| write(point, NO_CROSSING));
                 }
+                let (y, radius) = (self.weft.at[pick], self.cloth.weft()[pick].radius_mm);
+                let above = |end| !drawdown.up(end, pick);
+                course.walk(above, cut, |stop| {
+                    let source = stop.crossing.map_or(NO_CROSSING, |end| (pick * ends + end) as u32);
+                    write(ControlPoint::new(stop.along, y, stop.z, radius), source);
+                });
             }
         }
     }
 
-    fn lay_end(&self, end: usize, write: &mut impl FnMut(ControlPoint, u32)) {
-        let course = Course {
-            shape: self.cloth.shape(),
-            crossed: &self.weft,
-            half_height: self.warp.half_height[end],
-            share: self.warp_share,
-            back: false,
-        };
-        let (x, radius) = (self.warp.at[end], self.cloth.warp()[end].radius_mm);
-        course.walk(
-            |pick| self.cloth.drawdown().up(end, pick),
-            [true; 2],
-            |stop| {
-                let source =
-                    stop.crossing.map_or(NO_CROSSING, |pick| (pick * self.warp.at.len() + end) as u32);
-                write(ControlPoint::new(x, stop.along, stop.z, radius), source);
-            },
-        );
+    fn warp_bend(&self, end: usize) -> Bend<'_> {
+        let (shape, half_height) = (self.cloth.shape(), self.warp.half_height[end]);
+        Bend { shape, crossed: &self.weft, half_height, share: self.warp_share }
     }
 
-    /// One pick, cut off at its beginning and its end as `cut` says.
-    fn lay_pick(&self, pick: usize, cut: [bool; 2], write: &mut impl FnMut(ControlPoint, u32)) {
-        let (y, radius) = (self.weft.at[pick], self.cloth.weft()[pick].radius_mm);
-        self.weft_course(pick).walk(
-            |end| !self.cloth.drawdown().up(end, pick),
-            cut,
-            |stop| {
-                let source =
-                    stop.crossing.map_or(NO_CROSSING, |end| (pick * self.warp.at.len() + end) as u32);
-                write(ControlPoint::new(stop.along, y, stop.z, radius), source);
-            },
-        );
+    fn weft_bend(&self, pick: usize) -> Bend<'_> {
+        let (shape, half_height) = (self.cloth.shape(), self.weft.half_height[pick]);
+        Bend { shape, crossed: &self.warp, half_height, share: 1.0 - self.warp_share }
     }
 
-    fn weft_course(&self, pick: usize) -> Course<'_> {
-        Course {
-            shape: self.cloth.shape(),
-            crossed: &self.warp,
-            half_height: self.weft.half_height[pick],
-            share: 1.0 - self.warp_share,
-            back: selvedge::runs_left(pick, self.cloth.selvedge()),
-        }
+    fn runs_left(&self, pick: usize) -> bool {
+        selvedge::runs_left(pick, self.cloth.selvedge())
     }
 
     /// The turn from the pick before to `pick`. It begins as far beyond the edge end as both threads are wide by half, so
     /// that the two can't touch whatever the end's height, or a quarter of the picks' distance, so that the turn's steps
     /// are not much longer than the one that leads to it.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
-        let right = self.weft_course(pick).back;
+        let right = self.runs_left(pick);
         let (end, outwards) = if right { (self.warp.at.len() - 1, 1.0) } else { (0, -1.0) };
         let widest = self.weft.half_width[pick].max(self.weft.half_width[pick - 1]);
         let touching = self.warp.half_width[end] + widest;
         let apart = self.weft.at[pick] - self.weft.at[pick - 1];
         let x = self.warp.at[end] + outwards * touching.max(apart / 4.0);
         let [from, to] = [pick - 1, pick].map(|pick| {
-            let z = self.weft_course(pick).leaving_z(end, |end| !self.cloth.drawdown().up(end, pick));
+            let z = self.weft_bend(pick).leaving_z(end, |end| !self.cloth.drawdown().up(end, pick));
             ControlPoint::new(x, self.weft.at[pick], z, self.cloth.weft()[pick].radius_mm)
         });
         selvedge::turn(x, outwards, &from, &to)
     }
 }
 
-/// Writes one yarn's control points and sources, one after another.
+impl Pass {
+    /// Whether it is cut off at its beginning and at its end.
+    const fn cut(self) -> [bool; 2] {
+        match self {
+            Self::End(_) => [true; 2],
+            Self::Pick(_, cut) => cut,
+        }
+    }
+
+    /// Whether a turn leads to it.
+    const fn turns(self) -> bool {
+        !self.cut()[0]
+    }
+}
+
+/// Writes one pass's control points and sources, one after another.
 struct Pen<'a> {
     points: std::slice::IterMut<'a, ControlPoint>,
     sources: std::slice::IterMut<'a, u32>,

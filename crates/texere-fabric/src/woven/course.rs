@@ -1,0 +1,208 @@
+//! The course of threads over and under those that they cross.
+
+use super::bend::{Bend, STRIDE};
+use super::shape::Shape;
+
+/// The way of all threads of one height across those that they cross: what does not depend on the sides on which they lie
+/// is worked out once.
+pub(super) struct Course<'a> {
+    bend: Bend<'a>,
+    /// Where the threads come into the cloth and where they leave it, mm.
+    edges: [f32; 2],
+    /// What they cross, in the order in which they run.
+    stations: Vec<Station>,
+}
+
+/// A crossing, and the way to the next one.
+struct Station {
+    /// Number of the crossed thread.
+    number: usize,
+    /// Place along the thread, mm.
+    at: f32,
+    /// Distance from the cloth's middle, mm.
+    depth: f32,
+    /// How far away the shoulders are towards the crossings before and after, mm.
+    aside: [f32; 2],
+    /// Height of the shoulders of a thread that changes sides before the crossing, after it, and both, mm.
+    shoulder_z: [f32; 3],
+    /// Places of the three points of a change of sides to the next crossing, mm.
+    change: [f32; 3],
+}
+
+/// Indices into what a [`Station`] has for its two sides.
+const BEFORE: usize = 0;
+const AFTER: usize = 1;
+const BOTH: usize = 2;
+
+/// A control point of a thread's course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stop {
+    /// Place along the thread, mm.
+    pub(super) along: f32,
+    /// Height, mm.
+    pub(super) z: f32,
+    /// The crossed thread at which, or next to which, it lies; none at a cut end.
+    pub(super) crossing: Option<usize>,
+}
+
+impl<'a> Course<'a> {
+    /// `back` says whether threads run against the order of those that they cross.
+    pub(super) fn new(bend: Bend<'a>, back: bool) -> Self {
+        let count = bend.crossed.at.len();
+        let number = |step: usize| if back { count - 1 - step } else { step };
+        let stations = (0..count).map(|step| {
+            let before = step.checked_sub(1).map(number);
+            let after = (step + 1 < count).then(|| number(step + 1));
+            Station::new(&bend, number(step), before, after)
+        });
+        let edges = [0.0, bend.crossed.extent];
+        Self { edges: if back { [edges[1], edges[0]] } else { edges }, stations: stations.collect(), bend }
+    }
+
+    /// Control points of a thread, cut as in [`Course::walk`], where their number does not depend on sides.
+    pub(super) fn fixed_count(&self, cut: [bool; 2]) -> Option<usize> {
+        let cuts = cut.into_iter().filter(|cut| *cut).count();
+        (self.bend.shape == Shape::Crossing).then_some(self.stations.len() + cuts)
+    }
+
+    /// Calls `stop` with each control point in order. `above` says on which side of each crossed thread the thread lies,
+    /// `cut` whether it is cut off at the cloth's edge at its beginning and at its end.
+    pub(super) fn walk(&self, above: impl Fn(usize) -> bool, cut: [bool; 2], mut stop: impl FnMut(Stop)) {
+        let ([first, ..], [.., last]) = (self.stations.as_slice(), self.stations.as_slice()) else { return };
+        if self.bend.shape == Shape::Crossing {
+            // A cut end is half a pitch from the nearest crossing, in the cloth's middle.
+            let end = |along| Stop { along, z: 0.0, crossing: None };
+            cut[0].then(|| stop(end(self.edges[0])));
+            self.stations.iter().for_each(|here| stop(here.stop(above(here.number))));
+            cut[1].then(|| stop(end(self.edges[1])));
+            return;
+        }
+
+        let mut side = above(first.number);
+        let mut next_side = self.stations.get(1).map_or(side, |next| above(next.number));
+        let end = |along, number| Stop { along, z: self.bend.leaving_z(number, &above), crossing: None };
+        if cut[0] {
+            stop(end(self.edges[0], first.number));
+            let after = (side != next_side).then_some(first.aside[AFTER]);
+            Float { from: self.edges[0], to: first.at, beside: [None, after] }
+                .walk([(first, side); 2], &mut stop);
+        }
+        // Whether the thread has changed sides on its way to the present crossing.
+        let mut changed = false;
+        for (step, here) in self.stations.iter().enumerate() {
+            stop(here.stop(side));
+            let Some(next) = self.stations.get(step + 1) else { break };
+            let side_after = self.stations.get(step + 2).map_or(next_side, |after| above(after.number));
+            let changes_after = next_side != side_after;
+            let changes = side != next_side;
+            if changes {
+                let high = here.shoulder_z[if changed { BOTH } else { AFTER }];
+                let low = next.shoulder_z[if changes_after { BOTH } else { BEFORE }];
+                let side = if side { 1.0 } else { -1.0 };
+                let heights = [side * high, 0.0, -side * low];
+                let crossings = [here.number, here.number, next.number];
+                for ((along, z), crossing) in here.change.into_iter().zip(heights).zip(crossings) {
+                    stop(Stop { along, z, crossing: Some(crossing) });
+                }
+            } else {
+                let beside =
+                    [changed.then_some(here.aside[BEFORE]), changes_after.then_some(next.aside[AFTER])];
+                let float = Float { from: here.at, to: next.at, beside };
+                float.walk([(here, side), (next, next_side)], &mut stop);
+            }
+            (changed, side, next_side) = (changes, next_side, side_after);
+        }
+        if cut[1] {
+            let before = changed.then_some(last.aside[BEFORE]);
+            Float { from: last.at, to: self.edges[1], beside: [before, None] }
+                .walk([(last, side); 2], &mut stop);
+            stop(end(self.edges[1], last.number));
+        }
+    }
+}
+
+impl Station {
+    fn new(bend: &Bend<'_>, number: usize, before: Option<usize>, after: Option<usize>) -> Self {
+        let at = bend.crossed.at[number];
+        let depth = bend.depth(number);
+        let mut station = Self { number, at, depth, aside: [0.0; 2], shoulder_z: [0.0; 3], change: [0.0; 3] };
+        if bend.shape == Shape::Crossing {
+            return station;
+        }
+        for (way, one, other) in [(BEFORE, before, after), (AFTER, after, before)] {
+            let Some(one) = one else { continue };
+            station.aside[way] = bend.shoulder(number, bend.pitch(number, one)).0;
+            station.shoulder_z[way] = bend.shoulder_z(number, one, other, false);
+            station.shoulder_z[BOTH] = bend.shoulder_z(number, one, other, true);
+        }
+        if let Some(after) = after {
+            station.change = change(bend, number, after);
+        }
+        station
+    }
+
+    /// The control point at the crossing, on a thread that is `above` or below.
+    fn stop(&self, above: bool) -> Stop {
+        Stop { along: self.at, z: self.z(above), crossing: Some(self.number) }
+    }
+
+    fn z(&self, above: bool) -> f32 {
+        if above { self.depth } else { -self.depth }
+    }
+}
+
+/// Places of the points between the neighbours `from` and `to` of a thread that lies on different sides of them: its
+/// shoulders, and where it passes the cloth's middle, nearer to the thinner of the two.
+fn change(bend: &Bend<'_>, from: usize, to: usize) -> [f32; 3] {
+    let (start, end) = (bend.crossed.at[from], bend.crossed.at[to]);
+    let pitch = bend.pitch(from, to);
+    let forward = (end - start).signum();
+    let start = start + forward * bend.shoulder(from, pitch).0;
+    let end = end - forward * bend.shoulder(to, pitch).0;
+    let share = bend.room(from) / (bend.room(from) + bend.room(to));
+    [start, start + share * (end - start), end]
+}
+
+/// A way along which a thread keeps its side.
+struct Float {
+    from: f32,
+    to: f32,
+    /// Lengths of the steps before and after it, where they are those of shoulders, mm.
+    beside: [Option<f32>; 2],
+}
+
+impl Float {
+    /// The points within it, next to the crossings at its ends, on the sides where the thread lies there: where the steps
+    /// beside it are so short that a single step would be too long. Evenly spaced threads need none.
+    fn walk(&self, ends: [(&Station, bool); 2], stop: &mut impl FnMut(Stop)) {
+        let forward = (self.to - self.from).signum();
+        let mut left = (self.to - self.from).abs();
+        // A share of 1e-3 more, so that rounding adds no point where threads are evenly spaced.
+        let too_long = |left: f32, step: f32| step > 0.0 && left > 1.001 * STRIDE * step;
+        if !self.beside.into_iter().flatten().any(|step| too_long(left, step)) {
+            return;
+        }
+        let [first, last] = ends.map(|(station, above)| (station.z(above), Some(station.number)));
+        let mut at = self.from;
+        let mut step = self.beside[0].unwrap_or(left);
+        while too_long(left, step) {
+            step *= STRIDE - 1.0;
+            left -= step;
+            at += forward * step;
+            stop(Stop { along: at, z: first.0, crossing: first.1 });
+        }
+        // From the other end the steps grow against the thread's direction: the last one found comes first.
+        let step = self.beside[1].unwrap_or(left);
+        let mut steps = 0;
+        let mut rest = left;
+        while too_long(rest, step * (STRIDE - 1.0).powi(steps)) {
+            steps += 1;
+            rest -= step * (STRIDE - 1.0).powi(steps);
+        }
+        at += forward * rest;
+        for remaining in (1..=steps).rev() {
+            stop(Stop { along: at, z: last.0, crossing: last.1 });
+            at += forward * step * (STRIDE - 1.0).powi(remaining);
+        }
+    }
+}

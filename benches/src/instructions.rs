@@ -1,11 +1,12 @@
-//! Meshes a small cloth some times over, for a count of instructions: `instructions KIND TIMES`.
+//! Makes a small cloth or its mesh some times over, for a count of instructions: `instructions KIND TIMES`.
 //!
-//! KIND is `upright`, `minimizing` or `bare`, which has no indices. The scan is counted too.
+//! KIND is a mesh, `upright`, `minimizing` with its scan, `bare` without indices, or `shared` with those of one pattern; or
+//! control points, `crossing` with one a crossing, or `round`. It prints how many rings, or control points, there are.
 
 use std::error::Error;
 use std::sync::Arc;
 
-use texere::{Frame, Limits, Plan, Settings, Topology};
+use texere::{Frame, Limits, Plan, Settings, Shape, Topology};
 use texere_bench::{paper_cloth, session};
 use texere_core::MeshMut;
 use texere_cpu::ParallelBackend;
@@ -15,22 +16,41 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [kind, times] = arguments.as_slice() else {
         return Err("usage: instructions KIND TIMES".into());
     };
-    let settings = match kind.as_str() {
-        "upright" => Settings::default(),
-        "minimizing" => Settings { frame: Frame::RotationMinimizing, ..Settings::default() },
-        "bare" => Settings { topology: Topology::None, ..Settings::default() },
-        _ => return Err(format!("no kind of mesh is called {kind}").into()),
+    let times = times.parse()?;
+    let made = match kind.as_str() {
+        "upright" => mesh(Settings::default(), times)?,
+        "minimizing" => mesh(Settings { frame: Frame::RotationMinimizing, ..Settings::default() }, times)?,
+        "bare" => mesh(Settings { topology: Topology::None, ..Settings::default() }, times)?,
+        "shared" => mesh(Settings { topology: Topology::Shared, ..Settings::default() }, times)?,
+        "crossing" => generate(Shape::Crossing, times)?,
+        "round" => generate(Shape::Round, times)?,
+        _ => return Err(format!("there is no kind {kind}").into()),
     };
+    println!("{made}");
+    Ok(())
+}
+
+/// Control points of one cloth, so large that next to nothing else is counted.
+fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
+    let mut cloth = paper_cloth(300, 300)?;
+    cloth.set_shape(shape);
+    for _ in 0..times {
+        cloth.yarns()?;
+    }
+    Ok(cloth.point_count())
+}
+
+/// Rings of one mesh.
+fn mesh(settings: Settings, times: u32) -> Result<u64, Box<dyn Error>> {
     let yarns = paper_cloth(60, 60)?.yarns()?;
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
     let chunks: Vec<_> = plan.chunks(&Limits::NONE)?.collect();
     let mut session = session(&ParallelBackend::new(), &plan, &yarns)?;
-    let mut vertices = texere_core::zeroed("vertices", plan.counts().vertices)?;
-    let mut indices = texere_core::zeroed("indices", plan.counts().indices)?;
-    for _ in 0..times.parse()? {
+    let mut vertices = texere_core::zeroed("vertices", chunks[0].vertices.into())?;
+    let mut indices = texere_core::zeroed("indices", chunks[0].indices.into())?;
+    for _ in 0..times {
         session.scan()?;
         session.mesh_into(&chunks[0], MeshMut { vertices: &mut vertices, indices: &mut indices })?;
     }
-    println!("{}", plan.counts().rings);
-    Ok(())
+    Ok(plan.counts().rings)
 }

@@ -1,4 +1,5 @@
-//! How many instructions the mesh stage takes for a ring: a check of its speed that no neighbour on the machine disturbs.
+//! How many instructions a ring of a mesh takes, and a control point: a check of speed that no neighbour on the machine
+//! disturbs.
 //!
 //! `valgrind --tool=callgrind` counts them. What start-up takes falls out of the difference between two runs.
 
@@ -7,28 +8,30 @@ use std::path::PathBuf;
 
 use crate::steps::{Steps, root};
 
-/// Ways through the CPU backend. Valgrind knows no AVX-512.
-const PATHS: [&str; 2] = ["portable", "avx2"];
+/// Kinds of mesh and of control points, as `benches/src/instructions.rs` knows them.
+const MESHES: [&str; 4] = ["upright", "minimizing", "bare", "shared"];
+const POINTS: [&str; 2] = ["crossing", "round"];
 
-/// Kinds of mesh, as `benches/src/instructions.rs` knows them.
-const KINDS: [&str; 3] = ["upright", "minimizing", "bare"];
-
-/// How many meshes the longer run makes more than the shorter one.
+/// How many times more often the longer run does its work than the shorter one.
 const TIMES: u32 = 10;
 
 /// By how much a count may exceed the baseline: another compiler changes some per cent, a loop that no longer runs in
 /// vectors several times as much.
 const TOLERANCE: f64 = 1.05;
 
-/// A line for each path and kind: path, kind, instructions a ring.
+/// A line for each path and kind: path, kind, instructions a ring or a control point.
 fn baseline() -> PathBuf {
     root().join("benches/instructions.txt")
 }
 
-/// Compares with the baseline, where there is a valgrind.
+/// Compares with the baseline. Says what is left out, and why.
 pub(crate) fn check(steps: &mut Steps) {
-    if !steps.succeed() || !steps.succeeds("valgrind", &["--version"]) {
-        println!("instructions: left out");
+    if !cfg!(target_arch = "x86_64") {
+        println!("\ninstructions: left out, the baseline is that of x86-64 processors");
+        return;
+    }
+    if steps.succeed() && !steps.succeeds("valgrind", &["--version"]) {
+        println!("\ninstructions: left out, there is no valgrind to count them");
         return;
     }
     let recorded = std::fs::read_to_string(baseline()).unwrap_or_default();
@@ -37,7 +40,7 @@ pub(crate) fn check(steps: &mut Steps) {
         match known {
             Some(known) if counted <= known * TOLERANCE => println!("{name}: {counted:.1}, baseline {known:.1}"),
             Some(known) => steps.fail(format!(
-                "{name}: {counted:.1} instructions a ring, baseline {known:.1} (if that is meant: cargo xtask instructions record)"
+                "{name}: {counted:.1} instructions, baseline {known:.1} (if that is meant: cargo xtask instructions record)"
             )),
             None => steps.fail(format!("{name}: not in benches/instructions.txt")),
         }
@@ -56,27 +59,47 @@ pub(crate) fn record(steps: &mut Steps) {
     }
 }
 
-/// Instructions a ring, by path and kind.
+/// Instructions a ring or a control point, by path and kind.
 fn count(steps: &mut Steps) -> Vec<(String, f64)> {
     let build = ["build", "--release", "--locked", "--package", "texere-bench", "--bin", "instructions"];
-    steps.cargo("mesh stage to count", &build, &[]);
+    steps.cargo("instructions to count", &build, &[]);
     let mut counts = Vec::new();
-    for path in PATHS {
-        for kind in KINDS {
-            let short = collected(steps, path, kind, 1);
-            let long = collected(steps, path, kind, 1 + TIMES);
-            match short.zip(long) {
-                Some(((short, rings), (long, _))) => {
-                    counts.push((format!("{path} {kind}"), (long - short) / f64::from(TIMES) / rings));
-                }
-                None => steps.fail(format!("{path} {kind}: valgrind does not run it")),
+    for (path, kind) in runs() {
+        if !steps.succeed() {
+            break;
+        }
+        let short = collected(steps, path, kind, 1);
+        let long = collected(steps, path, kind, 1 + TIMES);
+        match short.zip(long) {
+            Some(((short, made), (long, _))) => {
+                counts.push((format!("{path} {kind}"), (long - short) / f64::from(TIMES) / made));
             }
+            None => steps.fail(format!("{path} {kind}: valgrind does not run it")),
         }
     }
     counts
 }
 
-/// Instructions of a run, and the rings that it says it has.
+/// Ways through the CPU backend, and what is made by each: valgrind runs those that the processor has, but for AVX-512.
+/// Control points are made in one way alone.
+fn runs() -> Vec<(&'static str, &'static str)> {
+    let mut runs: Vec<_> = POINTS.iter().chain(&MESHES).map(|kind| ("portable", *kind)).collect();
+    if has_avx2() {
+        runs.extend(MESHES.map(|kind| ("avx2", kind)));
+    } else {
+        println!("instructions with AVX2: left out, this processor has none");
+    }
+    runs
+}
+
+fn has_avx2() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return std::arch::is_x86_feature_detected!("avx2");
+    #[cfg(not(target_arch = "x86_64"))]
+    false
+}
+
+/// Instructions of a run, and how many rings or control points it says it made.
 fn collected(steps: &Steps, path: &str, kind: &str, times: u32) -> Option<(f64, f64)> {
     let program = root().join("target/release/instructions");
     let times = times.to_string();
@@ -84,6 +107,6 @@ fn collected(steps: &Steps, path: &str, kind: &str, times: u32) -> Option<(f64, 
     let environment = [("TEXERE_SIMD", path), ("RAYON_NUM_THREADS", "1")];
     let text = steps.output("valgrind", &valgrind, &environment)?;
     let collected = text.lines().find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())?;
-    let rings = text.lines().find_map(|line| line.parse().ok())?;
-    Some((collected, rings))
+    let made = text.lines().find_map(|line| line.parse().ok())?;
+    Some((collected, made))
 }

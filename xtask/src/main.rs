@@ -38,6 +38,8 @@ fn main() -> ExitCode {
         Some("test") => test(&mut steps),
         Some("check") => {
             check(&mut steps);
+            install(&mut steps, "valgrind", &["valgrind"]);
+            instructions::check(&mut steps);
             demo::demo(&mut steps);
         }
         Some("demo") => demo::demo(&mut steps),
@@ -58,12 +60,14 @@ fn main() -> ExitCode {
             eprintln!("  demo   a picture of a herringbone; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
             eprintln!("  test   all tests, doctests and the conformance suite");
-            eprintln!("  check  formatting, lints, docs, licences, packages and the README's main command");
+            eprintln!(
+                "  check  formatting, lints, docs, licences, packages, instruction counts and the README's main command"
+            );
             eprintln!(
                 "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
             );
             eprintln!(
-                "  instructions [record]  counts those of the mesh stage, against the baseline or to be it"
+                "  instructions [record]  counts those of each stage, against the baseline or to be it"
             );
             return ExitCode::from(2);
         }

@@ -1,24 +1,30 @@
-//! From a cloth to the control points of its yarns.
+//! From a cloth to the control points of its yarns, in fresh memory.
 #![allow(
     missing_docs,
     clippy::unwrap_used,
     reason = "criterion's macros make undocumented items; a bench may panic"
 )]
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+mod stage;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use stage::{Bench, Floor, timed};
+use texere::{ControlPoint, Shape};
 use texere_bench::{SIZES, paper_cloth};
 
 fn generate(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("generate/paper");
-    group.sample_size(10);
-    for (ends, picks) in SIZES {
-        let cloth = paper_cloth(ends, picks).unwrap();
-        group.throughput(Throughput::Elements(cloth.point_count()));
-        group.bench_function(BenchmarkId::from_parameter(format!("{ends}x{picks}")), |bencher| {
-            bencher.iter(|| cloth.yarns().unwrap());
-        });
+    let mut floor = Floor::new();
+    for (fabric, shape) in [("paper", Shape::Crossing), ("round", Shape::Round)] {
+        for size in SIZES {
+            let mut cloth = paper_cloth(size.0, size.1).unwrap();
+            cloth.set_shape(shape);
+            let elements = cloth.point_count();
+            // A control point, and a number for where it comes from.
+            let bytes = elements * (size_of::<ControlPoint>() + size_of::<u32>()) as u64;
+            let bench = Bench { stage: "generate", fabric, size, backend: "cpu", elements, bytes };
+            floor.bench(criterion, &bench, || timed(|| cloth.yarns().unwrap()));
+        }
     }
-    group.finish();
 }
 
 criterion_group!(benches, generate);

@@ -1,39 +1,90 @@
-//! Both stages: the mesh from control points, into the caller's own slices, used again and again.
+//! Both stages, and the scan where there is one: the mesh from control points.
+//!
+//! `mesh` is into the caller's own slices, used again and again; `mesh-cold` the same with nothing of it in the caches;
+//! `mesh-fresh` into memory that is new each time, plan, session and upload included.
 #![allow(
     missing_docs,
     clippy::unwrap_used,
     reason = "criterion's macros make undocumented items; a bench may panic"
 )]
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use texere_bench::{DEVICES, SIZES, paper_cloth, paper_plan, session};
+mod stage;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use stage::{Bench, Floor, timed};
+use texere::{Frame, Pipeline, Settings, Topology, Yarns};
+use texere_bench::{DEVICES, SIZES, SWEEP, one_yarn, paper_cloth, plan, session};
 use texere_core::MeshMut;
 
+const CPU: &str = DEVICES[1];
+
+/// Values that fill the caches of a large processor: a quarter of a gigabyte.
+const CACHES: usize = 64 << 20;
+
 fn mesh(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("mesh/paper");
-    group.sample_size(10);
-    for (ends, picks) in SIZES {
-        let yarns = paper_cloth(ends, picks).unwrap().yarns().unwrap();
-        let (plan, chunks) = paper_plan(&yarns).unwrap();
-        let counts = plan.counts();
-        group.throughput(Throughput::ElementsAndBytes { elements: counts.triangles, bytes: counts.bytes() });
-        let mut vertices = texere_core::zeroed("vertices", counts.vertices).unwrap();
-        let mut indices = texere_core::zeroed("indices", counts.indices).unwrap();
-        for device in DEVICES {
-            let device = texere::open(device).unwrap();
-            let mut session = session(&*device, &plan, &yarns).unwrap();
-            let id = BenchmarkId::new(format!("{ends}x{picks}"), &device.info().name);
-            group.bench_function(id, |bencher| {
-                bencher.iter(|| {
-                    // An upload makes the session forget its rings; one point costs next to nothing.
-                    session.upload(0, &yarns.points()[..1]).unwrap();
-                    let out = MeshMut { vertices: &mut vertices, indices: &mut indices };
-                    session.mesh_into(&chunks[0], out).unwrap();
-                });
-            });
-        }
+    let floor = &mut Floor::new();
+    let paper = Settings::default();
+    for size in SIZES {
+        let yarns = paper_cloth(size.0, size.1).unwrap().yarns().unwrap();
+        reused(criterion, floor, ["mesh", "paper", CPU], size, &yarns, paper);
     }
-    group.finish();
+    let yarns = &paper_cloth(SWEEP.0, SWEEP.1).unwrap().yarns().unwrap();
+    let mut sweep = |stage, fabric: &str, backend, yarns: &Yarns, settings| {
+        reused(criterion, floor, [stage, fabric, backend], SWEEP, yarns, settings);
+    };
+    sweep("mesh", "paper", DEVICES[0], yarns, paper);
+    sweep("mesh-cold", "paper", CPU, yarns, paper);
+    sweep("mesh", "one-yarn", CPU, &one_yarn(yarns).unwrap(), paper);
+    let minimizing = Settings { frame: Frame::RotationMinimizing, ..paper };
+    sweep("mesh", "paper-minimizing", CPU, yarns, minimizing);
+    sweep("mesh", "one-yarn-minimizing", CPU, &one_yarn(yarns).unwrap(), minimizing);
+    sweep("mesh", "paper-shared", CPU, yarns, Settings { topology: Topology::Shared, ..paper });
+    for subdivisions in [0, 3, 7] {
+        sweep("mesh", &format!("paper-k{subdivisions}"), CPU, yarns, Settings { subdivisions, ..paper });
+    }
+    for sides in [3, 12, 24] {
+        sweep("mesh", &format!("paper-nc{sides}"), CPU, yarns, Settings { sides, ..paper });
+    }
+    fresh(criterion, floor, yarns);
+}
+
+fn reused(
+    criterion: &mut Criterion,
+    floor: &mut Floor,
+    [stage, fabric, backend]: [&str; 3],
+    size: (usize, usize),
+    yarns: &Yarns,
+    settings: Settings,
+) {
+    let (plan, chunks) = plan(yarns, settings).unwrap();
+    let (chunk, elements) = (&chunks[0], plan.counts().triangles);
+    let mut vertices = texere_core::zeroed("vertices", chunk.vertices.into()).unwrap();
+    let mut indices = texere_core::zeroed("indices", chunk.indices.into()).unwrap();
+    let bytes = (size_of_val(&vertices[..]) + size_of_val(&indices[..])) as u64;
+    // What lies in the caches instead, where nothing of the mesh shall.
+    let mut others = vec![0u32; if stage == "mesh-cold" { CACHES } else { 0 }];
+    let device = texere::open(backend).unwrap();
+    let mut session = session(&*device, &plan, yarns).unwrap();
+    floor.bench(criterion, &Bench { stage, fabric, size, backend, elements, bytes }, || {
+        // An upload makes the session forget its rings; one point costs next to nothing.
+        session.upload(0, &yarns.points()[..1]).unwrap();
+        others.iter_mut().for_each(|value| *value += 1);
+        timed(|| {
+            session.scan().unwrap();
+            let out = MeshMut { vertices: &mut vertices, indices: &mut indices };
+            session.mesh_into(chunk, out).unwrap();
+        })
+    });
+}
+
+fn fresh(criterion: &mut Criterion, floor: &mut Floor, yarns: &Yarns) {
+    let counts = *Pipeline::new(yarns).plan().unwrap().counts();
+    let (elements, bytes) = (counts.triangles, counts.bytes());
+    for backend in DEVICES {
+        let device = texere::open(backend).unwrap();
+        let bench = Bench { stage: "mesh-fresh", fabric: "paper", size: SWEEP, backend, elements, bytes };
+        floor.bench(criterion, &bench, || timed(|| Pipeline::new(yarns).mesh(&*device).unwrap()));
+    }
 }
 
 criterion_group!(benches, mesh);

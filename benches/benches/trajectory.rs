@@ -5,33 +5,51 @@
     reason = "criterion's macros make undocumented items; a bench may panic"
 )]
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use texere_bench::{DEVICES, SIZES, paper_cloth, paper_plan, session};
+mod stage;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use stage::{Bench, Floor, timed};
+use texere::{Settings, Yarns};
+use texere_bench::{DEVICES, SIZES, SWEEP, one_yarn, paper_cloth, plan, session};
 
 fn trajectory(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("trajectory/paper");
-    group.sample_size(10);
-    for (ends, picks) in SIZES {
-        let yarns = paper_cloth(ends, picks).unwrap().yarns().unwrap();
-        let (plan, chunks) = paper_plan(&yarns).unwrap();
-        group.throughput(Throughput::ElementsAndBytes {
-            elements: plan.counts().rings,
-            bytes: plan.trajectory_bytes(),
-        });
-        for device in DEVICES {
-            let device = texere::open(device).unwrap();
-            let mut session = session(&*device, &plan, &yarns).unwrap();
-            let id = BenchmarkId::new(format!("{ends}x{picks}"), &device.info().name);
-            group.bench_function(id, |bencher| {
-                bencher.iter(|| {
-                    // An upload makes the session forget its rings; one point costs next to nothing.
-                    session.upload(0, &yarns.points()[..1]).unwrap();
-                    session.trajectory(&chunks[0]).unwrap();
-                });
-            });
-        }
+    let mut floor = Floor::new();
+    for size in SIZES {
+        let yarns = paper_cloth(size.0, size.1).unwrap().yarns().unwrap();
+        case(criterion, &mut floor, "paper", size, &yarns, Settings::default());
     }
-    group.finish();
+    let yarns = paper_cloth(SWEEP.0, SWEEP.1).unwrap().yarns().unwrap();
+    case(criterion, &mut floor, "one-yarn", SWEEP, &one_yarn(&yarns).unwrap(), Settings::default());
+    for subdivisions in [0, 3, 7] {
+        let fabric = format!("paper-k{subdivisions}");
+        let settings = Settings { subdivisions, ..Settings::default() };
+        case(criterion, &mut floor, &fabric, SWEEP, &yarns, settings);
+    }
+}
+
+fn case(
+    criterion: &mut Criterion,
+    floor: &mut Floor,
+    fabric: &str,
+    size: (usize, usize),
+    yarns: &Yarns,
+    settings: Settings,
+) {
+    let (plan, chunks) = plan(yarns, settings).unwrap();
+    for backend in DEVICES {
+        let device = texere::open(backend).unwrap();
+        let mut session = session(&*device, &plan, yarns).unwrap();
+        let (elements, bytes) = (plan.counts().rings, plan.trajectory_bytes());
+        floor.bench(
+            criterion,
+            &Bench { stage: "trajectory", fabric, size, backend, elements, bytes },
+            || {
+                // An upload makes the session forget its rings; one point costs next to nothing.
+                session.upload(0, &yarns.points()[..1]).unwrap();
+                timed(|| session.trajectory(&chunks[0]).unwrap())
+            },
+        );
+    }
 }
 
 criterion_group!(benches, trajectory);

@@ -4,10 +4,9 @@
 //! control points, `crossing` with one a crossing, or `round`. It prints how many rings, or control points, there are.
 
 use std::error::Error;
-use std::sync::Arc;
 
-use texere::{Frame, Limits, Plan, Settings, Shape, Topology};
-use texere_bench::{paper_cloth, session};
+use texere::{Frame, Settings, Shape, Topology};
+use texere_bench::{paper_cloth, plan, session};
 use texere_core::MeshMut;
 use texere_cpu::ParallelBackend;
 
@@ -43,8 +42,7 @@ fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
 /// Rings of one mesh.
 fn mesh(settings: Settings, times: u32) -> Result<u64, Box<dyn Error>> {
     let yarns = paper_cloth(60, 60)?.yarns()?;
-    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-    let chunks: Vec<_> = plan.chunks(&Limits::NONE)?.collect();
+    let (plan, chunks) = plan(&yarns, settings)?;
     let mut session = session(&ParallelBackend::new(), &plan, &yarns)?;
     let mut vertices = texere_core::zeroed("vertices", chunks[0].vertices.into())?;
     let mut indices = texere_core::zeroed("indices", chunks[0].indices.into())?;

@@ -12,13 +12,16 @@ pub mod tables;
 use std::sync::Arc;
 
 use texere::{
-    Backend, BackendError, FabricError, Material, Plan, PlanError, Section, Settings, Shape, Thread, Weave,
-    Woven, Yarns,
+    Backend, BackendError, FabricError, Limits, Material, Plan, PlanError, Section, Settings, Shape, Thread,
+    Weave, Woven, Yarn, YarnError, Yarns,
 };
 use texere_core::{Chunk, Session};
 
-/// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth and its middle one.
-pub const SIZES: [(usize, usize); 2] = [(163, 150), (815, 750)];
+/// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth, its middle one, and its largest.
+pub const SIZES: [(usize, usize); 3] = [(163, 150), (815, 750), (2880, 1840)];
+
+/// The size with which settings and fabrics are compared.
+pub const SWEEP: (usize, usize) = (489, 450);
 
 /// The devices that are benchmarked.
 pub const DEVICES: [&str; 2] = ["cpu-serial", "cpu"];
@@ -35,12 +38,21 @@ pub fn paper_cloth(ends: usize, picks: usize) -> Result<Woven, FabricError> {
     Ok(cloth)
 }
 
-/// The plan for `yarns` with the paper's settings, and its one chunk.
+/// All control points of `yarns` in a single yarn.
+///
+/// **Errors**: [`YarnError`] for more than a yarn may have.
+pub fn one_yarn(yarns: &Yarns) -> Result<Yarns, YarnError> {
+    let mut one = Yarns::builder();
+    one.yarn(Yarn::default(), yarns.points());
+    one.build()
+}
+
+/// The plan for `yarns`, and its chunks for a device without limits: a single one, up to the paper's largest cloth.
 ///
 /// **Errors**: [`PlanError`] for yarns that no plan fits.
-pub fn paper_plan(yarns: &Yarns) -> Result<(Arc<Plan>, Vec<Chunk>), PlanError> {
-    let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
-    let chunks = plan.chunks(&texere::Limits::NONE)?.collect();
+pub fn plan(yarns: &Yarns, settings: Settings) -> Result<(Arc<Plan>, Vec<Chunk>), PlanError> {
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+    let chunks = plan.chunks(&Limits::NONE)?.collect();
     Ok((plan, chunks))
 }
 

@@ -11,8 +11,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use rayon::ThreadPoolBuilder;
-use texere::{Frame, Limits, Pipeline, Plan, Settings, Topology, Vertex, Yarns};
-use texere_bench::{median, paper_cloth, session};
+use texere::{Frame, Pipeline, Plan, Settings, Topology, Vertex, Yarns};
+use texere_bench::{median, paper_cloth, plan, session};
 use texere_core::{Chunk, MeshMut, Session};
 use texere_cpu::ParallelBackend;
 
@@ -82,8 +82,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn case(name: &'static str, settings: Settings, yarns: &Yarns) -> Result<Case, Box<dyn Error>> {
-    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-    let chunks = plan.chunks(&Limits::NONE)?.collect();
+    let (plan, chunks) = plan(yarns, settings)?;
     let session = session(&ParallelBackend::new(), &plan, yarns)?;
     Ok(Case { name, plan, chunks, session, rounds: Vec::new() })
 }

@@ -3,11 +3,10 @@
 //! `cargo run --release -p texere-bench --bin sizes -- [ROUNDS]`
 
 use std::error::Error;
-use std::sync::Arc;
 use std::time::Instant;
 
-use texere::{Limits, Plan, Settings, Vertex, Yarn, Yarns};
-use texere_bench::{median, paper_cloth, session};
+use texere::{Settings, Vertex};
+use texere_bench::{median, one_yarn, paper_cloth, plan, session};
 use texere_core::MeshMut;
 use texere_cpu::ParallelBackend;
 
@@ -26,8 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut vertices, mut indices): (Vec<Vertex>, Vec<u32>) = (Vec::new(), Vec::new());
     let mut jobs = Vec::new();
     for (name, yarns) in &fabrics {
-        let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
-        let chunks: Vec<_> = plan.chunks(&Limits::NONE)?.collect();
+        let (plan, chunks) = plan(yarns, Settings::default())?;
         let largest = chunks.iter().map(|chunk| (chunk.vertices as usize, chunk.indices as usize));
         let (most_vertices, most_indices) = largest
             .fold((vertices.len(), indices.len()), |most, here| (most.0.max(here.0), most.1.max(here.1)));
@@ -52,11 +50,4 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{name}: {} yarns, {} triangles, {:.2} ns each", counts.yarns, counts.triangles, time * 1e9);
     }
     Ok(())
-}
-
-/// All control points of `yarns` in a single yarn.
-fn one_yarn(yarns: &Yarns) -> Result<Yarns, texere::YarnError> {
-    let mut one = Yarns::builder();
-    one.yarn(Yarn::default(), yarns.points());
-    one.build()
 }

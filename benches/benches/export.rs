@@ -1,0 +1,32 @@
+//! A mesh that is there, to a file.
+#![allow(
+    missing_docs,
+    clippy::unwrap_used,
+    reason = "criterion's macros make undocumented items; a bench may panic"
+)]
+
+mod stage;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use stage::{Bench, Floor, timed};
+use texere::Pipeline;
+use texere_bench::{DEVICES, SIZES, paper_cloth};
+
+fn export(criterion: &mut Criterion) {
+    let mut floor = Floor::new();
+    let folder = tempfile::tempdir().unwrap();
+    let (size, backend) = (SIZES[0], DEVICES[1]);
+    let yarns = paper_cloth(size.0, size.1).unwrap().yarns().unwrap();
+    let mesh = Pipeline::new(&yarns).mesh(&*texere::open(backend).unwrap()).unwrap();
+    let elements = mesh.plan.counts().triangles;
+    for fabric in ["paper-glb", "paper-ply"] {
+        let file = folder.path().join(fabric.replace('-', "."));
+        texere::write(&mesh, &file).unwrap();
+        let bytes = std::fs::metadata(&file).unwrap().len();
+        let bench = Bench { stage: "export", fabric, size, backend, elements, bytes };
+        floor.bench(criterion, &bench, || timed(|| texere::write(&mesh, &file).unwrap()));
+    }
+}
+
+criterion_group!(benches, export);
+criterion_main!(benches);

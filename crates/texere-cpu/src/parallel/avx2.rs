@@ -7,7 +7,7 @@ use std::arch::x86_64::{
     _mm256_blendv_ps, _mm256_castps_si256, _mm256_castps256_ps128, _mm256_castsi256_ps, _mm256_cmp_ps,
     _mm256_cmpeq_epi32, _mm256_cvtepi32_ps, _mm256_cvtsi256_si32, _mm256_cvttps_epi32, _mm256_div_ps,
     _mm256_extractf128_ps, _mm256_floor_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_max_ps,
-    _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permute2x128_si256, _mm256_permutevar8x32_epi32,
+    _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permute2f128_ps, _mm256_permute2x128_si256, _mm256_permutevar8x32_epi32,
     _mm256_permutevar8x32_ps, _mm256_set_m128, _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps,
     _mm256_setzero_si256, _mm256_shuffle_epi32, _mm256_shuffle_ps, _mm256_slli_epi32, _mm256_slli_si256,
     _mm256_sqrt_ps, _mm256_srli_epi32, _mm256_storeu_ps, _mm256_storeu_si256, _mm256_stream_ps,
@@ -207,6 +207,24 @@ impl Vector for Avx2 {
             for (lane, column) in columns.into_iter().enumerate() {
                 _mm_storeu_ps(to.add(lane * stride), _mm256_castps256_ps128(column));
                 _mm_storeu_ps(half.add(lane * stride), _mm256_extractf128_ps::<1>(column));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn scatter_eight(rows: [Self; 8], out: &mut [f32], stride: usize) {
+        let out = &mut out[..7 * stride + 8];
+        let to = out.as_mut_ptr();
+        let [a, b, c, d, e, f, g, h] = rows;
+        let low = transpose([a.0, b.0, c.0, d.0]);
+        let high = transpose([e.0, f.0, g.0, h.0]);
+        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
+        unsafe {
+            for (lane, (low, high)) in low.into_iter().zip(high).enumerate() {
+                let (first, second) =
+                    (_mm256_permute2f128_ps::<0x20>(low, high), _mm256_permute2f128_ps::<0x31>(low, high));
+                _mm256_storeu_ps(to.add(lane * stride), first);
+                _mm256_storeu_ps(to.add((lane + 4) * stride), second);
             }
         }
     }

@@ -3,6 +3,8 @@
 //! A line that is written past the caches costs no read before it, but only so many such lines can be under way. They are
 //! sent a few at a time between other work, so that the processor need not wait for memory.
 
+use std::ops::Range;
+
 use super::runs::take;
 use super::vector::{LANES_MAX, LINE, Line, Vector};
 use super::vertices::OVERHANG;
@@ -28,28 +30,34 @@ impl<'a> Lines<'a> {
 /// Vertices on their way.
 ///
 /// They are written to scratch memory, where they lie as they will lie in memory: lines start at multiples of a line's
-/// length. Whole lines are sent, and what is left moves to the front. The scratch memory is that of one vector of rings,
-/// so that it stays in the nearest cache.
+/// length. Whole lines are sent, half of them at once and half while the next rings are worked out, and what is left moves
+/// to the front of a second scratch memory, which takes turns with the first. Each is that of one vector of rings, so that
+/// both stay in the nearest cache.
 #[derive(Debug)]
 pub(super) struct VertexLines<'a> {
     out: Lines<'a>,
     scratch: &'a mut [f32],
+    other: &'a mut [f32],
     /// Where in the scratch memory the next vertices go.
     end: usize,
+    /// What of the other scratch memory is still to be sent.
+    waiting: Range<usize>,
     /// Whether the first line is still to be sent.
     starts: bool,
 }
 
 impl<'a> VertexLines<'a> {
-    /// Floats of scratch memory for vectors of rings that have `floats` each.
+    /// Scratch memory for vectors of rings that have `floats` each.
     pub(super) fn scratch(floats: usize) -> Vec<Line> {
-        vec![Line([0.0; LINE]); 1 + (LANES_MAX * floats + OVERHANG).div_ceil(LINE)]
+        vec![Line([0.0; LINE]); 2 * (1 + (LANES_MAX * floats + OVERHANG).div_ceil(LINE))]
     }
 
     pub(super) fn new(out: &'a mut [f32], streams: bool, scratch: &'a mut [Line]) -> Self {
         let out = Lines::new(out, streams);
         let end = out.head.len().wrapping_neg() % LINE;
-        Self { starts: end > 0, end, out, scratch: bytemuck::cast_slice_mut(scratch) }
+        let (scratch, other) = scratch.split_at_mut(scratch.len() / 2);
+        let (scratch, other) = (bytemuck::cast_slice_mut(scratch), bytemuck::cast_slice_mut(other));
+        Self { starts: end > 0, end, out, scratch, other, waiting: 0..0 }
     }
 
     /// Where the next vertices go. A few floats after them may be overwritten.
@@ -58,7 +66,7 @@ impl<'a> VertexLines<'a> {
         &mut self.scratch[self.end..]
     }
 
-    /// Sends `floats` values that have been written.
+    /// Begins to send `floats` values that have been written, once what waited before is on its way.
     #[inline(always)]
     pub(super) fn send<V: Vector>(&mut self, floats: usize) {
         let mut first = 0;
@@ -69,20 +77,38 @@ impl<'a> VertexLines<'a> {
         }
         let whole = self.end / LINE * LINE;
         if whole > 0 {
-            let (from, _) = self.scratch[first..whole].as_chunks::<LINE>();
-            let to = take(&mut self.out.lines, from.len());
-            if self.out.streams {
-                to.iter_mut().zip(from).for_each(|(to, from)| V::stream(from, to));
-            } else {
-                to.iter_mut().zip(from).for_each(|(to, from)| to.0 = *from);
-            }
-            self.scratch.copy_within(whole..whole + LINE, 0);
+            self.other[..LINE].copy_from_slice(&self.scratch[whole..whole + LINE]);
             self.end -= whole;
+            std::mem::swap(&mut self.scratch, &mut self.other);
+            let half = first + (whole - first) / LINE / 2 * LINE;
+            self.pass::<V>(first..half);
+            self.waiting = half..whole;
+        }
+    }
+
+    /// Sends what waits.
+    #[inline(always)]
+    pub(super) fn send_waiting<V: Vector>(&mut self) {
+        let waiting = std::mem::take(&mut self.waiting);
+        self.pass::<V>(waiting);
+    }
+
+    /// Sends whole lines of the other scratch memory.
+    #[inline(always)]
+    fn pass<V: Vector>(&mut self, floats: Range<usize>) {
+        let (from, _) = self.other[floats].as_chunks::<LINE>();
+        let to = take(&mut self.out.lines, from.len());
+        if self.out.streams {
+            to.iter_mut().zip(from).for_each(|(to, from)| V::stream(from, to));
+        } else {
+            to.iter_mut().zip(from).for_each(|(to, from)| to.0 = *from);
         }
     }
 
     /// Sends the rest.
-    pub(super) fn finish(self) {
+    #[inline(always)]
+    pub(super) fn finish<V: Vector>(mut self) {
+        self.send_waiting::<V>();
         let Lines { head, tail, .. } = self.out;
         if self.starts {
             head.copy_from_slice(&self.scratch[self.end - head.len()..self.end]);

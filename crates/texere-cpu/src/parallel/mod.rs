@@ -175,7 +175,7 @@ impl Job for MeshJob<'_> {
             let surface = Surface::new(plan.outline(section));
             let mut sink = MeshSink { surface, floats: sides * VERTEX, vertices, indices };
             maker.rings::<V>(blocks, number, &mut sink);
-            sink.vertices.finish();
+            sink.vertices.finish::<V>();
             if let Some(indices) = sink.indices {
                 indices.finish::<V>();
             }
@@ -197,6 +197,7 @@ struct MeshSink<'a> {
 impl Sink for MeshSink<'_> {
     #[inline(always)]
     fn take<V: Vector>(&mut self, rings: &Rings<V>, _roll: V::Whole, count: usize) {
+        self.vertices.send_waiting::<V>();
         self.surface.write(rings, self.vertices.next());
         self.vertices.send::<V>(count * self.floats);
         if let Some(indices) = &mut self.indices {

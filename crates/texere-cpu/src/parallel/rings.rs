@@ -112,12 +112,14 @@ impl<'a, V: Vector> Walk<'a, V> {
     #[inline(always)]
     fn mended(&self, rings: Rings<V>, rare: u32) -> Rings<V> {
         let mut fields = rings.fields();
-        let mut lanes = [[0.0; LANES_MAX]; FIELDS];
-        for (field, lane) in fields.iter().zip(&mut lanes) {
+        let mut lanes = Lanes([[0.0; LANES_MAX]; FIELDS]);
+        for (field, lane) in fields.iter().zip(&mut lanes.0) {
             field.store(lane);
         }
-        mend(&self.source, self.stretch, self.done, rare, &mut lanes);
-        for (field, lane) in fields.iter_mut().zip(&lanes) {
+        // A copy, so that the walk itself need not lie in memory.
+        let source = self.source;
+        mend(&source, self.stretch, self.done, rare, &mut lanes);
+        for (field, lane) in fields.iter_mut().zip(&lanes.0) {
             *field = V::load(lane);
         }
         rings.with_fields(fields)
@@ -126,6 +128,11 @@ impl<'a, V: Vector> Walk<'a, V> {
 
 /// What a ring that is mended has new.
 const FIELDS: usize = 14;
+
+/// The fields of a vector of rings in memory. They are aligned as vectors are, so that a compiler that finds them on the stack
+/// aligns the stack, and with it all vectors that it puts there for want of registers.
+#[repr(align(32))]
+struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
 impl<V: Vector> Rings<V> {
     /// Writes them to the first `LANES` places of a slice.
@@ -155,7 +162,7 @@ impl<V: Vector> Rings<V> {
 
 #[cold]
 #[inline(never)]
-fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut [[f32; LANES_MAX]; FIELDS]) {
+fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut Lanes) {
     let Source { plan, points, .. } = *source;
     let (yarn, rings) = (stretch.yarn, plan.rings(stretch.yarn));
     let (padded, closed) = (points.yarn(plan, yarn), plan.yarn(yarn).closed);
@@ -166,7 +173,7 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
             let (s, u) = (basis.side, basis.up);
             let new =
                 [c.x, c.y, c.z, sample.radius, t.x, t.y, t.z, sample.slope, s.x, s.y, s.z, u.x, u.y, u.z];
-            for (field, value) in lanes.iter_mut().zip(new) {
+            for (field, value) in lanes.0.iter_mut().zip(new) {
                 field[lane] = value;
             }
         }

@@ -13,7 +13,16 @@ pub(super) struct Steps<V> {
     /// Turns per mm; none where it is zero.
     twist: Option<V>,
     /// The vector of rings before the present one, if there is one.
-    before: Option<Rings<V>>,
+    before: Option<Traces<V>>,
+}
+
+/// What a step needs of the ring where it begins.
+#[derive(Debug, Clone, Copy)]
+struct Traces<V> {
+    offset: [V; 3],
+    span: [V; 3],
+    tangent: [V; 3],
+    side: [V; 3],
 }
 
 impl<V: Vector> Steps<V> {
@@ -30,12 +39,13 @@ impl<V: Vector> Steps<V> {
     /// The step to each of the next rings from the one before it. That to the very first means nothing.
     #[inline(always)]
     pub(super) fn next(&mut self, rings: &Rings<V>) -> V::Whole {
-        let before = self.before.replace(*rings).unwrap_or(*rings);
+        let here = Traces { offset: rings.offset, span: rings.span, tangent: rings.tangent, side: rings.side };
+        let before = self.before.replace(here).unwrap_or(here);
         self.between(&before, rings)
     }
 
     #[inline(always)]
-    fn between(&self, before: &Rings<V>, rings: &Rings<V>) -> V::Whole {
+    fn between(&self, before: &Traces<V>, rings: &Rings<V>) -> V::Whole {
         let offset = preceding(before.offset, rings.offset);
         let span = preceding(before.span, rings.span);
         // The last ring of an interval is followed by the start of the next one.
@@ -90,7 +100,7 @@ fn preceding<V: Vector>(before: [V; 3], here: [V; 3]) -> [V; 3] {
 
 /// Double reflection from the rings before to `rings`, in turns.
 #[inline(always)]
-fn transport<V: Vector>(before: &Rings<V>, rings: &Rings<V>, chord: [V; 3], length_squared: V) -> V {
+fn transport<V: Vector>(before: &Traces<V>, rings: &Rings<V>, chord: [V; 3], length_squared: V) -> V {
     let tangent = preceding(before.tangent, rings.tangent);
     let apart = V::less(V::splat(NO_LENGTH), length_squared);
     let mirror = select(apart, chord, tangent);

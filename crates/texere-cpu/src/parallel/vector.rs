@@ -86,6 +86,13 @@ pub(super) trait Vector:
     /// Stores lane l of row r at `out[l * stride + r]`.
     fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize);
 
+    /// The same with eight rows.
+    #[inline(always)]
+    fn scatter_eight([a, b, c, d, e, f, g, h]: [Self; 8], out: &mut [f32], stride: usize) {
+        Self::scatter([a, b, c, d], out, stride);
+        Self::scatter([e, f, g, h], &mut out[4..], stride);
+    }
+
     /// The first `LANES` values of a slice.
     fn load_whole(from: &[u32]) -> Self::Whole;
 

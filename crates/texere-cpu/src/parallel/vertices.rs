@@ -106,7 +106,9 @@ fn unit<V: Vector, const KIND: u8>(
             };
         }
     }
-    for (store, rows) in rows.as_chunks::<ROWS>().0.iter().enumerate().take(stores) {
-        V::scatter(*rows, &mut out[store * ROWS..], stride);
+    let [a, b, c, d, e, f, g, h, rest @ ..] = rows;
+    V::scatter_eight([a, b, c, d, e, f, g, h], out, stride);
+    if stores > 2 {
+        V::scatter(rest, &mut out[2 * ROWS..], stride);
     }
 }

@@ -1,4 +1,5 @@
-//! The mesh stage against the floor: a plain fill of the same bytes on the same device, side by side.
+//! What a device reaches against its floor, side by side: the mesh stage beside a plain fill of the same bytes, reading and
+//! uploading beside plain copies from and to pinned memory.
 
 use std::error::Error;
 use std::time::Duration;
@@ -19,7 +20,8 @@ const CASES: [(&str, Frame, Topology); 3] = [
 /// Bytes that one buffer of the fill has at most: what Vulkan binds on the devices that bind least of the large ones.
 const BUFFER: u64 = (1 << 31) - 16;
 
-/// Prints a row for each device, size (ends, picks) and case: medians of `rounds` warm runs, by the device's clock.
+/// Prints two tables: a row for each device, size (ends, picks) and case, medians of `rounds` warm runs by the device's
+/// clock; and a row for each device and size with what goes over the bus, by the host's.
 ///
 /// # Errors
 ///
@@ -35,7 +37,53 @@ pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Res
             }
         }
     }
+    println!(
+        "\nOver the bus, GB/s: plain copies to and from pinned memory, `read_mesh` and `upload` beside them\n"
+    );
+    println!("| device | cloth | to host | mesh | share | to device | control points | share |");
+    println!("|---|---|---|---|---|---|---|---|");
+    for device in devices {
+        for &(ends, picks) in sizes {
+            print_bus(device, ends, picks, rounds)?;
+        }
+    }
     Ok(())
+}
+
+fn print_bus(device: &str, ends: usize, picks: usize, rounds: usize) -> Result<(), Box<dyn Error>> {
+    let yarns = paper_cloth(ends, picks)?.yarns()?;
+    let plan = texere::Pipeline::new(&yarns).plan()?;
+    let (mesh, points) = (plan.counts().bytes(), plan.resident_bytes());
+    let mut rig = rig(device, &buffers(mesh))?;
+    let mut bench = Bench::new(&*rig.backend, yarns, Settings::default())?;
+    bench.read()?;
+    let (mut copied_out, mut read, mut copied_in, mut sent) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for _ in 0..rounds {
+        copied_out.push(rig.fill.copy_to_host()?);
+        read.push(bench.read()?);
+        copied_in.extend(rig.fill.copy_from_host()?);
+        sent.push(bench.send()?);
+    }
+    let rate = |bytes: u64, times: &[Duration]| bytes as f64 / median_time(times).as_secs_f64() / 1e9;
+    let (bus_out, read, sent) = (rate(mesh, &copied_out), rate(mesh, &read), rate(points, &sent));
+    let (bus_in, share) = if copied_in.is_empty() {
+        ("-".into(), "-".into())
+    } else {
+        let bus_in = rate(mesh, &copied_in);
+        (format!("{bus_in:.1}"), format!("{:.2}", sent / bus_in))
+    };
+    println!(
+        "| {device} | {ends} x {picks} | {bus_out:.1} | {read:.1} | {:.2} | {bus_in} | {sent:.1} | {share} |",
+        read / bus_out,
+    );
+    Ok(())
+}
+
+/// Lengths of buffers that hold `bytes` together.
+fn buffers(bytes: u64) -> Vec<u64> {
+    let (whole, rest) = (bytes / BUFFER, bytes % BUFFER);
+    (0..whole).map(|_| BUFFER).chain([rest]).filter(|bytes| *bytes > 0).collect()
 }
 
 fn print_case(
@@ -48,9 +96,7 @@ fn print_case(
 ) -> Result<(), Box<dyn Error>> {
     let yarns = paper_cloth(ends, picks)?.yarns()?;
     let counts = *texere::Pipeline::new(&yarns).settings(settings).plan()?.counts();
-    let (whole, rest) = (counts.bytes() / BUFFER, counts.bytes() % BUFFER);
-    let buffers: Vec<_> = (0..whole).map(|_| BUFFER).chain([rest]).filter(|bytes| *bytes > 0).collect();
-    let mut rig = rig(device, &buffers)?;
+    let mut rig = rig(device, &buffers(counts.bytes()))?;
     let mut bench = Bench::new(&*rig.backend, yarns, settings)?;
     bench.fused()?;
     rig.fill.run()?;

@@ -210,6 +210,12 @@ Sample segment_sample(const Segment *segment, float t) {
     return sample;
 }
 
+// `part` / `whole`, exactly: neither is so large that half of one for safety would not do, and it takes a fraction of the
+// time of a division of integers.
+uint quotient(uint part, uint whole) {
+    return (uint)(((float)part + 0.5f) * (1.0f / (float)whole));
+}
+
 // ---- RingSample: the spline at a ring, with what the step to the next ring needs ----
 
 typedef struct {
@@ -225,8 +231,9 @@ RingSample ring_sample(__global const float4 *points, const Params *params, cons
                        uint k) {
     uint per_interval = params->subdivisions + 1u;
     uint place = block->first_ring % per_interval + k;
-    uint point = block->first_point + place / per_interval;
-    uint part = place % per_interval;
+    uint interval = quotient(place, per_interval);
+    uint point = block->first_point + interval;
+    uint part = place - interval * per_interval;
     float t = (float)part * params->step;
     // The last ring of an open yarn is t = 1 of the interval before.
     if (block->first_ring + k + 1u == yarn->rings && yarn->closed == 0u) {
@@ -257,6 +264,12 @@ typedef struct {
     float3 up;
 } Basis;
 
+// The other axis of a section whose first is `side`: tangent x side.
+float3 up_of(float3 tangent, float3 side) {
+    return (float3)(tangent.y * side.z - tangent.z * side.y, tangent.z * side.x - tangent.x * side.z,
+                    tangent.x * side.y - tangent.y * side.x);
+}
+
 // side = z x t, normalised (+y where t is along z); up = t x side.
 Basis basis_upright(float3 tangent) {
     float level = tangent.x * tangent.x + tangent.y * tangent.y;
@@ -267,27 +280,18 @@ Basis basis_upright(float3 tangent) {
         float inverse = 1.0f / sqrt(level);
         basis.side = (float3)(-tangent.y * inverse, tangent.x * inverse, 0.0f);
     }
-    basis.up = (float3)(-tangent.z * basis.side.y, tangent.z * basis.side.x,
-                        tangent.x * basis.side.y - tangent.y * basis.side.x);
+    basis.up = up_of(tangent, basis.side);
     return basis;
 }
 
-// The basis turned by `roll` about the tangent: side towards up.
-Basis basis_rolled(Basis basis, uint roll) {
-    float2 sin_cos = turn_sin_cos(roll);
-    Basis rolled;
-    rolled.side = basis.side * sin_cos.y + basis.up * sin_cos.x;
-    rolled.up = basis.up * sin_cos.y - basis.side * sin_cos.x;
-    return rolled;
-}
-
-// The basis of a section that stands with `roll`.
-Basis basis_standing(float3 tangent, uint roll) {
+// The side of a section that stands with `roll`: the upright one turned about the tangent, towards up.
+float3 side_standing(float3 tangent, uint roll) {
     Basis upright = basis_upright(tangent);
     if (roll == 0u) {
-        return upright;
+        return upright.side;
     }
-    return basis_rolled(upright, roll);
+    float2 sin_cos = turn_sin_cos(roll);
+    return upright.side * sin_cos.y + upright.up * sin_cos.x;
 }
 
 // `v` mirrored in the plane at right angles to `mirror`.
@@ -334,22 +338,19 @@ uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
 
 // ---- Vertex ----
 
-typedef struct {
-    float3 position;
-    float3 normal;
-} Vertex;
-
-// The vertex at `point` of a section: `centre` with the radius, `tangent` with the slope.
-Vertex vertex_at(float4 centre, float4 tangent, float3 side, float3 up, float4 point) {
+// Where the vertex at `point` of a section lies: `centre` with the radius.
+float3 position_at(float4 centre, float3 side, float3 up, float4 point) {
     float3 outward = side * point.x + up * point.y;
-    float lean = tangent.w * (point.x * point.z + point.y * point.w);
+    return centre.xyz + outward * centre.w;
+}
+
+// Its normal: `tangent` with the slope.
+float3 normal_at(float4 tangent, float3 side, float3 up, float4 point) {
     float3 across = side * point.z + up * point.w;
-    Vertex vertex;
-    vertex.position = centre.xyz + outward * centre.w;
-    vertex.normal = across;
     // Most yarns are as thick here as there, and need no square root.
-    if (tangent.w != 0.0f) {
-        vertex.normal = (across - tangent.xyz * lean) * (1.0f / sqrt(1.0f + lean * lean));
+    if (tangent.w == 0.0f) {
+        return across;
     }
-    return vertex;
+    float lean = tangent.w * (point.x * point.z + point.y * point.w);
+    return (across - tangent.xyz * lean) * (1.0f / sqrt(1.0f + lean * lean));
 }

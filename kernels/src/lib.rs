@@ -27,8 +27,15 @@ pub const YARN_ROLLS: Entry = Entry { name: "yarn_rolls", group: 256 };
 /// Stage 1: a workgroup a row of the chunk's block table.
 pub const TRAJECTORY: Entry = Entry { name: "trajectory", group: 64 };
 
-/// Stage 2 with stage 1 in it: a workgroup a row of the chunk's block table.
+/// Stage 2 with stage 1 in it, for an even number of sides: a workgroup a row of the chunk's block table. It runs with any
+/// workgroup of 64 lanes, a ring each, or more; see [`UNINDEXED_GROUP`].
 pub const MESH: Entry = Entry { name: "mesh", group: 128 };
+
+/// The same for an odd number of sides.
+pub const MESH_ODD: Entry = Entry { name: "mesh_odd", ..MESH };
+
+/// The workgroup of [`MESH`] where it writes no indices: with less to write for each ring, lanes that have none cost more.
+pub const UNINDEXED_GROUP: usize = 64;
 
 /// The chunk's caps, after [`MESH`]: a lane a cap vertex.
 pub const CAPS: Entry = Entry { name: "caps", group: 64 };
@@ -61,7 +68,7 @@ pub const PER_RING: Program = Program {
         include_str!("mesh.cl"),
         include_str!("caps.cl"),
     ],
-    entries: &[BLOCK_TURNS, YARN_ROLLS, TRAJECTORY, MESH, CAPS],
+    entries: &[BLOCK_TURNS, YARN_ROLLS, TRAJECTORY, MESH, MESH_ODD, CAPS],
 };
 
 /// The schedule per-yarn: the paper's, for upright, untwisted, open yarns without caps.
@@ -81,8 +88,13 @@ mod tests {
             let source = program.sources.concat();
             for entry in program.entries {
                 let head = source.split_once(&format!("void {}(", entry.name)).unwrap().0;
+                let attribute = head.rsplit_once("__kernel").unwrap().1;
+                if [MESH.name, MESH_ODD.name].contains(&entry.name) {
+                    assert!(!attribute.contains("reqd_work_group_size"), "{} takes any", entry.name);
+                    continue;
+                }
                 let macro_name =
-                    head.rsplit_once("reqd_work_group_size(").unwrap().1.split(',').next().unwrap();
+                    attribute.split_once("reqd_work_group_size(").unwrap().1.split(',').next().unwrap();
                 let defined = source.split_once(&format!("#define {macro_name} ")).unwrap().1;
                 assert_eq!(defined.lines().next().unwrap(), entry.group.to_string(), "{}", entry.name);
             }

@@ -64,10 +64,9 @@ void mesh_per_yarn(const Params params, __global const YarnRow *yarns, __global 
         Basis basis = basis_upright(tangent.xyz);
         uint first_vertex = part.first_vertex + ring * sides;
         for (uint k = 0u; k < sides; k++) {
-            Vertex vertex = vertex_at(centre, tangent, basis.side, basis.up, outline[k]);
             __global float *out = vertices + 6 * (size_t)(first_vertex + k);
-            vstore3(vertex.position, 0, out);
-            vstore3(vertex.normal, 0, out + 3);
+            vstore3(position_at(centre, basis.side, basis.up, outline[k]), 0, out);
+            vstore3(normal_at(tangent, basis.side, basis.up, outline[k]), 0, out + 3);
         }
         if (params.indexed != 0u && ring < part.quads) {
             uint first_index = part.first_index + ring * 6u * sides;

@@ -2,14 +2,14 @@
 //
 // rings.wgsl is the twin of this file.
 
-// The rings of a block, each with its basis and its roll.
+// The rings of a block, each with its side and its roll; `up_of` makes the rest of the basis, sooner than memory for it
+// would: the less a workgroup has, the more of them run.
 typedef struct {
     // Centre, radius.
     float4 centre[BLOCK_RINGS];
     // Unit tangent, slope.
     float4 tangent[BLOCK_RINGS];
     float4 side[BLOCK_RINGS];
-    float4 up[BLOCK_RINGS];
     uint roll[BLOCK_RINGS];
     // The turns of each eight rings.
     uint eights[BLOCK_RINGS / 8];
@@ -57,10 +57,8 @@ void block_rings(__global const float4 *points, const Params *params, const Yarn
         }
     }
     if (lane < block->rings) {
-        Basis basis = basis_standing(here.sample.tangent, roll);
         rings->centre[lane] = (float4)(here.sample.centre, here.sample.radius);
-        rings->side[lane] = (float4)(basis.side, 0.0f);
-        rings->up[lane] = (float4)(basis.up, 0.0f);
+        rings->side[lane] = (float4)(side_standing(here.sample.tangent, roll), 0.0f);
         rings->roll[lane] = roll;
     }
     barrier(CLK_LOCAL_MEM_FENCE);

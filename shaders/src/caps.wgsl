@@ -12,8 +12,9 @@ const CAPS_GROUP = 64u;
 // A lane a cap vertex: the end ring's position again, with the end's own normal; and, of the cap's sides - 2
 // triangles, one a lane.
 @compute @workgroup_size(CAPS_GROUP)
-fn caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let number = (group.y * GRID_WIDTH + group.x) * CAPS_GROUP + lane;
+fn caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+        @builtin(local_invocation_index) lane: u32) {
+    let number = (group.y * grid.x + group.x) * CAPS_GROUP + lane;
     if number >= params.caps * params.sides {
         return;
     }

@@ -6,9 +6,6 @@
 // Rings in a full block. Rust: BLOCK_RINGS.
 const BLOCK_RINGS = 64u;
 
-// Workgroups in a row of a launch's grid. Rust: GRID_WIDTH.
-const GRID_WIDTH = 65535u;
-
 // Rust: texere_core::Block, 32 bytes.
 struct Block {
     yarn: u32,
@@ -213,6 +210,12 @@ fn segment_sample(segment: Segment, t: f32) -> Sample {
     return sample;
 }
 
+// `part` / `whole`, exactly: neither is so large that half of one for safety would not do, and it takes a fraction of the
+// time of a division of integers.
+fn quotient(part: u32, whole: u32) -> u32 {
+    return u32((f32(part) + 0.5) * (1.0 / f32(whole)));
+}
+
 // ---- RingSample: the spline at a ring, with what the step to the next ring needs ----
 
 struct RingSample {
@@ -227,8 +230,9 @@ struct RingSample {
 fn ring_sample(yarn: YarnRow, block: Block, k: u32) -> RingSample {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + k;
-    var point = block.first_point + place / per_interval;
-    let part = place % per_interval;
+    let interval = quotient(place, per_interval);
+    var point = block.first_point + interval;
+    let part = place - interval * per_interval;
     var t = f32(part) * params.step;
     // The last ring of an open yarn is t = 1 of the interval before.
     if block.first_ring + k + 1u == yarn.rings && yarn.closed == 0u {
@@ -259,6 +263,12 @@ struct Basis {
     up: vec3<f32>,
 }
 
+// The other axis of a section whose first is `side`: tangent x side.
+fn up_of(tangent: vec3<f32>, side: vec3<f32>) -> vec3<f32> {
+    return vec3(tangent.y * side.z - tangent.z * side.y, tangent.z * side.x - tangent.x * side.z,
+                tangent.x * side.y - tangent.y * side.x);
+}
+
 // side = z x t, normalised (+y where t is along z); up = t x side.
 fn basis_upright(tangent: vec3<f32>) -> Basis {
     let level = tangent.x * tangent.x + tangent.y * tangent.y;
@@ -269,27 +279,18 @@ fn basis_upright(tangent: vec3<f32>) -> Basis {
         let inverse = 1.0 / sqrt(level);
         basis.side = vec3(-tangent.y * inverse, tangent.x * inverse, 0.0);
     }
-    basis.up = vec3(-tangent.z * basis.side.y, tangent.z * basis.side.x,
-                    tangent.x * basis.side.y - tangent.y * basis.side.x);
+    basis.up = up_of(tangent, basis.side);
     return basis;
 }
 
-// The basis turned by `roll` about the tangent: side towards up.
-fn basis_rolled(basis: Basis, roll: u32) -> Basis {
-    let sin_cos = turn_sin_cos(roll);
-    var rolled: Basis;
-    rolled.side = basis.side * sin_cos.y + basis.up * sin_cos.x;
-    rolled.up = basis.up * sin_cos.y - basis.side * sin_cos.x;
-    return rolled;
-}
-
-// The basis of a section that stands with `roll`.
-fn basis_standing(tangent: vec3<f32>, roll: u32) -> Basis {
+// The side of a section that stands with `roll`: the upright one turned about the tangent, towards up.
+fn side_standing(tangent: vec3<f32>, roll: u32) -> vec3<f32> {
     let upright = basis_upright(tangent);
     if roll == 0u {
-        return upright;
+        return upright.side;
     }
-    return basis_rolled(upright, roll);
+    let sin_cos = turn_sin_cos(roll);
+    return upright.side * sin_cos.y + upright.up * sin_cos.x;
 }
 
 // `v` mirrored in the plane at right angles to `mirror`.
@@ -339,22 +340,19 @@ fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
 
 // ---- Vertex ----
 
-struct Vertex {
-    position: vec3<f32>,
-    normal: vec3<f32>,
+// Where the vertex at `point` of a section lies: `centre` with the radius.
+fn position_at(centre: vec4<f32>, side: vec3<f32>, up: vec3<f32>, point: vec4<f32>) -> vec3<f32> {
+    let outward = side * point.x + up * point.y;
+    return centre.xyz + outward * centre.w;
 }
 
-// The vertex at `point` of a section: `centre` with the radius, `tangent` with the slope.
-fn vertex_at(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, up: vec3<f32>, point: vec4<f32>) -> Vertex {
-    let outward = side * point.x + up * point.y;
-    let lean = tangent.w * (point.x * point.z + point.y * point.w);
+// Its normal: `tangent` with the slope.
+fn normal_at(tangent: vec4<f32>, side: vec3<f32>, up: vec3<f32>, point: vec4<f32>) -> vec3<f32> {
     let across = side * point.z + up * point.w;
-    var vertex: Vertex;
-    vertex.position = centre.xyz + outward * centre.w;
-    vertex.normal = across;
     // Most yarns are as thick here as there, and need no square root.
-    if tangent.w != 0.0 {
-        vertex.normal = (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
+    if tangent.w == 0.0 {
+        return across;
     }
-    return vertex;
+    let lean = tangent.w * (point.x * point.z + point.y * point.w);
+    return (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
 }

@@ -21,9 +21,18 @@
 
 pub mod picture;
 
-/// Workgroups in a row of a launch's grid: what every device allows in a dimension. A launch of n workgroups is
-/// `min(n, GRID_WIDTH)` by `n / GRID_WIDTH`, rounded up.
-pub const GRID_WIDTH: u32 = 65_535;
+/// The grid of a launch of `workgroups`: columns, rows. No side is longer than every device allows, 65,535, and no row
+/// too many: a workgroup that finds nothing to do takes time, too.
+///
+/// ```
+/// assert_eq!(texere_shaders::grid(65_535), (65_535, 1));
+/// assert_eq!(texere_shaders::grid(65_537), (32_769, 2));
+/// ```
+#[must_use]
+pub const fn grid(workgroups: u32) -> (u32, u32) {
+    let rows = workgroups.div_ceil(65_535);
+    if rows == 0 { (0, 0) } else { (workgroups.div_ceil(rows), rows) }
+}
 
 /// What a shader reads or writes; the number is that of its binding in group 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

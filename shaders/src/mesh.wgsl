@@ -1,8 +1,7 @@
 // Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.wgsl and rings.wgsl.
 //
 // The twin of mesh.cl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
-// at a time, contiguous across the workgroup. To get there a lane works a vertex out again, where mesh.cl takes vertices
-// through local memory: Vulkan runs the fewer workgroups at a time the more such memory each one has.
+// at a time, contiguous across the workgroup.
 
 const MESH_GROUP = 128u;
 
@@ -16,88 +15,108 @@ const MESH_GROUP = 128u;
 @group(0) @binding(7) var<storage, read_write> vertex_pairs: array<vec2<f32>>;
 @group(0) @binding(8) var<storage, read_write> index_pairs: array<vec2<u32>>;
 
-// `at` / `per_ring`, exactly: neither is so large that half of one for safety would not do, and it takes a fraction of
-// the time of a division of integers.
-fn ring_of(at: u32, per_ring: u32) -> u32 {
-    return u32((f32(at) + 0.5) * (1.0 / f32(per_ring)));
+// How a workgroup shares out the stores of its rings, all of which have equally many: a lane makes the same one, `store`,
+// of ring `ring` and of each `step`th ring after it. So what it wants of the outline or of the pattern it fetches once.
+// Where a ring has more stores than the workgroup lanes, a lane goes on `across` stores further.
+struct Share {
+    store: u32,
+    across: u32,
+    ring: u32,
+    step: u32,
 }
 
-// Vertex `number` of a block, whose section's outline starts at `outline`.
-fn block_vertex(outline: u32, number: u32) -> Vertex {
-    let ring = ring_of(number, params.sides);
-    return vertex_at(standing.centre[ring], standing.tangent[ring], standing.side[ring], standing.up[ring],
-                     outlines[outline + number - ring * params.sides]);
+// The share of lane `lane` in rings of `stores`. Lanes that are left over get none.
+fn share_of(lane: u32, stores: u32) -> Share {
+    let across = min(stores, MESH_GROUP);
+    let step = quotient(MESH_GROUP, across);
+    let ring = quotient(lane, across);
+    return Share(select(stores, lane - ring * across, ring < step), across, ring, step);
 }
 
-// Four floats of a block's vertices from float `at` on, which is even: so they hold no more than one normal, or the end
-// of one, and one position, or the start of one.
-fn four_floats(outline: u32, at: u32) -> vec4<f32> {
-    let normal = block_vertex(outline, at / 6u).normal;
-    let position = block_vertex(outline, (at + 2u) / 6u).position;
-    switch at % 6u {
-        case 0u: { return vec4(position, normal.x); }
-        case 2u: { return vec4(position.z, normal); }
-        default: { return vec4(normal.yz, position.xy); }
-    }
+// Four floats of ring `ring`'s vertices, the first of which is number `first` of its vertex, an even one: so they hold
+// no more than one normal, or the end of one, and one position, or the start of one.
+fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: vec4<f32>) -> vec4<f32> {
+    let tangent = standing.tangent[ring];
+    let side = standing.side[ring];
+    let up = up_of(tangent.xyz, side);
+    let normal = normal_at(tangent, side, up, normal_point);
+    let position = position_at(standing.centre[ring], side, up, position_point);
+    let later = select(vec4(normal.yz, position.xy), vec4(position.z, normal), first == 2u);
+    return select(later, vec4(position, normal.x), first == 0u);
 }
 
 // Two floats likewise.
-fn two_floats(outline: u32, at: u32) -> vec2<f32> {
-    let vertex = block_vertex(outline, at / 6u);
-    switch at % 6u {
-        case 0u: { return vertex.position.xy; }
-        case 2u: { return vec2(vertex.position.z, vertex.normal.x); }
-        default: { return vertex.normal.yz; }
-    }
+fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
+    let tangent = standing.tangent[ring];
+    let side = standing.side[ring];
+    let up = up_of(tangent.xyz, side);
+    let normal = normal_at(tangent, side, up, point);
+    let position = position_at(standing.centre[ring], side, up, point);
+    return select(select(normal.yz, vec2(position.z, normal.x), first == 2u), position.xy, first == 0u);
 }
 
 // A workgroup of MESH_GROUP a row of the chunk's block table. Indices first: they wait for nothing, and are on their way
 // while the points are fetched.
 @compute @workgroup_size(MESH_GROUP)
-fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let row = group.y * GRID_WIDTH + group.x;
+fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+        @builtin(local_invocation_index) lane: u32) {
+    let row = group.y * grid.x + group.x;
     if row >= params.blocks {
         return;
     }
     let block = blocks[row];
     let yarn = yarns[block.yarn];
+    let stores = 3u * params.sides / 2u;
+    let share = share_of(lane, stores);
     if params.indexed != 0u {
-        let per_ring = 6u * params.sides;
-        for (var at = 4u * lane; at < block.quads * per_ring; at += 4u * MESH_GROUP) {
-            let ring = ring_of(at, per_ring);
-            let first_vertex = block.first_vertex + ring * params.sides;
-            indices[(block.first_index + at) / 4u] = pattern[(at - ring * per_ring) / 4u] + first_vertex;
+        for (var store = share.store; store < stores; store += share.across) {
+            let own = pattern[store] + block.first_vertex;
+            for (var ring = share.ring; ring < block.quads; ring += share.step) {
+                indices[block.first_index / 4u + ring * stores + store] = own + ring * params.sides;
+            }
         }
     }
     block_rings(yarn, block, row, lane);
     let outline = yarn.section * params.sides;
-    let out = 6u * block.first_vertex / 4u;
-    for (var at = 4u * lane; at < 6u * block.rings * params.sides; at += 4u * MESH_GROUP) {
-        vertices[out + at / 4u] = four_floats(outline, at);
+    let out = 3u * block.first_vertex / 2u;
+    for (var store = share.store; store < stores; store += share.across) {
+        let first = 4u * store % 6u;
+        let normal_point = outlines[outline + 4u * store / 6u];
+        let position_point = outlines[outline + (4u * store + 2u) / 6u];
+        for (var ring = share.ring; ring < block.rings; ring += share.step) {
+            vertices[out + ring * stores + store] = four_floats(ring, first, normal_point, position_point);
+        }
     }
 }
 
-// The same for an odd number of sides.
+// The same for an odd number of sides, 8 bytes at a time.
 @compute @workgroup_size(MESH_GROUP)
-fn mesh_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let row = group.y * GRID_WIDTH + group.x;
+fn mesh_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+            @builtin(local_invocation_index) lane: u32) {
+    let row = group.y * grid.x + group.x;
     if row >= params.blocks {
         return;
     }
     let block = blocks[row];
     let yarn = yarns[block.yarn];
+    let stores = 3u * params.sides;
+    let share = share_of(lane, stores);
     if params.indexed != 0u {
-        let per_ring = 6u * params.sides;
-        for (var at = 2u * lane; at < block.quads * per_ring; at += 2u * MESH_GROUP) {
-            let ring = ring_of(at, per_ring);
-            let first_vertex = block.first_vertex + ring * params.sides;
-            index_pairs[(block.first_index + at) / 2u] = pattern_pairs[(at - ring * per_ring) / 2u] + first_vertex;
+        for (var store = share.store; store < stores; store += share.across) {
+            let own = pattern_pairs[store] + block.first_vertex;
+            for (var ring = share.ring; ring < block.quads; ring += share.step) {
+                index_pairs[block.first_index / 2u + ring * stores + store] = own + ring * params.sides;
+            }
         }
     }
     block_rings(yarn, block, row, lane);
     let outline = yarn.section * params.sides;
-    let out = 6u * block.first_vertex / 2u;
-    for (var at = 2u * lane; at < 6u * block.rings * params.sides; at += 2u * MESH_GROUP) {
-        vertex_pairs[out + at / 2u] = two_floats(outline, at);
+    let out = 3u * block.first_vertex;
+    for (var store = share.store; store < stores; store += share.across) {
+        let first = 2u * store % 6u;
+        let point = outlines[outline + store / 3u];
+        for (var ring = share.ring; ring < block.rings; ring += share.step) {
+            vertex_pairs[out + ring * stores + store] = two_floats(ring, first, point);
+        }
     }
 }

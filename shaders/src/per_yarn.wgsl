@@ -17,8 +17,9 @@ const PER_YARN_GROUP = 64u;
 
 // Algorithm 2: for each control interval, K + 1 rings.
 @compute @workgroup_size(PER_YARN_GROUP)
-fn trajectory_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let number = (group.y * GRID_WIDTH + group.x) * PER_YARN_GROUP + lane;
+fn trajectory_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+                       @builtin(local_invocation_index) lane: u32) {
+    let number = (group.y * grid.x + group.x) * PER_YARN_GROUP + lane;
     if number >= params.blocks {
         return;
     }
@@ -56,8 +57,9 @@ fn trajectory_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_i
 
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.
 @compute @workgroup_size(PER_YARN_GROUP)
-fn mesh_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let number = (group.y * GRID_WIDTH + group.x) * PER_YARN_GROUP + lane;
+fn mesh_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+                 @builtin(local_invocation_index) lane: u32) {
+    let number = (group.y * grid.x + group.x) * PER_YARN_GROUP + lane;
     if number >= params.blocks {
         return;
     }
@@ -71,11 +73,12 @@ fn mesh_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
         let basis = basis_upright(tangent.xyz);
         let first_vertex = part.first_vertex + ring * sides;
         for (var k = 0u; k < sides; k++) {
-            let vertex = vertex_at(centre, tangent, basis.side, basis.up, outlines[outline + k]);
+            let position = position_at(centre, basis.side, basis.up, outlines[outline + k]);
+            let normal = normal_at(tangent, basis.side, basis.up, outlines[outline + k]);
             let out = 6u * (first_vertex + k);
             for (var c = 0u; c < 3u; c++) {
-                vertices[out + c] = vertex.position[c];
-                vertices[out + 3u + c] = vertex.normal[c];
+                vertices[out + c] = position[c];
+                vertices[out + 3u + c] = normal[c];
             }
         }
         if params.indexed != 0u && ring < part.quads {

@@ -5,14 +5,14 @@
 // The whole turn of each yarn, then the roll at each block's start: one buffer, since eight are all that WebGPU promises.
 @group(0) @binding(4) var<storage, read> rolls: array<u32>;
 
-// The rings of a block, each with its basis and its roll.
+// The rings of a block, each with its side and its roll; `up_of` makes the rest of the basis, sooner than memory for it
+// would: the less a workgroup has, the more of them run.
 struct BlockRings {
     // Centre, radius.
     centre: array<vec4<f32>, BLOCK_RINGS>,
     // Unit tangent, slope.
     tangent: array<vec4<f32>, BLOCK_RINGS>,
     side: array<vec3<f32>, BLOCK_RINGS>,
-    up: array<vec3<f32>, BLOCK_RINGS>,
     roll: array<u32, BLOCK_RINGS>,
     // The turns of each eight rings.
     eights: array<u32, BLOCK_RINGS / 8u>,
@@ -62,10 +62,8 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
         }
     }
     if lane < block.rings {
-        let basis = basis_standing(here.sample.tangent, roll);
         standing.centre[lane] = vec4(here.sample.centre, here.sample.radius);
-        standing.side[lane] = basis.side;
-        standing.up[lane] = basis.up;
+        standing.side[lane] = side_standing(here.sample.tangent, roll);
         standing.roll[lane] = roll;
     }
     workgroupBarrier();

@@ -15,8 +15,9 @@ var<workgroup> turn_sums: array<u32, TURNS_GROUP>;
 
 // A workgroup of TURNS_GROUP a row of a chunk's block table, chunk after chunk.
 @compute @workgroup_size(TURNS_GROUP)
-fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let row = group.y * GRID_WIDTH + group.x;
+fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+               @builtin(local_invocation_index) lane: u32) {
+    let row = group.y * grid.x + group.x;
     if row >= params.blocks {
         return;
     }
@@ -67,8 +68,9 @@ var<workgroup> roll_sums: array<u32, ROLLS_GROUP>;
 
 // A workgroup of ROLLS_GROUP a yarn: turns become rolls in place, tile by tile, and their total the yarn's whole turn.
 @compute @workgroup_size(ROLLS_GROUP)
-fn yarn_rolls(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let number = group.y * GRID_WIDTH + group.x;
+fn yarn_rolls(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+              @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
     if number >= params.yarns {
         return;
     }

@@ -8,8 +8,9 @@ const TRAJECTORY_GROUP = 64u;
 
 // A workgroup of TRAJECTORY_GROUP a row of the chunk's block table.
 @compute @workgroup_size(TRAJECTORY_GROUP)
-fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let row = group.y * GRID_WIDTH + group.x;
+fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+              @builtin(local_invocation_index) lane: u32) {
+    let row = group.y * grid.x + group.x;
     if row >= params.blocks {
         return;
     }

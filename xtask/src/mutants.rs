@@ -51,8 +51,15 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     opencl("kernels/src/scan.cl", "yarn_rolls", "before += sums", "before = sums"),
     // The roll is looked up by the chunk's row, which whole fabrics don't show.
     opencl("kernels/src/trajectory.cl", "trajectory", "rolls[params.first_block + row]", "rolls[row]"),
-    // The last two floats of a tile with an odd number of pairs repeat the first two.
-    opencl("kernels/src/mesh.cl", "mesh", "vstore2(staged[tail], 0", "vstore2(staged[0], 0"),
+    // A store that begins with the end of a normal takes that of the next vertex.
+    opencl(
+        "kernels/src/mesh.cl",
+        "mesh",
+        "normal_point = outline[4u * store / 6u];",
+        "normal_point = outline[(4u * store + 2u) / 6u];",
+    ),
+    // Where a ring has more stores than a workgroup lanes, the rest is left out.
+    opencl("kernels/src/mesh.cl", "mesh_odd", "share.across = min(stores, lanes);", "share.across = stores;"),
     // Caps look inwards.
     opencl("kernels/src/caps.cl", "caps", "cap.end == 0u ? -1.0f : 1.0f", "cap.end == 0u ? 1.0f : -1.0f"),
     // Radii grow, normals don't know.
@@ -98,15 +105,15 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     wgpu(
         "shaders/src/mesh.wgsl",
         "mesh",
-        "default: { return vec4(normal.yz, position.xy); }",
-        "default: { return vec4(normal.yz, position.yx); }",
+        "select(vec4(normal.yz, position.xy),",
+        "select(vec4(normal.yz, position.yx),",
     ),
     // Indices of a block whose sides are odd count from the chunk's first vertex.
     wgpu(
         "shaders/src/mesh.wgsl",
         "mesh_odd",
-        "pattern_pairs[(at - ring * per_ring) / 2u] + first_vertex;",
-        "pattern_pairs[(at - ring * per_ring) / 2u];",
+        "let own = pattern_pairs[store] + block.first_vertex;",
+        "let own = pattern_pairs[store];",
     ),
     // A cap's triangles all share one corner.
     wgpu("shaders/src/caps.wgsl", "caps", "cap_pattern[cap.first_corner + k];", "cap_pattern[k];"),

@@ -17,7 +17,21 @@ pub trait Fill: Debug {
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn run(&mut self) -> Result<Duration, BackendError>;
+
+    /// Copies all of its buffers to memory of the host that the driver has pinned, and gives back the time that took by
+    /// the host's clock: the bandwidth of the bus.
+    ///
+    /// **Errors**: [`BackendError`] from the device.
+    fn copy_to_host(&mut self) -> Result<Duration, BackendError>;
+
+    /// Likewise from such memory; none where a driver gives no such memory that is sure to be the host's.
+    ///
+    /// **Errors**: [`BackendError`] from the device.
+    fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError>;
 }
+
+/// Bytes of a copy over the bus: so many that its start does not count.
+const COPY_BYTES: u64 = 256 << 20;
 
 /// A device with what is needed to measure it: the backend, and its floor for buffers of `bytes`.
 #[derive(Debug)]

@@ -1,18 +1,25 @@
 //! A fill through OpenCL.
 
+use std::ffi::c_void;
 use std::ptr;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use opencl3::command_queue::{CL_QUEUE_PROFILING_ENABLE, CommandQueue};
+use opencl3::command_queue::{
+    CL_BLOCKING, CL_NON_BLOCKING, CL_QUEUE_PROFILING_ENABLE, CommandQueue, enqueue_read_buffer,
+    enqueue_write_buffer,
+};
 use opencl3::context::Context;
 use opencl3::device::{CL_DEVICE_TYPE_ALL, Device};
 use opencl3::error_codes::ClError;
+use opencl3::event::Event;
 use opencl3::kernel::Kernel;
-use opencl3::memory::{Buffer, CL_MEM_READ_WRITE, ClMem};
+use opencl3::memory::{Buffer, CL_MAP_READ, CL_MAP_WRITE, CL_MEM_ALLOC_HOST_PTR, CL_MEM_READ_WRITE, ClMem};
 use opencl3::platform::get_platforms;
 use opencl3::program::Program;
 use texere::BackendError;
 use texere_opencl::{OpenClBackend, Schedule};
+
+use super::COPY_BYTES;
 
 const SOURCE: &str = "
 __kernel void fill(__global uint4 *out, const ulong count) {
@@ -28,6 +35,9 @@ pub struct OpenClFill {
     queue: CommandQueue,
     kernel: Kernel,
     buffers: Vec<(Buffer<u8>, u64)>,
+    /// Pinned, and mapped for good.
+    pinned: Buffer<u8>,
+    mapped: *mut c_void,
     // Dropped last.
     _context: Context,
 }
@@ -67,7 +77,45 @@ impl OpenClFill {
             Ok((buffer.map_err(driver("clCreateBuffer"))?, size / 16))
         };
         let buffers = bytes.iter().copied().map(buffer).collect::<Result<_, BackendError>>()?;
-        Ok(Self { queue, kernel, buffers, _context: context })
+        // SAFETY: no host memory is handed over.
+        let pinned = unsafe {
+            let flags = CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR;
+            Buffer::create(&context, flags, COPY_BYTES as usize, ptr::null_mut())
+        };
+        let pinned = pinned.map_err(driver("clCreateBuffer"))?;
+        let mut mapped = ptr::null_mut();
+        // SAFETY: the whole of a buffer of this context; nobody looks at it.
+        unsafe {
+            let flags = CL_MAP_READ | CL_MAP_WRITE;
+            queue.enqueue_map_buffer(&pinned, CL_BLOCKING, flags, 0, COPY_BYTES as usize, &mut mapped, &[])
+        }
+        .map_err(driver("clEnqueueMapBuffer"))?;
+        Ok(Self { queue, kernel, buffers, pinned, mapped, _context: context })
+    }
+
+    /// Starts `copy` for each range of each buffer: (queue, buffer, offset, bytes, pinned memory). Waits for all.
+    fn copy(
+        &self,
+        copy: impl Fn(*mut c_void, *mut c_void, usize, usize, *mut c_void) -> Result<*mut c_void, i32>,
+    ) -> Result<Duration, BackendError> {
+        let start = Instant::now();
+        for (buffer, count) in &self.buffers {
+            for offset in (0..count * 16).step_by(COPY_BYTES as usize) {
+                let bytes = COPY_BYTES.min(count * 16 - offset);
+                copy(self.queue.get(), buffer.get(), offset as usize, bytes as usize, self.mapped)
+                    .map(|event| drop(Event::new(event)))
+                    .map_err(|code| driver("copying")(ClError(code)))?;
+            }
+        }
+        self.queue.finish().map_err(driver("clFinish"))?;
+        Ok(start.elapsed())
+    }
+}
+
+impl Drop for OpenClFill {
+    fn drop(&mut self) {
+        // SAFETY: mapped once, and nothing uses it any more. A queue that is gone has unmapped it.
+        let _ = unsafe { self.queue.enqueue_unmap_mem_object(self.pinned.get(), self.mapped, &[]) };
     }
 }
 
@@ -97,5 +145,20 @@ impl super::Fill for OpenClFill {
             time += end - start;
         }
         Ok(Duration::from_nanos(time))
+    }
+
+    fn copy_to_host(&mut self) -> Result<Duration, BackendError> {
+        // SAFETY: the pinned memory is as large as the largest range, and read by nobody.
+        self.copy(|queue, buffer, offset, bytes, host| unsafe {
+            enqueue_read_buffer(queue, buffer, CL_NON_BLOCKING, offset, bytes, host, 0, ptr::null())
+        })
+    }
+
+    fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError> {
+        // SAFETY: as above; any bytes will do.
+        self.copy(|queue, buffer, offset, bytes, host| unsafe {
+            enqueue_write_buffer(queue, buffer, CL_NON_BLOCKING, offset, bytes, host, 0, ptr::null())
+        })
+        .map(Some)
     }
 }

@@ -1,6 +1,6 @@
 //! A fill through wgpu.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use texere::BackendError;
 use texere_wgpu::{Schedule, WgpuBackend};
@@ -9,12 +9,18 @@ use wgpu::{
     ComputePipelineDescriptor, MapMode, PollType, QueryType, ShaderModuleDescriptor, ShaderSource,
 };
 
+use super::COPY_BYTES;
+
 /// One vec4 a lane; a grid in two dimensions, since one has no more than 65,535 workgroups.
 const SOURCE: &str = "
 @group(0) @binding(0) var<storage, read_write> out: array<vec4<u32>>;
 @compute @workgroup_size(256)
-fn fill(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let at = (group.y * 65535u + group.x) * 256u + lane;
+fn fill(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let at = (group.y * groups.x + group.x) * 256u + lane;
     if at < arrayLength(&out) {
         out[at] = vec4(at);
     }
@@ -27,6 +33,9 @@ pub struct WgpuFill {
     queue: wgpu::Queue,
     pipeline: wgpu::ComputePipeline,
     bound: Vec<(wgpu::BindGroup, u32)>,
+    filled: Vec<wgpu::Buffer>,
+    /// Where copies go.
+    host: wgpu::Buffer,
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
     mapped: wgpu::Buffer,
@@ -62,18 +71,21 @@ impl WgpuFill {
                 mapped_at_creation: false,
             })
         };
-        let bound = bytes.iter().map(|&bytes| {
-            let filled = buffer(bytes.next_multiple_of(16), BufferUsages::STORAGE);
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+        let filled: Vec<_> = bytes.iter().map(|&bytes| buffer(bytes.next_multiple_of(16), usage)).collect();
+        let bound = filled.iter().map(|filled| {
             let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: None,
                 layout: &pipeline.get_bind_group_layout(0),
                 entries: &[wgpu::BindGroupEntry { binding: 0, resource: filled.as_entire_binding() }],
             });
-            (group, bytes.div_ceil(16 * 256) as u32)
+            (group, filled.size().div_ceil(16 * 256) as u32)
         });
         let bound = bound.collect();
         Self {
             bound,
+            filled,
+            host: buffer(COPY_BYTES, BufferUsages::MAP_READ | BufferUsages::COPY_DST),
             queries: device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: None,
                 ty: QueryType::Timestamp,
@@ -88,11 +100,19 @@ impl WgpuFill {
     }
 }
 
+fn driver(call: &'static str, source: impl std::error::Error + Send + Sync + 'static) -> BackendError {
+    BackendError::Driver { call, source: source.into() }
+}
+
+impl WgpuFill {
+    fn wait(&self) -> Result<(), BackendError> {
+        let wait = PollType::Wait { submission_index: None, timeout: Some(Duration::from_secs(60)) };
+        self.device.poll(wait).map(drop).map_err(|source| driver("Device::poll", source))
+    }
+}
+
 impl super::Fill for WgpuFill {
     fn run(&mut self) -> Result<Duration, BackendError> {
-        let driver = |call: &'static str| {
-            move |source: Box<dyn std::error::Error + Send + Sync>| BackendError::Driver { call, source }
-        };
         let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
         let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor {
             label: None,
@@ -105,24 +125,42 @@ impl super::Fill for WgpuFill {
         pass.set_pipeline(&self.pipeline);
         for (group, workgroups) in &self.bound {
             pass.set_bind_group(0, group, &[]);
-            pass.dispatch_workgroups(65_535.min(*workgroups), workgroups.div_ceil(65_535), 1);
+            // Rows as even as can be: a workgroup that finds nothing to do takes time, too.
+            let rows = workgroups.div_ceil(65_535);
+            pass.dispatch_workgroups(workgroups.div_ceil(rows), rows, 1);
         }
         drop(pass);
         encoder.resolve_query_set(&self.queries, 0..2, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.mapped, 0, 16);
         self.queue.submit([encoder.finish()]);
         self.mapped.map_async(MapMode::Read, .., |_| ());
-        let wait = PollType::Wait { submission_index: None, timeout: Some(Duration::from_secs(60)) };
-        self.device.poll(wait).map_err(|error| driver("Device::poll")(error.into()))?;
-        let view = self
-            .mapped
-            .get_mapped_range(..)
-            .map_err(|error| driver("Buffer::get_mapped_range")(error.into()))?;
+        self.wait()?;
+        let view =
+            self.mapped.get_mapped_range(..).map_err(|source| driver("Buffer::get_mapped_range", source))?;
         let stamps: Vec<u64> = view.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
         drop(view);
         self.mapped.unmap();
         let ticks = stamps[1].saturating_sub(stamps[0]);
         let nanoseconds = ticks as f64 * f64::from(self.queue.get_timestamp_period());
         Ok(Duration::from_nanos(nanoseconds as u64))
+    }
+
+    fn copy_to_host(&mut self) -> Result<Duration, BackendError> {
+        let start = Instant::now();
+        let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
+        for buffer in &self.filled {
+            for offset in (0..buffer.size()).step_by(COPY_BYTES as usize) {
+                let bytes = COPY_BYTES.min(buffer.size() - offset);
+                encoder.copy_buffer_to_buffer(buffer, offset, &self.host, 0, bytes);
+            }
+        }
+        self.queue.submit([encoder.finish()]);
+        self.wait()?;
+        Ok(start.elapsed())
+    }
+
+    /// None: what wgpu maps for writing may be the device's own.
+    fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError> {
+        Ok(None)
     }
 }

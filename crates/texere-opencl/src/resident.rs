@@ -11,7 +11,7 @@ pub(crate) struct Resident {
     pub(crate) points: Buffer,
     pub(crate) yarns: Buffer,
     pub(crate) outlines: Buffer,
-    /// Indices of a ring's quads, and of the next ring's, so that four in a row can be taken from anywhere in the first.
+    /// Indices of a ring's quads.
     pub(crate) pattern: Buffer,
     pub(crate) cap_pattern: Buffer,
     /// The roll at each block's start. Empty where no yarn turns.
@@ -29,9 +29,6 @@ impl Resident {
         if bytes > limits.binding_bytes || points > u64::from(u32::MAX) {
             return Err(BackendError::OutOfMemory { what, bytes });
         }
-        let sides = plan.settings().sides;
-        let ring = index_pattern(sides);
-        let pattern: Vec<u32> = ring.iter().copied().chain(ring.iter().map(|index| index + sides)).collect();
         let cap_pattern = if plan.settings().caps { plan.cap_pattern() } else { Vec::new() };
         let (blocks, yarns) =
             if plan.needs_scan() { (plan.block_count(), plan.counts().yarns) } else { (0, 0) };
@@ -40,7 +37,7 @@ impl Resident {
             points: Buffer::zeroed(opened, what, bytes)?,
             yarns: Buffer::holding(opened, "the yarn table", &plan.yarn_rows())?,
             outlines: Buffer::holding(opened, "outlines", plan.outlines())?,
-            pattern: Buffer::holding(opened, "the index pattern", &pattern)?,
+            pattern: Buffer::holding(opened, "the index pattern", &index_pattern(plan.settings().sides))?,
             cap_pattern: Buffer::holding(opened, "the caps' index pattern", &cap_pattern)?,
             rolls: Buffer::new(opened, "rolls", blocks * size_of::<Turn>() as u64)?,
             whole: Buffer::new(opened, "whole turns", yarns * size_of::<Turn>() as u64)?,

@@ -74,7 +74,7 @@ pub struct DeviceMesh<'a> {
 impl OpenClSession {
     pub(crate) fn new(opened: Arc<Opened>, limits: Limits, plan: Arc<Plan>) -> Result<Self, BackendError> {
         let stages: Box<dyn Stages> = match opened.schedule {
-            Schedule::PerRing => Box::new(PerRing::new(&opened)?),
+            Schedule::PerRing => Box::new(PerRing::new(&opened, &plan)?),
             Schedule::PerYarn => Box::new(PerYarn::new(&opened, &plan)?),
         };
         Ok(Self {

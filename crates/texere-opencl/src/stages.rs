@@ -4,8 +4,8 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
-use texere_core::{BackendError, Block, Chunk, Limits, Params, Plan};
-use texere_kernels::{BLOCK_TURNS, CAPS, MESH, TRAJECTORY, YARN_ROLLS};
+use texere_core::{BackendError, Block, Chunk, Limits, Params, Plan, Topology};
+use texere_kernels::{BLOCK_TURNS, CAPS, Entry, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS};
 
 use crate::backend::Opened;
 use crate::buffers::Buffer;
@@ -49,12 +49,15 @@ pub(crate) struct PerRing {
 }
 
 impl PerRing {
-    pub(crate) fn new(opened: &Opened) -> Result<Self, BackendError> {
+    pub(crate) fn new(opened: &Opened, plan: &Plan) -> Result<Self, BackendError> {
+        let settings = plan.settings();
+        let mesh = if settings.sides.is_multiple_of(2) { MESH } else { MESH_ODD };
+        let group = if settings.topology == Topology::Indexed { mesh.group } else { UNINDEXED_GROUP };
         Ok(Self {
             block_turns: Kernel::new(opened, BLOCK_TURNS)?,
             yarn_rolls: Kernel::new(opened, YARN_ROLLS)?,
             trajectory: Kernel::new(opened, TRAJECTORY)?,
-            mesh: Kernel::new(opened, MESH)?,
+            mesh: Kernel::new(opened, Entry { group, ..mesh })?,
             caps: Kernel::new(opened, CAPS)?,
             all_blocks: None,
         })

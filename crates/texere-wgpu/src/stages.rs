@@ -1,7 +1,7 @@
 //! The compiled shaders, and how they are launched.
 
 use texere_core::BackendError;
-use texere_shaders::{Access, GRID_WIDTH, Resource, Shader};
+use texere_shaders::{Access, Resource, Shader, grid};
 use wgpu::{
     BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ShaderStages,
 };
@@ -103,7 +103,8 @@ impl Stage {
         if workgroups > 0 {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, bound, &[]);
-            pass.dispatch_workgroups(workgroups.min(GRID_WIDTH), workgroups.div_ceil(GRID_WIDTH), 1);
+            let (columns, rows) = grid(workgroups);
+            pass.dispatch_workgroups(columns, rows, 1);
         }
     }
 

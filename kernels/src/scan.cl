@@ -6,10 +6,10 @@
 #define TURNS_GROUP 64
 #define ROLLS_GROUP 256
 
-// A workgroup of TURNS_GROUP a block, over all blocks of the plan; their first points count from the first of all.
+// A workgroup of TURNS_GROUP a row of a chunk's block table, chunk after chunk.
 __kernel __attribute__((reqd_work_group_size(TURNS_GROUP, 1, 1)))
-void block_turns(const Params params, __global const float4 *points, __global const YarnRow *yarns,
-                 __global const Block *blocks, __global uint *rolls) {
+void block_turns(const Params params, const ulong window, __global const float4 *points,
+                 __global const YarnRow *yarns, __global const Block *blocks, __global uint *rolls) {
     __local float3 tangents[TURNS_GROUP];
     __local float3 offsets[TURNS_GROUP];
     __local uint sums[TURNS_GROUP];
@@ -20,7 +20,7 @@ void block_turns(const Params params, __global const float4 *points, __global co
 
     RingSample here;
     if (lane < block.rings) {
-        here = ring_sample(points, &params, &yarn, &block, lane);
+        here = ring_sample(points + window, &params, &yarn, &block, lane);
         tangents[lane] = here.sample.tangent;
         offsets[lane] = here.sample.offset;
     }
@@ -34,7 +34,7 @@ void block_turns(const Params params, __global const float4 *points, __global co
             next_tangent = tangents[lane + 1u];
             next_offset = offsets[lane + 1u];
         } else {
-            RingSample next = ring_sample(points, &params, &yarn, &block, lane + 1u);
+            RingSample next = ring_sample(points + window, &params, &yarn, &block, lane + 1u);
             next_tangent = next.sample.tangent;
             next_offset = next.sample.offset;
         }
@@ -54,7 +54,7 @@ void block_turns(const Params params, __global const float4 *points, __global co
         for (uint further = 1u; further < TURNS_GROUP / 8; further++) {
             turn += sums[further];
         }
-        rolls[row] = turn;
+        rolls[params.first_block + row] = turn;
     }
 }
 

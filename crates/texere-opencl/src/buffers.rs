@@ -88,6 +88,10 @@ impl Buffer {
         Ok(())
     }
 
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
     /// The `cl_mem`; null where there is no memory.
     pub(crate) fn raw(&self) -> *mut c_void {
         self.memory.as_ref().map_or(ptr::null_mut(), Handle::raw)

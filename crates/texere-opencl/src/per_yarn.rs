@@ -39,7 +39,11 @@ impl Stages for PerYarn {
     }
 
     /// There is nothing to scan: a plan with rolls is refused.
-    fn scan(&mut self, _: Work<'_>) -> Result<Launches, BackendError> {
+    fn block_turns(&mut self, _: Work<'_>, _: &Chunk, _: &Slot) -> Result<Launches, BackendError> {
+        Ok(Vec::new())
+    }
+
+    fn yarn_rolls(&mut self, _: Work<'_>) -> Result<Launches, BackendError> {
         Ok(Vec::new())
     }
 

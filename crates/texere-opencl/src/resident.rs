@@ -43,4 +43,10 @@ impl Resident {
             whole: Buffer::new(opened, "whole turns", yarns * size_of::<Turn>() as u64)?,
         })
     }
+
+    /// Bytes of all of it.
+    pub(crate) fn bytes(&self) -> u64 {
+        let Self { points, yarns, outlines, pattern, cap_pattern, rolls, whole } = self;
+        [points, yarns, outlines, pattern, cap_pattern, rolls, whole].map(Buffer::bytes).iter().sum()
+    }
 }

@@ -47,6 +47,8 @@ use crate::stages::{Launches, PerRing, Stages, Work};
 #[derive(Debug)]
 pub struct OpenClSession {
     plan: Arc<Plan>,
+    /// What a scan cuts chunks to.
+    limits: Limits,
     points: PaddedPoints,
     resident: Resident,
     stages: Box<dyn Stages>,
@@ -81,6 +83,7 @@ impl OpenClSession {
             points: PaddedPoints::new(&plan)?,
             resident: Resident::new(&opened, &limits, &plan)?,
             plan,
+            limits,
             stages,
             scanned: false,
             slots: Default::default(),
@@ -102,6 +105,13 @@ impl OpenClSession {
             ready: slot.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
             session: PhantomData,
         })
+    }
+
+    /// Bytes of device memory that it holds: the buffers of [`Plan::device_buffers`], and the rings where
+    /// [`Session::trajectory`] was called.
+    #[must_use]
+    pub fn device_bytes(&self) -> u64 {
+        self.resident.bytes() + self.slots.iter().map(Slot::bytes).sum::<u64>()
     }
 
     fn check_scanned(&self, call: &'static str) -> Result<(), BackendError> {
@@ -191,8 +201,19 @@ impl Session for OpenClSession {
     }
 
     fn scan(&mut self) -> Result<(), BackendError> {
-        if self.plan.needs_scan() {
-            self.run(Stage::Scan, None, |stages, work, _| stages.scan(work))?;
+        if self.plan.needs_scan() && !self.scanned {
+            let plan = self.plan.clone();
+            let chunks = plan.chunks(&self.limits).map_err(|source| BackendError::Driver {
+                call: "cutting the plan into chunks",
+                source: source.into(),
+            })?;
+            for chunk in chunks {
+                let place = self.claim(&chunk)?;
+                self.run(Stage::Scan, Some(place), |stages, work, slots| {
+                    stages.block_turns(work, &chunk, &slots[place])
+                })?;
+            }
+            self.run(Stage::Scan, None, |stages, work, _| stages.yarn_rolls(work))?;
         }
         self.scanned = true;
         Ok(())

@@ -60,6 +60,12 @@ pub(crate) struct Slot {
 }
 
 impl Slot {
+    /// Bytes of its tables and results.
+    pub(crate) fn bytes(&self) -> u64 {
+        let Self { table, caps, rings, slopes, vertices, indices, .. } = self;
+        [table, caps, rings, slopes, vertices, indices].map(Buffer::bytes).iter().sum()
+    }
+
     pub(crate) fn holds(&self, chunk: &Chunk) -> bool {
         self.held.as_ref() == Some(&Extent::of(chunk))
     }

@@ -14,15 +14,18 @@ pub(crate) struct Room {
     what: &'static str,
     usage: BufferUsages,
     buffer: wgpu::Buffer,
+    /// Whether anything was ever kept here: a room has a buffer even before, since an empty one can't be bound.
+    used: bool,
 }
 
 impl Room {
     pub(crate) fn new(gpu: &Gpu, what: &'static str, usage: BufferUsages) -> Result<Self, BackendError> {
-        Ok(Self { what, usage, buffer: gpu.buffer(what, 0, usage)? })
+        Ok(Self { what, usage, buffer: gpu.buffer(what, 0, usage)?, used: false })
     }
 
     /// Makes it at least `bytes` long; where that takes a new buffer, what it held is lost.
     pub(crate) fn reserve(&mut self, gpu: &Gpu, bytes: u64) -> Result<&wgpu::Buffer, BackendError> {
+        self.used |= bytes > 0;
         if self.buffer.size() < bytes {
             if self.usage.contains(BufferUsages::STORAGE)
                 && bytes > gpu.device.limits().max_storage_buffer_binding_size
@@ -40,6 +43,10 @@ impl Room {
 
     pub(crate) const fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
+    }
+
+    fn bytes(&self) -> u64 {
+        if self.used { self.buffer.size() } else { 0 }
     }
 }
 
@@ -66,6 +73,7 @@ impl Tables {
             room.write(gpu, bytes)?;
             Ok::<_, BackendError>(room)
         };
+        let cap_pattern = if plan.settings().caps { plan.cap_pattern() } else { Vec::new() };
         let mut rolls = Room::new(gpu, "rolls", BufferUsages::STORAGE)?;
         if plan.needs_scan() {
             rolls.reserve(gpu, 4 * (plan.layout().yarns().len() as u64 + plan.block_count()))?;
@@ -76,8 +84,16 @@ impl Tables {
             rolls,
             outlines: table("outlines", bytemuck::cast_slice(plan.outlines()))?,
             pattern: table("the index pattern", bytemuck::cast_slice(&index_pattern(plan.settings().sides)))?,
-            cap_pattern: table("the cap pattern", bytemuck::cast_slice(&plan.cap_pattern()))?,
+            cap_pattern: table("the cap pattern", bytemuck::cast_slice(&cap_pattern))?,
         })
+    }
+}
+
+impl Tables {
+    /// Bytes of all of them.
+    pub(crate) fn bytes(&self) -> u64 {
+        let Self { points, yarns, rolls, outlines, pattern, cap_pattern } = self;
+        points.size() + [yarns, rolls, outlines, pattern, cap_pattern].map(Room::bytes).iter().sum::<u64>()
     }
 }
 
@@ -139,6 +155,12 @@ impl Slot {
             vertices: room("vertices", output | BufferUsages::VERTEX)?,
             indices: room("indices", output | BufferUsages::INDEX)?,
         })
+    }
+
+    /// Bytes of its tables and results.
+    pub(crate) fn bytes(&self) -> u64 {
+        let Self { blocks, cap_rows, rings, slopes, vertices, indices, .. } = self;
+        [blocks, cap_rows, rings, slopes, vertices, indices].map(Room::bytes).iter().sum()
     }
 
     /// Whether it has `chunk`'s tables.

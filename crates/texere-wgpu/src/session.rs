@@ -100,6 +100,13 @@ impl WgpuSession {
         Ok(self.find(chunk, |slot| slot.has_mesh)?.indices.buffer())
     }
 
+    /// Bytes of device memory that it holds: the buffers of [`Plan::device_buffers`], each a multiple of 16 bytes, and the
+    /// rings where [`Session::trajectory`] was called.
+    #[must_use]
+    pub fn device_bytes(&self) -> u64 {
+        self.tables.bytes() + self.slots.iter().map(Slot::bytes).sum::<u64>()
+    }
+
     fn check_scanned(&self, call: &'static str) -> Result<(), BackendError> {
         if self.scanned || !self.plan.needs_scan() {
             Ok(())

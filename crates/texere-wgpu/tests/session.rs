@@ -123,8 +123,8 @@ fn reading_moves_the_results_and_no_more() {
 
 #[test]
 fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
-    // 57 MB of vertices: two pieces and a bit, so both sides of the readback are used again.
-    let yarns = waves(20, 2_000, Yarn::default());
+    // 130 MB of vertices: two pieces and a bit, so both sides of the readback are used again.
+    let yarns = waves(45, 2_000, Yarn::default());
     let plan = plan(&yarns, Settings { subdivisions: 9, ..Settings::default() });
     let chunk = whole(&plan);
     let mut session = backend().wgpu_session(plan.clone()).unwrap();

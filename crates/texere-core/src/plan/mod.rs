@@ -4,6 +4,7 @@ mod block;
 mod bounds;
 mod chunk;
 mod limits;
+mod memory;
 mod tables;
 
 pub use block::{BLOCK_RINGS, Block};

@@ -6,8 +6,8 @@ use std::process::Command;
 use crate::support::{device, plan, read, waves};
 use texere_conformance::cases;
 use texere_core::{
-    Backend, BackendError, Chunk, Frame, Limits, MeshMut, MeshPiece, PaddedPoints, Ring, Settings, Topology,
-    Vertex, Yarn,
+    Backend, BackendError, Chunk, Frame, Limits, MeshMut, MeshPiece, PaddedPoints, Ring, Session, Settings,
+    Topology, Vertex, Yarn,
 };
 use texere_cpu::SerialBackend;
 use texere_opencl::{OpenClBackend, OpenClError, Schedule};
@@ -289,5 +289,26 @@ fn pieces_hold_vertices_first() {
                 ControlFlow::Continue(())
             })
             .unwrap();
+    }
+}
+
+#[test]
+fn memory_is_what_the_plan_says() {
+    let yarns = waves();
+    for (frame, caps, blocks) in [(Frame::Upright, false, u64::MAX), (Frame::RotationMinimizing, true, 5)] {
+        for topology in [Topology::Indexed, Topology::Shared] {
+            let limits = Limits { blocks, ..Limits::NONE };
+            let device = device(Schedule::PerRing).with_limits(limits);
+            let limits = device.info().limits;
+            let plan = plan(&yarns, Settings { frame, caps, topology, sides: 5, ..Settings::default() });
+            let mut session = device.session_on_device(plan.clone()).unwrap();
+            session.upload(0, yarns.points()).unwrap();
+            session.scan().unwrap();
+            for chunk in plan.chunks(&limits).unwrap() {
+                session.mesh(&chunk).unwrap();
+            }
+            let planned: u64 = plan.device_buffers(&limits).unwrap().iter().map(|(_, bytes)| bytes).sum();
+            assert_eq!(session.device_bytes(), planned);
+        }
     }
 }

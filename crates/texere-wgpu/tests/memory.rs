@@ -1,0 +1,54 @@
+//! Device memory against the plan's word, by the count of the allocator that hands it out.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod support;
+
+use texere_core::{Backend, Frame, Limits, Session, Settings, Topology, Yarn};
+use texere_wgpu::{Schedule, WgpuBackend};
+
+use support::{INSTALL, plan, waves};
+
+/// What is no part of the plan: parameters, time stamps, and host memory that results are read through.
+const BESIDES: [&str; 3] = ["parameters", "timestamps", "readback"];
+
+/// Every buffer is a multiple of this long.
+const STEP: u64 = 16;
+
+/// What a driver may add to a buffer to align it; one that holds nothing is no longer, either.
+const ALIGNED: u64 = 128;
+
+#[test]
+fn buffers_are_those_of_the_plan() {
+    let yarns = waves(3, 700, Yarn { twist: 0.3, ..Yarn::default() });
+    for (frame, caps, blocks) in [(Frame::Upright, false, u64::MAX), (Frame::RotationMinimizing, true, 5)] {
+        for topology in [Topology::Indexed, Topology::Shared] {
+            // A device of its own each time, so that no other test's buffers are counted.
+            let backend = WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL);
+            let backend = backend.with_limits(Limits { blocks, ..Limits::NONE });
+            let plan = plan(&yarns, Settings { frame, caps, topology, sides: 5, ..Settings::default() });
+            let limits = backend.info().limits;
+            let mut session = backend.wgpu_session(plan.clone()).unwrap();
+            session.upload(0, yarns.points()).unwrap();
+            session.scan().unwrap();
+            for chunk in plan.chunks(&limits).unwrap() {
+                session.mesh(&chunk).unwrap();
+            }
+            session.timings();
+            // Twice: what a new buffer took the place of is given back with the first.
+            for _ in 0..2 {
+                backend.device().poll(wgpu::PollType::wait_indefinitely()).unwrap();
+            }
+            let buffers = plan.device_buffers(&limits).unwrap();
+            let planned: u64 = buffers.iter().map(|(_, bytes)| bytes.next_multiple_of(STEP)).sum();
+            assert_eq!(session.device_bytes(), planned);
+            let Some(report) = backend.device().generate_allocator_report() else { continue };
+            let held = report
+                .allocations
+                .iter()
+                .filter(|one| !BESIDES.contains(&one.name.as_str()) && !one.name.starts_with("(wgpu"));
+            let (count, held) = held.fold((0, 0), |(count, bytes), one| (count + 1, bytes + one.size));
+            assert!(held >= planned && held <= planned + ALIGNED * count, "{report:#?}");
+        }
+    }
+}

@@ -4,17 +4,38 @@
 use std::error::Error;
 use std::time::Duration;
 
-use texere::{Frame, Settings, Topology};
+use texere::{Backend, Frame, Settings, Topology, Yarn, Yarns};
 
-use crate::fill::rig;
+use crate::fill::{Fill, rig};
 use crate::measure::{Bench, median_time};
 use crate::paper_cloth;
 
 /// What is asked of the mesh stage.
-const CASES: [(&str, Frame, Topology); 3] = [
-    ("upright, indexed", Frame::Upright, Topology::Indexed),
-    ("upright, shared", Frame::Upright, Topology::Shared),
-    ("rotation-minimising, indexed", Frame::RotationMinimizing, Topology::Indexed),
+#[derive(Debug, Clone, Copy)]
+struct Case {
+    name: &'static str,
+    frame: Frame,
+    topology: Topology,
+    /// All control points in a single yarn.
+    joined: bool,
+    /// The paper's mapping, a lane a yarn, instead of ours.
+    per_yarn: bool,
+}
+
+const PAPER: Case = Case {
+    name: "upright, indexed",
+    frame: Frame::Upright,
+    topology: Topology::Indexed,
+    joined: false,
+    per_yarn: false,
+};
+
+const CASES: [Case; 5] = [
+    PAPER,
+    Case { name: "upright, shared", topology: Topology::Shared, ..PAPER },
+    Case { name: "rotation-minimising, indexed", frame: Frame::RotationMinimizing, ..PAPER },
+    Case { name: "upright, indexed, in one yarn", joined: true, ..PAPER },
+    Case { name: "upright, indexed, a lane a yarn", per_yarn: true, ..PAPER },
 ];
 
 /// Bytes that one buffer of the fill has at most: what Vulkan binds on the devices that bind least of the large ones.
@@ -27,13 +48,16 @@ const BUFFER: u64 = (1 << 31) - 16;
 ///
 /// Whatever the device says.
 pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Result<(), Box<dyn Error>> {
-    println!("| device | cloth | | fill, ms | GB/s | scan, ms | mesh, ms | times the fill | G triangles/s |");
+    println!("| device | cloth | | fill, ms | GB/s | scan, ms | mesh, ms | times the fill | ps a triangle |");
     println!("|---|---|---|---|---|---|---|---|---|");
-    for device in devices {
-        for &(ends, picks) in sizes {
-            for (name, frame, topology) in CASES {
-                let settings = Settings { frame, topology, ..Settings::default() };
-                print_case(device, ends, picks, name, settings, rounds)?;
+    let cloths = sizes
+        .iter()
+        .map(|&(ends, picks)| Ok((format!("{ends} x {picks}"), paper_cloth(ends, picks)?.yarns()?)));
+    let cloths: Vec<_> = cloths.collect::<Result<_, Box<dyn Error>>>()?;
+    for (cloth, yarns) in &cloths {
+        for device in devices {
+            for case in CASES {
+                print_case(device, cloth, yarns, case, rounds)?;
             }
         }
     }
@@ -42,20 +66,19 @@ pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Res
     );
     println!("| device | cloth | to host | mesh | share | to device | control points | share |");
     println!("|---|---|---|---|---|---|---|---|");
-    for device in devices {
-        for &(ends, picks) in sizes {
-            print_bus(device, ends, picks, rounds)?;
+    for (cloth, yarns) in &cloths {
+        for device in devices {
+            print_bus(device, cloth, yarns, rounds)?;
         }
     }
     Ok(())
 }
 
-fn print_bus(device: &str, ends: usize, picks: usize, rounds: usize) -> Result<(), Box<dyn Error>> {
-    let yarns = paper_cloth(ends, picks)?.yarns()?;
-    let plan = texere::Pipeline::new(&yarns).plan()?;
+fn print_bus(device: &str, cloth: &str, yarns: &Yarns, rounds: usize) -> Result<(), Box<dyn Error>> {
+    let plan = texere::Pipeline::new(yarns).plan()?;
     let (mesh, points) = (plan.counts().bytes(), plan.resident_bytes());
     let mut rig = rig(device, &buffers(mesh))?;
-    let mut bench = Bench::new(&*rig.backend, yarns, Settings::default())?;
+    let mut bench = Bench::new(&*rig.backend, yarns.clone(), Settings::default())?;
     bench.read()?;
     let (mut copied_out, mut read, mut copied_in, mut sent) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -74,7 +97,7 @@ fn print_bus(device: &str, ends: usize, picks: usize, rounds: usize) -> Result<(
         (format!("{bus_in:.1}"), format!("{:.2}", sent / bus_in))
     };
     println!(
-        "| {device} | {ends} x {picks} | {bus_out:.1} | {read:.1} | {:.2} | {bus_in} | {sent:.1} | {share} |",
+        "| {device} | {cloth} | {bus_out:.1} | {read:.1} | {:.2} | {bus_in} | {sent:.1} | {share} |",
         read / bus_out,
     );
     Ok(())
@@ -88,35 +111,57 @@ fn buffers(bytes: u64) -> Vec<u64> {
 
 fn print_case(
     device: &str,
-    ends: usize,
-    picks: usize,
-    name: &str,
-    settings: Settings,
+    cloth: &str,
+    yarns: &Yarns,
+    case: Case,
     rounds: usize,
 ) -> Result<(), Box<dyn Error>> {
-    let yarns = paper_cloth(ends, picks)?.yarns()?;
+    let settings = Settings { frame: case.frame, topology: case.topology, ..Settings::default() };
+    let yarns = if case.joined { joined(yarns)? } else { yarns.clone() };
     let counts = *texere::Pipeline::new(&yarns).settings(settings).plan()?.counts();
     let mut rig = rig(device, &buffers(counts.bytes()))?;
-    let mut bench = Bench::new(&*rig.backend, yarns, settings)?;
-    bench.fused()?;
-    rig.fill.run()?;
-    let (mut fill, mut scan, mut mesh) = (Vec::new(), Vec::new(), Vec::new());
-    for _ in 0..rounds {
-        fill.push(rig.fill.run()?);
-        let stages = bench.fused()?;
-        scan.push(stages.scan);
-        mesh.push(stages.trajectory + stages.mesh);
+    if case.per_yarn {
+        rig.backend = texere::open(&format!("{device}/per-yarn"))?;
     }
+    let (fill, scan, mesh) = beside_fill(&mut *rig.fill, &*rig.backend, yarns, settings, rounds)?;
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
-    let (fill, scan, mesh) = (median_time(&fill), median_time(&scan), median_time(&mesh));
     println!(
-        "| {device} | {ends} x {picks} | {name} | {:.3} | {:.0} | {:.3} | {:.3} | {:.2} | {:.1} |",
+        "| {device} | {cloth} | {} | {:.3} | {:.0} | {:.3} | {:.3} | {:.2} | {:.2} |",
+        case.name,
         ms(fill),
         counts.bytes() as f64 / fill.as_secs_f64() / 1e9,
         ms(scan),
         ms(mesh),
         (scan + mesh).as_secs_f64() / fill.as_secs_f64(),
-        counts.triangles as f64 / (scan + mesh).as_secs_f64() / 1e9,
+        (scan + mesh).as_secs_f64() / counts.triangles as f64 * 1e12,
     );
     Ok(())
+}
+
+/// Medians of the fill, the scan and the mesh with stage 1 in it, in turn.
+fn beside_fill(
+    fill: &mut dyn Fill,
+    backend: &dyn Backend,
+    yarns: Yarns,
+    settings: Settings,
+    rounds: usize,
+) -> Result<(Duration, Duration, Duration), Box<dyn Error>> {
+    let mut bench = Bench::new(backend, yarns, settings)?;
+    bench.fused()?;
+    fill.run()?;
+    let (mut fills, mut scans, mut meshes) = (Vec::new(), Vec::new(), Vec::new());
+    for _ in 0..rounds {
+        fills.push(fill.run()?);
+        let stages = bench.fused()?;
+        scans.push(stages.scan);
+        meshes.push(stages.trajectory + stages.mesh);
+    }
+    Ok((median_time(&fills), median_time(&scans), median_time(&meshes)))
+}
+
+/// All control points of `yarns` in a single yarn.
+fn joined(yarns: &Yarns) -> Result<Yarns, texere::YarnError> {
+    let mut one = Yarns::builder();
+    one.yarn(Yarn::default(), yarns.points());
+    one.build()
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Parser;
+use texere::DeviceKind;
 use texere_bench::{floor, tables};
 
 /// Measures devices.
@@ -13,19 +14,22 @@ use texere_bench::{floor, tables};
 enum Args {
     /// The mesh stage of GPU devices against a plain fill of the same bytes, side by side
     Floor {
-        /// GPU devices, such as opencl:0 or wgpu:0
-        #[arg(required = true)]
+        /// GPU devices, such as opencl:0 or wgpu:0 [default: all that `texere devices` lists]
         devices: Vec<String>,
         #[command(flatten)]
         work: Work,
     },
     /// The paper's tables and figures, with ours beside them
     Tables {
-        /// Devices [default: all that `texere devices` lists, GPUs with either schedule; the first is compared with]
+        /// Devices; the first is compared with [default: the CPU and all GPUs that `texere devices` lists, or what imitates
+        /// one where there is none]
         #[arg(long = "device")]
         devices: Vec<String>,
         #[command(flatten)]
         work: Work,
+        /// What the report says of how it came about, such as the command and the commit
+        #[arg(long, default_value = "")]
+        heading: String,
         /// The folder to write to
         #[arg(short, long, default_value = "target/tables")]
         output: PathBuf,
@@ -34,8 +38,8 @@ enum Args {
 
 #[derive(Debug, clap::Args)]
 struct Work {
-    /// Cloths, ends x picks
-    #[arg(long, value_delimiter = ',', default_value = "163x150,489x450,815x750,1141x1050,1630x1500")]
+    /// Cloths, ends x picks [default: the paper's; the two smallest where no device is a GPU]
+    #[arg(long, value_delimiter = ',')]
     sizes: Vec<Size>,
     /// Runs of each
     #[arg(long, default_value_t = 5)]
@@ -56,24 +60,47 @@ impl FromStr for Size {
     }
 }
 
+/// The paper's cloths: its tables', and the largest that it shows.
+const SIZES: [(usize, usize); 6] =
+    [(163, 150), (489, 450), (815, 750), (1141, 1050), (1630, 1500), (2880, 1840)];
+
+impl Work {
+    /// The sizes that `devices` are measured with.
+    fn sizes(&self, devices: &[String]) -> Vec<(usize, usize)> {
+        if !self.sizes.is_empty() {
+            return self.sizes.iter().map(|size| (size.0, size.1)).collect();
+        }
+        let any_gpu = gpus().any(|gpu| devices.iter().any(|name| name.starts_with(&gpu)));
+        SIZES[..if any_gpu { SIZES.len() } else { 2 }].to_vec()
+    }
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let sizes = |work: &Work| work.sizes.iter().map(|size| (size.0, size.1)).collect::<Vec<_>>();
     match Args::parse() {
-        Args::Floor { devices, work } => floor::print(&devices, &sizes(&work), work.rounds),
-        Args::Tables { devices, work, output } => {
+        Args::Floor { devices, work } => {
+            let devices = if devices.is_empty() { gpus().collect() } else { devices };
+            floor::print(&devices, &work.sizes(&devices), work.rounds)
+        }
+        Args::Tables { devices, work, heading, output } => {
             let devices = if devices.is_empty() { all_devices() } else { devices };
-            tables::write(&devices, &sizes(&work), work.rounds, &output)
+            tables::write(&devices, &work.sizes(&devices), work.rounds, &heading, &output)
         }
     }
 }
 
-/// The serial reference first, then all others; GPUs with either schedule.
+/// The devices that are GPUs.
+fn gpus() -> impl Iterator<Item = String> {
+    let is_gpu = |kind| matches!(kind, DeviceKind::DiscreteGpu | DeviceKind::IntegratedGpu);
+    texere::devices().found.into_iter().filter(move |device| is_gpu(device.kind)).map(|device| device.name)
+}
+
+/// The serial reference first, then all others, with either schedule; where there is a GPU, nothing that imitates one.
 fn all_devices() -> Vec<String> {
-    let mut names = vec!["cpu-serial".to_owned(), "cpu".to_owned()];
-    for device in texere::devices().found {
-        if !names.contains(&device.name) {
-            names.extend([device.name.clone(), format!("{}/per-yarn", device.name)]);
-        }
+    let mut others: Vec<_> = gpus().collect();
+    if others.is_empty() {
+        others.extend(texere::devices().found.into_iter().map(|device| device.name));
+        others.retain(|name| name.contains(':'));
     }
-    names
+    let others = others.into_iter().flat_map(|name| [name.clone(), format!("{name}/per-yarn")]);
+    ["cpu-serial".to_owned(), "cpu".to_owned()].into_iter().chain(others).collect()
 }

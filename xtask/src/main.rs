@@ -1,6 +1,8 @@
 //! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which CI runs on every change,
-//! `cargo xtask mutate`, which it runs every week, and pictures.
+//! `cargo xtask mutate`, which it runs every week, measurements, and pictures.
 
+mod bench_tables;
+mod bundle;
 mod demo;
 mod instructions;
 mod mutants;
@@ -44,6 +46,11 @@ fn main() -> ExitCode {
         }
         Some("demo") => demo::demo(&mut steps),
         Some("gallery") => demo::gallery(&mut steps),
+        Some("bench-tables") => {
+            install(&mut steps, "software devices", &SOFTWARE_DEVICES);
+            bench_tables::run(&mut steps, &std::env::args().skip(2).collect::<Vec<_>>());
+        }
+        Some("bundle") => bundle::run(&mut steps),
         Some("mutate") => {
             install(&mut steps, "software devices", &SOFTWARE_DEVICES);
             return mutate::run(std::env::args().nth(2).as_deref());
@@ -56,7 +63,9 @@ fn main() -> ExitCode {
             }
         }
         _ => {
-            eprintln!("usage: cargo xtask <demo | gallery | test | check | mutate | instructions>");
+            eprintln!(
+                "usage: cargo xtask <demo | gallery | test | check | mutate | instructions | bench-tables | bundle>"
+            );
             eprintln!("  demo   a picture of a herringbone; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
             eprintln!("  test   all tests, doctests and the conformance suite");
@@ -69,6 +78,10 @@ fn main() -> ExitCode {
             eprintln!(
                 "  instructions [record]  counts those of each stage, against the baseline or to be it"
             );
+            eprintln!(
+                "  bench-tables [--device NAME]…  the paper's tables and figures on this machine's devices"
+            );
+            eprintln!("  bundle  packs what tests and measures a machine that has a GPU and nothing else");
             return ExitCode::from(2);
         }
     }

@@ -4,7 +4,7 @@ mod opencl;
 mod wgpu;
 
 use std::fmt::Debug;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use texere::{Backend, BackendError};
 
@@ -42,22 +42,40 @@ pub struct Rig {
     pub fill: Box<dyn Fill>,
 }
 
+/// Makes a context of a GPU device's, with nothing in it, and gives back the time that takes by the host's clock. The first
+/// one of a process pays for the driver, too. None for a device that is no GPU's.
+///
+/// **Errors**: [`BackendError`] where there is no such device.
+pub fn context(name: &str) -> Result<Option<Duration>, BackendError> {
+    let start = Instant::now();
+    match numbered(name) {
+        Some(("opencl", index)) => drop(opencl::context(index)?),
+        Some(("wgpu", index)) => drop(wgpu::context(index)?),
+        _ => return Ok(None),
+    }
+    Ok(Some(start.elapsed()))
+}
+
+/// Interface and number in a device's name, whatever its schedule.
+fn numbered(name: &str) -> Option<(&str, usize)> {
+    let (family, rest) = name.split_once(':')?;
+    let (index, _) = rest.split_once('/').unwrap_or((rest, ""));
+    Some((family, index.parse().ok()?))
+}
+
 /// Opens a GPU device by a name such as `opencl:1` or `wgpu:0`, and buffers of `bytes` each beside it.
 ///
 /// **Errors**: [`BackendError`] where there is no such device, or no room on it.
 pub fn rig(name: &str, bytes: &[u64]) -> Result<Rig, BackendError> {
-    let none = || BackendError::NoDevice { wanted: name.into(), found: Vec::new() };
-    let (family, index) = name.split_once(':').ok_or_else(none)?;
-    let index = index.parse().map_err(|_| none())?;
-    match family {
-        "opencl" => {
+    match numbered(name) {
+        Some(("opencl", index)) => {
             let (backend, fill) = opencl::rig(index, bytes)?;
             Ok(Rig { backend: Box::new(backend), fill: Box::new(fill) })
         }
-        "wgpu" => {
+        Some(("wgpu", index)) => {
             let (backend, fill) = wgpu::rig(index, bytes)?;
             Ok(Rig { backend: Box::new(backend), fill: Box::new(fill) })
         }
-        _ => Err(none()),
+        _ => Err(BackendError::NoDevice { wanted: name.into(), found: Vec::new() }),
     }
 }

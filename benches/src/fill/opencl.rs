@@ -52,17 +52,22 @@ pub(super) fn rig(index: usize, bytes: &[u64]) -> Result<(OpenClBackend, OpenClF
     Ok((backend, OpenClFill::new(index, bytes)?))
 }
 
+/// A context on device number `index` of all platforms.
+pub(super) fn context(index: usize) -> Result<Context, BackendError> {
+    let mut devices = Vec::new();
+    for platform in get_platforms().map_err(driver("clGetPlatformIDs"))? {
+        devices.extend(platform.get_devices(CL_DEVICE_TYPE_ALL).unwrap_or_default());
+    }
+    let device = devices
+        .get(index)
+        .copied()
+        .ok_or_else(|| BackendError::NoDevice { wanted: format!("opencl:{index}"), found: Vec::new() })?;
+    Context::from_device(&Device::new(device)).map_err(driver("clCreateContext"))
+}
+
 impl OpenClFill {
     fn new(index: usize, bytes: &[u64]) -> Result<Self, BackendError> {
-        let mut devices = Vec::new();
-        for platform in get_platforms().map_err(driver("clGetPlatformIDs"))? {
-            devices.extend(platform.get_devices(CL_DEVICE_TYPE_ALL).unwrap_or_default());
-        }
-        let device = devices
-            .get(index)
-            .copied()
-            .ok_or_else(|| BackendError::NoDevice { wanted: format!("opencl:{index}"), found: Vec::new() })?;
-        let context = Context::from_device(&Device::new(device)).map_err(driver("clCreateContext"))?;
+        let context = context(index)?;
         #[allow(deprecated, reason = "OpenCL 1.2, as the backend itself")]
         let queue = CommandQueue::create_default(&context, CL_QUEUE_PROFILING_ENABLE)
             .map_err(driver("clCreateCommandQueue"))?;

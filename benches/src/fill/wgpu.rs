@@ -47,6 +47,26 @@ pub(super) fn rig(index: usize, bytes: &[u64]) -> Result<(WgpuBackend, WgpuFill)
     Ok((backend, fill))
 }
 
+/// A device of its own, with nothing on it.
+pub(super) fn context(index: usize) -> Result<(wgpu::Device, wgpu::Queue), BackendError> {
+    let backends = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let adapters = pollster::block_on(instance.enumerate_adapters(backends));
+    let adapter = adapters
+        .get(index)
+        .ok_or_else(|| BackendError::NoDevice { wanted: format!("wgpu:{index}"), found: Vec::new() })?;
+    pollster::block_on(
+        adapter.request_device(&wgpu::DeviceDescriptor {
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }),
+    )
+    .map_err(|source| driver("Adapter::request_device", source))
+}
+
 impl WgpuFill {
     fn new(device: &wgpu::Device, queue: &wgpu::Queue, bytes: &[u64]) -> Self {
         let descriptor =

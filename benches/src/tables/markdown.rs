@@ -3,18 +3,25 @@
 use std::fmt::Write;
 use std::time::Duration;
 
-use super::{Cloth, Column, Run};
+use texere::Phases;
+
+use super::{Cloth, Column, PICTURE, Run};
 
 /// Triangles a second that the paper states for its largest cloth: its GPU, its CPU.
 const PAPER: [(&str, f64); 2] = [("the paper, RTX 5070 Ti", 37.99e6), ("the paper, i7-8700K", 3.84e6)];
 
-pub(super) fn report(cloths: &[Cloth], columns: &[Column], rounds: usize) -> String {
-    let mut text =
-        String::from("# Benchmarks\n\nThe paper's cloth, K = 1, six sides, indexed, upright, no caps.");
+pub(super) fn report(
+    heading: &str,
+    cloths: &[Cloth],
+    columns: &[Column],
+    phases: &[Phases],
+    rounds: usize,
+) -> String {
+    let mut text = String::from("# Benchmarks\n\n");
     // Writing to a string can't fail.
     let _ = writeln!(
         text,
-        " Stages are medians of {rounds} warm runs, by the device's own clock where it has one; everything else is by \
+        "{heading}\n\nThe paper's cloth, K = 1, six sides, indexed, upright, no caps. Stages are medians of {rounds} warm runs, by the device's own clock where it has one; everything else is by \
          the host's.\n\n## Devices\n"
     );
     table(&mut text, &["name", "device", "driver", "work is split", "timed by"], |rows| {
@@ -31,7 +38,7 @@ pub(super) fn report(cloths: &[Cloth], columns: &[Column], rounds: usize) -> Str
 
     text.push_str("\n## Table 1: the cloths\n\n");
     table(&mut text, &["cloth", "yarns", "control points", "rings", "triangles", "bytes"], |rows| {
-        for Cloth { name, counts } in cloths {
+        for Cloth { name, counts, .. } in cloths {
             let counts =
                 [counts.yarns, counts.control_points, counts.rings, counts.triangles, counts.bytes()];
             rows.push([name.clone()].into_iter().chain(counts.map(|count| count.to_string())).collect());
@@ -56,7 +63,7 @@ pub(super) fn report(cloths: &[Cloth], columns: &[Column], rounds: usize) -> Str
         |rows| {
             for (number, cloth) in cloths.iter().enumerate() {
                 let first = columns.first().and_then(|column| column.runs.get(number)).map(|run| run.whole);
-                for Column { info, runs } in columns {
+                for Column { info, runs, .. } in columns {
                     rows.push(stages(cloth, &info.name, &runs[number], first));
                 }
                 if number + 1 == cloths.len() {
@@ -72,15 +79,25 @@ pub(super) fn report(cloths: &[Cloth], columns: &[Column], rounds: usize) -> Str
     );
 
     text.push_str(
-        "\n## Table 3: what comes on top, ms\n\nOpening a device makes its context and compiles its kernels, \
-                   once for all cloths. Creation gets memory and sends tables.\n\n",
+        "\n## Table 3: what comes on top, ms\n\nOnce for all cloths: a context (the first of a driver pays for the \
+                   driver), and compiling the kernels, which drivers keep from run to run.\n\n",
+    );
+    table(&mut text, &["device", "context", "build"], |rows| {
+        for Column { info, context, build, .. } in columns {
+            rows.push(vec![info.name.clone(), context.map_or("-".into(), ms), ms(*build)]);
+        }
+    });
+    text.push_str(
+        "\nFor each cloth: memory and tables, control points to the device, the mesh to the host, and giving memory \
+                   back. The first mesh is the time from the open device to a mesh in its memory, all that comes first \
+                   included.\n\n",
     );
     table(
         &mut text,
-        &["cloth", "device", "opening", "creation", "upload", "mesh to the host", "GB/s", "clean-up"],
+        &["cloth", "device", "creation", "upload", "first mesh", "mesh to the host", "GB/s", "clean-up"],
         |rows| {
             for (number, cloth) in cloths.iter().enumerate() {
-                for Column { info, runs } in columns {
+                for Column { info, runs, .. } in columns {
                     let run = &runs[number];
                     let rate = run.readback.map_or("-".into(), |time| {
                         format!("{:.1}", cloth.counts.bytes() as f64 / time.as_secs_f64() / 1e9)
@@ -88,9 +105,9 @@ pub(super) fn report(cloths: &[Cloth], columns: &[Column], rounds: usize) -> Str
                     rows.push(vec![
                         cloth.name.clone(),
                         info.name.clone(),
-                        ms(run.opening),
                         ms(run.creation),
                         ms(run.upload),
+                        ms(run.first),
                         run.readback.map_or("-".into(), ms),
                         rate,
                         ms(run.clean_up),
@@ -99,12 +116,39 @@ pub(super) fn report(cloths: &[Cloth], columns: &[Column], rounds: usize) -> Str
             }
         },
     );
-    text.push_str(
-        "\n## Figure 5: phases\n\n![Geometry against buffers](figure-5.svg)\n\nGeometry is both stages; buffers are \
-         creation and upload. `texere render --timings` adds the drawing.\n\n## Figure 6: devices\n\n![Both stages on \
-         every device](figure-6.svg)\n",
-    );
+    if !phases.is_empty() {
+        let [width, height] = PICTURE;
+        let _ = writeln!(
+            text,
+            "\n## Figure 5: phases, ms\n\nGeometry on one core of the CPU and on the device that draws, what each has to \
+             send there, and drawing the face, {width} x {height} pixels of four by four samples, with its light.\n\n\
+             ![Geometry, buffers, drawing](figure-5.svg)\n"
+        );
+        table(
+            &mut text,
+            &[
+                "cloth",
+                "geometry, serial",
+                "buffers, serial",
+                "geometry, parallel",
+                "buffers, parallel",
+                "drawing",
+            ],
+            |rows| {
+                for (cloth, phases) in cloths.iter().zip(phases) {
+                    rows.push([cloth.name.clone()].into_iter().chain(in_order(phases).map(ms)).collect());
+                }
+            },
+        );
+    }
+    text.push_str("\n## Figure 6: devices\n\n![Both stages on every device](figure-6.svg)\n");
     text
+}
+
+/// The phases, each geometry before its buffers.
+pub(super) fn in_order(phases: &Phases) -> [Duration; 5] {
+    let Phases { serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering } = *phases;
+    [serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering]
 }
 
 fn stages(cloth: &Cloth, device: &str, run: &Run, first: Option<Duration>) -> Vec<String> {

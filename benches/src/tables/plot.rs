@@ -6,18 +6,21 @@ use std::time::Duration;
 
 use plotters::prelude::*;
 
+use texere::Phases;
+
+use super::markdown::in_order;
 use super::{Cloth, Column};
 
 /// A line of a figure: its name, and a time for each cloth.
 type Line = (String, Vec<Duration>);
 
-/// Geometry and buffers of each device.
-pub(super) fn figure_5(path: &Path, cloths: &[Cloth], columns: &[Column]) -> Result<(), Box<dyn Error>> {
-    let lines = columns.iter().flat_map(|Column { info, runs }| {
-        let geometry = runs.iter().map(|run| run.whole).collect();
-        let buffers = runs.iter().map(|run| run.creation + run.upload).collect();
-        [(format!("{}, geometry", info.name), geometry), (format!("{}, buffers", info.name), buffers)]
-    });
+/// Geometry and buffers, serial and parallel, and drawing.
+pub(super) fn figure_5(path: &Path, cloths: &[Cloth], phases: &[Phases]) -> Result<(), Box<dyn Error>> {
+    let names = ["geometry, serial", "buffers, serial", "geometry, parallel", "buffers, parallel", "drawing"];
+    let lines = names
+        .into_iter()
+        .enumerate()
+        .map(|(number, name)| (name.into(), phases.iter().map(|phases| in_order(phases)[number]).collect()));
     draw(path, "Phases of the simulation", cloths, &lines.collect::<Vec<_>>())
 }
 
@@ -25,7 +28,7 @@ pub(super) fn figure_5(path: &Path, cloths: &[Cloth], columns: &[Column]) -> Res
 pub(super) fn figure_6(path: &Path, cloths: &[Cloth], columns: &[Column]) -> Result<(), Box<dyn Error>> {
     let lines = columns
         .iter()
-        .map(|Column { info, runs }| (info.name.clone(), runs.iter().map(|run| run.whole).collect()));
+        .map(|Column { info, runs, .. }| (info.name.clone(), runs.iter().map(|run| run.whole).collect()));
     draw(path, "Trajectory and mesh", cloths, &lines.collect::<Vec<_>>())
 }
 

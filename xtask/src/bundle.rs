@@ -1,0 +1,101 @@
+//! `cargo xtask bundle`: all that tests and measures texere, in a folder for a machine that has a GPU and nothing else.
+//!
+//! Works where Debian's packages are to be had, for the processor that this is.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use crate::bench_tables::commit;
+use crate::steps::{Steps, command, root};
+
+/// The folder, from the repository's root. Beside it lies the same as an archive.
+const FOLDER: &str = "target/bundle";
+
+/// Debian's packages with the loaders that drivers are found through.
+const LOADERS: [&str; 8] = [
+    "libvulkan1",
+    "libegl1",
+    "libglvnd0",
+    "libopengl0",
+    "libgl1",
+    "libglx0",
+    "libgles2",
+    "ocl-icd-libopencl1",
+];
+
+/// Builds, collects, packs.
+pub(crate) fn run(steps: &mut Steps) {
+    let build = ["build", "--release", "--locked"];
+    let bench = ["--package", "texere-bench", "--features", "gpu", "--bin", "texere-bench"];
+    steps.cargo("bench", &[&build[..], &bench].concat(), &[]);
+    steps.cargo("program", &[&build[..], &["--package", "texere-cli"]].concat(), &[]);
+    let suite = ["--package", "texere-conformance", "--test", "conformance"];
+    let built = ["test", "--release", "--locked", "--no-run"];
+    steps.cargo("conformance suite", &[&built[..], &suite].concat(), &[]);
+    if !steps.succeed() {
+        return;
+    }
+    // Built by now: cargo only says where it lies.
+    let told = steps.output("cargo", &[&built[..], &suite].concat(), &[]).unwrap_or_default();
+    let Some(suite) = told.rsplit_once('(').and_then(|(_, path)| path.split(')').next()) else {
+        return steps.fail("cargo does not say where the conformance suite is".into());
+    };
+    if let Err(error) = collect(steps, suite) {
+        steps.fail(format!("{FOLDER}: {error}"));
+    }
+    steps.run("archive", &["tar", "-C", "target", "-czf", "target/texere-bundle.tar.gz", "bundle"], &[]);
+    if steps.succeed() {
+        println!("\n{FOLDER}/run tests and measures; target/texere-bundle.tar.gz holds the same.");
+    }
+}
+
+fn collect(steps: &mut Steps, suite: &str) -> io::Result<()> {
+    let folder = root().join(FOLDER);
+    if folder.exists() {
+        fs::remove_dir_all(&folder)?;
+    }
+    for inner in ["bin", "lib", "packages"] {
+        fs::create_dir_all(folder.join(inner))?;
+    }
+    for (from, name) in [
+        ("target/release/texere-bench", "texere-bench"),
+        ("target/release/texere", "texere"),
+        (suite, "conformance"),
+    ] {
+        let to = folder.join("bin").join(name);
+        fs::copy(root().join(from), &to)?;
+        steps.run(&format!("strip {name}"), &["strip", &to.to_string_lossy()], &[]);
+    }
+    fs::write(folder.join("commit"), commit(steps))?;
+    fs::write(folder.join("nvidia_icd.json"), include_str!("bundle/nvidia_icd.json"))?;
+    fs::write(folder.join("run"), include_str!("bundle/run.sh"))?;
+    steps.run("make it run", &["chmod", "+x", &format!("{FOLDER}/run")], &[]);
+    steps.run("designs", &["cp", "-r", "designs", FOLDER], &[]);
+    loaders(&folder)
+}
+
+/// Fetches the loaders, and lays their libraries side by side.
+fn loaders(folder: &Path) -> io::Result<()> {
+    let packages = folder.join("packages");
+    let fetched = command("apt-get", &["download"]).args(LOADERS).current_dir(&packages).status()?;
+    if !fetched.success() {
+        return Err(io::Error::other("apt-get download"));
+    }
+    for package in fs::read_dir(&packages)? {
+        command("dpkg", &["-x"]).arg(package?.path()).arg(packages.join("root")).status()?;
+    }
+    let mut folders = vec![packages.join("root/usr/lib")];
+    while let Some(inner) = folders.pop() {
+        for entry in fs::read_dir(inner)? {
+            let (path, name) = entry.map(|entry| (entry.path(), entry.file_name()))?;
+            if path.is_dir() {
+                folders.push(path);
+            } else if name.to_string_lossy().contains(".so.") {
+                // Links are followed: a copy under each name.
+                fs::copy(&path, folder.join("lib").join(name))?;
+            }
+        }
+    }
+    fs::remove_dir_all(packages)
+}

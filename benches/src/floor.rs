@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use texere::{Backend, Frame, Settings, Topology, Yarn, Yarns};
 
-use crate::fill::{Fill, rig};
+use crate::fill::{Fill, Gpu};
 use crate::measure::{Bench, median_time};
 use crate::paper_cloth;
 
@@ -38,8 +38,8 @@ const CASES: [Case; 5] = [
     Case { name: "upright, indexed, a lane a yarn", per_yarn: true, ..PAPER },
 ];
 
-/// Bytes that one buffer of the fill has at most: what Vulkan binds on the devices that bind least of the large ones.
-const BUFFER: u64 = (1 << 31) - 16;
+/// Bytes that one buffer of the fill has at most.
+const BUFFER: u64 = 1 << 30;
 
 /// Prints two tables: a row for each device, size (ends, picks) and case, medians of `rounds` warm runs by the device's
 /// clock; and a row for each device and size with what goes over the bus, by the host's.
@@ -54,10 +54,16 @@ pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Res
         .iter()
         .map(|&(ends, picks)| Ok((format!("{ends} x {picks}"), paper_cloth(ends, picks)?.yarns()?)));
     let cloths: Vec<_> = cloths.collect::<Result<_, Box<dyn Error>>>()?;
+    // Opened once: drivers keep something of each context.
+    let mut gpus = Vec::new();
+    for name in devices {
+        gpus.push((name, Gpu::open(name)?, texere::open(&format!("{name}/per-yarn"))?));
+    }
     for (cloth, yarns) in &cloths {
-        for device in devices {
+        for (name, gpu, per_yarn) in &gpus {
             for case in CASES {
-                print_case(device, cloth, yarns, case, rounds)?;
+                let backend = if case.per_yarn { &**per_yarn } else { gpu.backend() };
+                print_case(name, gpu, backend, cloth, yarns, case, rounds)?;
             }
         }
     }
@@ -67,25 +73,31 @@ pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Res
     println!("| device | cloth | to host | mesh | share | to device | control points | share |");
     println!("|---|---|---|---|---|---|---|---|");
     for (cloth, yarns) in &cloths {
-        for device in devices {
-            print_bus(device, cloth, yarns, rounds)?;
+        for (name, gpu, _) in &gpus {
+            print_bus(name, gpu, cloth, yarns, rounds)?;
         }
     }
     Ok(())
 }
 
-fn print_bus(device: &str, cloth: &str, yarns: &Yarns, rounds: usize) -> Result<(), Box<dyn Error>> {
+fn print_bus(
+    device: &str,
+    gpu: &Gpu,
+    cloth: &str,
+    yarns: &Yarns,
+    rounds: usize,
+) -> Result<(), Box<dyn Error>> {
     let plan = texere::Pipeline::new(yarns).plan()?;
     let (mesh, points) = (plan.counts().bytes(), plan.resident_bytes());
-    let mut rig = rig(device, &buffers(mesh))?;
-    let mut bench = Bench::new(&*rig.backend, yarns.clone(), Settings::default())?;
+    let mut fill = gpu.fill(&buffers(mesh))?;
+    let mut bench = Bench::new(gpu.backend(), yarns.clone(), Settings::default())?;
     bench.read()?;
     let (mut copied_out, mut read, mut copied_in, mut sent) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for _ in 0..rounds {
-        copied_out.push(rig.fill.copy_to_host()?);
+        copied_out.push(fill.copy_to_host()?);
         read.push(bench.read()?);
-        copied_in.extend(rig.fill.copy_from_host()?);
+        copied_in.extend(fill.copy_from_host()?);
         sent.push(bench.send()?);
     }
     let rate = |bytes: u64, times: &[Duration]| bytes as f64 / median_time(times).as_secs_f64() / 1e9;
@@ -111,6 +123,8 @@ fn buffers(bytes: u64) -> Vec<u64> {
 
 fn print_case(
     device: &str,
+    gpu: &Gpu,
+    backend: &dyn Backend,
     cloth: &str,
     yarns: &Yarns,
     case: Case,
@@ -119,11 +133,8 @@ fn print_case(
     let settings = Settings { frame: case.frame, topology: case.topology, ..Settings::default() };
     let yarns = if case.joined { joined(yarns)? } else { yarns.clone() };
     let counts = *texere::Pipeline::new(&yarns).settings(settings).plan()?.counts();
-    let mut rig = rig(device, &buffers(counts.bytes()))?;
-    if case.per_yarn {
-        rig.backend = texere::open(&format!("{device}/per-yarn"))?;
-    }
-    let (fill, scan, mesh) = beside_fill(&mut *rig.fill, &*rig.backend, yarns, settings, rounds)?;
+    let mut fill = gpu.fill(&buffers(counts.bytes()))?;
+    let (fill, scan, mesh) = beside_fill(&mut *fill, backend, yarns, settings, rounds)?;
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
     println!(
         "| {device} | {cloth} | {} | {:.3} | {:.0} | {:.3} | {:.3} | {:.2} | {:.2} |",

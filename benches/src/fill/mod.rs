@@ -6,7 +6,9 @@ mod wgpu;
 use std::fmt::Debug;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, BackendError};
+use texere::{Backend, BackendError, Schedule};
+use texere_opencl::OpenClBackend;
+use texere_wgpu::WgpuBackend;
 
 pub use self::opencl::OpenClFill;
 pub use self::wgpu::WgpuFill;
@@ -33,13 +35,47 @@ pub trait Fill: Debug {
 /// Bytes of a copy over the bus: so many that its start does not count.
 const COPY_BYTES: u64 = 256 << 20;
 
-/// A device with what is needed to measure it: the backend, and its floor for buffers of `bytes`.
+/// A GPU that is open, with what is needed to measure it.
 #[derive(Debug)]
-pub struct Rig {
-    /// The device, as texere uses it.
-    pub backend: Box<dyn Backend>,
-    /// A fill of buffers as large as asked for.
-    pub fill: Box<dyn Fill>,
+pub enum Gpu {
+    /// By its number among OpenCL's.
+    OpenCl(OpenClBackend, usize),
+    /// A wgpu device.
+    Wgpu(WgpuBackend),
+}
+
+impl Gpu {
+    /// Opens a GPU device by a name such as `opencl:1` or `wgpu:0`.
+    ///
+    /// **Errors**: [`BackendError`] where there is no such device.
+    pub fn open(name: &str) -> Result<Self, BackendError> {
+        match numbered(name) {
+            Some(("opencl", index)) => {
+                Ok(Self::OpenCl(OpenClBackend::open(index, Schedule::PerRing)?, index))
+            }
+            Some(("wgpu", index)) => Ok(Self::Wgpu(WgpuBackend::open(index, Schedule::PerRing)?)),
+            _ => Err(BackendError::NoDevice { wanted: name.into(), found: Vec::new() }),
+        }
+    }
+
+    /// The device as texere uses it.
+    #[must_use]
+    pub fn backend(&self) -> &dyn Backend {
+        match self {
+            Self::OpenCl(backend, _) => backend,
+            Self::Wgpu(backend) => backend,
+        }
+    }
+
+    /// A fill of buffers of `bytes` each on the same device.
+    ///
+    /// **Errors**: [`BackendError`] where there is no room for them.
+    pub fn fill(&self, bytes: &[u64]) -> Result<Box<dyn Fill>, BackendError> {
+        Ok(match self {
+            Self::OpenCl(_, index) => Box::new(OpenClFill::new(*index, bytes)?),
+            Self::Wgpu(backend) => Box::new(WgpuFill::new(backend.device(), backend.queue(), bytes)),
+        })
+    }
 }
 
 /// Makes a context of a GPU device's, with nothing in it, and gives back the time that takes by the host's clock. The first
@@ -61,21 +97,4 @@ fn numbered(name: &str) -> Option<(&str, usize)> {
     let (family, rest) = name.split_once(':')?;
     let (index, _) = rest.split_once('/').unwrap_or((rest, ""));
     Some((family, index.parse().ok()?))
-}
-
-/// Opens a GPU device by a name such as `opencl:1` or `wgpu:0`, and buffers of `bytes` each beside it.
-///
-/// **Errors**: [`BackendError`] where there is no such device, or no room on it.
-pub fn rig(name: &str, bytes: &[u64]) -> Result<Rig, BackendError> {
-    match numbered(name) {
-        Some(("opencl", index)) => {
-            let (backend, fill) = opencl::rig(index, bytes)?;
-            Ok(Rig { backend: Box::new(backend), fill: Box::new(fill) })
-        }
-        Some(("wgpu", index)) => {
-            let (backend, fill) = wgpu::rig(index, bytes)?;
-            Ok(Rig { backend: Box::new(backend), fill: Box::new(fill) })
-        }
-        _ => Err(BackendError::NoDevice { wanted: name.into(), found: Vec::new() }),
-    }
 }

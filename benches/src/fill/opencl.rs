@@ -17,7 +17,6 @@ use opencl3::memory::{Buffer, CL_MAP_READ, CL_MAP_WRITE, CL_MEM_ALLOC_HOST_PTR, 
 use opencl3::platform::get_platforms;
 use opencl3::program::Program;
 use texere::BackendError;
-use texere_opencl::{OpenClBackend, Schedule};
 
 use super::COPY_BYTES;
 
@@ -46,12 +45,6 @@ fn driver(call: &'static str) -> impl Fn(ClError) -> BackendError {
     move |error| BackendError::Driver { call, source: error.to_string().into() }
 }
 
-pub(super) fn rig(index: usize, bytes: &[u64]) -> Result<(OpenClBackend, OpenClFill), BackendError> {
-    // The backend first: it minds that a loader's first calls are for one thread alone.
-    let backend = OpenClBackend::open(index, Schedule::PerRing)?;
-    Ok((backend, OpenClFill::new(index, bytes)?))
-}
-
 /// A context on device number `index` of all platforms.
 pub(super) fn context(index: usize) -> Result<Context, BackendError> {
     let mut devices = Vec::new();
@@ -66,7 +59,7 @@ pub(super) fn context(index: usize) -> Result<Context, BackendError> {
 }
 
 impl OpenClFill {
-    fn new(index: usize, bytes: &[u64]) -> Result<Self, BackendError> {
+    pub(super) fn new(index: usize, bytes: &[u64]) -> Result<Self, BackendError> {
         let context = context(index)?;
         #[allow(deprecated, reason = "OpenCL 1.2, as the backend itself")]
         let queue = CommandQueue::create_default(&context, CL_QUEUE_PROFILING_ENABLE)

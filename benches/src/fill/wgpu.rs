@@ -3,7 +3,6 @@
 use std::time::{Duration, Instant};
 
 use texere::BackendError;
-use texere_wgpu::{Schedule, WgpuBackend};
 use wgpu::{
     BufferUsages, CommandEncoderDescriptor, ComputePassDescriptor, ComputePassTimestampWrites,
     ComputePipelineDescriptor, MapMode, PollType, QueryType, ShaderModuleDescriptor, ShaderSource,
@@ -41,12 +40,6 @@ pub struct WgpuFill {
     mapped: wgpu::Buffer,
 }
 
-pub(super) fn rig(index: usize, bytes: &[u64]) -> Result<(WgpuBackend, WgpuFill), BackendError> {
-    let backend = WgpuBackend::open(index, Schedule::PerRing)?;
-    let fill = WgpuFill::new(backend.device(), backend.queue(), bytes);
-    Ok((backend, fill))
-}
-
 /// A device of its own, with nothing on it.
 pub(super) fn context(index: usize) -> Result<(wgpu::Device, wgpu::Queue), BackendError> {
     let backends = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
@@ -68,7 +61,7 @@ pub(super) fn context(index: usize) -> Result<(wgpu::Device, wgpu::Queue), Backe
 }
 
 impl WgpuFill {
-    fn new(device: &wgpu::Device, queue: &wgpu::Queue, bytes: &[u64]) -> Self {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, bytes: &[u64]) -> Self {
         let descriptor =
             ShaderModuleDescriptor { label: Some("fill"), source: ShaderSource::Wgsl(SOURCE.into()) };
         // SAFETY: the shader checks its one bound itself. Like texere's own it does without further checks.

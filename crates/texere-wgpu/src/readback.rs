@@ -13,7 +13,7 @@ use crate::gpu::{Gpu, WAIT_LIMIT};
 /// Most bytes of a piece: large enough that the pause between two submissions does not count (at 24 MB the bus stands
 /// still a fifth of the time), small enough that a host has it to spare. A multiple of the size of a vertex, a ring and an
 /// index.
-const PIECE_BYTES: u64 = 60 << 20;
+const PIECE_BYTES: u64 = 96 << 20;
 
 /// Where results are copied to, and what that has cost so far.
 #[derive(Debug)]

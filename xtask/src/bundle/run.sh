@@ -5,17 +5,28 @@ here=$(cd "$(dirname "$0")" && pwd)
 report=${1:-report}
 mkdir -p "$report" && report=$(cd "$report" && pwd) || exit 1
 
-has() { ldconfig -p | grep -q "$1"; }
+# Where a library lies that the system's cache may not know of yet.
+find_library() {
+    found=$(ldconfig -p | awk -v name="$1" '$1 == name { print $NF; exit }')
+    [ -n "$found" ] || found=$(ls /usr/local/nvidia/lib*/"$1" /usr/lib/*/"$1" /usr/lib64/"$1" 2>/dev/null | head -n 1)
+    [ -n "$found" ]
+}
 # The system's own loaders come first where it has both.
-if ! has libOpenCL.so.1 || ! has libvulkan.so.1; then
+if ! find_library libOpenCL.so.1 || ! find_library libvulkan.so.1; then
     export LD_LIBRARY_PATH="${LD_LIBRARY_PATH:+$LD_LIBRARY_PATH:}$here/lib"
 fi
-# Drivers that no loader was told of.
-if has libnvidia-opencl.so.1 && ! grep -qs nvidia /etc/OpenCL/vendors/*.icd; then
-    export OCL_ICD_FILENAMES="libnvidia-opencl.so.1${OCL_ICD_FILENAMES:+:$OCL_ICD_FILENAMES}"
+# Drivers of NVIDIA's that no loader was told of.
+if ! grep -qs nvidia /etc/OpenCL/vendors/*.icd && find_library libnvidia-opencl.so.1; then
+    mkdir -p "$report/vendors"
+    cp /etc/OpenCL/vendors/*.icd "$report/vendors" 2>/dev/null
+    echo "$found" >"$report/vendors/nvidia.icd"
+    export OCL_ICD_VENDORS="$report/vendors"
+    export LD_LIBRARY_PATH="${LD_LIBRARY_PATH:+$LD_LIBRARY_PATH:}$(dirname "$found")"
 fi
-if [ -z "$VK_DRIVER_FILES" ] && has libGLX_nvidia.so.0 && ! ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json >/dev/null 2>&1; then
+if [ -z "$VK_DRIVER_FILES" ] && ! ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json >/dev/null 2>&1 &&
+    find_library libGLX_nvidia.so.0; then
     export VK_DRIVER_FILES="$here/nvidia_icd.json"
+    export LD_LIBRARY_PATH="${LD_LIBRARY_PATH:+$LD_LIBRARY_PATH:}$(dirname "$found")"
 fi
 
 # `designs` is looked for in the working folder.

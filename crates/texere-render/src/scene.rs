@@ -238,8 +238,8 @@ impl Scene<'_> {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
                 pass.set_pipeline(&renderer.sieve);
                 pass.set_bind_group(0, &sieved, &[]);
-                let [across, down] = self.sieve.groups();
-                pass.dispatch_workgroups(across, down, 1);
+                let (columns, rows) = self.sieve.groups();
+                pass.dispatch_workgroups(columns, rows, 1);
             }
             if let Some(screen) = &self.screen {
                 let mut pass = screen.yarn_pass(&mut encoder, chunk.index == 0);

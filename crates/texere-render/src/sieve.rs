@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::{BackendError, Chunk, Plan};
-use texere_shaders::GRID_WIDTH;
+use texere_shaders::grid;
 use wgpu::{BindingResource, BufferBinding, BufferUsages};
 
 use crate::Renderer;
@@ -103,10 +103,9 @@ impl Sieve {
         [BindingResource::Buffer(runs), self.triangles.as_entire_binding()]
     }
 
-    /// Workgroups: one a run.
-    pub(crate) fn groups(&self) -> [u32; 2] {
-        let runs = (self.run_bytes / size_of::<Run>() as u64) as u32;
-        [runs.min(GRID_WIDTH), runs.div_ceil(GRID_WIDTH)]
+    /// Workgroups, one a run: columns, rows.
+    pub(crate) fn groups(&self) -> (u32, u32) {
+        grid((self.run_bytes / size_of::<Run>() as u64) as u32)
     }
 }
 

@@ -11,9 +11,6 @@ const SIEVE_GROUP = 64u;
 const TILE_QUADS = 512u;
 const TILE_CORNERS = 768u;
 
-// The grid of a launch is this wide at most; Rust: GRID_WIDTH.
-const SIEVE_WIDTH = 65535u;
-
 // How far a rasteriser may take a corner from where it is, pixels: half of 1/256 by rounding, the rest by f32.
 const MARGIN = 0.0078125;
 
@@ -101,8 +98,12 @@ fn quad_at(quad: u32) -> vec4<u32> {
 
 // A workgroup of SIEVE_GROUP a run.
 @compute @workgroup_size(SIEVE_GROUP)
-fn sieve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let number = group.y * SIEVE_WIDTH + group.x;
+fn sieve(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) grid: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let number = group.y * grid.x + group.x;
     if number >= arrayLength(&runs) {
         return;
     }

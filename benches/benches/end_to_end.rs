@@ -10,7 +10,7 @@ mod stage;
 use criterion::{Criterion, criterion_group, criterion_main};
 use stage::{Bench, Floor, timed};
 use texere::Pipeline;
-use texere_bench::{DEVICES, SIZES};
+use texere_bench::{DEVICES, SIZES, sizes};
 
 fn end_to_end(criterion: &mut Criterion) {
     let mut floor = Floor::new();
@@ -18,7 +18,7 @@ fn end_to_end(criterion: &mut Criterion) {
     let file = folder.path().join("paper.glb");
     let backend = DEVICES[1];
     let device = texere::open(backend).unwrap();
-    for size in SIZES {
+    for size in sizes() {
         let (ends, picks) = size;
         let path = format!("{}/../designs/paper/{ends}x{picks}.toml", env!("CARGO_MANIFEST_DIR"));
         let yarns = || texere::read(&path).unwrap().yarns().unwrap();

@@ -10,12 +10,12 @@ mod stage;
 use criterion::{Criterion, criterion_group, criterion_main};
 use stage::{Bench, Floor, timed};
 use texere::{ControlPoint, Shape};
-use texere_bench::{SIZES, paper_cloth};
+use texere_bench::{paper_cloth, sizes};
 
 fn generate(criterion: &mut Criterion) {
     let mut floor = Floor::new();
     for (fabric, shape) in [("paper", Shape::Crossing), ("round", Shape::Round)] {
-        for size in SIZES {
+        for size in sizes() {
             let mut cloth = paper_cloth(size.0, size.1).unwrap();
             cloth.set_shape(shape);
             let elements = cloth.point_count();

@@ -13,7 +13,7 @@ mod stage;
 use criterion::{Criterion, criterion_group, criterion_main};
 use stage::{Bench, Floor, timed};
 use texere::{Frame, Pipeline, Settings, Topology, Yarns};
-use texere_bench::{DEVICES, SIZES, SWEEP, one_yarn, paper_cloth, plan, session};
+use texere_bench::{DEVICES, SWEEP, one_yarn, paper_cloth, plan, session, sizes};
 use texere_core::MeshMut;
 
 const CPU: &str = DEVICES[1];
@@ -24,7 +24,7 @@ const CACHES: usize = 64 << 20;
 fn mesh(criterion: &mut Criterion) {
     let floor = &mut Floor::new();
     let paper = Settings::default();
-    for size in SIZES {
+    for size in sizes() {
         let yarns = paper_cloth(size.0, size.1).unwrap().yarns().unwrap();
         reused(criterion, floor, ["mesh", "paper", CPU], size, &yarns, paper);
     }

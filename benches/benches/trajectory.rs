@@ -10,11 +10,11 @@ mod stage;
 use criterion::{Criterion, criterion_group, criterion_main};
 use stage::{Bench, Floor, timed};
 use texere::{Settings, Yarns};
-use texere_bench::{DEVICES, SIZES, SWEEP, one_yarn, paper_cloth, plan, session};
+use texere_bench::{DEVICES, SWEEP, one_yarn, paper_cloth, plan, session, sizes};
 
 fn trajectory(criterion: &mut Criterion) {
     let mut floor = Floor::new();
-    for size in SIZES {
+    for size in sizes() {
         let yarns = paper_cloth(size.0, size.1).unwrap().yarns().unwrap();
         case(criterion, &mut floor, "paper", size, &yarns, Settings::default());
     }

@@ -20,6 +20,13 @@ use texere_core::{Chunk, Session};
 /// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth, its middle one, and its largest.
 pub const SIZES: [(usize, usize); 3] = [(163, 150), (815, 750), (2880, 1840)];
 
+/// Those of [`SIZES`] that this run takes: all of them under `cargo bench`, and under `cargo test`, which only sees whether the
+/// benches run, the smallest.
+pub fn sizes() -> impl Iterator<Item = (usize, usize)> {
+    let measured = std::env::args().any(|argument| argument == "--bench");
+    SIZES.into_iter().take(if measured { SIZES.len() } else { 1 })
+}
+
 /// The size with which settings and fabrics are compared.
 pub const SWEEP: (usize, usize) = (489, 450);
 

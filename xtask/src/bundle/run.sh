@@ -23,7 +23,7 @@ if ! grep -qs nvidia /etc/OpenCL/vendors/*.icd && find_library libnvidia-opencl.
     export OCL_ICD_VENDORS="$report/vendors"
     export LD_LIBRARY_PATH="${LD_LIBRARY_PATH:+$LD_LIBRARY_PATH:}$(dirname "$found")"
 fi
-if [ -z "$VK_DRIVER_FILES" ] && ! ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json >/dev/null 2>&1 &&
+if [ -z "$VK_DRIVER_FILES" ] && ! grep -qs nvidia /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json &&
     find_library libGLX_nvidia.so.0; then
     export VK_DRIVER_FILES="$here/nvidia_icd.json"
     export LD_LIBRARY_PATH="${LD_LIBRARY_PATH:+$LD_LIBRARY_PATH:}$(dirname "$found")"

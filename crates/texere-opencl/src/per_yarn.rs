@@ -48,17 +48,10 @@ impl Stages for PerYarn {
     }
 
     fn trajectory(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
-        let Work { opened, plan, resident } = work;
+        let Work { opened, plan, .. } = work;
         let (params, window) = (part_params(plan, chunk, slot), chunk.window.start);
-        let args = [
-            Arg::Value(bytes_of(&params)),
-            Arg::Value(bytes_of(&window)),
-            Arg::Memory(&resident.points),
-            Arg::Memory(&resident.yarns),
-            Arg::Memory(&slot.table),
-            Arg::Memory(&slot.rings),
-            Arg::Memory(&slot.slopes),
-        ];
+        let outputs = [Arg::Memory(&slot.rings), Arg::Memory(&slot.slopes)];
+        let args = [&work.inputs(&params, &window, slot)[..5], &outputs].concat();
         let groups = slot.rows.div_ceil(self.trajectory.group());
         // SAFETY: the arguments are those of `trajectory_per_yarn`; a lane reads its part and what that names, and writes
         // the part's rings and slopes, for which the slot has room. Lanes past the last part do nothing.

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
-use texere_core::{BackendError, Chunk, Plan, Topology};
+use texere_core::{BackendError, Chunk, Params, Plan, Topology};
 use texere_kernels::{BLOCK_TURNS, CAPS, Entry, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS};
 
 use crate::backend::Opened;
@@ -22,6 +22,22 @@ pub(crate) struct Work<'a> {
     pub(crate) opened: &'a Opened,
     pub(crate) plan: &'a Plan,
     pub(crate) resident: &'a Resident,
+}
+
+impl<'a> Work<'a> {
+    /// What the kernels that read a chunk's table begin with, in the order of the sources. Those that need no rolls leave
+    /// out the last two, `block_turns` the last.
+    pub(crate) fn inputs(&self, params: &'a Params, window: &'a u64, slot: &'a Slot) -> [Arg<'a>; 7] {
+        [
+            Arg::Value(bytes_of(params)),
+            Arg::Value(bytes_of(window)),
+            Arg::Memory(&self.resident.points),
+            Arg::Memory(&self.resident.yarns),
+            Arg::Memory(&slot.table),
+            Arg::Memory(&self.resident.rolls),
+            Arg::Memory(&self.resident.whole),
+        ]
+    }
 }
 
 /// A schedule: one way of doing the stages. A slot that is handed over has the chunk's tables, and room for what the
@@ -69,19 +85,12 @@ impl Stages for PerRing {
     }
 
     fn block_turns(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
-        let Work { opened, plan, resident } = work;
+        let Work { opened, plan, .. } = work;
         let (params, window) = (plan.params(chunk), chunk.window.start);
-        let args = [
-            Arg::Value(bytes_of(&params)),
-            Arg::Value(bytes_of(&window)),
-            Arg::Memory(&resident.points),
-            Arg::Memory(&resident.yarns),
-            Arg::Memory(&slot.table),
-            Arg::Memory(&resident.rolls),
-        ];
+        let args = &work.inputs(&params, &window, slot)[..6];
         // SAFETY: the arguments are those of `block_turns`; a group reads its row of the chunk's table and what that
         // names, and writes its block's roll: the plan counted all blocks. A repeated ring's is the next chunk's first.
-        unsafe { self.block_turns.run(opened, &args, slot.rows, slot.ready.as_deref()) }
+        unsafe { self.block_turns.run(opened, args, slot.rows, slot.ready.as_deref()) }
     }
 
     fn yarn_rolls(&mut self, work: Work<'_>) -> Result<Launches, BackendError> {
@@ -93,18 +102,9 @@ impl Stages for PerRing {
     }
 
     fn trajectory(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
-        let Work { opened, plan, resident } = work;
+        let Work { opened, plan, .. } = work;
         let (params, window) = (plan.params(chunk), chunk.window.start);
-        let args = [
-            Arg::Value(bytes_of(&params)),
-            Arg::Value(bytes_of(&window)),
-            Arg::Memory(&resident.points),
-            Arg::Memory(&resident.yarns),
-            Arg::Memory(&slot.table),
-            Arg::Memory(&resident.rolls),
-            Arg::Memory(&resident.whole),
-            Arg::Memory(&slot.rings),
-        ];
+        let args = [&work.inputs(&params, &window, slot)[..], &[Arg::Memory(&slot.rings)]].concat();
         // SAFETY: the arguments are those of `trajectory`; a group reads its row of the chunk's table and what that
         // names, and writes its rings, for all of which the slot has room.
         unsafe { self.trajectory.run(opened, &args, slot.rows, slot.ready.as_deref()) }
@@ -113,19 +113,13 @@ impl Stages for PerRing {
     fn mesh(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
         let Work { opened, plan, resident } = work;
         let (params, window) = (plan.params(chunk), chunk.window.start);
-        let args = [
-            Arg::Value(bytes_of(&params)),
-            Arg::Value(bytes_of(&window)),
-            Arg::Memory(&resident.points),
-            Arg::Memory(&resident.yarns),
-            Arg::Memory(&slot.table),
-            Arg::Memory(&resident.rolls),
-            Arg::Memory(&resident.whole),
+        let outputs = [
             Arg::Memory(&resident.outlines),
             Arg::Memory(&resident.pattern),
             Arg::Memory(&slot.vertices),
             Arg::Memory(&slot.indices),
         ];
+        let args = [&work.inputs(&params, &window, slot)[..], &outputs].concat();
         // SAFETY: the arguments are those of `mesh`; a group reads its row of the chunk's table and what that names, and
         // writes the row's vertices and indices, for all of which the slot has room.
         let tubes = unsafe { self.mesh.run(opened, &args, slot.rows, slot.ready.as_deref()) }?;

@@ -8,12 +8,6 @@ use super::vector::Vector;
 /// Floats of a vertex: position and normal.
 pub(super) const VERTEX: usize = 6;
 
-/// Rows that are stored at a time.
-const ROWS: usize = 4;
-
-/// Vertices that are worked out before their rows are stored: two times six floats are three stores.
-const UNIT: usize = 2;
-
 /// Floats by which the stores of a ring may reach over its end.
 pub(super) const OVERHANG: usize = 2;
 
@@ -60,55 +54,58 @@ const ROUND: u8 = 2;
 fn vertices<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;
     let out = &mut out[..V::LANES * stride + OVERHANG];
-    let (units, last) = outline.as_chunks::<UNIT>();
+    let (fours, rest) = outline.as_chunks::<4>();
+    let (twos, last) = rest.as_chunks::<2>();
     if let [point] = last {
-        let out = &mut out[units.len() * UNIT * VERTEX..];
-        unit::<V, KIND>(rings, &[*point, SectionPoint::default()], VERTEX.div_ceil(ROWS), out, stride);
+        let out = &mut out[(outline.len() - 1) * VERTEX..];
+        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, point);
+        let zero = V::splat(0.0);
+        V::scatter_eight([a, b, c, d, e, f, zero, zero], out, stride);
     }
-    for (number, points) in units.iter().enumerate().rev() {
-        let out = &mut out[number * UNIT * VERTEX..];
-        unit::<V, KIND>(rings, points, UNIT * VERTEX / ROWS, out, stride);
+    if let [[one, two]] = twos {
+        let out = &mut out[fours.len() * 4 * VERTEX..];
+        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, one);
+        let [g, h, i, j, k, l] = vertex::<V, KIND>(rings, two);
+        V::scatter_eight([a, b, c, d, e, f, g, h], out, stride);
+        V::scatter([i, j, k, l], &mut out[8..], stride);
+    }
+    for (number, [one, two, three, four]) in fours.iter().enumerate().rev() {
+        let out = &mut out[number * 4 * VERTEX..];
+        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, one);
+        let [g, h, i, j, k, l] = vertex::<V, KIND>(rings, two);
+        V::scatter_eight([a, b, c, d, e, f, g, h], out, stride);
+        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, three);
+        V::scatter_eight([i, j, k, l, a, b, c, d], &mut out[8..], stride);
+        let [g, h, i, j, k, l] = vertex::<V, KIND>(rings, four);
+        V::scatter_eight([e, f, g, h, i, j, k, l], &mut out[16..], stride);
     }
 }
 
-/// Two vertices of `rings`: rows of x, y, z and so on, a ring in each lane, of which `stores` times four are stored as
-/// columns.
+/// A vertex of each of `rings`: rows of x, y, z and of the normal's, a ring in each lane.
 #[inline(always)]
-fn unit<V: Vector, const KIND: u8>(
-    rings: &Rings<V>,
-    points: &[SectionPoint; UNIT],
-    stores: usize,
-    out: &mut [f32],
-    stride: usize,
-) {
-    let mut rows = [V::splat(0.0); UNIT * VERTEX];
-    for (k, point) in points.iter().enumerate() {
-        let (x, y) = (V::splat(point.x), V::splat(point.y));
-        let (normal_x, normal_y) = (V::splat(point.normal_x), V::splat(point.normal_y));
-        let (lean, steep) = if KIND == SLOPED {
-            let lean = rings.slope * V::splat(point.reach());
-            (lean, V::splat(1.0) / (V::splat(1.0) + lean * lean).sqrt())
-        } else {
-            (rings.slope, rings.slope)
+fn vertex<V: Vector, const KIND: u8>(rings: &Rings<V>, point: &SectionPoint) -> [V; VERTEX] {
+    let (x, y) = (V::splat(point.x), V::splat(point.y));
+    let (normal_x, normal_y) = (V::splat(point.normal_x), V::splat(point.normal_y));
+    let (lean, steep) = if KIND == SLOPED {
+        let lean = rings.slope * V::splat(point.reach());
+        (lean, V::splat(1.0) / (V::splat(1.0) + lean * lean).sqrt())
+    } else {
+        (rings.slope, rings.slope)
+    };
+    let mut rows = [V::splat(0.0); VERTEX];
+    for axis in 0..3 {
+        let outward = rings.side[axis] * x + rings.up[axis] * y;
+        rows[axis] = rings.centre[axis] + outward * rings.radius;
+        let across = match KIND {
+            ROUND => outward,
+            _ => rings.side[axis] * normal_x + rings.up[axis] * normal_y,
         };
-        for axis in 0..3 {
-            let outward = rings.side[axis] * x + rings.up[axis] * y;
-            rows[k * VERTEX + axis] = rings.centre[axis] + outward * rings.radius;
-            let across = match KIND {
-                ROUND => outward,
-                _ => rings.side[axis] * normal_x + rings.up[axis] * normal_y,
-            };
-            rows[k * VERTEX + 3 + axis] = if KIND == SLOPED {
-                let leaning = (across - rings.tangent[axis] * lean) * steep;
-                V::select(rings.slope.is_zero(), across, leaning)
-            } else {
-                across
-            };
-        }
+        rows[3 + axis] = if KIND == SLOPED {
+            let leaning = (across - rings.tangent[axis] * lean) * steep;
+            V::select(rings.slope.is_zero(), across, leaning)
+        } else {
+            across
+        };
     }
-    let [a, b, c, d, e, f, g, h, rest @ ..] = rows;
-    V::scatter_eight([a, b, c, d, e, f, g, h], out, stride);
-    if stores > 2 {
-        V::scatter(rest, &mut out[2 * ROWS..], stride);
-    }
+    rows
 }

@@ -38,7 +38,7 @@ impl Woven {
     /// An end runs along +y, from half a pitch before the first pick to half a pitch after the last; a pick likewise
     /// along +x. The cloth spans \[0, width\] × \[0, height\] (see [`Woven::size_mm`]). At a crossing the upper thread is at
     /// +z and the lower at -z, far enough apart for their sections' heights ([`Crimp`](crate::Crimp) says how far each).
-    /// Between crossings threads go as [`Shape`] says. Origins are [`Origin::End`] and [`Origin::Pick`].
+    /// Between crossings threads go as [`Shape`](crate::Shape) says. Origins are [`Origin::End`] and [`Origin::Pick`].
     /// The source of a control point is the number, pick × ends + end, both from 0, of the crossing at which it lies or
     /// next to which it bends (half way between two, of the first along the yarn), or [`NO_CROSSING`] at the yarn's
     /// ends.
@@ -86,7 +86,7 @@ impl Woven {
         Ok(Yarns::new(layout, self.materials().to_vec(), points)?.with_sources(sources)?)
     }
 
-    /// Control points of all yarns, in the present [`Shape`] and with or without selvedge.
+    /// Control points of all yarns, in the present [`Shape`](crate::Shape) and with or without selvedge.
     #[must_use]
     pub fn point_count(&self) -> u64 {
         self.loom().counts(&self.passes()).into_iter().map(|count| count as u64).sum()

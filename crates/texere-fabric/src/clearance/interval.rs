@@ -1,6 +1,6 @@
 //! One control interval of a yarn: the cubic in double precision, and chords along it.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use texere_core::{ControlPoint, RADIUS_FLOOR};
 
 /// The most chords that stand for an interval.
@@ -163,9 +163,9 @@ pub(super) struct Chords {
 }
 
 impl Chords {
-    /// Calls `start` with the parameters of two intervals at which their chords come nearest to one another, for each
-    /// pair of chords nearer than all pairs beside it, and nearer than `within`.
-    pub(super) fn approaches(&self, other: &Self, within: f64, mut start: impl FnMut(f64, f64)) {
+    /// Calls `start` with the parameters of two intervals at which their chords come nearest to one another, and those of the
+    /// chords' middles, for each pair of chords nearer than all pairs beside it, and nearer than `within`.
+    pub(super) fn approaches(&self, other: &Self, within: f64, mut start: impl FnMut([DVec2; 2])) {
         /// A row of pairs, and one place more on each side.
         const ROW: usize = CHORDS_MAX + 2;
         let (rows, columns) = (self.count, other.count);
@@ -194,7 +194,10 @@ impl Chords {
                     && after.iter().all(|place| near[*place] >= here)
                 {
                     let (_, s, t) = closest(self.chord(row), other.chord(column));
-                    start((row as f64 + s) / rows as f64, (column as f64 + t) / columns as f64);
+                    let at = |s: f64, t: f64| {
+                        DVec2::new((row as f64 + s) / rows as f64, (column as f64 + t) / columns as f64)
+                    };
+                    start([at(s, t), at(0.5, 0.5)]);
                 }
             }
         }

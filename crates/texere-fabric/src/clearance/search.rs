@@ -151,8 +151,10 @@ impl<'a> Probe<'a> {
         ];
         let mut seen: Vec<DVec2> = Vec::new();
         // Chords may be further from one another than the curves are.
-        first.chords(a).approaches(second.chords(b), within + SAGITTA * reach, |s, t| {
-            let Some((place, ratio)) = refine(sides[0], sides[1], DVec2::new(s, t)) else { return };
+        first.chords(a).approaches(second.chords(b), within + SAGITTA * reach, |starts| {
+            // The first may lead out of the interval to an approach beside this one's own.
+            let refined = starts.into_iter().find_map(|start| refine(sides[0], sides[1], start));
+            let Some((place, ratio)) = refined else { return };
             let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
             if ratio > CLEARANCE_NEAR || again {
                 return;

@@ -4,11 +4,11 @@
 use std::error::Error;
 use std::time::Duration;
 
-use texere::{Backend, Frame, Settings, Topology, Yarn, Yarns};
+use texere::{Backend, Frame, Settings, Topology, Yarns};
 
 use crate::fill::{Fill, Gpu};
 use crate::measure::{Bench, median_time};
-use crate::paper_cloth;
+use crate::{one_yarn, paper_cloth};
 
 /// What is asked of the mesh stage.
 #[derive(Debug, Clone, Copy)]
@@ -131,7 +131,7 @@ fn print_case(
     rounds: usize,
 ) -> Result<(), Box<dyn Error>> {
     let settings = Settings { frame: case.frame, topology: case.topology, ..Settings::default() };
-    let yarns = if case.joined { joined(yarns)? } else { yarns.clone() };
+    let yarns = if case.joined { one_yarn(yarns)? } else { yarns.clone() };
     let counts = *texere::Pipeline::new(&yarns).settings(settings).plan()?.counts();
     let mut fill = gpu.fill(&buffers(counts.bytes()))?;
     let (fill, scan, mesh) = beside_fill(&mut *fill, backend, yarns, settings, rounds)?;
@@ -168,11 +168,4 @@ fn beside_fill(
         meshes.push(stages.trajectory + stages.mesh);
     }
     Ok((median_time(&fills), median_time(&scans), median_time(&meshes)))
-}
-
-/// All control points of `yarns` in a single yarn.
-fn joined(yarns: &Yarns) -> Result<Yarns, texere::YarnError> {
-    let mut one = Yarns::builder();
-    one.yarn(Yarn::default(), yarns.points());
-    one.build()
 }

@@ -14,7 +14,7 @@
 pub struct Entry {
     /// The kernel function.
     pub name: &'static str,
-    /// Lanes in a workgroup: the source requires just so many.
+    /// Lanes in a workgroup: the source requires just so many, but for `mesh` and `mesh_odd`, which 64 do for as well.
     pub group: usize,
 }
 

@@ -1,7 +1,7 @@
 // Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.cl and rings.cl.
 //
 // The twin of mesh.wgsl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
-// at a time, contiguous across the workgroup.
+// at a time (8 where sides are odd in number), contiguous across the workgroup.
 
 // How a workgroup shares out the stores of its rings, all of which have equally many: a lane makes the same one, `store`,
 // of ring `ring` and of each `step`th ring after it. So what it wants of the outline or of the pattern it fetches once.

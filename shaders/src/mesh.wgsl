@@ -1,7 +1,7 @@
 // Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.wgsl and rings.wgsl.
 //
 // The twin of mesh.cl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
-// at a time, contiguous across the workgroup.
+// at a time (8 where sides are odd in number), contiguous across the workgroup.
 
 const MESH_GROUP = 128u;
 

@@ -82,10 +82,14 @@ fn loaders(folder: &Path) -> io::Result<()> {
     if !fetched.success() {
         return Err(io::Error::other("apt-get download"));
     }
+    let unpacked = folder.join("unpacked");
     for package in fs::read_dir(&packages)? {
-        command("dpkg", &["-x"]).arg(package?.path()).arg(packages.join("root")).status()?;
+        let package = package?.path();
+        if !command("dpkg", &["-x"]).arg(&package).arg(&unpacked).status()?.success() {
+            return Err(io::Error::other(format!("dpkg -x {}", package.display())));
+        }
     }
-    let mut folders = vec![packages.join("root/usr/lib")];
+    let mut folders = vec![unpacked.join("usr/lib")];
     while let Some(inner) = folders.pop() {
         for entry in fs::read_dir(inner)? {
             let (path, name) = entry.map(|entry| (entry.path(), entry.file_name()))?;
@@ -97,5 +101,6 @@ fn loaders(folder: &Path) -> io::Result<()> {
             }
         }
     }
+    fs::remove_dir_all(unpacked)?;
     fs::remove_dir_all(packages)
 }

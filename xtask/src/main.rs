@@ -76,7 +76,7 @@ fn main() -> ExitCode {
                 "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
             );
             eprintln!(
-                "  instructions [record]  counts those of each stage, against the baseline or to be it"
+                "  instructions [record]  counts those of meshes and control points, against the baseline or to be it"
             );
             eprintln!(
                 "  bench-tables [--device NAME]…  the paper's tables and figures on this machine's devices"

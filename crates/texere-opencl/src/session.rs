@@ -107,7 +107,7 @@ impl OpenClSession {
         })
     }
 
-    /// Bytes of device memory that it holds: the buffers of [`Plan::device_buffers`], and the rings where
+    /// Bytes of device memory that it holds: in the schedule per-ring the buffers of [`Plan::device_buffers`], and the rings where
     /// [`Session::trajectory`] was called.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {

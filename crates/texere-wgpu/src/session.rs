@@ -100,8 +100,8 @@ impl WgpuSession {
         Ok(self.find(chunk, |slot| slot.has_mesh)?.indices.buffer())
     }
 
-    /// Bytes of device memory that it holds: the buffers of [`Plan::device_buffers`], each a multiple of 16 bytes, and the
-    /// rings where [`Session::trajectory`] was called.
+    /// Bytes of device memory that it holds: in the schedule per-ring the buffers of [`Plan::device_buffers`], each a multiple
+    /// of 16 bytes, and the rings where [`Session::trajectory`] was called.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.tables.bytes() + self.slots.iter().map(Slot::bytes).sum::<u64>()
@@ -170,7 +170,7 @@ impl Session for WgpuSession {
         let bytes: &[u8] = bytemuck::cast_slice(touched);
         let gpu = &self.opened.gpu;
         upload::send(gpu, &self.tables.points, padded.start * size_of::<ControlPoint>() as u64, bytes)?;
-        // Hands the copy over now, so that wgpu's own copy of the points does not wait until the first launch.
+        // Hands a small copy over now, so that wgpu's own copy of the points does not wait until the first launch.
         gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
         gpu.probe()?;
         self.uploaded += bytes.len() as u64;

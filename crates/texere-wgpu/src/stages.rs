@@ -174,7 +174,8 @@ fn trusted_module(gpu: &Gpu, shader: &Shader) -> wgpu::ShaderModule {
     // - Indices into workgroup memory are below BLOCK_RINGS or the workgroup's size: a block has at most BLOCK_RINGS
     //   rings, which is checked likewise.
     // - Loops run over the counts of a row or of `Params`, upwards in steps above zero, so they end.
-    // - Divisors are `subdivisions + 1`, `sides`, at least 3, and constants above zero; a yarn's `rings - 1` divides as a
+    // - Divisors are `subdivisions + 1`, `sides`, at least 3, a lane's share `across`, at least 1 since a ring has at
+    //   least 5 stores, and constants above zero; a yarn's `rings - 1` divides as a
     //   float only.
     unsafe { gpu.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }
 }

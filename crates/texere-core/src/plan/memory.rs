@@ -4,8 +4,9 @@ use super::{Block, CapRow, Limits, Plan, YarnRow};
 use crate::{PlanError, SectionPoint, Turn, Vertex};
 
 impl Plan {
-    /// The buffers that a session keeps on a GPU while it makes the mesh of all chunks cut to `limits`: what each holds, and
-    /// its bytes. Those of the two chunks in flight come last.
+    /// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the mesh of all chunks cut to
+    /// `limits`, the device's own: what each holds, and its bytes. Those of the two chunks in flight come last. Where a caller
+    /// cuts chunks smaller, tables are as large as a scan needs them, which goes by the device's limits.
     ///
     /// A backend may round each up to what its kernels read at a time, and adds parameters and time stamps, some hundred
     /// bytes. Rings, 32 bytes each, come on top where [`Session::trajectory`](crate::Session::trajectory) is called.
@@ -35,13 +36,14 @@ impl Plan {
             ("the cap pattern", bytes(caps, size_of::<u32>())),
             ("rolls", turns * size_of::<Turn>() as u64),
         ];
-        let chunks: Vec<_> = self.chunks(limits)?.collect();
+        // Chunk by chunk: all tables at once would be what a caller asks about.
+        let count = self.chunks(limits)?.count();
         // Of two places each takes every other chunk, and grows to the largest of them. A scan goes through the chunks
         // before the mesh does, for their tables alone; where there are more than two, that shifts who takes which.
-        let scanned = if self.needs_scan() { chunks.len() } else { 0 };
+        let scanned = if self.needs_scan() { count } else { 0 };
         let shift = if scanned > 2 { scanned } else { 0 };
         let mut places = [[0; 4]; 2];
-        for (number, chunk) in chunks.iter().enumerate() {
+        for (number, chunk) in self.chunks(limits)?.enumerate() {
             let tables =
                 [bytes(chunk.blocks.len(), size_of::<Block>()), bytes(chunk.caps.len(), size_of::<CapRow>())];
             let mesh = [

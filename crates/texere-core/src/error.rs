@@ -265,7 +265,7 @@ pub enum PlanError {
 #[non_exhaustive]
 pub enum BackendError {
     /// No device answers to the name.
-    #[error("no device \"{wanted}\"; there are: {}", .found.join(", "))]
+    #[error("no device \"{wanted}\"; there are: {}", if .found.is_empty() { "none".into() } else { .found.join(", ") })]
     NoDevice {
         /// The name asked for.
         wanted: String,

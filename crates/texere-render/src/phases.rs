@@ -91,18 +91,11 @@ impl Renderer {
 
     /// Makes buffers of a chunk's mesh, and waits until it is there.
     fn send(&self, session: &mut dyn Session, chunk: &Chunk) -> Result<(), BackendError> {
-        let buffer = |usage, bytes| {
-            self.device.scoped("Device::create_buffer", || {
-                self.device.device().create_buffer(&wgpu::BufferDescriptor {
-                    label: Some("serial mesh"),
-                    size: bytes,
-                    usage: usage | BufferUsages::COPY_DST,
-                    mapped_at_creation: false,
-                })
-            })
+        let buffer = |usage, count: u32, each: usize| {
+            self.buffer("serial mesh", u64::from(count) * each as u64, usage)
         };
-        let vertices = buffer(BufferUsages::VERTEX, u64::from(chunk.vertices) * size_of::<Vertex>() as u64)?;
-        let indices = buffer(BufferUsages::INDEX, u64::from(chunk.indices) * size_of::<u32>() as u64)?;
+        let vertices = buffer(BufferUsages::VERTEX, chunk.vertices, size_of::<Vertex>())?;
+        let indices = buffer(BufferUsages::INDEX, chunk.indices, size_of::<u32>())?;
         let mut outcome = Ok(());
         let _ = session.read_mesh(chunk, &mut |piece| {
             let (buffer, offset, bytes): (_, _, &[u8]) = match piece {

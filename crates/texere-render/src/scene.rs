@@ -99,23 +99,37 @@ impl Renderer {
     }
 
     /// A buffer that holds `bytes`, and can be written again.
-    pub(crate) fn filled(
+    fn filled(
         &self,
         what: &'static str,
         bytes: &[u8],
         usage: BufferUsages,
     ) -> Result<wgpu::Buffer, BackendError> {
-        let device = &self.device;
-        device.scoped("Device::create_buffer", || {
-            let buffer = device.device().create_buffer(&wgpu::BufferDescriptor {
+        let buffer = self.buffer(what, bytes.len() as u64, usage)?;
+        self.write(&buffer, bytes)?;
+        Ok(buffer)
+    }
+
+    /// A buffer of at least `bytes`, never empty, that can be written.
+    pub(crate) fn buffer(
+        &self,
+        what: &'static str,
+        bytes: u64,
+        usage: BufferUsages,
+    ) -> Result<wgpu::Buffer, BackendError> {
+        self.device.scoped("Device::create_buffer", || {
+            self.device.device().create_buffer(&wgpu::BufferDescriptor {
                 label: Some(what),
-                size: (bytes.len() as u64).max(16),
+                size: bytes.max(16),
                 usage: usage | BufferUsages::COPY_DST,
                 mapped_at_creation: false,
-            });
-            device.queue().write_buffer(&buffer, 0, bytes);
-            buffer
+            })
         })
+    }
+
+    /// Writes `bytes` to the start of `buffer`.
+    pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), BackendError> {
+        self.device.scoped("Queue::write_buffer", || self.device.queue().write_buffer(buffer, 0, bytes))
     }
 
     /// Binds `resources` in the order of their numbers.
@@ -178,9 +192,7 @@ impl Scene<'_> {
             self.screen = Some(Screen::new(device, size, supersampling)?);
         }
         let view = ViewUniform::new(camera, supersampling, self.plan.settings().sides);
-        device.scoped("Queue::write_buffer", || {
-            device.queue().write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
-        })?;
+        self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
         let screened = Instant::now();
         self.draw(camera)?;
         let drawn = Instant::now();

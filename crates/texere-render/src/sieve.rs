@@ -42,14 +42,10 @@ pub(crate) struct Sieve {
 impl Sieve {
     pub(crate) fn new(renderer: &Renderer) -> Result<Self, BackendError> {
         Ok(Self {
-            runs: renderer.filled("runs", &[], BufferUsages::STORAGE)?,
+            runs: renderer.buffer("runs", 0, BufferUsages::STORAGE)?,
             run_bytes: 0,
-            triangles: renderer.filled("triangles", &[], BufferUsages::STORAGE)?,
-            draw: renderer.filled(
-                "draw",
-                &[0; DRAW_BYTES as usize],
-                BufferUsages::STORAGE | BufferUsages::INDIRECT,
-            )?,
+            triangles: renderer.buffer("triangles", 0, BufferUsages::STORAGE)?,
+            draw: renderer.buffer("draw", DRAW_BYTES, BufferUsages::STORAGE | BufferUsages::INDIRECT)?,
         })
     }
 
@@ -93,7 +89,7 @@ impl Sieve {
         let list = most * size_of::<Triangle>() as u64;
         renderer.refill(&mut self.triangles, list, bytemuck::cast_slice(&caps))?;
         let draw = [3 * caps.len() as u32, 1, 0, 0];
-        renderer.refill(&mut self.draw, DRAW_BYTES, bytemuck::cast_slice(&draw))
+        renderer.write(&self.draw, bytemuck::cast_slice(&draw))
     }
 
     /// What both the sieve and the draw bind after the view and the chunk's vertices.
@@ -112,17 +108,9 @@ impl Sieve {
 impl Renderer {
     /// Writes `bytes` to the start of `buffer`, which is made anew where it is shorter than `room`.
     fn refill(&self, buffer: &mut wgpu::Buffer, room: u64, bytes: &[u8]) -> Result<(), BackendError> {
-        let device = &self.device;
         if buffer.size() < room {
-            *buffer = device.scoped("Device::create_buffer", || {
-                device.device().create_buffer(&wgpu::BufferDescriptor {
-                    label: Some("sieve"),
-                    size: room,
-                    usage: buffer.usage(),
-                    mapped_at_creation: false,
-                })
-            })?;
+            *buffer = self.buffer("sieve", room, buffer.usage())?;
         }
-        device.scoped("Queue::write_buffer", || device.queue().write_buffer(buffer, 0, bytes))
+        self.write(buffer, bytes)
     }
 }

@@ -29,6 +29,7 @@ mod buffers;
 mod clock;
 mod device;
 mod gpu;
+mod mapped;
 mod per_yarn;
 mod readback;
 mod session;

@@ -1,14 +1,14 @@
 //! Results to the host: piece by piece through two mapped buffers, one of which is filled while the other is lent.
 
 use std::ops::ControlFlow;
-use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::{Duration, Instant};
 
 use texere_core::BackendError;
-use wgpu::{BufferAsyncError, BufferUsages, MapMode, SubmissionIndex};
+use wgpu::{BufferUsages, MapMode};
 
 use crate::buffers::Room;
-use crate::gpu::{Gpu, WAIT_LIMIT};
+use crate::gpu::Gpu;
+use crate::mapped::Mapped;
 
 /// Most bytes of a piece: large enough that the pause between two submissions does not count (at 24 MB the bus stands
 /// still a fifth of the time), small enough that a host has it to spare. A multiple of the size of a vertex, a ring and an
@@ -30,8 +30,7 @@ struct Copy<'a> {
     gpu: &'a Gpu,
     buffer: wgpu::Buffer,
     bytes: u64,
-    submission: SubmissionIndex,
-    mapped: Receiver<Result<(), BufferAsyncError>>,
+    mapped: Mapped,
 }
 
 impl Readback {
@@ -86,35 +85,20 @@ impl Readback {
         let bytes = PIECE_BYTES.min(total - offset);
         self.sides.swap(0, 1);
         let buffer = self.sides[0].reserve(gpu, bytes)?.clone();
-        let (note, mapped) = sync_channel(1);
-        let submission = gpu.scoped("Queue::submit", || {
-            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mapped = Mapped::submit(gpu, &buffer, MapMode::Read, bytes, |encoder| {
             encoder.copy_buffer_to_buffer(source, offset, &buffer, 0, bytes);
-            let submission = gpu.queue.submit([encoder.finish()]);
-            buffer.map_async(MapMode::Read, ..bytes, move |answer| {
-                let _ = note.send(answer);
-            });
-            submission
         })?;
-        Ok(Copy { gpu, buffer, bytes, submission, mapped })
+        Ok(Copy { gpu, buffer, bytes, mapped })
     }
 }
 
 impl Copy<'_> {
     fn wait(&self) -> Result<wgpu::BufferView, BackendError> {
-        self.gpu.wait(self.submission.clone())?;
-        // Another thread's poll may have found the work done, and be about to say so.
-        match self.mapped.recv_timeout(WAIT_LIMIT) {
-            Ok(Ok(())) => self.buffer.get_mapped_range(..self.bytes).map_err(|source| BackendError::Driver {
-                call: "BufferSlice::get_mapped_range",
-                source: source.into(),
-            }),
-            // The buffer is sound and its work done, so it is the device that is not there to map it.
-            Ok(Err(source)) => Err(self.gpu.lost(source)),
-            Err(source) => {
-                Err(BackendError::Driver { call: "BufferSlice::map_async", source: source.into() })
-            }
-        }
+        self.mapped.wait(self.gpu)?;
+        self.buffer.get_mapped_range(..self.bytes).map_err(|source| BackendError::Driver {
+            call: "BufferSlice::get_mapped_range",
+            source: source.into(),
+        })
     }
 }
 

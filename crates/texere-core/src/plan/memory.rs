@@ -36,13 +36,12 @@ impl Plan {
             ("the cap pattern", bytes(caps, size_of::<u32>())),
             ("rolls", turns * size_of::<Turn>() as u64),
         ];
-        // Chunk by chunk: all tables at once would be what a caller asks about.
-        let count = self.chunks(limits)?.count();
         // Of two places each takes every other chunk, and grows to the largest of them. A scan goes through the chunks
         // before the mesh does, for their tables alone; where there are more than two, that shifts who takes which.
-        let scanned = if self.needs_scan() { count } else { 0 };
+        let scanned = if self.needs_scan() { self.chunks(limits)?.count() } else { 0 };
         let shift = if scanned > 2 { scanned } else { 0 };
         let mut places = [[0; 4]; 2];
+        // One by one: all tables at once would be what a caller asks about.
         for (number, chunk) in self.chunks(limits)?.enumerate() {
             let tables =
                 [bytes(chunk.blocks.len(), size_of::<Block>()), bytes(chunk.caps.len(), size_of::<CapRow>())];

@@ -15,8 +15,8 @@ const LEVEL: f64 = 1e-12;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Passing {
     start: DVec3,
-    /// x, y and z of the four corners of its Bézier polygon.
-    corners: [[f64; 4]; 3],
+    /// The four corners of its Bézier polygon.
+    corners: [DVec3; 4],
     velocities: [DVec3; 3],
     /// (A - start) · A', of degree five.
     own: [f64; 6],
@@ -31,7 +31,7 @@ impl Passing {
         let c3 = c2 + u2 / 3.0;
         Self {
             start,
-            corners: [[0.0, c1.x, c2.x, c3.x], [0.0, c1.y, c2.y, c3.y], [0.0, c1.z, c2.z, c3.z]],
+            corners: [DVec3::ZERO, c1, c2, c3],
             velocities: [u0, u1, u2],
             own: [
                 0.0,
@@ -48,8 +48,7 @@ impl Passing {
     /// the coefficients of (A - B) · A', of degree five in its own parameter.
     #[inline]
     fn slopes(&self, other: &Self, corner: usize) -> [f64; 6] {
-        let [x, y, z] = &other.corners;
-        let place = other.start - self.start + DVec3::new(x[corner], y[corner], z[corner]);
+        let place = other.start - self.start + other.corners[corner];
         let [u, v, w] = self.velocities;
         let (a, b, c) = (place.dot(u), place.dot(v), place.dot(w));
         let own = &self.own;

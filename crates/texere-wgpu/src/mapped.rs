@@ -1,0 +1,51 @@
+//! Mapped buffers: work that fills or empties one, and the wait until the host may have it.
+
+use std::sync::mpsc::{Receiver, sync_channel};
+
+use texere_core::BackendError;
+use wgpu::{BufferAsyncError, CommandEncoder, MapMode, SubmissionIndex};
+
+use crate::gpu::{Gpu, WAIT_LIMIT};
+
+/// Work under way after which the start of a buffer is mapped.
+pub(crate) struct Mapped {
+    submission: SubmissionIndex,
+    answer: Receiver<Result<(), BufferAsyncError>>,
+}
+
+impl Mapped {
+    /// Hands over what `record` records, and asks for `bytes` of `buffer` to be mapped once that is done.
+    pub(crate) fn submit(
+        gpu: &Gpu,
+        buffer: &wgpu::Buffer,
+        mode: MapMode,
+        bytes: u64,
+        record: impl FnOnce(&mut CommandEncoder),
+    ) -> Result<Self, BackendError> {
+        let (note, answer) = sync_channel(1);
+        let submission = gpu.scoped("Queue::submit", || {
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            record(&mut encoder);
+            let submission = gpu.queue.submit([encoder.finish()]);
+            buffer.map_async(mode, ..bytes, move |answer| {
+                let _ = note.send(answer);
+            });
+            submission
+        })?;
+        Ok(Self { submission, answer })
+    }
+
+    /// Waits until the buffer is mapped.
+    pub(crate) fn wait(&self, gpu: &Gpu) -> Result<(), BackendError> {
+        gpu.wait(self.submission.clone())?;
+        // Another thread's poll may have found the work done, and be about to say so.
+        match self.answer.recv_timeout(WAIT_LIMIT) {
+            Ok(Ok(())) => Ok(()),
+            // The buffer is sound and its work done, so it is the device that is not there to map it.
+            Ok(Err(source)) => Err(gpu.lost(source)),
+            Err(source) => {
+                Err(BackendError::Driver { call: "BufferSlice::map_async", source: source.into() })
+            }
+        }
+    }
+}

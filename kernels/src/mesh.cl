@@ -62,9 +62,7 @@ __kernel void mesh(const Params params, const ulong window, __global const float
     uint lane = get_local_id(0);
     Block block = blocks[row];
     YarnRow yarn = yarns[block.yarn];
-    uint start = params.rolled != 0u ? rolls[params.first_block + row] : 0u;
-    uint turned = params.rolled != 0u ? whole[block.yarn] : 0u;
-    block_rings(points + window, &params, &yarn, &block, start, turned, lane, &rings);
+    block_rings(points + window, &params, &yarn, &block, rolls, whole, row, lane, &rings);
 
     uint stores = 3u * params.sides / 2u;
     Share share = share_of(lane, stores);
@@ -99,9 +97,7 @@ __kernel void mesh_odd(const Params params, const ulong window, __global const f
     uint lane = get_local_id(0);
     Block block = blocks[row];
     YarnRow yarn = yarns[block.yarn];
-    uint start = params.rolled != 0u ? rolls[params.first_block + row] : 0u;
-    uint turned = params.rolled != 0u ? whole[block.yarn] : 0u;
-    block_rings(points + window, &params, &yarn, &block, start, turned, lane, &rings);
+    block_rings(points + window, &params, &yarn, &block, rolls, whole, row, lane, &rings);
 
     uint stores = 3u * params.sides;
     Share share = share_of(lane, stores);

@@ -15,10 +15,11 @@ typedef struct {
     uint eights[BLOCK_RINGS / 8];
 } BlockRings;
 
-// Makes the rings of `block`, the yarn's turns before which add up to `start` and in all to `whole`: one lane a ring.
-// Every lane of the workgroup, which has at least BLOCK_RINGS, must come here.
+// Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the workgroup, which has
+// at least BLOCK_RINGS, must come here.
 void block_rings(__global const float4 *points, const Params *params, const YarnRow *yarn, const Block *block,
-                 uint start, uint whole, uint lane, __local BlockRings *rings) {
+                 __global const uint *rolls, __global const uint *whole, size_t row, uint lane,
+                 __local BlockRings *rings) {
     RingSample here;
     uint roll = 0u;
     if (lane < block->rings) {
@@ -53,7 +54,8 @@ void block_rings(__global const float4 *points, const Params *params, const Yarn
             for (uint before = 0u; before < lane / 8u; before++) {
                 sum += rings->eights[before];
             }
-            roll = closed_up(yarn, block->first_ring + lane, start + sum - turn, whole);
+            uint start = rolls[params->first_block + row];
+            roll = closed_up(yarn, block->first_ring + lane, start + sum - turn, whole[block->yarn]);
         }
     }
     if (lane < block->rings) {

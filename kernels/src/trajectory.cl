@@ -14,9 +14,7 @@ void trajectory(const Params params, const ulong window, __global const float4 *
     uint lane = get_local_id(0);
     Block block = blocks[row];
     YarnRow yarn = yarns[block.yarn];
-    uint start = params.rolled != 0u ? rolls[params.first_block + row] : 0u;
-    uint turned = params.rolled != 0u ? whole[block.yarn] : 0u;
-    block_rings(points + window, &params, &yarn, &block, start, turned, lane, &standing);
+    block_rings(points + window, &params, &yarn, &block, rolls, whole, row, lane, &standing);
 
     // Two stores of 16 bytes a ring, contiguous across lanes.
     __global uint4 *out = rings + 2 * (size_t)block.chunk_ring;

@@ -49,8 +49,13 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     opencl("kernels/src/scan.cl", "block_turns", "lane < block.quads", "lane + 1u < block.quads"),
     // Only the tile before counts, which yarns of no more than two tiles don't show.
     opencl("kernels/src/scan.cl", "yarn_rolls", "before += sums", "before = sums"),
-    // The roll is looked up by the chunk's row, which whole fabrics don't show.
-    opencl("kernels/src/trajectory.cl", "trajectory", "rolls[params.first_block + row]", "rolls[row]"),
+    // All rings of a block get the first one's tangent.
+    opencl(
+        "kernels/src/trajectory.cl",
+        "trajectory",
+        "float4 tangent = standing.tangent[ring];",
+        "float4 tangent = standing.tangent[0];",
+    ),
     // A store that begins with the end of a normal takes that of the next vertex.
     opencl(
         "kernels/src/mesh.cl",

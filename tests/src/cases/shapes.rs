@@ -146,6 +146,11 @@ fn turning_back() -> Vec<Shape> {
         open("cusp-flat", listed(&[[1.0, 0.5, 0.0], [0.0; 3], [1.0, 0.5, 0.0], [6.0, 3.0, 0.0]])),
         // At tension 0 the velocity vanishes half way between the middle points.
         open("cusp", listed(&[[-5.0, 2.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [6.0, 2.0, 0.0]])),
+        // In a plane of constant x, on from point to point, and yet backwards for a while between the middle ones.
+        open(
+            "back-stitch",
+            listed(&[[0.5, 0.0, 0.0], [0.5, 1.0, 0.1], [0.5, 1.01, -0.1], [0.5, 2.01, 0.2], [0.5, 3.0, 0.0]]),
+        ),
         open(
             "zigzag",
             along(12, |k| [k * 0.25, if (k as u32).is_multiple_of(2) { 0.0 } else { 2.0 }, 0.1 * k]),

@@ -5,6 +5,7 @@ mod avx2;
 mod fill;
 mod lines;
 mod path;
+mod planar;
 mod portable;
 mod rings;
 mod runs;

@@ -17,6 +17,15 @@ pub(super) struct Source<'a> {
     pub(super) places: &'a Places,
 }
 
+impl<'a> Source<'a> {
+    /// The padded control points from `yarn`'s first one on.
+    #[inline(always)]
+    pub(super) fn yarn(&self, yarn: usize) -> &'a [[f32; 4]] {
+        let points = &self.points.points()[self.plan.padded_offsets()[yarn] as usize..];
+        bytemuck::cast_slice::<ControlPoint, _>(points)
+    }
+}
+
 /// Consecutive rings of one yarn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stretch {
@@ -59,9 +68,8 @@ pub(super) struct Walk<'a, V> {
 impl<'a, V: Vector> Walk<'a, V> {
     #[inline(always)]
     pub(super) fn new(source: Source<'a>, stretch: Stretch) -> Self {
-        let Source { plan, points, places } = source;
-        let points = &points.points()[plan.padded_offsets()[stretch.yarn] as usize..];
-        let points = bytemuck::cast_slice::<ControlPoint, _>(points);
+        let Source { plan, places, .. } = source;
+        let points = source.yarn(stretch.yarn);
         let per_interval = places.0.len();
         let interval = stretch.first as usize / per_interval;
         Self {

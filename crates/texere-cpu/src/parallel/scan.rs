@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use texere_core::{BLOCK_RINGS, BackendError, PaddedPoints, Plan, Turn};
 
 use super::path::{Job, Path};
+use super::planar::stays_upright;
 use super::rings::{Source, Stretch, Walk};
 use super::runs::take;
 use super::spline::Places;
@@ -12,8 +13,11 @@ use super::vector::{LANES_MAX, Vector};
 use crate::rolls::Rolls;
 use crate::session::resize;
 
-/// Rings that one rayon item goes along, whole blocks.
-const RUN_RINGS: u32 = 64 * BLOCK_RINGS;
+/// Blocks that one rayon item goes along.
+const RUN_BLOCKS: u32 = 64;
+
+/// Their rings.
+const RUN_RINGS: u32 = RUN_BLOCKS * BLOCK_RINGS;
 
 pub(super) fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
     let Rolls { at_block, in_block, whole } = rolls;
@@ -68,33 +72,60 @@ struct ScanRun<'a> {
 impl Job for ScanRun<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
-        let Self { source, run: Run { yarn, first_ring, blocks, rings } } = self;
-        // One more than its own, unless the yarn ends: the step to that one is the last block's.
-        let count = (rings.len() as u32 + 1).min(source.plan.rings(yarn) - first_ring);
-        let mut walk = Walk::<V>::new(source, Stretch { yarn, first: first_ring, count });
-        let mut steps = Steps::<V>::new(&source, yarn);
-        for (number, rings) in rings.chunks_mut(BLOCK_RINGS as usize).enumerate() {
-            let mut sum = V::splat_whole(0);
-            for (group, rings) in rings.chunks_mut(V::LANES).enumerate() {
-                let mut own = steps.next(&walk.next());
-                if group == 0 {
-                    if let Some(before) = number.checked_sub(1) {
-                        blocks[before] = blocks[before] + Turn(V::first(own));
-                    }
-                    own = V::without_first(own);
-                }
-                let mut sums = [0; LANES_MAX];
-                sum = V::add_whole(V::splat_last(sum), V::running_sum(own));
-                V::store_whole(sum, &mut sums);
-                rings.copy_from_slice(&bytemuck::cast_slice(&sums)[..rings.len()]);
-            }
-            blocks[number] = rings.last().copied().unwrap_or_default();
+        let Self { source, run: Run { yarn, first_ring, mut blocks, mut rings } } = self;
+        let of_yarn = source.plan.rings(yarn);
+        let twists = source.plan.twist_turns(yarn) != 0.0;
+        // Of so many rings from there on: one more than the blocks' own, unless the yarn ends, since the step to that one is
+        // the last block's.
+        let stretch =
+            |first: u32, rings: u32| Stretch { yarn, first, count: (rings + 1).min(of_yarn - first) };
+        let mut first = first_ring;
+        let mut upright = [false; RUN_BLOCKS as usize];
+        for (number, upright) in upright.iter_mut().enumerate().take(blocks.len()) {
+            let first = first_ring + number as u32 * BLOCK_RINGS;
+            *upright = !twists && stays_upright::<V>(&source, stretch(first, BLOCK_RINGS));
         }
-        if walk.left() > 0 {
-            let own = steps.next(&walk.next());
-            if let Some(last) = blocks.last_mut() {
-                *last = *last + Turn(V::first(own));
+        for alike in upright[..blocks.len()].chunk_by(|a, b| a == b) {
+            let blocks = take(&mut blocks, alike.len());
+            let count = rings.len().min(alike.len() * BLOCK_RINGS as usize);
+            let rings = take(&mut rings, count);
+            if alike[0] {
+                blocks.fill(Turn::ZERO);
+                rings.fill(Turn::ZERO);
+            } else {
+                sums::<V>(source, stretch(first, count as u32), blocks, rings);
             }
+            first += count as u32;
+        }
+    }
+}
+
+/// Adds up the steps between the rings of `stretch`: `rings`, and perhaps the one after them.
+#[inline(always)]
+fn sums<V: Vector>(source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], rings: &mut [Turn]) {
+    let mut walk = Walk::<V>::new(source, stretch);
+    let mut steps = Steps::<V>::new(&source, stretch.yarn);
+    for (number, rings) in rings.chunks_mut(BLOCK_RINGS as usize).enumerate() {
+        let mut sum = V::splat_whole(0);
+        for (group, rings) in rings.chunks_mut(V::LANES).enumerate() {
+            let mut own = steps.next(&walk.next());
+            if group == 0 {
+                if let Some(before) = number.checked_sub(1) {
+                    blocks[before] = blocks[before] + Turn(V::first(own));
+                }
+                own = V::without_first(own);
+            }
+            let mut sums = [0; LANES_MAX];
+            sum = V::add_whole(V::splat_last(sum), V::running_sum(own));
+            V::store_whole(sum, &mut sums);
+            rings.copy_from_slice(&bytemuck::cast_slice(&sums)[..rings.len()]);
+        }
+        blocks[number] = rings.last().copied().unwrap_or_default();
+    }
+    if walk.left() > 0 {
+        let own = steps.next(&walk.next());
+        if let Some(last) = blocks.last_mut() {
+            *last = *last + Turn(V::first(own));
         }
     }
 }

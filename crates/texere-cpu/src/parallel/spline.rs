@@ -58,16 +58,7 @@ impl<V: Vector> Cubics<V> {
     /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on.
     #[inline(always)]
     pub(super) fn new(points: &[[f32; 4]], first: usize, s: f32) -> Self {
-        let last;
-        let window = match points.get(first..first + V::LANES + 3) {
-            Some(window) => window,
-            None => {
-                last = last_points(points, first);
-                &last[..V::LANES + 3]
-            }
-        };
-        let (before, start) = (V::components(window), V::components(&window[1..]));
-        let (end, after) = (V::components(&window[2..]), V::components(&window[3..]));
+        let [before, start, end, after] = neighbours::<V>(points, first);
         let (doubled, rest, less) = (V::splat(2.0 * s), V::splat(3.0 - 2.0 * s), V::splat(s - 2.0));
         let (s, zero) = (V::splat(s), V::splat(0.0));
         let (mut a, mut b, mut c) = ([zero; 4], [zero; 4], [zero; 4]);
@@ -115,6 +106,25 @@ impl<V: Vector> Cubics<V> {
 #[inline(always)]
 pub(super) fn xyz<V: Vector>([x, y, z, _]: [V; 4]) -> [V; 3] {
     [x, y, z]
+}
+
+/// The points from number `first` on, one in each lane, and those from the next three numbers on.
+#[inline(always)]
+pub(super) fn neighbours<V: Vector>(points: &[[f32; 4]], first: usize) -> [[V; 4]; 4] {
+    let last;
+    let window = match points.get(first..first + V::LANES + 3) {
+        Some(window) => window,
+        None => {
+            last = last_points(points, first);
+            &last[..V::LANES + 3]
+        }
+    };
+    [
+        V::components(window),
+        V::components(&window[1..]),
+        V::components(&window[2..]),
+        V::components(&window[3..]),
+    ]
 }
 
 /// The points from number `first` on, and zeros past the last one.

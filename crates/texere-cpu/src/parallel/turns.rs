@@ -52,11 +52,8 @@ impl<V: Vector> Steps<V> {
         // The last ring of an interval is followed by the start of the next one.
         let chord = difference(select(rings.t.is_zero(), span, rings.offset), offset);
         let length_squared = dot(chord, chord);
-        let turn = if self.minimizing && !stays_upright(before, rings, &chord) {
-            transport(before, rings, chord, length_squared)
-        } else {
-            V::splat(0.0)
-        };
+        let turn =
+            if self.minimizing { transport(before, rings, chord, length_squared) } else { V::splat(0.0) };
         match self.twist {
             Some(twist) => from_turns(turn + twist * length_squared.sqrt()),
             None => from_turns(turn),
@@ -100,23 +97,6 @@ pub(super) fn rolls<V: Vector>(plan: &Plan, rolls: &Rolls, yarn: usize, first: u
 #[inline(always)]
 fn preceding<V: Vector>(before: [V; 3], here: [V; 3]) -> [V; 3] {
     [V::preceding(before[0], here[0]), V::preceding(before[1], here[1]), V::preceding(before[2], here[2])]
-}
-
-/// Whether all steps lie in planes of constant x, or all in planes of constant y, without turning back, as those of woven
-/// threads do. Sides are then along that axis, their products with chords and tangents are zero, and [`transport`] gives no
-/// turn, to the bit.
-#[inline(always)]
-fn stays_upright<V: Vector>(before: &Traces<V>, rings: &Rings<V>, chord: &[V; 3]) -> bool {
-    for across in [0, 1] {
-        let side = V::preceding(before.side[across], rings.side[across]);
-        let tangent = V::preceding(before.tangent[across], rings.tangent[across]);
-        let out = chord[across].abs() + tangent.abs() + rings.tangent[across].abs();
-        let onwards = V::less(V::splat(0.0), side * rings.side[across]);
-        if V::bits(out.is_zero()) & V::bits(onwards) == V::ALL {
-            return true;
-        }
-    }
-    false
 }
 
 /// Double reflection from the rings before to `rings`, in turns.

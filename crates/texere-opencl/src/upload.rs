@@ -17,7 +17,10 @@ use crate::pinned::Pinned;
 const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 
 /// Up to so many points, such as an edited yarn's, go as they are: the driver's own way is as fast then.
-const FEW_POINTS: u64 = (256 << 10) / POINT_BYTES;
+const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
+
+/// So do up to so many the first time: to make pinned memory takes longer than that way, and may not be wanted again.
+const FIRST_POINTS: u64 = (16 << 20) / POINT_BYTES;
 
 /// Points of a piece, so many that what one transfer costs before and after does not count. The first are shorter, so that
 /// the bus starts early.
@@ -34,6 +37,8 @@ const SLOTS: usize = 3;
 #[derive(Debug, Default)]
 pub(crate) struct Outbox {
     slots: Vec<Pinned>,
+    /// Whether more than a few points have been sent.
+    used: bool,
     /// The last command that reads them; those before it end before it.
     last: Option<Arc<Handle>>,
 }
@@ -49,7 +54,9 @@ impl Outbox {
     ) -> Result<(), BackendError> {
         for range in upload.ranges() {
             let count = range.end - range.start;
-            let events = if count > FEW_POINTS {
+            let pinned = count > if self.used { FEW_POINTS } else { FIRST_POINTS };
+            self.used |= count > FEW_POINTS;
+            let events = if pinned {
                 self.send_pieces(opened, target, upload, range)?
             } else {
                 let mut points = Vec::with_capacity(count as usize);

@@ -13,7 +13,7 @@ const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 
 /// Up to so many points, such as an edited yarn's, go through wgpu's own staging. For more it would make a buffer as large as
 /// all of them, and to have that much memory mapped takes several times as long as to fill and copy it.
-const FEW_POINTS: u64 = (256 << 10) / POINT_BYTES;
+const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
 /// Bytes of a piece: so few that filling one and copying the other overlap from early on.
 const PIECE_BYTES: u64 = 8 << 20;

@@ -129,7 +129,7 @@ fn assert_lost(mut session: impl Session, yarns: &texere_core::Yarns, chunk: &te
 #[test]
 fn a_lost_device_is_an_error_and_never_a_panic() {
     // Control points that go through wgpu's own staging, and ones that go in pieces of ours.
-    for points in [500, 40_000] {
+    for points in [500, 50_000] {
         lose_a_device_with(&waves(3, points, Yarn { twist: 0.5, ..Yarn::default() }));
     }
 }

@@ -38,8 +38,9 @@ use tiles::TileLines;
 use vector::{LANES_MAX, LINE, Line, Vector};
 use vertices::{Surface, VERTEX};
 
-#[derive(Debug)]
-pub(crate) struct Parallel;
+/// All cores, each with the vectors of a path.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Parallel(pub(crate) Path);
 
 /// Bytes of output from which on stores go past the caches: as much as the last cache of a large processor holds.
 const STREAM_BYTES: usize = 32 << 20;
@@ -47,17 +48,17 @@ const STREAM_BYTES: usize = 32 << 20;
 impl Stages for Parallel {
     const FUSED: bool = true;
 
-    fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
-        scan::scan(plan, points, rolls)
+    fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
+        scan::scan(self.0, plan, points, rolls)
     }
 
-    fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
-        let (path, maker) = (Path::detect(), Maker::new(work));
+    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
+        let (path, maker) = (self.0, Maker::new(work));
         ring_runs(chunk, out).into_par_iter().for_each(|run| path.run(RingJob { maker: &maker, run }));
     }
 
-    fn mesh(work: &Work, chunk: &Chunk, _rings: &ChunkRings, mut out: MeshMut<'_>) {
-        let (settings, path) = (work.plan.settings(), Path::detect());
+    fn mesh(self, work: &Work, chunk: &Chunk, _rings: &ChunkRings, mut out: MeshMut<'_>) {
+        let (settings, path) = (work.plan.settings(), self.0);
         let indexed = settings.topology == Topology::Indexed;
         pages::prefer_huge(out.vertices);
         pages::prefer_huge(out.indices);

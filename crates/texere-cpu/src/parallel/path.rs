@@ -12,7 +12,7 @@ pub(crate) enum Path {
     /// x86-64 with AVX2.
     #[cfg(target_arch = "x86_64")]
     Avx2,
-    /// x86-64 with AVX-512, its foundation (F) and its DQ part, as all but the first accelerators have it.
+    /// x86-64 with AVX-512, its parts F and DQ.
     #[cfg(target_arch = "x86_64")]
     Avx512,
 }
@@ -36,7 +36,7 @@ impl Path {
     }
 
     /// The paths that this processor has, the best one last.
-    fn available() -> Vec<Self> {
+    pub(crate) fn available() -> Vec<Self> {
         #[allow(unused_mut, reason = "other processors have the portable path alone")]
         let mut paths = vec![Self::Portable];
         #[cfg(target_arch = "x86_64")]

@@ -68,7 +68,7 @@ pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Res
         }
     }
     println!(
-        "\nOver the bus, GB/s: plain copies to and from pinned memory, `read_mesh` and `upload` beside them\n"
+        "\nOver the bus, GB/s: plain copies of as many bytes to and from pinned memory, `read_mesh` and `upload` beside them\n"
     );
     println!("| device | cloth | to host | mesh | share | to device | control points | share |");
     println!("|---|---|---|---|---|---|---|---|");
@@ -89,15 +89,15 @@ fn print_bus(
 ) -> Result<(), Box<dyn Error>> {
     let plan = texere::Pipeline::new(yarns).plan()?;
     let (mesh, points) = (plan.counts().bytes(), plan.resident_bytes());
-    let mut fill = gpu.fill(&buffers(mesh))?;
+    let (mut out_of_device, mut into_device) = (gpu.fill(&buffers(mesh))?, gpu.fill(&buffers(points))?);
     let mut bench = Bench::new(gpu.backend(), yarns.clone(), Settings::default())?;
     bench.read()?;
     let (mut copied_out, mut read, mut copied_in, mut sent) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for _ in 0..rounds {
-        copied_out.push(fill.copy_to_host()?);
+        copied_out.push(out_of_device.copy_to_host()?);
         read.push(bench.read()?);
-        copied_in.extend(fill.copy_from_host()?);
+        copied_in.extend(into_device.copy_from_host()?);
         sent.push(bench.send()?);
     }
     let rate = |bytes: u64, times: &[Duration]| bytes as f64 / median_time(times).as_secs_f64() / 1e9;
@@ -105,7 +105,7 @@ fn print_bus(
     let (bus_in, share) = if copied_in.is_empty() {
         ("-".into(), "-".into())
     } else {
-        let bus_in = rate(mesh, &copied_in);
+        let bus_in = rate(points, &copied_in);
         (format!("{bus_in:.1}"), format!("{:.2}", sent / bus_in))
     };
     println!(

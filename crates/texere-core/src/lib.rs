@@ -23,6 +23,7 @@ mod material;
 mod mesh;
 mod null;
 mod padded;
+mod padded_upload;
 mod pipeline;
 mod plan;
 mod point;
@@ -41,6 +42,7 @@ pub use material::Material;
 pub use mesh::{Draw, End, Mesh, MeshMut, MeshPiece, SHARED_GAPS, Topology, Vertex, index_pattern};
 pub use null::NullBackend;
 pub use padded::{PaddedPoints, zeroed};
+pub use padded_upload::{PaddedUpload, YarnEnds};
 pub use pipeline::{Pipeline, Progress};
 pub use plan::{
     BLOCK_RINGS, Block, Cap, CapRow, Chunk, Chunks, Counts, Limits, Params, Part, Plan, RINGS_MAX, Settings,

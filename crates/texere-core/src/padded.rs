@@ -42,26 +42,14 @@ impl PaddedPoints {
         first: u64,
         points: &[ControlPoint],
     ) -> Result<Range<u64>, BackendError> {
-        let offsets = plan.layout().offsets();
-        let (end, total) = (first.saturating_add(points.len() as u64), plan.layout().point_count());
-        if end > total {
-            return Err(BackendError::UploadRange { first, end, points: total });
-        }
-        if points.is_empty() {
-            return Ok(0..0);
-        }
-        let first_yarn = offsets.partition_point(|&start| start <= first) - 1;
-        let mut yarn = first_yarn;
-        while yarn < plan.layout().yarns().len() && offsets[yarn] < end {
-            let (from, to) = (offsets[yarn].max(first), offsets[yarn + 1].min(end));
+        let yarns = touched(plan, first, points.len())?;
+        for yarn in yarns.clone() {
+            let (own, sent) = overlap(plan, yarn, first, points.len());
             let padded = &mut self.points[yarn_range(plan, yarn)];
-            let inner = 1 + (from - offsets[yarn]) as usize;
-            padded[inner..inner + (to - from) as usize]
-                .copy_from_slice(&points[(from - first) as usize..(to - first) as usize]);
+            padded[1 + own.start..1 + own.end].copy_from_slice(&points[sent]);
             renew_ends(padded, plan.yarn(yarn).closed);
-            yarn += 1;
         }
-        Ok(plan.padded_offsets()[first_yarn]..plan.padded_offsets()[yarn])
+        Ok(plan.padded_offsets()[yarns.start]..plan.padded_offsets()[yarns.end])
     }
 
     /// All of them.
@@ -83,8 +71,31 @@ fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
     plan.padded_offsets()[yarn] as usize..plan.padded_offsets()[yarn + 1] as usize
 }
 
+/// The yarns that `count` points from number `first` on belong to.
+///
+/// **Errors**: [`BackendError::UploadRange`] past the last control point.
+pub(crate) fn touched(plan: &Plan, first: u64, count: usize) -> Result<Range<usize>, BackendError> {
+    let offsets = plan.layout().offsets();
+    let (end, total) = (first.saturating_add(count as u64), plan.layout().point_count());
+    if end > total {
+        return Err(BackendError::UploadRange { first, end, points: total });
+    }
+    if count == 0 {
+        return Ok(0..0);
+    }
+    let yarn_before = |end: u64| offsets.partition_point(|&start| start < end);
+    Ok(yarn_before(first + 1) - 1..yarn_before(end))
+}
+
+/// Which of a yarn's own points are among `count` points from number `first` on, and which of those they are.
+pub(crate) fn overlap(plan: &Plan, yarn: usize, first: u64, count: usize) -> (Range<usize>, Range<usize>) {
+    let (start, end) = (plan.layout().offsets()[yarn], plan.layout().offsets()[yarn + 1]);
+    let (from, to) = (start.max(first), end.min(first + count as u64));
+    ((from - start) as usize..(to - start) as usize, (from - first) as usize..(to - first) as usize)
+}
+
 /// Virtual ends of an open yarn (the paper's equations 3 and 4), wrapped neighbours of a closed one.
-fn renew_ends(padded: &mut [ControlPoint], closed: bool) {
+pub(crate) fn renew_ends(padded: &mut [ControlPoint], closed: bool) {
     let count = padded.len();
     if closed {
         padded[0] = padded[count - 4];

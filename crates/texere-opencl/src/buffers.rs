@@ -7,18 +7,17 @@ use std::sync::Arc;
 
 use bytemuck::Pod;
 use opencl3::command_queue::{
-    CL_BLOCKING, CL_NON_BLOCKING, enqueue_fill_buffer, enqueue_map_buffer, enqueue_read_buffer,
-    enqueue_unmap_mem_object, enqueue_write_buffer, flush,
+    CL_BLOCKING, CL_NON_BLOCKING, enqueue_fill_buffer, enqueue_read_buffer, enqueue_write_buffer, flush,
 };
 use opencl3::event::wait_for_events;
-use opencl3::memory::{CL_MAP_READ, CL_MEM_ALLOC_HOST_PTR, CL_MEM_READ_WRITE, create_buffer};
+use opencl3::memory::{CL_MAP_READ, CL_MEM_READ_WRITE, create_buffer};
 use texere_core::{BackendError, Traffic};
 
-use crate::OpenClError;
 use crate::backend::Opened;
 use crate::clock::{Clock, Stage};
 use crate::faults::not_allocated;
 use crate::handles::Handle;
+use crate::pinned::Pinned;
 
 /// Device memory, which may be none.
 #[derive(Debug, Default)]
@@ -41,7 +40,8 @@ impl Buffer {
         let mut buffer = Self { memory: Some(memory), bytes };
         // Drivers put memory off until its first use; used now, they say now that there is none. Not by
         // clEnqueueMigrateMemObjects: NVIDIA's driver (580) dies where two threads call that on one queue.
-        let claimed = buffer.enqueue_write(&opened.transfers, 0, &[0u32], None);
+        // SAFETY: a blocking write.
+        let claimed = unsafe { buffer.enqueue_write(&opened.transfers, CL_BLOCKING, 0, &[0u32], None) };
         claimed.map_err(refused("clEnqueueWriteBuffer"))?;
         Ok(buffer)
     }
@@ -111,27 +111,33 @@ impl Buffer {
             return Ok(None);
         }
         debug_assert!(offset + size_of_val(data) as u64 <= self.bytes, "a write stays in its buffer");
-        let event = self.enqueue_write(queue, offset, data, after);
+        // SAFETY: a blocking write keeps `data` borrowed until it is copied.
+        let event = unsafe { self.enqueue_write(queue, CL_BLOCKING, offset, data, after) };
         Ok(Some(Arc::new(event.map_err(opened.failed("clEnqueueWriteBuffer"))?)))
     }
 
-    /// As [`Buffer::write`], with OpenCL's status for an error.
-    fn enqueue_write<T: Pod>(
+    /// As [`Buffer::write`], waiting where `blocking`, with OpenCL's status for an error.
+    ///
+    /// # Safety
+    ///
+    /// Nobody writes to `data` until the command has ended.
+    pub(crate) unsafe fn enqueue_write<T: Pod>(
         &mut self,
         queue: &Handle,
+        blocking: u32,
         offset: u64,
         data: &[T],
         after: Option<&Handle>,
     ) -> Result<Handle, i32> {
         let after = after.map(Handle::raw);
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
-        // SAFETY: the pointer is to as many bytes as told, and blocking keeps them borrowed until they are copied. A
-        // range past the buffer's end comes back as an error.
+        // SAFETY: the pointer is to as many bytes as told, and this function's contract keeps them as they are. A range
+        // past the buffer's end comes back as an error.
         Handle::event(unsafe {
             enqueue_write_buffer(
                 queue.raw(),
                 self.raw(),
-                CL_BLOCKING,
+                blocking,
                 offset as usize,
                 size_of_val(data),
                 data.as_ptr().cast(),
@@ -156,7 +162,7 @@ impl Buffer {
         let event = unsafe {
             self.enqueue_read(opened, CL_BLOCKING, 0, size_of_val(out), out.as_mut_ptr().cast(), after)
         }?;
-        meter.note(&event, size_of_val(out));
+        meter.read(&event, size_of_val(out));
         Ok(())
     }
 
@@ -191,7 +197,7 @@ impl Buffer {
     }
 }
 
-/// Where what is read back gets counted.
+/// Where what goes over the bus gets counted.
 #[derive(Debug)]
 pub(crate) struct Meter<'a> {
     pub(crate) clock: &'a mut Clock,
@@ -199,83 +205,14 @@ pub(crate) struct Meter<'a> {
 }
 
 impl Meter<'_> {
-    fn note(&mut self, event: &Arc<Handle>, bytes: usize) {
+    fn read(&mut self, event: &Arc<Handle>, bytes: usize) {
         self.clock.note(Stage::Readback, event);
         self.traffic.read += bytes as u64;
     }
-}
 
-/// Host memory that the device writes at full speed, mapped for good.
-#[derive(Debug)]
-struct Pinned {
-    opened: Arc<Opened>,
-    memory: Handle,
-    start: *mut c_void,
-    bytes: usize,
-}
-
-// SAFETY: the mapped memory belongs to this value alone, and OpenCL lets any thread use it.
-unsafe impl Send for Pinned {}
-
-impl Pinned {
-    fn new(opened: &Arc<Opened>, bytes: usize) -> Result<Self, BackendError> {
-        let what = "reading results back";
-        let refused = |call| not_allocated(&opened.name, call, what, bytes as u64);
-        // SAFETY: no host memory is handed over.
-        let memory = unsafe {
-            let flags = CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR;
-            create_buffer(opened.context.raw(), flags, bytes, ptr::null_mut())
-        };
-        let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
-        let mut start = ptr::null_mut();
-        // SAFETY: the whole of a buffer of this context, and no event.
-        let mapped = unsafe {
-            let (queue, blocking) = (opened.transfers.raw(), CL_BLOCKING);
-            enqueue_map_buffer(
-                queue,
-                memory.raw(),
-                blocking,
-                CL_MAP_READ,
-                0,
-                bytes,
-                &mut start,
-                0,
-                ptr::null(),
-            )
-        };
-        Handle::event(mapped).map_err(refused("clEnqueueMapBuffer"))?;
-        Ok(Self { opened: opened.clone(), memory, start, bytes })
-    }
-
-    /// The first `count` values.
-    ///
-    /// # Safety
-    ///
-    /// No command that writes here is running, and `count` values fit.
-    unsafe fn values<T: Pod>(&self, count: usize) -> Result<&[T], BackendError> {
-        if self.start.is_null() || !self.start.cast::<T>().is_aligned() {
-            let source = Box::new(OpenClError::Misaligned { needed: align_of::<T>() });
-            return Err(BackendError::Driver { call: "clEnqueueMapBuffer", source });
-        }
-        // SAFETY: aligned, mapped for as long as `self`, of a type that takes any bits; the rest is the contract.
-        Ok(unsafe { std::slice::from_raw_parts(self.start.cast(), count) })
-    }
-}
-
-impl Drop for Pinned {
-    fn drop(&mut self) {
-        // SAFETY: mapped once, in `new`, and no slice of it is left. In order, so after every read into it.
-        let unmapped = unsafe {
-            enqueue_unmap_mem_object(
-                self.opened.transfers.raw(),
-                self.memory.raw(),
-                self.start,
-                0,
-                ptr::null(),
-            )
-        };
-        // Where even this fails the device is gone, and the memory with it.
-        drop(Handle::event(unmapped));
+    pub(crate) fn sent(&mut self, first: &Arc<Handle>, last: &Arc<Handle>, bytes: u64) {
+        self.clock.note_all(Stage::Upload, first, last);
+        self.traffic.uploaded += bytes;
     }
 }
 
@@ -308,18 +245,18 @@ impl Staging {
         let mut launch = |pieces: &mut [Option<Pinned>; 2], first: usize| {
             let here = per_piece.min(count - first);
             let piece = &mut pieces[first / per_piece % 2];
-            let pinned = match piece.take().filter(|pinned| pinned.bytes >= here * each) {
+            let pinned = match piece.take().filter(|pinned| pinned.bytes() >= here * each) {
                 Some(pinned) => pinned,
-                None => Pinned::new(opened, here * each)?,
+                None => Pinned::new(opened, "reading results back", CL_MAP_READ, here * each)?,
             };
-            let start = pinned.start;
+            let start = pinned.start();
             *piece = Some(pinned);
             // SAFETY: the pinned memory is large enough and, in order on the queue, not written by another command; it is
             // not looked at before this command has ended.
             let event = unsafe {
                 buffer.enqueue_read(opened, CL_NON_BLOCKING, first * each, here * each, start, after)
             }?;
-            meter.note(&event, here * each);
+            meter.read(&event, here * each);
             flush(opened.transfers.raw()).map_err(opened.failed("clFlush"))?;
             Ok(event)
         };

@@ -25,8 +25,8 @@ pub(crate) enum Stage {
 #[derive(Debug, Default)]
 pub(crate) struct Clock {
     total: StageTimings,
-    /// Commands that may still be running.
-    pending: Vec<(Stage, Arc<Handle>)>,
+    /// The first and the last of commands that may still be running.
+    pending: Vec<(Stage, [Arc<Handle>; 2])>,
 }
 
 /// Commands that are held before those that have ended are added up.
@@ -35,11 +35,17 @@ const PENDING: usize = 64;
 impl Clock {
     /// Counts `event`'s command once it has ended.
     pub(crate) fn note(&mut self, stage: Stage, event: &Arc<Handle>) {
-        self.pending.push((stage, event.clone()));
+        self.note_all(stage, event, event);
+    }
+
+    /// Counts the time from the start of `first`'s command to the end of `last`'s, a later one of the same queue.
+    pub(crate) fn note_all(&mut self, stage: Stage, first: &Arc<Handle>, last: &Arc<Handle>) {
+        self.pending.push((stage, [first.clone(), last.clone()]));
         if self.pending.len() >= PENDING {
             let pending = std::mem::take(&mut self.pending);
-            let (ended, running): (Vec<_>, _) = pending.into_iter().partition(|(_, event)| has_ended(event));
-            ended.iter().for_each(|(stage, event)| add(&mut self.total, *stage, duration(event)));
+            let (ended, running): (Vec<_>, _) =
+                pending.into_iter().partition(|(_, [_, last])| has_ended(last));
+            ended.iter().for_each(|(stage, events)| add(&mut self.total, *stage, duration(events)));
             self.pending = running;
         }
     }
@@ -52,10 +58,10 @@ impl Clock {
     /// The time of all commands, which are waited for.
     pub(crate) fn timings(&self) -> StageTimings {
         let mut total = self.total;
-        for (stage, event) in &self.pending {
+        for (stage, events) in &self.pending {
             // A command that failed is one that took no time.
-            if wait_for_events(&[event.raw()]).is_ok() {
-                add(&mut total, *stage, duration(event));
+            if wait_for_events(&[events[1].raw()]).is_ok() {
+                add(&mut total, *stage, duration(events));
             }
         }
         total
@@ -77,9 +83,11 @@ fn has_ended(event: &Handle) -> bool {
     get_event_info(event.raw(), CL_EVENT_COMMAND_EXECUTION_STATUS).map_or(true, |status| status.to_int() <= 0)
 }
 
-/// From start to end on the device; none for a command that failed.
-fn duration(event: &Handle) -> Duration {
-    let at =
-        |what| get_event_profiling_info(event.raw(), what).map_or(0, |nanoseconds| nanoseconds.to_ulong());
-    Duration::from_nanos(at(CL_PROFILING_COMMAND_END).saturating_sub(at(CL_PROFILING_COMMAND_START)))
+/// From the first one's start to the last one's end on the device; none for a command that failed.
+fn duration([first, last]: &[Arc<Handle>; 2]) -> Duration {
+    let at = |event: &Handle, what| get_event_profiling_info(event.raw(), what).map(|time| time.to_ulong());
+    match (at(first, CL_PROFILING_COMMAND_START), at(last, CL_PROFILING_COMMAND_END)) {
+        (Ok(start), Ok(end)) => Duration::from_nanos(end.saturating_sub(start)),
+        _ => Duration::ZERO,
+    }
 }

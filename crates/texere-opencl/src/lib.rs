@@ -22,10 +22,12 @@ mod faults;
 mod handles;
 mod kernel;
 mod per_yarn;
+mod pinned;
 mod resident;
 mod session;
 mod slot;
 mod stages;
+mod upload;
 
 pub use backend::OpenClBackend;
 pub use faults::OpenClError;

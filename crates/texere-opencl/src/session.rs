@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use opencl3::command_queue::{finish, flush};
 use texere_core::{
-    BackendError, Chunk, ControlPoint, Limits, MeshMut, MeshPiece, PaddedPoints, Plan, Ring, Session,
-    StageTimings, Traffic, Vertex, check_output,
+    BackendError, Chunk, ControlPoint, Limits, MeshMut, MeshPiece, Plan, Ring, Session, StageTimings,
+    Traffic, Vertex, YarnEnds, check_output,
 };
 
 use crate::Schedule;
@@ -22,6 +22,7 @@ use crate::per_yarn::PerYarn;
 use crate::resident::Resident;
 use crate::slot::Slot;
 use crate::stages::{Launches, PerRing, Stages, Work};
+use crate::upload::Outbox;
 
 /// One fabric on one device. Beyond [`Session`] it lends a chunk's mesh where it lies.
 ///
@@ -49,13 +50,14 @@ pub struct OpenClSession {
     plan: Arc<Plan>,
     /// What a scan cuts chunks to.
     limits: Limits,
-    points: PaddedPoints,
+    ends: YarnEnds,
     resident: Resident,
     stages: Box<dyn Stages>,
     scanned: bool,
     /// Two in flight, the one launched first in front.
     slots: [Slot; 2],
     staging: Staging,
+    outbox: Outbox,
     clock: Clock,
     traffic: Traffic,
     opened: Arc<Opened>,
@@ -80,7 +82,7 @@ impl OpenClSession {
             Schedule::PerYarn => Box::new(PerYarn::new(&opened, &plan)?),
         };
         Ok(Self {
-            points: PaddedPoints::new(&plan)?,
+            ends: YarnEnds::new(&plan)?,
             resident: Resident::new(&opened, &limits, &plan)?,
             plan,
             limits,
@@ -88,6 +90,7 @@ impl OpenClSession {
             scanned: false,
             slots: Default::default(),
             staging: Staging::default(),
+            outbox: Outbox::default(),
             clock: Clock::default(),
             traffic: Traffic::default(),
             opened,
@@ -185,17 +188,16 @@ impl OpenClSession {
 impl Session for OpenClSession {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), BackendError> {
         let started = Instant::now();
-        let padded = self.points.upload(&self.plan, first, points)?;
+        let upload = self.ends.upload(&self.plan, first, points)?;
         // What was worked out before belongs to the old points.
         self.scanned = false;
         self.slots.iter_mut().for_each(Slot::forget_results);
-        let data = &self.points.points()[padded.start as usize..padded.end as usize];
-        let offset = padded.start * size_of::<ControlPoint>() as u64;
-        let sent = self.resident.points.write(&self.opened, &self.opened.queue, offset, data, None)?;
-        self.traffic.uploaded += size_of_val(data) as u64;
-        match sent {
-            Some(event) if self.opened.profiled => self.clock.note(Stage::Upload, &event),
-            _ => self.clock.add(Stage::Upload, started.elapsed()),
+        let Self { opened, resident, outbox, clock, traffic, .. } = self;
+        outbox.send(opened, &mut resident.points, &upload, &mut Meter { clock, traffic })?;
+        self.ends.keep(&upload);
+        if !self.opened.profiled {
+            finish(self.opened.queue.raw()).map_err(self.opened.failed("clFinish"))?;
+            self.clock.add(Stage::Upload, started.elapsed());
         }
         Ok(())
     }

@@ -8,6 +8,7 @@ use wgpu::{BufferAsyncError, CommandEncoder, MapMode, SubmissionIndex};
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
 /// Work under way after which the start of a buffer is mapped.
+#[derive(Debug)]
 pub(crate) struct Mapped {
     submission: SubmissionIndex,
     answer: Receiver<Result<(), BufferAsyncError>>,

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere_core::{
-    BackendError, Chunk, ControlPoint, Limits, MeshPiece, PaddedPoints, Plan, Ring, Session, StageTimings,
-    Traffic,
+    BackendError, Chunk, ControlPoint, Limits, MeshPiece, Plan, Ring, Session, StageTimings, Traffic,
+    YarnEnds,
 };
 
 use crate::Schedule;
@@ -17,7 +17,7 @@ use crate::device::Opened;
 use crate::per_yarn;
 use crate::readback::Readback;
 use crate::stages::{Stage, Stages};
-use crate::upload;
+use crate::upload::Outbox;
 
 /// One fabric on one wgpu device: a [`Session`] that lends its buffers besides.
 ///
@@ -44,11 +44,12 @@ pub struct WgpuSession {
     /// What a scan cuts chunks to.
     limits: Limits,
     plan: Arc<Plan>,
-    points: PaddedPoints,
+    ends: YarnEnds,
     scanned: bool,
     tables: Tables,
     /// Two in flight, the one launched first in front.
     slots: [Slot; 2],
+    outbox: Outbox,
     readback: Readback,
     /// Read by [`Session::timings`], which takes what has come in.
     clock: RefCell<Clock>,
@@ -66,10 +67,11 @@ impl WgpuSession {
         // Tables first: a device that can't hold the points says so before the host makes room for them.
         let tables = Tables::new(gpu, &plan)?;
         Ok(Self {
-            points: PaddedPoints::new(&plan)?,
+            ends: YarnEnds::new(&plan)?,
             scanned: false,
             tables,
             slots: [Slot::new(gpu)?, Slot::new(gpu)?],
+            outbox: Outbox::default(),
             readback: Readback::new(gpu)?,
             clock: RefCell::new(Clock::new(gpu)?),
             upload_time: Duration::ZERO,
@@ -161,19 +163,17 @@ impl WgpuSession {
 impl Session for WgpuSession {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), BackendError> {
         let start = Instant::now();
-        let padded = self.points.upload(&self.plan, first, points)?;
+        let upload = self.ends.upload(&self.plan, first, points)?;
         // What was worked out before belongs to the old points.
         self.scanned = false;
         self.slots.iter_mut().for_each(Slot::forget_results);
-        let touched =
-            self.points.points().get(padded.start as usize..padded.end as usize).unwrap_or_default();
-        let bytes: &[u8] = bytemuck::cast_slice(touched);
         let gpu = &self.opened.gpu;
-        upload::send(gpu, &self.tables.points, padded.start * size_of::<ControlPoint>() as u64, bytes)?;
+        let sent = self.outbox.send(gpu, &self.tables.points, &upload)?;
         // Hands a small copy over now, so that wgpu's own copy of the points does not wait until the first launch.
         gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
         gpu.probe()?;
-        self.uploaded += bytes.len() as u64;
+        self.ends.keep(&upload);
+        self.uploaded += sent;
         self.upload_time += start.elapsed();
         Ok(())
     }

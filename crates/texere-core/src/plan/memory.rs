@@ -1,6 +1,7 @@
 //! How much memory a plan's work takes.
 
 use super::{Block, CapRow, Limits, Plan, YarnRow};
+use crate::padded_upload::Ends;
 use crate::{PlanError, SectionPoint, Turn, Vertex};
 
 impl Plan {
@@ -9,7 +10,8 @@ impl Plan {
     /// cuts chunks smaller, tables are as large as a scan needs them, which goes by the device's limits.
     ///
     /// A backend may round each up to what its kernels read at a time, and adds parameters and time stamps, some hundred
-    /// bytes. Rings, 32 bytes each, come on top where [`Session::trajectory`](crate::Session::trajectory) is called.
+    /// bytes. The 16 MiB that wgpu maps to upload through come on top where a driver takes them from the device's memory.
+    /// Rings, 32 bytes each, come on top where [`Session::trajectory`](crate::Session::trajectory) is called.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
@@ -62,14 +64,24 @@ impl Plan {
         Ok(buffers)
     }
 
-    /// Bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes at its peak: the mesh, the padded control
-    /// points, the block table and, where any yarn turns, the rolls that a CPU keeps. The yarns, which the caller has, and
-    /// what a driver takes are not in it.
+    /// Bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes on a CPU at its peak: the mesh, the padded
+    /// control points, the block table and, where any yarn turns, the rolls. The yarns, which the caller has, are not in it.
     #[must_use]
     pub fn host_bytes(&self) -> u64 {
         let rolls = if self.needs_scan() { self.counts().rings * size_of::<Turn>() as u64 } else { 0 };
-        let blocks = self.block_count() * size_of::<Block>() as u64;
-        self.counts().bytes() + self.resident_bytes() + blocks + rolls
+        self.counts().bytes() + self.block_table_bytes() + self.resident_bytes() + rolls
+    }
+
+    /// The same on a GPU, which keeps control points and rolls itself: the mesh, the block table, and the ends of all yarns.
+    /// What a driver takes is not in it, nor the pinned memory that it gives to send and read through.
+    #[must_use]
+    pub fn host_bytes_beside_gpu(&self) -> u64 {
+        let ends = self.counts().yarns * size_of::<Ends>() as u64;
+        self.counts().bytes() + self.block_table_bytes() + ends
+    }
+
+    fn block_table_bytes(&self) -> u64 {
+        self.block_count() * size_of::<Block>() as u64
     }
 }
 

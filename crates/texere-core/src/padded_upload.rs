@@ -1,0 +1,180 @@
+//! Uploads to padded control points that lie elsewhere, such as on a GPU: what to write there, without a copy here.
+
+use std::ops::Range;
+
+use crate::padded::{overlap, renew_ends, touched};
+use crate::{BackendError, ControlPoint, Plan, zeroed};
+
+/// A yarn's first three and last two points: those that virtual ends come from. Of a short yarn some are the same.
+pub(crate) type Ends = [ControlPoint; 5];
+
+/// The ends of all yarns as last uploaded, so that virtual ends are right also after an upload of the other end alone.
+///
+/// Together with the padded points themselves, which start as zeros, this does what [`PaddedPoints`](crate::PaddedPoints)
+/// does.
+///
+/// ```
+/// use texere_core::{ControlPoint, Plan, Settings, Yarn, YarnEnds, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let yarns = yarns.build()?;
+/// let plan = Plan::new(yarns.layout().clone(), Settings::default())?; // one open yarn at x = 0, 1, 2
+/// let mut ends = YarnEnds::new(&plan)?;
+/// let upload = ends.upload(&plan, 0, yarns.points())?;
+/// assert_eq!(upload.ranges(), [0..0, 0..5, 0..0]);
+/// let mut padded = Vec::new();
+/// upload.runs(0..5, |run| padded.extend(run.iter().map(|point| point.x)));
+/// assert_eq!(padded, [-1.0, 0.0, 1.0, 2.0, 3.0]);
+/// ends.keep(&upload);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct YarnEnds {
+    ends: Vec<Ends>,
+}
+
+impl YarnEnds {
+    /// Room for the ends of all yarns of `plan`, all zero.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`].
+    pub fn new(plan: &Plan) -> Result<Self, BackendError> {
+        Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)? })
+    }
+
+    /// What an upload of `points`, the first of which is number `first` of the fabric, has to write.
+    ///
+    /// **Errors**: [`BackendError::UploadRange`] past the last control point.
+    pub fn upload<'a>(
+        &self,
+        plan: &'a Plan,
+        first: u64,
+        points: &'a [ControlPoint],
+    ) -> Result<PaddedUpload<'a>, BackendError> {
+        let yarns = touched(plan, first, points.len())?;
+        let mut upload = PaddedUpload { plan, first, points, yarns, cut: Default::default() };
+        if let Some(last) = upload.yarns.clone().last() {
+            upload.cut = [upload.yarns.start, last].map(|yarn| upload.renewed(yarn, self.ends[yarn]));
+        }
+        Ok(upload)
+    }
+
+    /// Remembers the ends of an upload that has been written.
+    ///
+    /// **Panics** for an upload to another plan that has more yarns.
+    pub fn keep(&mut self, upload: &PaddedUpload<'_>) {
+        for yarn in upload.yarns.clone() {
+            self.ends[yarn] = upload.renewed(yarn, self.ends[yarn]);
+        }
+    }
+}
+
+/// Control points on their way to where they lie padded, as [`Plan::padded_offsets`] says. Several threads may write pieces
+/// of it at once.
+#[derive(Debug)]
+pub struct PaddedUpload<'a> {
+    plan: &'a Plan,
+    first: u64,
+    points: &'a [ControlPoint],
+    yarns: Range<usize>,
+    /// Of the first yarn and the last, of which only a part may be sent.
+    cut: [Ends; 2],
+}
+
+impl PaddedUpload<'_> {
+    /// The ranges of padded points that are to be written, in order: the points sent, with the virtual ends between them,
+    /// and the first yarn's start and the last one's end where they hang on what was sent. Any may be empty.
+    #[must_use]
+    pub fn ranges(&self) -> [Range<u64>; 3] {
+        let Some(last) = self.yarns.clone().last() else { return [0..0, 0..0, 0..0] };
+        let ([front, inner, _], (from, _)) = (self.places(self.yarns.start), self.overlap(self.yarns.start));
+        let ([_, last_inner, back], (to, _)) = (self.places(last), self.overlap(last));
+        let (start, end) = (inner.start + from.start as u64, last_inner.start + to.end as u64);
+        let ([of_front, _], [_, of_back]) = (self.origins(self.yarns.start), self.origins(last));
+        // With the first of a yarn's points goes what lies before it, with the last what lies behind.
+        let (from_first, to_last) = (start == front.end, end == back.start);
+        let start = if from_first { front.start } else { start };
+        let end = if to_last { back.end } else { end };
+        let beside = |hangs: bool, range| if hangs { range } else { 0..0 };
+        [
+            beside(!from_first && !meet(&from, &of_front).is_empty(), front),
+            start..end,
+            beside(!to_last && !meet(&to, &of_back).is_empty(), back),
+        ]
+    }
+
+    /// Lends the padded points of `range`, a part of one of [`PaddedUpload::ranges`], run by run: the caller's own points
+    /// where they lie, and virtual ends. Of another range it lends what it knows.
+    pub fn runs(&self, range: Range<u64>, mut take: impl FnMut(&[ControlPoint])) {
+        let offsets = self.plan.padded_offsets();
+        let before = offsets.partition_point(|&start| start <= range.start).saturating_sub(1);
+        let yarns = before.max(self.yarns.start)..self.yarns.end;
+        for yarn in yarns.take_while(|&yarn| offsets[yarn] < range.end) {
+            let ([front, inner, back], (own, sent)) = (self.places(yarn), self.overlap(yarn));
+            let short = self.short(yarn);
+            let virtual_end = 1 + self.cut[0].len();
+            let runs = [
+                (front.start, &short[..1]),
+                (inner.start + own.start as u64, &self.points[sent]),
+                (back.start, &short[virtual_end..][..(back.end - back.start) as usize]),
+            ];
+            for (at, run) in runs {
+                let part = meet(&range, &(at..at + run.len() as u64));
+                if !part.is_empty() {
+                    take(&run[(part.start - at) as usize..(part.end - at) as usize]);
+                }
+            }
+        }
+    }
+
+    /// Where a yarn's virtual start, its points and its virtual end lie.
+    fn places(&self, yarn: usize) -> [Range<u64>; 3] {
+        let (start, end) = (self.plan.padded_offsets()[yarn], self.plan.padded_offsets()[yarn + 1]);
+        let points = start + 1..start + 1 + self.count(yarn) as u64;
+        [start..points.start, points.clone(), points.end..end]
+    }
+
+    /// Which of a yarn's points its virtual start and its virtual end come from.
+    fn origins(&self, yarn: usize) -> [Range<usize>; 2] {
+        let count = self.count(yarn);
+        if self.plan.yarn(yarn).closed { [count - 1..count, 0..3] } else { [0..2, count - 2..count] }
+    }
+
+    fn count(&self, yarn: usize) -> usize {
+        let offsets = self.plan.layout().offsets();
+        (offsets[yarn + 1] - offsets[yarn]) as usize
+    }
+
+    fn overlap(&self, yarn: usize) -> (Range<usize>, Range<usize>) {
+        overlap(self.plan, yarn, self.first, self.points.len())
+    }
+
+    /// The ends of a yarn of which `ends` are those before.
+    fn renewed(&self, yarn: usize, mut ends: Ends) -> Ends {
+        let ((own, sent), count) = (self.overlap(yarn), self.count(yarn));
+        for (end, at) in ends.iter_mut().zip([0, 1, 2, count - 2, count - 1]) {
+            if own.contains(&at) {
+                *end = self.points[sent.start + at - own.start];
+            }
+        }
+        ends
+    }
+
+    /// A padded yarn of five points with the same virtual ends.
+    fn short(&self, yarn: usize) -> [ControlPoint; 9] {
+        let ends = match yarn {
+            _ if yarn == self.yarns.start => self.cut[0],
+            _ if yarn + 1 == self.yarns.end => self.cut[1],
+            // Those between are sent whole.
+            _ => self.renewed(yarn, Ends::default()),
+        };
+        let mut padded = [ControlPoint::default(); 9];
+        padded[1..=ends.len()].copy_from_slice(&ends);
+        let closed = self.plan.yarn(yarn).closed;
+        renew_ends(if closed { &mut padded } else { &mut padded[..7] }, closed);
+        padded
+    }
+}
+
+fn meet<T: Ord + Copy>(a: &Range<T>, b: &Range<T>) -> Range<T> {
+    a.start.max(b.start)..a.end.min(b.end)
+}

@@ -1,0 +1,287 @@
+//! Control points to the device: all cores pad them into pinned memory, piece by piece, while pieces before are sent.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread;
+
+use opencl3::command_queue::{CL_NON_BLOCKING, flush};
+use opencl3::memory::CL_MAP_WRITE;
+use texere_core::{BackendError, ControlPoint, PaddedUpload};
+
+use crate::backend::Opened;
+use crate::buffers::{Buffer, Meter, wait};
+use crate::handles::Handle;
+use crate::pinned::Pinned;
+
+const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
+
+/// Up to so many points, such as an edited yarn's, go as they are: the driver's own way is as fast then.
+const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
+
+/// So do up to so many the first time: to make pinned memory takes longer than that way, and may not be wanted again.
+const FIRST_POINTS: u64 = (16 << 20) / POINT_BYTES;
+
+/// Points of a piece, so many that what one transfer costs before and after does not count. The first are shorter, so that
+/// the bus starts early.
+const PIECE_POINTS: u64 = (8 << 20) / POINT_BYTES;
+const FIRST_PIECE_POINTS: u64 = (2 << 20) / POINT_BYTES;
+
+/// Points that a core pads at a time. A multiple of them is a piece.
+const PART_POINTS: u64 = (32 << 10) / POINT_BYTES;
+
+/// Pieces that have room at once: one that is filled, one that is sent, and one that keeps either from waiting.
+const SLOTS: usize = 3;
+
+/// Pinned memory that control points are sent from, kept for the next upload.
+#[derive(Debug, Default)]
+pub(crate) struct Outbox {
+    slots: Vec<Pinned>,
+    /// Whether more than a few points have been sent.
+    used: bool,
+    /// The last command that reads them; those before it end before it.
+    last: Option<Arc<Handle>>,
+}
+
+impl Outbox {
+    /// Sends `upload` to `target` by the queue of the kernels. May return before it is there.
+    pub(crate) fn send(
+        &mut self,
+        opened: &Arc<Opened>,
+        target: &mut Buffer,
+        upload: &PaddedUpload<'_>,
+        meter: &mut Meter<'_>,
+    ) -> Result<(), BackendError> {
+        for range in upload.ranges() {
+            let count = range.end - range.start;
+            let pinned = count > if self.used { FEW_POINTS } else { FIRST_POINTS };
+            self.used |= count > FEW_POINTS;
+            let events = if pinned {
+                self.send_pieces(opened, target, upload, range)?
+            } else {
+                let mut points = Vec::with_capacity(count as usize);
+                upload.runs(range.clone(), |run| points.extend_from_slice(run));
+                let sent = target.write(opened, &opened.queue, range.start * POINT_BYTES, &points, None)?;
+                sent.into_iter().collect()
+            };
+            if let (Some(first), Some(last)) = (events.first(), events.last()) {
+                meter.sent(first, last, count * POINT_BYTES);
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives back the commands in the order that they run in.
+    fn send_pieces(
+        &mut self,
+        opened: &Arc<Opened>,
+        target: &mut Buffer,
+        upload: &PaddedUpload<'_>,
+        range: Range<u64>,
+    ) -> Result<Vec<Arc<Handle>>, BackendError> {
+        if let Some(last) = self.last.take() {
+            wait(opened, &last)?;
+        }
+        let pieces = Piece::cut(&range);
+        let largest = pieces.iter().map(|piece| piece.range.end - piece.range.start).max().unwrap_or(0);
+        let bytes = (largest * POINT_BYTES) as usize;
+        self.slots.retain(|slot| slot.bytes() >= bytes);
+        while self.slots.len() < pieces.len().min(SLOTS) {
+            self.slots.push(Pinned::new(opened, "sending control points", CL_MAP_WRITE, bytes)?);
+        }
+        let flight = Flight {
+            opened,
+            upload,
+            slots: &self.slots,
+            pieces,
+            next: AtomicU64::new(range.start),
+            end: range.end,
+            sent: Mutex::new((target, Vec::new())),
+            failed: OnceLock::new(),
+        };
+        let helpers =
+            ((range.end - range.start).div_ceil(PART_POINTS) as usize).min(rayon::current_num_threads());
+        rayon::in_place_scope(|scope| {
+            (1..helpers).for_each(|_| scope.spawn(|_| flight.run()));
+            flight.run();
+        });
+        let (_, events) = flight.sent.into_inner().unwrap_or_else(PoisonError::into_inner);
+        self.last = events.last().cloned();
+        flight.failed.into_inner().map_or(Ok(events), Err)
+    }
+}
+
+impl Drop for Outbox {
+    fn drop(&mut self) {
+        if let Some(last) = self.last.take() {
+            // Before the memory goes. Where the wait fails the device is gone.
+            let _ = opencl3::event::wait_for_events(&[last.raw()]);
+        }
+    }
+}
+
+/// Some of the points of an upload, on their way through one slot.
+#[derive(Debug)]
+struct Piece {
+    range: Range<u64>,
+    /// Whether what was in its slot before has been sent.
+    free: AtomicBool,
+    /// Parts that are still to be padded.
+    left: AtomicUsize,
+    /// The command that sends it.
+    sent: OnceLock<Arc<Handle>>,
+}
+
+impl Piece {
+    fn cut(range: &Range<u64>) -> Vec<Self> {
+        let (mut pieces, mut first, mut most) = (Vec::new(), range.start, FIRST_PIECE_POINTS);
+        while first < range.end {
+            let count = most.min(range.end - first);
+            pieces.push(Self {
+                range: first..first + count,
+                free: AtomicBool::new(pieces.len() < SLOTS),
+                left: AtomicUsize::new(count.div_ceil(PART_POINTS) as usize),
+                sent: OnceLock::new(),
+            });
+            first += count;
+            most = PIECE_POINTS.min(2 * most);
+        }
+        pieces
+    }
+}
+
+/// An upload under way. Cores take parts in order, and whoever ends a piece sends it: there is no barrier between pieces, at
+/// which cores would fall asleep.
+struct Flight<'a> {
+    opened: &'a Opened,
+    upload: &'a PaddedUpload<'a>,
+    slots: &'a [Pinned],
+    pieces: Vec<Piece>,
+    /// The first point that no core has taken.
+    next: AtomicU64,
+    end: u64,
+    /// Where to, and the commands so far: one thread at a time speaks to the driver.
+    sent: Mutex<(&'a mut Buffer, Vec<Arc<Handle>>)>,
+    /// Why it was broken off.
+    failed: OnceLock<BackendError>,
+}
+
+impl Flight<'_> {
+    /// Takes part after part until there is none.
+    fn run(&self) {
+        loop {
+            let first = self.next.fetch_add(PART_POINTS, Ordering::Relaxed);
+            if first >= self.end || self.failed.get().is_some() {
+                return;
+            }
+            if let Err(error) = self.take(first) {
+                // Of several errors the first is told.
+                let _ = self.failed.set(error);
+            }
+        }
+    }
+
+    /// Pads the part from point number `first` on, and sends its piece if it was the last of it.
+    fn take(&self, first: u64) -> Result<(), BackendError> {
+        let number = self.pieces.partition_point(|piece| piece.range.start <= first) - 1;
+        let piece = &self.pieces[number];
+        let slot = self.slots[number % self.slots.len()].aligned::<ControlPoint>()?;
+        if !self.wait_for_slot(number, first == piece.range.start)? {
+            return Ok(());
+        }
+        let part = first..piece.range.end.min(first + PART_POINTS);
+        // SAFETY: a slot has room for any piece, is mapped for as long as it is there, and takes any bits. What was in it
+        // before has been sent, and no other core has this part.
+        let padded: &mut [ControlPoint] = unsafe {
+            let start = slot.add((first - piece.range.start) as usize);
+            std::slice::from_raw_parts_mut(start, (part.end - part.start) as usize)
+        };
+        // Cores that fall asleep after the last pieces answer late for what their caches hold of them: reading those took the
+        // device up to four times as long. Past the caches with all pieces would keep it from the memory.
+        pad(self.upload, part, padded, number + self.slots.len() >= self.pieces.len());
+        if piece.left.fetch_sub(1, Ordering::AcqRel) == 1 {
+            let count = (piece.range.end - piece.range.start) as usize;
+            // SAFETY: as above; all cores are done with it.
+            self.send(piece, unsafe { std::slice::from_raw_parts(slot, count) })?;
+        }
+        Ok(())
+    }
+
+    /// Waits until the slot of piece `number` may be written; the core with its first part waits for the device. False where
+    /// another core has failed.
+    fn wait_for_slot(&self, number: usize, first_part: bool) -> Result<bool, BackendError> {
+        let piece = &self.pieces[number];
+        if let (true, Some(before)) = (first_part, number.checked_sub(self.slots.len())) {
+            // Its parts were taken before, so other cores are at them.
+            let Some(sent) = self.wait_until(|| self.pieces[before].sent.get()) else { return Ok(false) };
+            wait(self.opened, sent)?;
+            piece.free.store(true, Ordering::Release);
+        }
+        Ok(self.wait_until(|| piece.free.load(Ordering::Acquire).then_some(())).is_some())
+    }
+
+    /// Asks until there is an answer, or an error elsewhere.
+    fn wait_until<T>(&self, ask: impl Fn() -> Option<T>) -> Option<T> {
+        loop {
+            match ask() {
+                Some(answer) => return Some(answer),
+                None if self.failed.get().is_some() => return None,
+                // A matter of microseconds, but the core that works at it may have to share.
+                None => thread::yield_now(),
+            }
+        }
+    }
+
+    fn send(&self, piece: &Piece, padded: &[ControlPoint]) -> Result<(), BackendError> {
+        let mut sent = self.sent.lock().unwrap_or_else(PoisonError::into_inner);
+        let (target, events) = &mut *sent;
+        let (queue, offset) = (&self.opened.queue, piece.range.start * POINT_BYTES);
+        // SAFETY: the slot is not written again before this command has ended.
+        let event = unsafe { target.enqueue_write(queue, CL_NON_BLOCKING, offset, padded, None) };
+        let event = Arc::new(event.map_err(self.opened.failed("clEnqueueWriteBuffer"))?);
+        events.push(event.clone());
+        flush(queue.raw()).map_err(self.opened.failed("clFlush"))?;
+        // It is the only one to do so.
+        let _ = piece.sent.set(event);
+        Ok(())
+    }
+}
+
+/// Writes the padded points of `part`; past the caches where told and the processor can.
+fn pad(upload: &PaddedUpload<'_>, part: Range<u64>, padded: &mut [ControlPoint], past_caches: bool) {
+    let mut rest = padded;
+    upload.runs(part, |run| {
+        let (now, later) = std::mem::take(&mut rest).split_at_mut(run.len());
+        if past_caches {
+            stream(run, now);
+        } else {
+            now.copy_from_slice(run);
+        }
+        rest = later;
+    });
+    #[cfg(target_arch = "x86_64")]
+    if past_caches {
+        // SAFETY: every x86-64 processor has it. Until here such stores may be seen late.
+        unsafe { std::arch::x86_64::_mm_sfence() };
+    }
+}
+
+fn stream(run: &[ControlPoint], out: &mut [ControlPoint]) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{__m128, _mm_loadu_ps, _mm_stream_ps};
+        if out.as_ptr().cast::<__m128>().is_aligned() {
+            for (from, to) in run.iter().zip(out) {
+                // SAFETY: every x86-64 processor has them; a point is four f32, and the first one's place is aligned.
+                unsafe {
+                    _mm_stream_ps(
+                        std::ptr::from_mut(to).cast(),
+                        _mm_loadu_ps(std::ptr::from_ref(from).cast()),
+                    );
+                }
+            }
+            return;
+        }
+    }
+    out.copy_from_slice(run);
+}

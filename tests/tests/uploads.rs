@@ -1,0 +1,168 @@
+//! Uploads: what they write elsewhere is what `PaddedPoints` keeps, to the bit, and large ones arrive on every device.
+
+use std::ops::{ControlFlow, Range};
+use std::sync::Arc;
+
+use proptest::prelude::*;
+use texere_conformance::cases;
+use texere_core::{
+    BackendError, ControlPoint, Limits, PaddedPoints, Plan, Session, Settings, Yarn, YarnEnds, Yarns,
+};
+
+/// Yarns as counts of points and whether they are closed.
+type Counts = Vec<(usize, bool)>;
+
+/// Where points go, and the points.
+type Upload = (usize, Vec<ControlPoint>);
+
+/// Most of them tiny.
+fn yarns() -> impl Strategy<Value = Counts> {
+    let yarn = (prop_oneof![4 => 2usize..5, 2 => 5usize..12, 1 => 50usize..90], any::<bool>());
+    prop::collection::vec(yarn.prop_map(|(count, closed)| (count.max(2 + usize::from(closed)), closed)), 1..9)
+}
+
+fn plan(yarns: &[(usize, bool)]) -> Plan {
+    let mut all = Yarns::builder();
+    for &(count, closed) in yarns {
+        let points: Vec<_> = (0..count).map(|at| ControlPoint::new(at as f32, 0.0, 0.0, 0.1)).collect();
+        all.yarn(Yarn { closed, ..Yarn::default() }, &points);
+    }
+    Plan::new(all.build().unwrap().layout().clone(), Settings::default()).unwrap()
+}
+
+fn point() -> impl Strategy<Value = ControlPoint> {
+    let number = -1e6f32..1e6;
+    (number.clone(), number.clone(), number, 1e-6f32..1e6)
+        .prop_map(|(x, y, z, r)| ControlPoint::new(x, y, z, r))
+}
+
+/// Ranges among `total` points: single points, few, any.
+fn range(total: usize) -> impl Strategy<Value = Range<usize>> {
+    let length = prop_oneof![2 => Just(1usize), 2 => 1usize..4, 2 => 0usize..=total];
+    (0..total, length).prop_map(move |(first, length)| first..total.min(first + length))
+}
+
+/// A fabric, and points with where they go.
+fn uploads() -> impl Strategy<Value = (Counts, Vec<Upload>)> {
+    yarns().prop_flat_map(|yarns| {
+        let total = yarns.iter().map(|(count, _)| count).sum();
+        let upload = range(total).prop_flat_map(|range| {
+            prop::collection::vec(point(), range.len()).prop_map(move |points| (range.start, points))
+        });
+        (Just(yarns), prop::collection::vec(upload, 1..12))
+    })
+}
+
+fn bits(points: &[ControlPoint]) -> &[u32] {
+    bytemuck::cast_slice(points)
+}
+
+proptest! {
+    /// However little each piece has, memory that starts as zeros holds after each upload what `PaddedPoints` holds; what
+    /// is written beside the points sent is a virtual end that hangs on them.
+    #[test]
+    fn uploads_write_what_padded_points_keep((yarns, uploads) in uploads(), piece in 1u64..20) {
+        let plan = plan(&yarns);
+        let mut expected = PaddedPoints::new(&plan).unwrap();
+        let mut written = vec![ControlPoint::default(); expected.points().len()];
+        let mut ends = YarnEnds::new(&plan).unwrap();
+        for (first, points) in uploads {
+            let first = first as u64;
+            let touched = expected.upload(&plan, first, &points).unwrap();
+            let upload = ends.upload(&plan, first, &points).unwrap();
+            let mut sent = 0;
+            let mut before = 0;
+            for range in upload.ranges() {
+                prop_assert!(range.is_empty() || before <= range.start, "in order, and none twice");
+                before = before.max(range.end);
+                sent += range.end - range.start;
+                // Last piece first: none waits for another.
+                for start in range.clone().step_by(piece as usize).collect::<Vec<_>>().into_iter().rev() {
+                    let end = range.end.min(start + piece);
+                    let mut at = start as usize;
+                    upload.runs(start..end, |run| {
+                        written[at..at + run.len()].copy_from_slice(run);
+                        at += run.len();
+                    });
+                    prop_assert_eq!(at as u64, end);
+                }
+            }
+            ends.keep(&upload);
+            prop_assert_eq!(bits(&written), bits(expected.points()));
+            prop_assert!(sent <= touched.end - touched.start);
+            prop_assert!(points.len() != 1 || sent <= 5, "one point and both ends of a closed yarn");
+        }
+    }
+}
+
+#[test]
+fn a_point_in_the_middle_goes_alone() {
+    let (plan, points) = (plan(&[(9, false), (9, true)]), [ControlPoint::new(1.0, 2.0, 3.0, 4.0)]);
+    let ends = YarnEnds::new(&plan).unwrap();
+    let sent = |first| {
+        let ranges = ends.upload(&plan, first, &points).unwrap().ranges();
+        ranges
+            .map(|range| (range.start, range.end))
+            .into_iter()
+            .filter(|(start, end)| start < end)
+            .collect::<Vec<_>>()
+    };
+    // The open yarn is padded to 0..11, the closed one to 11..24.
+    assert_eq!(sent(4), [(5, 6)]);
+    assert_eq!(sent(0), [(0, 2)]);
+    assert_eq!(sent(1), [(0, 1), (2, 3)]);
+    assert_eq!(sent(7), [(8, 9), (10, 11)]);
+    assert_eq!(sent(8), [(9, 11)]);
+    assert_eq!(sent(9), [(11, 13), (21, 24)]);
+    assert_eq!(sent(13), [(16, 17)]);
+    assert_eq!(sent(17), [(11, 12), (20, 24)]);
+}
+
+#[test]
+fn an_upload_past_the_end_is_refused() {
+    let plan = plan(&[(3, false)]);
+    let (ends, points) = (YarnEnds::new(&plan).unwrap(), [ControlPoint::default(); 2]);
+    for (first, end) in [(2, 4), (u64::MAX, u64::MAX)] {
+        let refused = ends.upload(&plan, first, &points).map(|_| ());
+        let Err(BackendError::UploadRange { first: named, end: past, points: 3 }) = refused else {
+            panic!("{refused:?}")
+        };
+        assert_eq!((named, past), (first, end));
+    }
+    assert_eq!(ends.upload(&plan, 3, &[]).unwrap().ranges(), [0..0, 0..0, 0..0]);
+}
+
+/// Asserts that every ring of the only chunk, one for each control point, lies where `points` are.
+fn assert_holds(session: &mut dyn Session, plan: &Plan, points: &[ControlPoint], device: &str) {
+    let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
+    session.trajectory(&chunk).unwrap();
+    let mut seen = 0;
+    let flow = session.read_trajectory(&chunk, &mut |rings| {
+        for (number, (ring, point)) in (seen..).zip(rings.iter().zip(&points[seen..])) {
+            let off = (glam::Vec3::from(ring.centre) - point.position()).length();
+            assert!(off < 1e-3, "{device}, ring {number}: {ring:?} for {point:?}");
+        }
+        seen += rings.len();
+        ControlFlow::Continue(())
+    });
+    assert_eq!((flow.unwrap(), seen), (ControlFlow::Continue(()), points.len()), "{device}");
+}
+
+#[test]
+fn a_large_cloth_arrives_on_every_device_and_arrives_again() {
+    // 20 MB: more pieces than a GPU session has room for at once.
+    let yarns = cases::design("paper/815x750.toml").yarns().unwrap();
+    let settings = Settings { subdivisions: 0, ..Settings::default() };
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
+    let mut points = yarns.points().to_vec();
+    for device in texere::devices().found {
+        let mut session = texere::open(&device.name).unwrap().session(plan.clone()).unwrap();
+        session.upload(0, &points).unwrap();
+        assert_holds(&mut *session, &plan, &points, &device.name);
+        // From within one yarn to within another.
+        let end = points.len() - 7;
+        points[5..end].iter_mut().for_each(|point| point.z += 1.0);
+        session.upload(5, &points[5..end]).unwrap();
+        assert_holds(&mut *session, &plan, &points, &device.name);
+    }
+}

@@ -76,7 +76,10 @@ impl Entry {
 
 /// The backends of this workspace.
 pub const REGISTRY: &[Entry] = &[
-    Entry::exact("cpu", || vec![Ok(Arc::new(SerialBackend::new())), Ok(Arc::new(ParallelBackend::new()))]),
+    Entry::exact("cpu", || {
+        let each = ParallelBackend::each().into_iter().map(|parallel| Ok(Arc::new(parallel) as _));
+        std::iter::once(Ok(Arc::new(SerialBackend::new()) as _)).chain(each).collect()
+    }),
     Entry::exact("deferred", || vec![Ok(Arc::new(DeferredBackend::new()))]),
     Entry::near("opencl", || open_each(OpenClBackend::devices(), OpenClBackend::open)),
     Entry::near("wgpu", || open_each(WgpuBackend::devices(), WgpuBackend::open)),

@@ -95,11 +95,13 @@ proptest! {
     #[test]
     fn parallel_and_deferred_equal_serial(yarns in yarns(), settings in settings()) {
         let (mesh, trajectory) = run(&yarns, settings, Limits::NONE, &SerialBackend::new());
-        let (other, other_trajectory) = run(&yarns, settings, Limits::NONE, &ParallelBackend::new());
-        prop_assert!(bytemuck::cast_slice::<_, u8>(&mesh.vertices) == bytemuck::cast_slice::<_, u8>(&other.vertices));
-        prop_assert_eq!(&mesh.indices, &other.indices);
         let bytes = |trajectory: &Trajectory| bytemuck::cast_slice::<_, u8>(&trajectory.rings).to_vec();
-        prop_assert!(bytes(&trajectory) == bytes(&other_trajectory));
+        for device in ParallelBackend::each() {
+            let (other, other_trajectory) = run(&yarns, settings, Limits::NONE, &device);
+            prop_assert!(bytemuck::cast_slice::<_, u8>(&mesh.vertices) == bytemuck::cast_slice::<_, u8>(&other.vertices));
+            prop_assert_eq!(&mesh.indices, &other.indices);
+            prop_assert!(bytes(&trajectory) == bytes(&other_trajectory));
+        }
         let (other, other_trajectory) = run(&yarns, settings, Limits::NONE, &DeferredBackend::new());
         prop_assert!(normal_form(&mesh) == normal_form(&other));
         prop_assert!(bytes(&trajectory) == bytes(&other_trajectory));

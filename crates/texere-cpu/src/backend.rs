@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Limits, Plan, Session};
 
-use crate::parallel::Parallel;
+use crate::parallel::{Parallel, Path};
 use crate::serial::Serial;
 use crate::session::CpuSession;
 
@@ -18,6 +18,7 @@ pub struct SerialBackend {
 #[derive(Debug)]
 pub struct ParallelBackend {
     info: DeviceInfo,
+    path: Path,
 }
 
 fn info(name: &str, schedule: &str, threads: usize) -> DeviceInfo {
@@ -46,10 +47,29 @@ impl SerialBackend {
 }
 
 impl ParallelBackend {
-    /// Opens the parallel backend, which works on rayon's global pool.
+    /// Opens the parallel backend, which works on rayon's global pool, with the widest vectors that the processor has, or
+    /// those that the environment variable `TEXERE_SIMD` names.
     #[must_use]
     pub fn new() -> Self {
-        Self { info: info("cpu", "equal ranges of rings", rayon::current_num_threads()) }
+        Self::with("cpu", Path::detect())
+    }
+
+    /// Opens it once for each kind of vectors that the processor has, the widest ones last, for tests that none differs
+    /// from the others. Each one's name says which: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
+    ///
+    /// ```
+    /// use texere_core::Backend;
+    /// use texere_cpu::ParallelBackend;
+    /// assert_eq!(ParallelBackend::each()[0].info().name, "cpu/portable");
+    /// ```
+    #[must_use]
+    pub fn each() -> Vec<Self> {
+        let named = |path: Path| Self::with(&format!("cpu/{}", path.name()), path);
+        Path::available().into_iter().map(named).collect()
+    }
+
+    fn with(name: &str, path: Path) -> Self {
+        Self { info: info(name, "equal ranges of rings", rayon::current_num_threads()), path }
     }
 }
 
@@ -71,7 +91,7 @@ impl Backend for SerialBackend {
     }
 
     fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
-        Ok(Box::new(CpuSession::<Serial>::new(plan)?))
+        Ok(Box::new(CpuSession::new(Serial, plan)?))
     }
 }
 
@@ -81,6 +101,6 @@ impl Backend for ParallelBackend {
     }
 
     fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
-        Ok(Box::new(CpuSession::<Parallel>::new(plan)?))
+        Ok(Box::new(CpuSession::new(Parallel(self.path), plan)?))
     }
 }

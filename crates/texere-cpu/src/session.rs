@@ -1,7 +1,6 @@
 //! A session on the CPU: memory, order of calls and timings; the stages themselves come from [`Stages`].
 
 use std::fmt::Debug;
-use std::marker::PhantomData;
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -30,13 +29,13 @@ pub(crate) struct ChunkRings {
 }
 
 /// The two stages and the scan, one way of doing them.
-pub(crate) trait Stages: Debug + Send + 'static {
+pub(crate) trait Stages: Copy + Debug + Send + 'static {
     /// Whether `mesh` works out its rings itself.
     const FUSED: bool;
-    fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError>;
-    fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings);
+    fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError>;
+    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings);
     /// `rings` are those of `chunk`, unless fused.
-    fn mesh(work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>);
+    fn mesh(self, work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>);
 }
 
 /// A chunk in flight. Its memory serves the next chunk but one again.
@@ -65,11 +64,11 @@ pub(crate) struct CpuSession<S> {
     slots: [Slot; 2],
     timings: StageTimings,
     traffic: Traffic,
-    stages: PhantomData<S>,
+    stages: S,
 }
 
 impl<S: Stages> CpuSession<S> {
-    pub(crate) fn new(plan: Arc<Plan>) -> Result<Self, BackendError> {
+    pub(crate) fn new(stages: S, plan: Arc<Plan>) -> Result<Self, BackendError> {
         let points = PaddedPoints::new(&plan)?;
         pages::prefer_huge(points.points());
         Ok(Self {
@@ -78,7 +77,7 @@ impl<S: Stages> CpuSession<S> {
             slots: Default::default(),
             timings: StageTimings::default(),
             traffic: Traffic::default(),
-            stages: PhantomData,
+            stages,
         })
     }
 
@@ -118,7 +117,7 @@ impl<S: Stages> CpuSession<S> {
         let mut rings = std::mem::take(&mut slot.rings);
         resize("rings", &mut rings.rings, chunk.rings.into())?;
         resize("slopes", &mut rings.slopes, chunk.rings.into())?;
-        timed(&mut self.timings.trajectory, || S::trajectory(&self.work, chunk, &mut rings));
+        timed(&mut self.timings.trajectory, || self.stages.trajectory(&self.work, chunk, &mut rings));
         let slot = self.claim(chunk);
         (slot.rings, slot.has_rings) = (rings, true);
         Ok(())
@@ -161,8 +160,8 @@ impl<S: Stages> Session for CpuSession<S> {
 
     fn scan(&mut self) -> Result<(), BackendError> {
         if self.work.plan.needs_scan() {
-            let Self { work: Work { plan, points, rolls }, timings, .. } = self;
-            timed(&mut timings.scan, || S::scan(plan, points, rolls))?;
+            let Self { work: Work { plan, points, rolls }, timings, stages, .. } = self;
+            timed(&mut timings.scan, || stages.scan(plan, points, rolls))?;
         }
         self.scanned = true;
         Ok(())
@@ -216,7 +215,7 @@ impl<S: Stages> Session for CpuSession<S> {
         }
         let slot = self.claim(chunk);
         let rings = std::mem::take(&mut slot.rings);
-        timed(&mut self.timings.mesh, || S::mesh(&self.work, chunk, &rings, out));
+        timed(&mut self.timings.mesh, || self.stages.mesh(&self.work, chunk, &rings, out));
         self.claim(chunk).rings = rings;
         Ok(())
     }

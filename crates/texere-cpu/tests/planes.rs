@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
-use texere_core::{ControlPoint, Frame, Mesh, Pipeline, Yarn, Yarns};
+use texere_core::{Backend, ControlPoint, Frame, Mesh, Pipeline, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// Numbers from 0 to `below`, the same ones every time.
@@ -33,13 +33,13 @@ fn walk(dice: &mut Dice, count: usize, swapped: bool, bulges: bool) -> Vec<Contr
     points.collect()
 }
 
-fn mesh(yarns: &Yarns, subdivisions: u32, device: &dyn texere_core::Backend) -> Mesh {
+fn mesh(yarns: &Yarns, subdivisions: u32, device: &dyn Backend) -> Mesh {
     Pipeline::new(yarns).subdivisions(subdivisions).frame(Frame::RotationMinimizing).mesh(device).unwrap()
 }
 
 #[test]
 fn rolls_in_a_plane_are_those_of_the_reference() {
-    let mut dice = Dice(7);
+    let (mut dice, devices) = (Dice(7), ParallelBackend::each());
     for round in 0..60 {
         let mut yarns = Yarns::builder();
         for number in 0..8 {
@@ -51,12 +51,13 @@ fn rolls_in_a_plane_are_those_of_the_reference() {
         }
         let yarns = yarns.build().unwrap();
         for subdivisions in [0, 1, 3] {
-            let (gold, ours) = (
-                mesh(&yarns, subdivisions, &SerialBackend::new()),
-                mesh(&yarns, subdivisions, &ParallelBackend::new()),
-            );
             let bits = |mesh: &Mesh| bytemuck::cast_slice::<_, u32>(&mesh.vertices).to_vec();
-            assert!(bits(&gold) == bits(&ours), "round {round}, K = {subdivisions}");
+            let gold = bits(&mesh(&yarns, subdivisions, &SerialBackend::new()));
+            for device in &devices {
+                let name = &device.info().name;
+                let ours = bits(&mesh(&yarns, subdivisions, device));
+                assert!(gold == ours, "{name}: round {round}, K = {subdivisions}");
+            }
         }
     }
 }

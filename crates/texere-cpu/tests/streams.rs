@@ -25,14 +25,14 @@ fn yarns() -> Yarns {
 }
 
 /// Vertices and indices written from place `skew` of larger buffers on, which must stay as they were elsewhere.
-fn mesh(yarns: &Yarns, settings: Settings, skew: usize) -> (Vec<u32>, Vec<u32>) {
+fn mesh(device: &ParallelBackend, yarns: &Yarns, settings: Settings, skew: usize) -> (Vec<u32>, Vec<u32>) {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
     let chunks: Vec<_> = plan.chunks(&Limits::NONE).unwrap().collect();
     let (count, indices) = (plan.counts().vertices as usize, plan.counts().indices as usize);
     let untouched = Vertex { position: [-7.0; 3], normal: [-7.0; 3] };
     let mut vertex_room = vec![untouched; count + 2 * skew];
     let mut index_room = vec![u32::MAX; indices + 2 * skew];
-    let mut session = ParallelBackend::new().session(plan).unwrap();
+    let mut session = device.session(plan).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.scan().unwrap();
     let out =
@@ -57,13 +57,19 @@ fn streamed_meshes_equal_serial_ones_to_the_bit() {
         let settings = Settings { sides, frame, ..Settings::default() };
         let gold = Pipeline::new(&yarns).settings(settings).mesh(&SerialBackend::new()).unwrap();
         assert!(size_of_val(&gold.vertices[..]) + size_of_val(&gold.indices[..]) > 32 << 20);
-        for skew in [0, 1, 2] {
-            let (vertices, indices) = mesh(&yarns, settings, skew);
+        for (device, skew) in
+            ParallelBackend::each().iter().flat_map(|device| [0, 1, 2].map(|skew| (device, skew)))
+        {
+            let (vertices, indices) = mesh(device, &yarns, settings, skew);
+            let name = &device.info().name;
             assert!(
                 vertices == bits(&gold.vertices),
-                "vertices, {sides} sides, {skew} vertices into the buffer"
+                "{name}: vertices, {sides} sides, {skew} vertices into the buffer"
             );
-            assert!(indices == gold.indices, "indices, {sides} sides, {skew} indices into the buffer");
+            assert!(
+                indices == gold.indices,
+                "{name}: indices, {sides} sides, {skew} indices into the buffer"
+            );
         }
     }
 }
@@ -73,5 +79,7 @@ fn meshes_without_indices_stream_too() {
     let yarns = yarns();
     let settings = Settings { sides: 25, topology: Topology::None, ..Settings::default() };
     let gold = Pipeline::new(&yarns).settings(settings).mesh(&SerialBackend::new()).unwrap();
-    assert!(mesh(&yarns, settings, 1).0 == bits(&gold.vertices));
+    for device in ParallelBackend::each() {
+        assert!(mesh(&device, &yarns, settings, 1).0 == bits(&gold.vertices), "{}", device.info().name);
+    }
 }

@@ -60,23 +60,6 @@ impl Div for Avx2 {
     }
 }
 
-/// Each half's four by four values, rows for columns.
-#[inline(always)]
-fn transpose(rows: [__m256; 4]) -> [__m256; 4] {
-    // SAFETY: no pointers.
-    unsafe {
-        let [a, b, c, d] = rows;
-        let (low_ab, high_ab) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-        let (low_cd, high_cd) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
-        [
-            _mm256_shuffle_ps::<0x44>(low_ab, low_cd),
-            _mm256_shuffle_ps::<0xee>(low_ab, low_cd),
-            _mm256_shuffle_ps::<0x44>(high_ab, high_cd),
-            _mm256_shuffle_ps::<0xee>(high_ab, high_cd),
-        ]
-    }
-}
-
 /// Two points, one in each half.
 #[inline(always)]
 fn pair(low: &[f32; 4], high: &[f32; 4]) -> __m256 {
@@ -187,24 +170,63 @@ impl Vector for Avx2 {
     }
 
     #[inline(always)]
+    fn preceding_four(before: Self, here: Self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_permute2f128_ps::<0x21>(before.0, here.0) })
+    }
+
+    #[inline(always)]
     fn components(points: &[[f32; 4]]) -> [Self; 4] {
         let points = &points[..8];
         let (a, b) = (pair(&points[0], &points[4]), pair(&points[1], &points[5]));
         let (c, d) = (pair(&points[2], &points[6]), pair(&points[3], &points[7]));
-        let [a, b, c, d] = transpose([a, b, c, d]);
-        [Self(a), Self(b), Self(c), Self(d)]
+        Self::tiles([Self(a), Self(b), Self(c), Self(d)])
+    }
+
+    #[inline(always)]
+    fn tiles([a, b, c, d]: [Self; 4]) -> [Self; 4] {
+        // SAFETY: no pointers.
+        unsafe {
+            let (low_ab, high_ab) = (_mm256_unpacklo_ps(a.0, b.0), _mm256_unpackhi_ps(a.0, b.0));
+            let (low_cd, high_cd) = (_mm256_unpacklo_ps(c.0, d.0), _mm256_unpackhi_ps(c.0, d.0));
+            [
+                Self(_mm256_shuffle_ps::<0x44>(low_ab, low_cd)),
+                Self(_mm256_shuffle_ps::<0xee>(low_ab, low_cd)),
+                Self(_mm256_shuffle_ps::<0x44>(high_ab, high_cd)),
+                Self(_mm256_shuffle_ps::<0xee>(high_ab, high_cd)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn arrange<const STREAM: bool>(columns: &[f32], lines: &mut [Line]) {
+        let (first, last) = lines.split_at_mut(lines.len() / 2);
+        for ((four, first), last) in columns.chunks_exact(4 * Self::LANES).zip(first).zip(last) {
+            let (a, b) = (Self::load(four), Self::load(&four[8..]));
+            let (c, d) = (Self::load(&four[16..]), Self::load(&four[24..]));
+            let (first, last) = (first.0.as_mut_ptr(), last.0.as_mut_ptr());
+            // SAFETY: a line is two aligned vectors.
+            unsafe {
+                for (to, half) in [
+                    (first, _mm256_permute2f128_ps::<0x20>(a.0, b.0)),
+                    (first.add(8), _mm256_permute2f128_ps::<0x20>(c.0, d.0)),
+                    (last, _mm256_permute2f128_ps::<0x31>(a.0, b.0)),
+                    (last.add(8), _mm256_permute2f128_ps::<0x31>(c.0, d.0)),
+                ] {
+                    if STREAM { _mm256_stream_ps(to, half) } else { _mm256_storeu_ps(to, half) }
+                }
+            }
+        }
     }
 
     #[inline(always)]
     fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize) {
         let out = &mut out[..7 * stride + 4];
         let to = out.as_mut_ptr();
-        let [a, b, c, d] = rows;
-        let columns = transpose([a.0, b.0, c.0, d.0]);
         // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
         unsafe {
             let half = to.add(4 * stride);
-            for (lane, column) in columns.into_iter().enumerate() {
+            for (lane, Self(column)) in Self::tiles(rows).into_iter().enumerate() {
                 _mm_storeu_ps(to.add(lane * stride), _mm256_castps256_ps128(column));
                 _mm_storeu_ps(half.add(lane * stride), _mm256_extractf128_ps::<1>(column));
             }
@@ -216,11 +238,10 @@ impl Vector for Avx2 {
         let out = &mut out[..7 * stride + 8];
         let to = out.as_mut_ptr();
         let [a, b, c, d, e, f, g, h] = rows;
-        let low = transpose([a.0, b.0, c.0, d.0]);
-        let high = transpose([e.0, f.0, g.0, h.0]);
+        let (low, high) = (Self::tiles([a, b, c, d]), Self::tiles([e, f, g, h]));
         // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
         unsafe {
-            for (lane, (low, high)) in low.into_iter().zip(high).enumerate() {
+            for (lane, (Self(low), Self(high))) in low.into_iter().zip(high).enumerate() {
                 let (first, second) =
                     (_mm256_permute2f128_ps::<0x20>(low, high), _mm256_permute2f128_ps::<0x31>(low, high));
                 _mm256_storeu_ps(to.add(lane * stride), first);

@@ -11,17 +11,17 @@ use super::vertices::OVERHANG;
 
 /// Where the lines of a slice go, in order.
 #[derive(Debug)]
-struct Lines<'a> {
+pub(super) struct Lines<'a> {
     /// What lies before the first whole line, and after the last.
-    head: &'a mut [f32],
-    tail: &'a mut [f32],
-    lines: &'a mut [Line],
+    pub(super) head: &'a mut [f32],
+    pub(super) tail: &'a mut [f32],
+    pub(super) lines: &'a mut [Line],
     /// Whether lines go past the caches.
-    streams: bool,
+    pub(super) streams: bool,
 }
 
 impl<'a> Lines<'a> {
-    fn new(out: &'a mut [f32], streams: bool) -> Self {
+    pub(super) fn new(out: &'a mut [f32], streams: bool) -> Self {
         let (head, lines, tail) = bytemuck::pod_align_to_mut::<f32, Line>(out);
         Self { head, tail, lines, streams }
     }
@@ -47,13 +47,12 @@ pub(super) struct VertexLines<'a> {
 }
 
 impl<'a> VertexLines<'a> {
-    /// Scratch memory for vectors of rings that have `floats` each.
-    pub(super) fn scratch(floats: usize) -> Vec<Line> {
-        vec![Line([0.0; LINE]); 2 * (1 + (LANES_MAX * floats + OVERHANG).div_ceil(LINE))]
+    /// Lines of scratch memory for vertices of `floats` a ring.
+    pub(super) const fn scratch(floats: usize) -> usize {
+        2 * (1 + (LANES_MAX * floats + OVERHANG).div_ceil(LINE))
     }
 
-    pub(super) fn new(out: &'a mut [f32], streams: bool, scratch: &'a mut [Line]) -> Self {
-        let out = Lines::new(out, streams);
+    pub(super) fn new(out: Lines<'a>, scratch: &'a mut [Line]) -> Self {
         let end = out.head.len().wrapping_neg() % LINE;
         let (scratch, other) = scratch.split_at_mut(scratch.len() / 2);
         let (scratch, other) = (bytemuck::cast_slice_mut(scratch), bytemuck::cast_slice_mut(other));

@@ -2,6 +2,8 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 mod fill;
 mod lines;
 mod path;
@@ -11,6 +13,7 @@ mod rings;
 mod runs;
 mod scan;
 mod spline;
+mod tiles;
 mod turns;
 mod vector;
 mod vertices;
@@ -25,17 +28,19 @@ use crate::pages;
 use crate::rolls::Rolls;
 use crate::session::{ChunkRings, Stages, Work};
 pub use fill::fill;
-use lines::{IndexLines, IndexTable, VertexLines};
+use lines::{IndexLines, IndexTable, Lines, VertexLines};
 use path::Job;
 pub(crate) use path::Path;
 use rings::{Rings, Source, Stretch, Walk};
 use runs::{MeshRun, RingRun, mesh_runs, ring_runs, take};
 use spline::Places;
-use vector::{LANES_MAX, LINE, Vector};
+use tiles::TileLines;
+use vector::{LANES_MAX, LINE, Line, Vector};
 use vertices::{Surface, VERTEX};
 
-#[derive(Debug)]
-pub(crate) struct Parallel;
+/// All cores, each with the vectors of a path.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Parallel(pub(crate) Path);
 
 /// Bytes of output from which on stores go past the caches: as much as the last cache of a large processor holds.
 const STREAM_BYTES: usize = 32 << 20;
@@ -43,17 +48,17 @@ const STREAM_BYTES: usize = 32 << 20;
 impl Stages for Parallel {
     const FUSED: bool = true;
 
-    fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
-        scan::scan(plan, points, rolls)
+    fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
+        scan::scan(self.0, plan, points, rolls)
     }
 
-    fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
-        let (path, maker) = (Path::detect(), Maker::new(work));
+    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
+        let (path, maker) = (self.0, Maker::new(work));
         ring_runs(chunk, out).into_par_iter().for_each(|run| path.run(RingJob { maker: &maker, run }));
     }
 
-    fn mesh(work: &Work, chunk: &Chunk, _rings: &ChunkRings, mut out: MeshMut<'_>) {
-        let (settings, path) = (work.plan.settings(), Path::detect());
+    fn mesh(self, work: &Work, chunk: &Chunk, _rings: &ChunkRings, mut out: MeshMut<'_>) {
+        let (settings, path) = (work.plan.settings(), self.0);
         let indexed = settings.topology == Topology::Indexed;
         pages::prefer_huge(out.vertices);
         pages::prefer_huge(out.indices);
@@ -160,23 +165,33 @@ impl Job for MeshJob<'_> {
         let Self { maker, table, streams, run } = self;
         let plan = &maker.work.plan;
         let sides = plan.settings().sides as usize;
-        let mut scratch = VertexLines::scratch(sides * VERTEX);
+        let floats = sides * VERTEX;
+        let room = VertexLines::scratch(floats).max(TileLines::scratch(floats));
+        let mut scratch = vec![Line([0.0; LINE]); room];
         let (mut vertices_left, mut indices_left) = (run.vertices, run.indices);
         let mut number = run.first_block;
         for blocks in run.blocks.chunk_by(|a, b| a.yarn == b.yarn) {
             let rings: usize = blocks.iter().map(|block| block.rings as usize).sum();
             let quads: usize = blocks.iter().map(|block| block.quads as usize).sum();
             let own: &mut [Vertex] = take(&mut vertices_left, rings * sides);
-            let vertices = VertexLines::new(bytemuck::cast_slice_mut(own), streams, &mut scratch);
+            let out = Lines::new(bytemuck::cast_slice_mut(own), streams);
+            let vertices = if TileLines::fit(&out, floats) {
+                Way::Tiles(TileLines::new(out, floats, &mut scratch))
+            } else {
+                Way::Scratch(VertexLines::new(out, &mut scratch))
+            };
             let indices = table.map(|table| {
                 let own = take(&mut indices_left, quads * sides * 6);
                 IndexLines::new(own, streams, table, blocks[0].first_vertex)
             });
             let section = plan.yarn(blocks[0].yarn as usize).section as usize;
             let surface = Surface::new(plan.outline(section));
-            let mut sink = MeshSink { surface, floats: sides * VERTEX, vertices, indices };
+            let mut sink = MeshSink { surface, floats, vertices, indices };
             maker.rings::<V>(blocks, number, &mut sink);
-            sink.vertices.finish::<V>();
+            match sink.vertices {
+                Way::Tiles(tiles) => tiles.finish::<V>(),
+                Way::Scratch(lines) => lines.finish::<V>(),
+            }
             if let Some(indices) = sink.indices {
                 indices.finish::<V>();
             }
@@ -191,18 +206,32 @@ struct MeshSink<'a> {
     surface: Surface<'a>,
     /// Floats of the vertices of a ring, as many as it has indices.
     floats: usize,
-    vertices: VertexLines<'a>,
+    vertices: Way<'a>,
     indices: Option<IndexLines<'a>>,
 }
 
 impl Sink for MeshSink<'_> {
     #[inline(always)]
     fn take<V: Vector>(&mut self, rings: &Rings<V>, _roll: V::Whole, count: usize) {
-        self.vertices.send_waiting::<V>();
-        self.surface.write(rings, self.vertices.next());
-        self.vertices.send::<V>(count * self.floats);
+        match &mut self.vertices {
+            Way::Tiles(tiles) => {
+                self.surface.write_columns(rings, tiles.next::<V>());
+                tiles.send::<V>(count);
+            }
+            Way::Scratch(lines) => {
+                lines.send_waiting::<V>();
+                self.surface.write(rings, lines.next());
+                lines.send::<V>(count * self.floats);
+            }
+        }
         if let Some(indices) = &mut self.indices {
             indices.send::<V>(V::LANES * self.floats / LINE);
         }
     }
+}
+
+/// How vertices get to their lines.
+enum Way<'a> {
+    Tiles(TileLines<'a>),
+    Scratch(VertexLines<'a>),
 }

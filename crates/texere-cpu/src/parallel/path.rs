@@ -12,6 +12,9 @@ pub(crate) enum Path {
     /// x86-64 with AVX2.
     #[cfg(target_arch = "x86_64")]
     Avx2,
+    /// x86-64 with AVX-512, its parts F and DQ.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
 }
 
 /// Work that is written once for all vectors.
@@ -33,12 +36,16 @@ impl Path {
     }
 
     /// The paths that this processor has, the best one last.
-    fn available() -> Vec<Self> {
+    pub(crate) fn available() -> Vec<Self> {
         #[allow(unused_mut, reason = "other processors have the portable path alone")]
         let mut paths = vec![Self::Portable];
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") {
             paths.push(Self::Avx2);
+        }
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512dq") {
+            paths.push(Self::Avx512);
         }
         paths
     }
@@ -48,6 +55,8 @@ impl Path {
             Self::Portable => "portable",
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => "avx512",
         }
     }
 
@@ -57,6 +66,9 @@ impl Path {
             // SAFETY: `detect` gives this path only where the processor has AVX2.
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => unsafe { avx2(job) },
+            // SAFETY: and this one only where it has AVX-512 F and DQ.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => unsafe { avx512(job) },
         }
     }
 }
@@ -65,4 +77,10 @@ impl Path {
 #[target_feature(enable = "avx2")]
 fn avx2(job: impl Job) {
     job.run::<super::avx2::Avx2>();
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq")]
+fn avx512(job: impl Job) {
+    job.run::<super::avx512::Avx512>();
 }

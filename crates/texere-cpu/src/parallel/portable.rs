@@ -126,9 +126,25 @@ impl Vector for Portable {
     }
 
     #[inline(always)]
+    fn preceding_four(before: Self, _here: Self) -> Self {
+        before
+    }
+
+    #[inline(always)]
     fn components(points: &[[f32; 4]]) -> [Self; 4] {
         let points = &points[..4];
         each(|component| Self(each(|lane| points[lane][component])))
+    }
+
+    #[inline(always)]
+    fn tiles(rows: [Self; 4]) -> [Self; 4] {
+        each(|lane| Self(each(|row| rows[row].0[lane])))
+    }
+
+    #[inline(always)]
+    fn arrange<const STREAM: bool>(columns: &[f32], lines: &mut [Line]) {
+        let (columns, _) = columns.as_chunks::<LINE>();
+        lines.iter_mut().zip(columns).for_each(|(line, four)| line.0 = *four);
     }
 
     #[inline(always)]

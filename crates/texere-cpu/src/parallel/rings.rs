@@ -60,6 +60,8 @@ pub(super) struct Walk<'a, V> {
     pub(super) done: u32,
     interval: usize,
     place: usize,
+    /// By how many intervals and places a vector goes on.
+    stride: (usize, usize),
     /// The cubics of the intervals from number `first_cubic` on.
     cubics: Cubics<V>,
     first_cubic: usize,
@@ -79,6 +81,7 @@ impl<'a, V: Vector> Walk<'a, V> {
             done: 0,
             interval,
             place: stretch.first as usize % per_interval,
+            stride: (V::LANES / per_interval, V::LANES % per_interval),
             cubics: Cubics::new(points, interval, plan.sampling().s()),
             first_cubic: interval,
         }
@@ -108,8 +111,10 @@ impl<'a, V: Vector> Walk<'a, V> {
         }
 
         self.done += self.left() as u32;
-        self.place += V::LANES;
-        while self.place >= places.0.len() {
+        let (intervals, place) = self.stride;
+        self.interval += intervals;
+        self.place += place;
+        if self.place >= places.0.len() {
             self.place -= places.0.len();
             self.interval += 1;
         }
@@ -139,7 +144,7 @@ const FIELDS: usize = 14;
 
 /// The fields of a vector of rings in memory. They are aligned as vectors are, so that a compiler that finds them on the stack
 /// aligns the stack, and with it all vectors that it puts there for want of registers.
-#[repr(align(32))]
+#[repr(align(64))]
 struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
 impl<V: Vector> Rings<V> {

@@ -19,12 +19,17 @@ const RUN_BLOCKS: u32 = 64;
 /// Their rings.
 const RUN_RINGS: u32 = RUN_BLOCKS * BLOCK_RINGS;
 
-pub(super) fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
+pub(super) fn scan(
+    path: Path,
+    plan: &Plan,
+    points: &PaddedPoints,
+    rolls: &mut Rolls,
+) -> Result<(), BackendError> {
     let Rolls { at_block, in_block, whole } = rolls;
     resize("rolls", at_block, plan.block_count())?;
     // A vector may reach past the last ring.
     resize("rolls", in_block, plan.counts().rings + LANES_MAX as u64)?;
-    let (path, places) = (Path::detect(), Places::new(plan));
+    let places = Places::new(plan);
     let source = Source { plan, points, places: &places };
     runs(plan, at_block, in_block).into_par_iter().for_each(|run| path.run(ScanRun { source, run }));
     whole.clear();

@@ -80,8 +80,18 @@ pub(super) trait Vector:
     /// Lane l is lane l - 1 of `here`, the first one the last of `before`.
     fn preceding(before: Self, here: Self) -> Self;
 
+    /// The same by four lanes.
+    fn preceding_four(before: Self, here: Self) -> Self;
+
     /// The four components of `LANES` points.
     fn components(points: &[[f32; 4]]) -> [Self; 4];
+
+    /// Tiles of four by four values, transposed: lane 4j + c of column q is lane 4j + q of row c.
+    fn tiles(rows: [Self; 4]) -> [Self; 4];
+
+    /// Makes lines of columns: with n lines for every four lanes, line jn + i becomes lanes 4j to 4j + 3 of columns 4i to
+    /// 4i + 3. They go past the caches if `STREAM` says so and the processor can.
+    fn arrange<const STREAM: bool>(columns: &[f32], lines: &mut [Line]);
 
     /// Stores lane l of row r at `out[l * stride + r]`.
     fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize);

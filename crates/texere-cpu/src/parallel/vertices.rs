@@ -28,15 +28,27 @@ impl<'a> Surface<'a> {
     /// Writes the vertices of `rings` to `out`, ring after ring.
     #[inline(always)]
     pub(super) fn write<V: Vector>(&self, rings: &Rings<V>, out: &mut [f32]) {
+        self.write_as::<V, false>(rings, out);
+    }
+
+    /// Writes the vertices of `rings` to `out` as the columns that [`TileLines`](super::tiles::TileLines) wants: of an even
+    /// number of sides.
+    #[inline(always)]
+    pub(super) fn write_columns<V: Vector>(&self, rings: &Rings<V>, out: &mut [f32]) {
+        self.write_as::<V, true>(rings, out);
+    }
+
+    #[inline(always)]
+    fn write_as<V: Vector, const COLUMNS: bool>(&self, rings: &Rings<V>, out: &mut [f32]) {
         if V::bits(rings.slope.is_zero()) != V::ALL {
-            vertices::<V, SLOPED>(rings, self.outline, out);
+            vertices::<V, SLOPED, COLUMNS>(rings, self.outline, out);
         } else if !self.round {
-            vertices::<V, PLAIN>(rings, self.outline, out);
-        } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
+            vertices::<V, PLAIN, COLUMNS>(rings, self.outline, out);
+        } else if COLUMNS && let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
             // The paper's tube has loops and strides known beforehand.
-            vertices::<V, ROUND>(rings, outline, out);
+            vertices::<V, ROUND, COLUMNS>(rings, outline, out);
         } else {
-            vertices::<V, ROUND>(rings, self.outline, out);
+            vertices::<V, ROUND, COLUMNS>(rings, self.outline, out);
         }
     }
 }
@@ -48,10 +60,41 @@ const PLAIN: u8 = 1;
 /// Nor do the section's normals differ from its points.
 const ROUND: u8 = 2;
 
+#[inline(always)]
+fn vertices<V: Vector, const KIND: u8, const COLUMNS: bool>(
+    rings: &Rings<V>,
+    outline: &[SectionPoint],
+    out: &mut [f32],
+) {
+    if COLUMNS {
+        columns::<V, KIND>(rings, outline, out);
+    } else {
+        scattered::<V, KIND>(rings, outline, out);
+    }
+}
+
+/// All vertices of `rings` in columns. A column has the same four floats of every fourth ring; first come those of ring 0,
+/// from its first floats to its last, then those of ring 1.
+#[inline(always)]
+fn columns<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
+    let (pairs, _) = outline.as_chunks::<2>();
+    let quarters = 3 * pairs.len();
+    let out = &mut out[..4 * quarters * V::LANES];
+    for (number, [one, two]) in pairs.iter().enumerate() {
+        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, one);
+        let [g, h, i, j, k, l] = vertex::<V, KIND>(rings, two);
+        for (part, rows) in [[a, b, c, d], [e, f, g, h], [i, j, k, l]].into_iter().enumerate() {
+            for (ring, column) in V::tiles(rows).into_iter().enumerate() {
+                column.store(&mut out[(ring * quarters + 3 * number + part) * V::LANES..]);
+            }
+        }
+    }
+}
+
 /// All vertices of `rings`, the last ones first: a store that reaches over the end of its ring is then followed by the next
 /// ring's own.
 #[inline(always)]
-fn vertices<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
+fn scattered<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;
     let out = &mut out[..V::LANES * stride + OVERHANG];
     let (fours, rest) = outline.as_chunks::<4>();

@@ -9,22 +9,22 @@ use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan};
 use crate::rolls::Rolls;
 use crate::session::{ChunkRings, Stages, Work};
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Serial;
 
 impl Stages for Serial {
     const FUSED: bool = false;
 
-    fn scan(plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
+    fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
         *rolls = scan::scan(plan, points);
         Ok(())
     }
 
-    fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
+    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
         trajectory::trajectory(work, chunk, out);
     }
 
-    fn mesh(work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>) {
+    fn mesh(self, work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>) {
         mesh::mesh(work, chunk, rings, out);
     }
 }

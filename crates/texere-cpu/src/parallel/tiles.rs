@@ -1,0 +1,128 @@
+//! Vertices that become whole lines in registers, where rings start at quarters of lines: with an even number of sides, in
+//! memory aligned to 16 bytes.
+//!
+//! Four rings are then as many lines as a ring has quarters. [`Surface`](super::vertices::Surface) gives a column for each
+//! quarter of four rings, in which the same quarters of the four rings after them, and so on, lie side by side; quarters of
+//! four columns in a row are lines. Columns pass through memory, aligned and read as they were stored, so that they need not
+//! wait for the lines before them, which are slow to go past the caches.
+
+use super::lines::Lines;
+use super::runs::take;
+use super::vector::{LANES_MAX, LINE, Line, Vector};
+
+/// Floats of a quarter of a line.
+const QUARTER: usize = 4;
+
+/// Columns of the rings before that may be needed for the first lines: a line less a quarter.
+const BEFORE: usize = LINE / QUARTER - 1;
+
+/// Vertices on their way, a vector of rings at a time.
+#[derive(Debug)]
+pub(super) struct TileLines<'a> {
+    out: Lines<'a>,
+    /// The last ones of the rings before, then one for each quarter of four rings.
+    columns: &'a mut [f32],
+    /// Lines that do not lie in the output as a whole.
+    edge: &'a mut [Line],
+    /// Quarters of a ring.
+    quarters: usize,
+    /// Quarters by which the first ring starts after a line does.
+    shift: usize,
+    /// Whether the first rings are still to come.
+    starts: bool,
+}
+
+impl<'a> TileLines<'a> {
+    /// Whether vertices of `floats` a ring are quarters of the lines of `out`.
+    pub(super) fn fit(out: &Lines<'_>, floats: usize) -> bool {
+        floats.is_multiple_of(QUARTER) && out.head.len().is_multiple_of(QUARTER)
+    }
+
+    pub(super) fn new(out: Lines<'a>, floats: usize, scratch: &'a mut [Line]) -> Self {
+        let shift = out.head.len().wrapping_neg() % LINE / QUARTER;
+        let (columns, edge) = scratch.split_at_mut(BEFORE + floats);
+        let columns = bytemuck::cast_slice_mut(columns);
+        Self { out, columns, edge, quarters: floats / QUARTER, shift, starts: true }
+    }
+
+    /// Lines of scratch memory for vertices of `floats` a ring.
+    pub(super) const fn scratch(floats: usize) -> usize {
+        (BEFORE + floats) + floats * LANES_MAX / LINE
+    }
+
+    /// Where the columns of the next rings go.
+    #[inline(always)]
+    pub(super) fn next<V: Vector>(&mut self) -> &mut [f32] {
+        &mut self.columns[BEFORE * V::LANES..]
+    }
+
+    /// Sends the lines of `count` rings whose columns have been written.
+    #[inline(always)]
+    pub(super) fn send<V: Vector>(&mut self, count: usize) {
+        let (before, here) = self.columns.split_at_mut(BEFORE * V::LANES);
+        let last = &here[(4 * self.quarters - BEFORE) * V::LANES..][..BEFORE * V::LANES];
+        for (before, last) in before.chunks_exact_mut(V::LANES).zip(last.chunks_exact(V::LANES)) {
+            // What comes before ring 0 is of the rings before; what comes before ring 4 is of ring 3.
+            V::preceding_four(V::load(before), V::load(last)).store(before);
+        }
+
+        if self.starts || count < V::LANES {
+            self.send_edge::<V>(count);
+        } else {
+            let lines = take(&mut self.out.lines, self.quarters * V::LANES / QUARTER);
+            let columns = &self.columns[(BEFORE - self.shift) * V::LANES..];
+            if self.out.streams {
+                V::arrange::<true>(columns, lines);
+            } else {
+                V::arrange::<false>(columns, lines);
+            }
+        }
+
+        let (before, here) = self.columns.split_at_mut(BEFORE * V::LANES);
+        let last = &here[(4 * self.quarters - BEFORE) * V::LANES..][..BEFORE * V::LANES];
+        for (before, last) in before.chunks_exact_mut(V::LANES).zip(last.chunks_exact(V::LANES)) {
+            V::load(last).store(before);
+        }
+    }
+
+    /// The same for the first rings, and for the last ones where they are no full vector.
+    #[inline(always)]
+    fn send_edge<V: Vector>(&mut self, count: usize) {
+        let lines = self.quarters * V::LANES / QUARTER;
+        let columns = &self.columns[(BEFORE - self.shift) * V::LANES..];
+        V::arrange::<false>(columns, &mut self.edge[..lines]);
+        let mut floats: &[f32] = bytemuck::cast_slice(&self.edge[..lines]);
+        // What fills no line is sent with the rings that follow, if any do.
+        let mut left = (self.shift + count * self.quarters) * QUARTER;
+        if self.starts {
+            self.starts = false;
+            if self.shift > 0 {
+                self.out.head.copy_from_slice(&floats[self.shift * QUARTER..LINE]);
+                (floats, left) = (&floats[LINE..], left - LINE);
+            }
+        }
+        let (whole, rest) = floats[..left.min(floats.len())].as_chunks::<LINE>();
+        let to = take(&mut self.out.lines, whole.len());
+        for (to, from) in to.iter_mut().zip(whole) {
+            if self.out.streams {
+                V::stream(from, to);
+            } else {
+                to.0 = *from;
+            }
+        }
+        if !rest.is_empty() {
+            std::mem::take(&mut self.out.tail).copy_from_slice(rest);
+        }
+    }
+
+    /// Sends the rest.
+    #[inline(always)]
+    pub(super) fn finish<V: Vector>(self) {
+        // The last lanes of the last columns, unless less than a vector came last.
+        let last = &self.columns[(BEFORE - self.shift) * V::LANES..BEFORE * V::LANES];
+        let (tail, _) = self.out.tail.as_chunks_mut::<QUARTER>();
+        for (to, from) in tail.iter_mut().zip(last.chunks_exact(V::LANES)) {
+            to.copy_from_slice(&from[V::LANES - QUARTER..]);
+        }
+    }
+}

@@ -1,7 +1,8 @@
-//! Makes a small cloth or its mesh some times over, for a count of instructions: `instructions KIND TIMES`.
+//! Makes a cloth or its mesh some times over, for a count of instructions: `instructions KIND TIMES`.
 //!
-//! KIND is a mesh, `upright`, `minimizing` with its scan, `bare` without indices, or `shared` with those of one pattern; or
-//! control points, `crossing` with one a crossing, or `round`. It prints how many rings, or control points, there are.
+//! KIND is a mesh, `upright`, `minimizing` with its scan, `bare` without indices, or `streamed`, upright and too large for
+//! any cache; or control points, `crossing` with one a crossing, or `round`. It prints how many rings, or control points,
+//! there are.
 
 use std::error::Error;
 
@@ -10,6 +11,10 @@ use texere_bench::{paper_cloth, plan, session};
 use texere_core::MeshMut;
 use texere_cpu::ParallelBackend;
 
+/// Threads of a cloth whose mesh stays in the caches, and of one whose mesh goes past them.
+const SMALL: (usize, usize) = (60, 60);
+const LARGE: (usize, usize) = (240, 240);
+
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<_> = std::env::args().skip(1).collect();
     let [kind, times] = arguments.as_slice() else {
@@ -17,10 +22,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let times = times.parse()?;
     let made = match kind.as_str() {
-        "upright" => mesh(Settings::default(), times)?,
-        "minimizing" => mesh(Settings { frame: Frame::RotationMinimizing, ..Settings::default() }, times)?,
-        "bare" => mesh(Settings { topology: Topology::None, ..Settings::default() }, times)?,
-        "shared" => mesh(Settings { topology: Topology::Shared, ..Settings::default() }, times)?,
+        "upright" => mesh(SMALL, Settings::default(), times)?,
+        "minimizing" => {
+            mesh(SMALL, Settings { frame: Frame::RotationMinimizing, ..Settings::default() }, times)?
+        }
+        "bare" => mesh(SMALL, Settings { topology: Topology::None, ..Settings::default() }, times)?,
+        "streamed" => mesh(LARGE, Settings::default(), times)?,
         "crossing" => generate(Shape::Crossing, times)?,
         "round" => generate(Shape::Round, times)?,
         _ => return Err(format!("there is no kind {kind}").into()),
@@ -40,8 +47,8 @@ fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
 }
 
 /// Rings of one mesh.
-fn mesh(settings: Settings, times: u32) -> Result<u64, Box<dyn Error>> {
-    let yarns = paper_cloth(60, 60)?.yarns()?;
+fn mesh((ends, picks): (usize, usize), settings: Settings, times: u32) -> Result<u64, Box<dyn Error>> {
+    let yarns = paper_cloth(ends, picks)?.yarns()?;
     let (plan, chunks) = plan(&yarns, settings)?;
     let mut session = session(&ParallelBackend::new(), &plan, &yarns)?;
     let mut vertices = texere_core::zeroed("vertices", chunks[0].vertices.into())?;

@@ -53,12 +53,13 @@ fn bits(vertices: &[Vertex]) -> Vec<u32> {
 #[test]
 fn streamed_meshes_equal_serial_ones_to_the_bit() {
     let yarns = yarns();
-    for (sides, frame) in [(12, Frame::Upright), (13, Frame::RotationMinimizing)] {
-        let settings = Settings { sides, frame, ..Settings::default() };
+    let cases = [(6, Frame::Upright, 3), (12, Frame::Upright, 1), (13, Frame::RotationMinimizing, 1)];
+    for (sides, frame, subdivisions) in cases {
+        let settings = Settings { sides, frame, subdivisions, ..Settings::default() };
         let gold = Pipeline::new(&yarns).settings(settings).mesh(&SerialBackend::new()).unwrap();
         assert!(size_of_val(&gold.vertices[..]) + size_of_val(&gold.indices[..]) > 32 << 20);
         for (device, skew) in
-            ParallelBackend::each().iter().flat_map(|device| [0, 1, 2].map(|skew| (device, skew)))
+            ParallelBackend::each().iter().flat_map(|device| [0, 1, 2, 4, 6].map(|skew| (device, skew)))
         {
             let (vertices, indices) = mesh(device, &yarns, settings, skew);
             let name = &device.info().name;

@@ -33,9 +33,10 @@ pub(super) struct TileLines<'a> {
 }
 
 impl<'a> TileLines<'a> {
-    /// Whether vertices of `floats` a ring are quarters of the lines of `out`.
+    /// Whether vertices of `floats` a ring are quarters of the lines of `out`, and go past the caches: lines that do not are
+    /// better written in order.
     pub(super) fn fit(out: &Lines<'_>, floats: usize) -> bool {
-        floats.is_multiple_of(QUARTER) && out.head.len().is_multiple_of(QUARTER)
+        out.streams && floats.is_multiple_of(QUARTER) && out.head.len().is_multiple_of(QUARTER)
     }
 
     pub(super) fn new(out: Lines<'a>, floats: usize, scratch: &'a mut [Line]) -> Self {
@@ -71,11 +72,7 @@ impl<'a> TileLines<'a> {
         } else {
             let lines = take(&mut self.out.lines, self.quarters * V::LANES / QUARTER);
             let columns = &self.columns[(BEFORE - self.shift) * V::LANES..];
-            if self.out.streams {
-                V::arrange::<true>(columns, lines);
-            } else {
-                V::arrange::<false>(columns, lines);
-            }
+            V::arrange::<true>(columns, lines);
         }
 
         let (before, here) = self.columns.split_at_mut(BEFORE * V::LANES);
@@ -104,11 +101,7 @@ impl<'a> TileLines<'a> {
         let (whole, rest) = floats[..left.min(floats.len())].as_chunks::<LINE>();
         let to = take(&mut self.out.lines, whole.len());
         for (to, from) in to.iter_mut().zip(whole) {
-            if self.out.streams {
-                V::stream(from, to);
-            } else {
-                to.0 = *from;
-            }
+            V::stream(from, to);
         }
         if !rest.is_empty() {
             std::mem::take(&mut self.out.tail).copy_from_slice(rest);

@@ -44,7 +44,7 @@ impl<'a> Surface<'a> {
             vertices::<V, SLOPED, COLUMNS>(rings, self.outline, out);
         } else if !self.round {
             vertices::<V, PLAIN, COLUMNS>(rings, self.outline, out);
-        } else if COLUMNS && let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
+        } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
             // The paper's tube has loops and strides known beforehand.
             vertices::<V, ROUND, COLUMNS>(rings, outline, out);
         } else {

@@ -212,3 +212,18 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
         assert!(bytemuck::cast_slice::<Vertex, u8>(&before) != bytemuck::cast_slice::<Vertex, u8>(&fresh));
     }
 }
+
+#[test]
+fn sixteen_bits_hold_all_shared_indices_or_there_are_none() {
+    // More gaps than the pattern covers, so that its highest index goes by the sides alone.
+    let yarns = winding(5_000, Yarn::default());
+    for (sides, fit) in [(6, true), (7, true), (8, false), (12, false)] {
+        let settings = Settings { sides, topology: Topology::Shared, ..Settings::default() };
+        let plan = Pipeline::new(&yarns).settings(settings).plan().unwrap();
+        let wide = plan.shared_indices();
+        assert_eq!(wide.iter().all(|index| *index < 1 << 16), fit, "{sides} sides");
+        let narrow = plan.shared_indices_u16();
+        assert_eq!(narrow.is_some(), fit, "{sides} sides");
+        assert!(narrow.is_none_or(|narrow| narrow.into_iter().map(u32::from).eq(wide)), "{sides} sides");
+    }
+}

@@ -44,6 +44,8 @@ impl YarnEnds {
     /// What an upload of `points`, the first of which is number `first` of the fabric, has to write.
     ///
     /// **Errors**: [`BackendError::UploadRange`] past the last control point.
+    ///
+    /// **Panics** for another plan that has more yarns.
     pub fn upload<'a>(
         &self,
         plan: &'a Plan,

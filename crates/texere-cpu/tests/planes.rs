@@ -38,6 +38,26 @@ fn mesh(yarns: &Yarns, subdivisions: u32, device: &dyn Backend) -> Mesh {
 }
 
 #[test]
+fn the_last_ring_of_a_closed_yarn_stands_still_where_what_follows_is_far_away() {
+    // All goes on along y from ring 64, where a block starts, to the last ring, which is ring 0 again. But the point after the
+    // next one is so far out that by its measure the first ring, and the last, have no velocity.
+    let mut points: Vec<_> = (0..80).map(|k| [0.0, 0.001 * (k as f32 - 80.0), 0.0]).collect();
+    (points[0], points[1], points[2]) = ([0.0; 3], [0.0, 0.001, 0.0], [2000.0, 0.0, 2000.0]);
+    for (k, point) in points.iter_mut().enumerate().take(63).skip(3) {
+        let rest = 1.0 - k as f32 / 63.0;
+        *point = [2000.0 * rest, -1.0, 2000.0 * rest];
+    }
+    let points: Vec<_> = points.into_iter().map(|[x, y, z]| ControlPoint::new(x, y, z, 0.1)).collect();
+    let mut yarns = Yarns::builder();
+    yarns.yarn(Yarn { closed: true, ..Yarn::default() }, &points);
+    let yarns = yarns.build().unwrap();
+    let gold = mesh(&yarns, 0, &SerialBackend::new());
+    for device in ParallelBackend::each() {
+        assert!(mesh(&yarns, 0, &device).vertices == gold.vertices, "{}", device.info().name);
+    }
+}
+
+#[test]
 fn rolls_in_a_plane_are_those_of_the_reference() {
     let (mut dice, devices) = (Dice(7), ParallelBackend::each());
     for round in 0..60 {

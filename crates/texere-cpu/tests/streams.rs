@@ -8,7 +8,7 @@ use texere_core::{
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 
-/// A long coil, one with a growing radius and a closed one: 60,000 rings with one point inserted.
+/// Two short coils, a long one, one with a growing radius and a closed one: 60,000 rings with one point inserted.
 fn yarns() -> Yarns {
     let coil = |count: usize, growth: f32| -> Vec<_> {
         let point = |k: usize| {
@@ -18,6 +18,9 @@ fn yarns() -> Yarns {
         (0..count).map(point).collect()
     };
     let mut yarns = Yarns::builder();
+    // Rings that are fewer than any vector has.
+    yarns.yarn(Yarn::default(), &coil(2, 0.0));
+    yarns.yarn(Yarn::default(), &coil(3, 0.0));
     yarns.yarn(Yarn::default(), &coil(25_003, 0.0));
     yarns.yarn(Yarn { twist: 1.5, ..Yarn::default() }, &coil(3_001, 1e-4));
     yarns.yarn(Yarn { closed: true, ..Yarn::default() }, &coil(2_000, 0.0));

@@ -103,7 +103,7 @@ impl WgpuSession {
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of [`Plan::device_buffers`], each a multiple
-    /// of 16 bytes, and the rings where [`Session::trajectory`] was called.
+    /// of 16 bytes, and the rings where [`Session::trajectory`] was called. Not what wgpu maps to send and read through.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.tables.bytes() + self.slots.iter().map(Slot::bytes).sum::<u64>()

@@ -21,7 +21,8 @@ const PIECE_BYTES: u64 = 8 << 20;
 /// Bytes that a core pads at a time. A multiple of them is a piece.
 const PART_BYTES: usize = 64 << 10;
 
-/// Two mapped buffers that control points are sent from, made for the first upload and kept for the next.
+/// Two mapped buffers that control points are sent from, made for the first upload of more than a few points
+/// and kept for the next.
 #[derive(Debug, Default)]
 pub(crate) struct Outbox {
     sides: Vec<Side>,

@@ -73,7 +73,8 @@ impl Plan {
     }
 
     /// The same on a GPU, which keeps control points and rolls itself: the mesh, the block table, and the ends of all yarns.
-    /// What a driver takes is not in it, nor the pinned memory that it gives to send and read through.
+    /// What a driver takes is not in it, nor the memory that it gives to send and read through, nor a copy of up to 16 MiB of
+    /// the control points, which is gone before there is a mesh.
     #[must_use]
     pub fn host_bytes_beside_gpu(&self) -> u64 {
         let ends = self.counts().yarns * size_of::<Ends>() as u64;

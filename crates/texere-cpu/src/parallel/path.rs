@@ -63,7 +63,7 @@ impl Path {
     pub(super) fn run(self, job: impl Job) {
         match self {
             Self::Portable => job.run::<Portable>(),
-            // SAFETY: `detect` gives this path only where the processor has AVX2.
+            // SAFETY: `available`, from which all paths come, has this one only where the processor has AVX2.
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => unsafe { avx2(job) },
             // SAFETY: and this one only where it has AVX-512 F and DQ.

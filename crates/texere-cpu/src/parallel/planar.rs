@@ -22,9 +22,10 @@ const EXTENT_MAX: f32 = 1e15;
 pub(super) fn stays_upright<V: Vector>(source: &Source<'_>, stretch: Stretch) -> bool {
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));
     let per_interval = plan.settings().subdivisions + 1;
-    // An open yarn's last ring belongs to the interval that it ends.
     let intervals = (plan.rings(stretch.yarn) - 1) / per_interval;
-    let end = ((stretch.first + stretch.count - 1) / per_interval).min(intervals - 1) + 1;
+    // An open yarn's last ring belongs to the interval that it ends, a closed yarn's to one after that.
+    let last = if plan.yarn(stretch.yarn).closed { intervals } else { intervals - 1 };
+    let end = ((stretch.first + stretch.count - 1) / per_interval).min(last) + 1;
     let mut first = stretch.first / per_interval;
     let mut ways = [V::ALL; 4];
     while first < end {

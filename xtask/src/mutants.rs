@@ -45,6 +45,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
     // The ring's own turn is counted in.
     opencl("kernels/src/rings.cl", "block_rings", "start + sum - turn", "start + sum"),
+    // The roll is looked up by the chunk's row, which whole fabrics don't show.
+    opencl("kernels/src/rings.cl", "block_rings", "rolls[params->first_block + row]", "rolls[row]"),
     // The step to the next block's first ring is left out.
     opencl("kernels/src/scan.cl", "block_turns", "lane < block.quads", "lane + 1u < block.quads"),
     // Only the tile before counts, which yarns of no more than two tiles don't show.

@@ -117,14 +117,7 @@ impl Renderer {
         bytes: u64,
         usage: BufferUsages,
     ) -> Result<wgpu::Buffer, BackendError> {
-        self.device.scoped("Device::create_buffer", || {
-            self.device.device().create_buffer(&wgpu::BufferDescriptor {
-                label: Some(what),
-                size: bytes.max(16),
-                usage: usage | BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        })
+        self.device.buffer(what, bytes, usage | BufferUsages::COPY_DST)
     }
 
     /// Writes `bytes` to the start of `buffer`.

@@ -146,6 +146,18 @@ impl WgpuBackend {
         self.opened.gpu.scoped(call, work)
     }
 
+    /// A buffer of at least `bytes`, a multiple of 16 and never empty, since an empty one can't be bound.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`], and those of [`WgpuBackend::scoped`].
+    pub fn buffer(
+        &self,
+        what: &'static str,
+        bytes: u64,
+        usage: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, BackendError> {
+        self.opened.gpu.buffer(what, bytes, usage)
+    }
+
     /// Waits until `submission` is done, and runs the callbacks of all that is.
     ///
     /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.

@@ -79,7 +79,7 @@ impl Job for ScanRun<'_> {
     fn run<V: Vector>(self) {
         let Self { source, run: Run { yarn, first_ring, mut blocks, mut rings } } = self;
         let of_yarn = source.plan.rings(yarn);
-        let twists = source.plan.twist_turns(yarn) != 0.0;
+        let (frame, twist) = (source.plan.settings().frame, source.plan.twist_turns(yarn));
         // Of so many rings from there on: one more than the blocks' own, unless the yarn ends, since the step to that one is
         // the last block's.
         let stretch =
@@ -88,7 +88,8 @@ impl Job for ScanRun<'_> {
         let mut upright = [false; RUN_BLOCKS as usize];
         for (number, upright) in upright.iter_mut().enumerate().take(blocks.len()) {
             let first = first_ring + number as u32 * BLOCK_RINGS;
-            *upright = !twists && stays_upright::<V>(&source, stretch(first, BLOCK_RINGS));
+            *upright = frame.is_level(twist)
+                || (twist == 0.0 && stays_upright::<V>(&source, stretch(first, BLOCK_RINGS)));
         }
         for alike in upright[..blocks.len()].chunk_by(|a, b| a == b) {
             let blocks = take(&mut blocks, alike.len());

@@ -22,9 +22,7 @@ pub(crate) type Ends = [ControlPoint; 5];
 /// let mut ends = YarnEnds::new(&plan)?;
 /// let upload = ends.upload(&plan, 0, yarns.points())?;
 /// assert_eq!(upload.ranges(), [0..0, 0..5, 0..0]);
-/// let mut padded = Vec::new();
-/// upload.runs(0..5, |run| padded.extend(run.iter().map(|point| point.x)));
-/// assert_eq!(padded, [-1.0, 0.0, 1.0, 2.0, 3.0]);
+/// assert_eq!(upload.copied(0..5).iter().map(|point| point.x).collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0, 3.0]);
 /// ends.keep(&upload);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -126,6 +124,14 @@ impl PaddedUpload<'_> {
                 }
             }
         }
+    }
+
+    /// A copy of what [`PaddedUpload::runs`] lends.
+    #[must_use]
+    pub fn copied(&self, range: Range<u64>) -> Vec<ControlPoint> {
+        let mut points = Vec::with_capacity((range.end - range.start) as usize);
+        self.runs(range, |run| points.extend_from_slice(run));
+        points
     }
 
     /// Where a yarn's virtual start, its points and its virtual end lie.

@@ -59,9 +59,8 @@ impl Outbox {
             let events = if pinned {
                 self.send_pieces(opened, target, upload, range)?
             } else {
-                let mut points = Vec::with_capacity(count as usize);
-                upload.runs(range.clone(), |run| points.extend_from_slice(run));
-                let sent = target.write(opened, &opened.queue, range.start * POINT_BYTES, &points, None)?;
+                let offset = range.start * POINT_BYTES;
+                let sent = target.write(opened, &opened.queue, offset, &upload.copied(range), None)?;
                 sent.into_iter().collect()
             };
             if let (Some(first), Some(last)) = (events.first(), events.last()) {

@@ -45,9 +45,8 @@ impl Outbox {
                 // A side that was left in between is not to be used again.
                 pieces.inspect_err(|_| self.sides.clear())?;
             } else {
-                let mut points = Vec::with_capacity(count as usize);
-                upload.runs(range.clone(), |run| points.extend_from_slice(run));
-                gpu.write(target, range.start * POINT_BYTES, bytemuck::cast_slice(&points))?;
+                let offset = range.start * POINT_BYTES;
+                gpu.write(target, offset, bytemuck::cast_slice(&upload.copied(range)))?;
             }
             sent += count * POINT_BYTES;
         }

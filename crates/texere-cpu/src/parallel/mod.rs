@@ -215,12 +215,12 @@ impl Sink for MeshSink<'_> {
     fn take<V: Vector>(&mut self, rings: &Rings<V>, _roll: V::Whole, count: usize) {
         match &mut self.vertices {
             Way::Tiles(tiles) => {
-                self.surface.write_columns(rings, tiles.next::<V>());
+                self.surface.write::<V, true>(rings, tiles.next::<V>());
                 tiles.send::<V>(count);
             }
             Way::Scratch(lines) => {
                 lines.send_waiting::<V>();
-                self.surface.write(rings, lines.next());
+                self.surface.write::<V, false>(rings, lines.next());
                 lines.send::<V>(count * self.floats);
             }
         }

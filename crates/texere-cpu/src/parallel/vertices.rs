@@ -25,21 +25,10 @@ impl<'a> Surface<'a> {
         Self { outline, round }
     }
 
-    /// Writes the vertices of `rings` to `out`, ring after ring.
+    /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as the `COLUMNS` that
+    /// [`TileLines`](super::tiles::TileLines) wants.
     #[inline(always)]
-    pub(super) fn write<V: Vector>(&self, rings: &Rings<V>, out: &mut [f32]) {
-        self.write_as::<V, false>(rings, out);
-    }
-
-    /// Writes the vertices of `rings` to `out` as the columns that [`TileLines`](super::tiles::TileLines) wants: of an even
-    /// number of sides.
-    #[inline(always)]
-    pub(super) fn write_columns<V: Vector>(&self, rings: &Rings<V>, out: &mut [f32]) {
-        self.write_as::<V, true>(rings, out);
-    }
-
-    #[inline(always)]
-    fn write_as<V: Vector, const COLUMNS: bool>(&self, rings: &Rings<V>, out: &mut [f32]) {
+    pub(super) fn write<V: Vector, const COLUMNS: bool>(&self, rings: &Rings<V>, out: &mut [f32]) {
         if V::bits(rings.slope.is_zero()) != V::ALL {
             vertices::<V, SLOPED, COLUMNS>(rings, self.outline, out);
         } else if !self.round {

@@ -6,14 +6,16 @@ use texere_core::{Backend, Limits, Plan, Settings, Yarns};
 use texere_cpu::SerialBackend;
 
 use crate::compare::{
-    Assembled, Report, assemble, compare_bits, compare_counts, compare_with_gold, compare_with_oracle,
+    Assembled, Report, assemble, compare_bits, compare_closed_ends, compare_counts, compare_with_gold,
+    compare_with_oracle,
 };
 use crate::drive::{DriveError, Way, drive};
 use crate::limits::Tight;
 use crate::oracle::Oracle;
 
 /// Runs `yarns` under `settings` on `device` every way there is, and tells what is wrong: against the oracle, against
-/// the gold reference (to the bit where `exact`), whole against chunks of a few blocks.
+/// the gold reference (to the bit where `exact`), whole against chunks of a few blocks, a closed yarn's end
+/// against its start.
 ///
 /// ```
 /// use texere_conformance::{DeferredBackend, cases, check};
@@ -60,6 +62,7 @@ pub fn check_within(
     let gold = run(&SerialBackend::new(), &Limits::NONE, Way::Into)?;
 
     compare_with_oracle(&oracle, &whole, &mut report);
+    compare_closed_ends(&oracle, &whole, &mut report);
     for other in &others {
         compare_bits(&oracle, &whole, other, &mut report);
     }

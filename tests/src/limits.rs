@@ -45,7 +45,11 @@ impl Tight {
 #[must_use]
 pub fn least(plan: &Plan, limits: impl Fn(u64) -> Limits) -> u64 {
     let mut limit = 0;
-    while let Err(PlanError::BlockTooLarge { needed, limit: refused, .. }) = plan.chunks(&limits(limit)) {
+    while let Err(
+        PlanError::BlockTooLarge { needed, limit: refused, .. }
+        | PlanError::BlockOverCount { needed, limit: refused, .. },
+    ) = plan.chunks(&limits(limit))
+    {
         assert!(refused == limit && needed > limit);
         limit = needed;
     }

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use glam::Vec3;
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Limits, MeshMut, MeshPiece, Plan, Ring, Schedule,
-    Session, StageTimings, Traffic, Turn, Vertex,
+    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Limits, MeshMut, MeshPiece, Part, Plan, Ring,
+    Schedule, Session, StageTimings, Traffic, Turn, Vertex,
 };
 use texere_cpu::SerialBackend;
 
@@ -49,6 +49,8 @@ pub enum Sabotage {
     InwardNormal,
     /// The ring that a cut repeats differs in the last bit.
     LooseSeam,
+    /// The last ring of every closed yarn differs from its first in the last bit.
+    LooseEnd,
     /// One vertex differs in the last bit: a fault only of a backend that promises equal bits.
     LastBit,
     /// A cap covers a part of itself twice, in every chunk that has one.
@@ -71,7 +73,7 @@ pub enum Sabotage {
 
 impl Sabotage {
     /// All that spoils an output.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::ShiftedVertex,
         Self::SwappedIndices,
         Self::Zeros,
@@ -86,6 +88,7 @@ impl Sabotage {
         Self::ReversedTangent,
         Self::InwardNormal,
         Self::LooseSeam,
+        Self::LooseEnd,
         Self::OpenCap,
     ];
 
@@ -118,7 +121,7 @@ impl Sabotage {
             Self::ThickRing => &[Fault::Radius],
             Self::ReversedTangent => &[Fault::Tangent],
             Self::InwardNormal => &[Fault::Normal],
-            Self::LooseSeam => &[Fault::Bits],
+            Self::LooseSeam | Self::LooseEnd => &[Fault::Bits],
         }
     }
 }
@@ -233,6 +236,16 @@ impl SabotagedSession {
             Sabotage::LooseSeam if victim && chunk.repeats_ring => {
                 let last = &mut vertices[chunk.rings as usize * sides - 1].position[0];
                 *last = last.next_up();
+            }
+            Sabotage::LooseEnd => {
+                let ends = |part: &&Part| part.first_ring + part.rings == self.plan.rings(part.yarn as usize);
+                for part in chunk.parts.iter().filter(ends) {
+                    if self.plan.yarn(part.yarn as usize).closed {
+                        let end = (part.first_vertex + part.rings * sides as u32) as usize;
+                        let last = &mut vertices[end - 1].position[0];
+                        *last = last.next_up();
+                    }
+                }
             }
             Sabotage::OpenCap => {
                 for cap in &chunk.caps {

@@ -16,8 +16,11 @@ use crate::drive::Lent;
 /// A name, and whether a device keeps the promise.
 type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);
 
-const PROMISES: [Promise; 2] =
-    [("every-stage-is-timed", every_stage_is_timed), ("an-edit-moves-one-yarn", an_edit_moves_one_yarn)];
+const PROMISES: [Promise; 3] = [
+    ("every-stage-is-timed", every_stage_is_timed),
+    ("a-second-scan-is-no-work", a_second_scan_is_no_work),
+    ("an-edit-moves-one-yarn", an_edit_moves_one_yarn),
+];
 
 /// One trial for each promise.
 pub(crate) fn trials(device: &Arc<dyn Backend>) -> Vec<Trial> {
@@ -75,6 +78,28 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     }
     if upload + scan + trajectory + mesh + readback > there_was {
         return Err(format!("more time than there was, {there_was:?}: {times:?}").into());
+    }
+    Ok(())
+}
+
+/// Nothing is scanned again until other control points come.
+fn a_second_scan_is_no_work(device: &dyn Backend) -> Result<(), Failed> {
+    let (settings, yarn) = all_of(device);
+    let yarns = cases::winding(2_500, yarn);
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+    let mut session = device.session(plan.clone())?;
+    session.upload(0, yarns.points())?;
+    session.scan()?;
+    let once = session.timings().scan;
+    session.scan()?;
+    let twice = session.timings().scan;
+    if twice != once {
+        return Err(format!("a second scan took {:?}", twice - once).into());
+    }
+    session.upload(0, &yarns.points()[..1])?;
+    session.scan()?;
+    if plan.needs_scan() && session.timings().scan == once {
+        return Err("no scan after an upload".into());
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ use texere_conformance::{Entry, OpenAll, REGISTRY, Sabotage, SabotagedBackend, c
 use texere_core::{Backend, BackendError, ControlPoint, Frame, Settings, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 
-/// Two yarns that fit one block each, then one of several blocks.
+/// Two yarns that fit one block each, then one of several blocks, then a closed one.
 fn yarns() -> Yarns {
     let at = |k: u32, y: f32| ControlPoint::new(k as f32, y, (k as f32).sin() * 0.5, 0.25);
     let mut yarns = Yarns::builder();
@@ -18,6 +18,9 @@ fn yarns() -> Yarns {
         let points: Vec<_> = (0..points).map(|k| at(k, y)).collect();
         yarns.yarn(Yarn { twist: 0.5, ..Yarn::default() }, &points);
     }
+    let on_circle = |k: u32| (k as f32 * 0.3).sin_cos();
+    let circle: Vec<_> = (0..20).map(on_circle).map(|(x, y)| ControlPoint::new(x, 10.0 + y, 0.0, 0.1)).collect();
+    yarns.yarn(Yarn { twist: 0.5, closed: true, ..Yarn::default() }, &circle);
     yarns.build().unwrap()
 }
 

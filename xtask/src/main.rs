@@ -12,7 +12,7 @@ mod steps;
 use std::process::ExitCode;
 
 use demo::vulkan;
-use steps::Steps;
+use steps::{Steps, root};
 
 /// Crates that go to crates.io.
 const PUBLISHED: [&str; 11] = [
@@ -88,11 +88,23 @@ fn main() -> ExitCode {
     steps.finish()
 }
 
-/// All tests: units, integration, conformance, doctests.
+/// All tests: a program that links the library, units, integration, conformance, doctests.
 fn test(steps: &mut Steps) {
     install(steps, "software devices", &SOFTWARE_DEVICES);
+    consumer(steps);
     steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
+}
+
+/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation, from the versions of other
+/// crates that the workspace is tested with.
+fn consumer(steps: &mut Steps) {
+    let versions = root().join("Cargo.lock");
+    if let Err(error) = std::fs::copy(versions, root().join("tests/consumer/Cargo.lock")) {
+        return steps.fail(format!("versions of the consumer's crates: {error}"));
+    }
+    let program = ["run", "--manifest-path", "tests/consumer/Cargo.toml", "--target-dir", "target/consumer"];
+    steps.cargo("a program that links texere, unoptimised", &program, &[]);
 }
 
 /// Where Debian's packages can be installed, sees to it that these are. Without the software devices the suite shows a

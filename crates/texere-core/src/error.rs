@@ -246,16 +246,28 @@ pub enum PlanError {
         /// Most allowed.
         limit: u64,
     },
-    /// Not even one block fits the limits.
-    #[error("one block of {rings} rings needs {needed} bytes of {what}, but the limit is {limit}")]
+    /// Not even one block fits the limits of memory.
+    #[error("one block of {rings} rings needs {needed} bytes for {what}, but the limit is {limit} bytes")]
     BlockTooLarge {
         /// Rings in the block.
         rings: u32,
-        /// Of which buffer.
+        /// For which buffer.
         what: &'static str,
         /// Bytes that it needs.
         needed: u64,
         /// Bytes allowed.
+        limit: u64,
+    },
+    /// Not even one block fits what a launch may count: see [`Limits::blocks`](crate::Limits::blocks).
+    #[error("one block of {rings} rings takes {needed} {what}, but the limit is {limit}")]
+    BlockOverCount {
+        /// Rings in the block.
+        rings: u32,
+        /// What is counted: blocks, vertices or indices.
+        what: &'static str,
+        /// How many it takes.
+        needed: u64,
+        /// How many are allowed.
         limit: u64,
     },
 }

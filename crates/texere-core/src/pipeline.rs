@@ -51,7 +51,7 @@ impl<'a> Pipeline<'a> {
     /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, tension 0, upright, indexed, no caps.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
-        Self { yarns, settings: Settings::default(), limits: Limits::NONE, progress: None }
+        Self { yarns, settings: Settings::default(), limits: Limits::default(), progress: None }
     }
 
     /// Takes all settings at once.
@@ -103,14 +103,16 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Cuts chunks to `limits` where the device's own are wider: bounds the memory of a [`Pipeline::stream`].
+    /// Cuts chunks to `limits` where the device's own are wider, instead of to [`Limits::default`]: bounds the memory of a
+    /// [`Pipeline::stream`], and how far one step of progress goes.
     #[must_use]
     pub fn limits(mut self, limits: Limits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// Calls `progress` after each chunk; `Break` ends the run with [`PipelineError::Cancelled`].
+    /// Calls `progress` while control points are uploaded, with no rings done, and after each chunk, at last with all rings
+    /// done. `Break` ends the run there with [`PipelineError::Cancelled`].
     #[must_use]
     pub fn progress(mut self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
         self.progress = Some(Box::new(progress));
@@ -160,8 +162,9 @@ impl<'a> Pipeline<'a> {
         Ok(Mesh { vertices, indices, chunks, plan, materials: self.yarns.materials().clone() })
     }
 
-    /// The mesh piece by piece, each with the chunk that it belongs to, in bounded memory: two chunks at a time. A sink
-    /// that answers `Break` ends the run, and its answer comes back.
+    /// The mesh piece by piece, each with the chunk that it belongs to, in bounded memory: the control points and two
+    /// chunks at a time. A sink that answers `Break` ends the run, and its answer comes back; not more than the next chunk
+    /// has been worked on by then.
     ///
     /// **Errors**: those of [`Pipeline::mesh`].
     pub fn stream<B>(

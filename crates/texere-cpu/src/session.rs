@@ -159,7 +159,7 @@ impl<S: Stages> Session for CpuSession<S> {
     }
 
     fn scan(&mut self) -> Result<(), BackendError> {
-        if self.work.plan.needs_scan() {
+        if self.work.plan.needs_scan() && !self.scanned {
             let Self { work: Work { plan, points, rolls }, timings, stages, .. } = self;
             timed(&mut timings.scan, || stages.scan(plan, points, rolls))?;
         }

@@ -83,7 +83,7 @@ pub fn devices() -> Devices {
 ///
 /// | name | device |
 /// |---|---|
-/// | `auto` | a discrete GPU, else an integrated one, else the CPU: [`Devices::auto`] |
+/// | `auto` | a discrete GPU, else an integrated one, else the CPU, as [`Devices::auto`] says; what does not open is passed over |
 /// | `cpu`, `cpu-serial` | all cores; the serial reference |
 /// | `wgpu`, `wgpu:1`, `wgpu:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `wgpu`) |
 /// | `opencl`, `opencl:1`, `opencl:nvidia` | likewise (feature `opencl`) |
@@ -100,17 +100,32 @@ pub fn devices() -> Devices {
 /// it is opened.
 pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     match name {
-        "auto" => {
-            let devices = devices();
-            match devices.auto().0 {
-                "cpu" => Ok(Box::new(ParallelBackend::new())),
-                chosen => open(chosen),
-            }
-        }
+        "auto" => Ok(open_gpu().unwrap_or_else(|| Box::new(ParallelBackend::new()))),
         "cpu" => Ok(Box::new(ParallelBackend::new())),
         "cpu-serial" => Ok(Box::new(SerialBackend::new())),
         _ => open_in_family(name),
     }
+}
+
+/// The GPU that `auto` stands for, if there is one that opens. No family is asked for its devices after one has a discrete
+/// GPU, since asking loads drivers.
+fn open_gpu() -> Option<Box<dyn Backend>> {
+    let mut integrated = Vec::new();
+    for family in FAMILIES {
+        let Ok(devices) = (family.list)() else { continue };
+        for (index, device) in devices.into_iter().enumerate() {
+            let open = move || (family.open)(index, Schedule::PerRing).ok();
+            match device.kind {
+                DeviceKind::DiscreteGpu => match open() {
+                    None => {}
+                    opened => return opened,
+                },
+                DeviceKind::IntegratedGpu => integrated.push(open),
+                _ => {}
+            }
+        }
+    }
+    integrated.into_iter().find_map(|open| open())
 }
 
 fn open_in_family(name: &str) -> Result<Box<dyn Backend>, BackendError> {
@@ -128,11 +143,12 @@ fn open_in_family(name: &str) -> Result<Box<dyn Backend>, BackendError> {
 
 /// The device of `list` that `which` stands for: its number, or part of its maker's name.
 fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
-    let named = || {
-        let which = which.to_lowercase();
-        list.iter().position(|device| device.device.to_lowercase().contains(&which))
-    };
-    which.parse().ok().or_else(named).filter(|index| *index < list.len())
+    if which.bytes().all(|byte| byte.is_ascii_digit()) {
+        // An empty name stands for nothing, though it is part of every name.
+        return which.parse().ok().filter(|index| *index < list.len());
+    }
+    let which = which.to_lowercase();
+    list.iter().position(|device| device.device.to_lowercase().contains(&which))
 }
 
 /// Opens a device for pictures by its name: `wgpu`, `wgpu:1`, `wgpu:nvidia`, or `auto`, a discrete GPU, else an
@@ -153,11 +169,12 @@ fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
 pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError> {
     let list = texere_wgpu::WgpuBackend::devices()?;
     let first = |kind| list.iter().position(|device| device.kind == kind);
-    let index = match name.split_once(':').unwrap_or((name, "0")) {
-        ("auto", _) => {
+    let index = match name.split_once(':') {
+        None if name == "auto" => {
             first(DeviceKind::DiscreteGpu).or_else(|| first(DeviceKind::IntegratedGpu)).or(Some(0))
         }
-        ("wgpu", which) => find(&list, which),
+        None if name == "wgpu" => Some(0),
+        Some(("wgpu", which)) => find(&list, which),
         _ => None,
     };
     let Some(index) = index else {
@@ -173,4 +190,40 @@ pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError
 fn no_device(wanted: &str) -> BackendError {
     let names = devices().found.into_iter().map(|device| device.name);
     BackendError::NoDevice { wanted: wanted.into(), found: names.chain(["auto".into()]).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn device(name: &str) -> DeviceInfo {
+        DeviceInfo { device: name.into(), ..SerialBackend::new().info().clone() }
+    }
+
+    #[test]
+    fn a_device_is_found_by_its_number_or_a_part_of_its_name() {
+        let list = [device("llvmpipe (LLVM 15)"), device("NVIDIA H200")];
+        for (which, found) in [("0", Some(0)), ("1", Some(1)), ("nvidia", Some(1)), ("LLVM", Some(0))] {
+            assert_eq!(find(&list, which), found, "{which}");
+        }
+        for which in ["", "2", "-1", "+1", "0x1", "99999999999999999999999", "radeon"] {
+            assert_eq!(find(&list, which), None, "{which}");
+        }
+    }
+
+    #[test]
+    fn names_that_say_too_much_or_too_little_are_refused() {
+        for name in ["", "auto:", "auto:7", "cpu:0", "wgpu:", "opencl:", "wgpu:/per-yarn", "vulkan:0"] {
+            let Err(error) = open(name) else { panic!("{name} opened") };
+            assert!(matches!(error, BackendError::NoDevice { .. }), "{name}: {error}");
+        }
+    }
+
+    #[cfg(feature = "render")]
+    #[test]
+    fn a_renderer_is_as_particular() {
+        for name in ["", "auto:", "auto:7", "wgpu:", "opencl:0", "cpu"] {
+            assert!(matches!(open_renderer(name), Err(BackendError::NoDevice { .. })), "{name}");
+        }
+    }
 }

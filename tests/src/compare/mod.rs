@@ -290,6 +290,26 @@ fn same_triangles(old: &AssembledCap, new: &AssembledCap) -> bool {
     new.triangles.is_empty() || old.triangles == new.triangles
 }
 
+/// Checks what a closed yarn promises of itself: its last ring is its first again, to the bit, and so are their vertices.
+pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Report) {
+    let sides = oracle.settings.sides as usize;
+    for yarn in (0..oracle.yarns.len()).filter(|&yarn| oracle.yarns[yarn].closed) {
+        let rings = output.rings_of(yarn);
+        let (first, last) = (rings.start, rings.end - 1);
+        let place = Place { yarn: yarn as u64, ring: (last - first) as u64, point: None };
+        let (old, new) = (&output.rings[first], &output.rings[last]);
+        if !same_bits(old, new) {
+            report.note(Fault::Bits, place, old, new);
+        }
+        for point in 0..sides {
+            let (old, new) = (&output.vertices[first * sides + point], &output.vertices[last * sides + point]);
+            if !same_bits(old, new) {
+                report.note(Fault::Bits, Place { point: Some(point as u64), ..place }, old, new);
+            }
+        }
+    }
+}
+
 /// Compares two outputs that must be the same to the bit: other chunks, another way, or a backend that promises it.
 pub fn compare_bits(oracle: &Oracle, expected: &Assembled, actual: &Assembled, report: &mut Report) {
     let sides = oracle.settings.sides as usize;

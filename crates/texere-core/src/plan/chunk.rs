@@ -106,17 +106,25 @@ impl Size {
         ]
     }
 
-    /// The first limit that is broken: buffer, bytes needed, bytes allowed.
-    fn excess(&self, resident: u64, limits: &Limits) -> Option<(&'static str, u64, u64)> {
+    /// The first limit that is broken, if the chunk were a block of `rings` rings.
+    fn excess(&self, resident: u64, limits: &Limits) -> Option<PlanError> {
+        let rings = self.rings as u32;
         let index_limit = u64::from(u32::MAX);
-        let counts = [("blocks", self.blocks, limits.blocks)]
-            .into_iter()
-            .chain([("vertices", self.vertices, index_limit), ("indices", self.indices, index_limit)]);
+        let counts = [
+            ("blocks", self.blocks, limits.blocks),
+            ("vertices", self.vertices, index_limit),
+            ("indices", self.indices, index_limit),
+        ];
+        if let Some((what, needed, limit)) = counts.into_iter().find(|(_, needed, limit)| needed > limit) {
+            return Some(PlanError::BlockOverCount { rings, what, needed, limit });
+        }
         // Two chunks in flight; the window is part of the resident control points.
         let each: u64 = self.buffers()[..4].iter().map(|(_, bytes)| bytes).sum();
         let memory = [("all buffers", resident + 2 * each, limits.memory_bytes)];
         let bindings = self.buffers().into_iter().map(|(what, bytes)| (what, bytes, limits.binding_bytes));
-        counts.chain(memory).chain(bindings).find(|(_, needed, limit)| needed > limit)
+        let (what, needed, limit) =
+            memory.into_iter().chain(bindings).find(|(_, needed, limit)| needed > limit)?;
+        Some(PlanError::BlockTooLarge { rings, what, needed, limit })
     }
 }
 
@@ -142,8 +150,8 @@ impl<'a> Chunks<'a> {
             let (first, end) = (offsets[yarn], offsets[yarn + 1]);
             for block in [first, (first + 1).min(end - 1), end - 1] {
                 let size = chunks.extended(&Size::default(), None, yarn, block).1;
-                if let Some((what, needed, limit)) = size.excess(plan.resident_bytes(), &limits) {
-                    return Err(PlanError::BlockTooLarge { rings: size.rings as u32, what, needed, limit });
+                if let Some(excess) = size.excess(plan.resident_bytes(), &limits) {
+                    return Err(excess);
                 }
             }
         }

@@ -1,11 +1,19 @@
-//! What a device can hold.
+//! What a device can hold, and what is worked on in one go.
+
+use super::BLOCK_RINGS;
+use crate::{SIDES_MAX, Vertex};
 
 /// The limits that chunks are cut to.
 ///
+/// By default a buffer of a chunk has 64 MiB at most: with six sides some 466,000 rings and 5.6 million triangles. So two
+/// chunks take less than 300 MB whatever the fabric, progress comes in steps of that size, and a cancellation is heard at
+/// the next one. All that a larger chunk would save is a launch.
+///
 /// ```
 /// use texere_core::Limits;
-/// let half = Limits { memory_bytes: 1 << 30, ..Limits::NONE }.min(&Limits { blocks: 65_535, ..Limits::NONE });
-/// assert_eq!((half.memory_bytes, half.blocks), (1 << 30, 65_535));
+/// let half = Limits { memory_bytes: 1 << 30, ..Limits::default() };
+/// let both = half.min(&Limits { blocks: 65_535, ..Limits::NONE });
+/// assert_eq!((both.memory_bytes, both.blocks, both.binding_bytes), (1 << 30, 65_535, 64 << 20));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
@@ -32,8 +40,18 @@ impl Limits {
     }
 }
 
+/// The most bytes of a buffer of a chunk, unless more are asked for.
+const CHUNK_BUFFER_BYTES: u64 = 64 << 20;
+
+// The block of the most sides fits, so that the default refuses no plan.
+const _: () = assert!(
+    (BLOCK_RINGS as u64 + 3) * (SIDES_MAX as u64) * (size_of::<Vertex>() as u64) <= CHUNK_BUFFER_BYTES
+        && (BLOCK_RINGS as u64 + 2) * (SIDES_MAX as u64) * 6 * 4 <= CHUNK_BUFFER_BYTES
+);
+
 impl Default for Limits {
+    /// Chunks of bounded size, on a device without limits of its own.
     fn default() -> Self {
-        Self::NONE
+        Self { binding_bytes: CHUNK_BUFFER_BYTES, ..Self::NONE }
     }
 }

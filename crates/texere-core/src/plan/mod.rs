@@ -281,7 +281,7 @@ impl Plan {
     /// Cuts the work into chunks that fit `limits`, in order. Two chunks and the control points fit
     /// `limits.memory_bytes` together.
     ///
-    /// **Errors**: [`PlanError::BlockTooLarge`] when not even one block fits.
+    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one block fits.
     pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
         Chunks::new(self, *limits)
     }

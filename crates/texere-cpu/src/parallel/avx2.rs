@@ -26,7 +26,7 @@ pub(super) struct Avx2(__m256);
 
 impl Add for Avx2 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn add(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_add_ps(self.0, other.0) })
@@ -35,7 +35,7 @@ impl Add for Avx2 {
 
 impl Sub for Avx2 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn sub(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_sub_ps(self.0, other.0) })
@@ -44,7 +44,7 @@ impl Sub for Avx2 {
 
 impl Mul for Avx2 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn mul(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_mul_ps(self.0, other.0) })
@@ -53,7 +53,7 @@ impl Mul for Avx2 {
 
 impl Div for Avx2 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn div(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_div_ps(self.0, other.0) })
@@ -61,7 +61,7 @@ impl Div for Avx2 {
 }
 
 /// Two points, one in each half.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn pair(low: &[f32; 4], high: &[f32; 4]) -> __m256 {
     // SAFETY: each load reads four values, and need not be aligned.
     unsafe { _mm256_set_m128(_mm_loadu_ps(high.as_ptr()), _mm_loadu_ps(low.as_ptr())) }
@@ -72,93 +72,93 @@ impl Vector for Avx2 {
     type Mask = __m256;
     type Whole = __m256i;
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn load(from: &[f32]) -> Self {
         let from = &from[..8];
         // SAFETY: eight values are there; the load need not be aligned.
         Self(unsafe { _mm256_loadu_ps(from.as_ptr()) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn store(self, to: &mut [f32]) {
         let to = &mut to[..8];
         // SAFETY: eight places are there; the store need not be aligned.
         unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn splat(value: f32) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_set1_ps(value) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn sqrt(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_sqrt_ps(self.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn floor(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_floor_ps(self.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn abs(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn negate(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_xor_ps(_mm256_set1_ps(-0.0), self.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn min(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_min_ps(self.0, other.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn max(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_max_ps(self.0, other.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn less(self, other: Self) -> __m256 {
         // SAFETY: no pointers.
         unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn is_zero(self) -> __m256 {
         // SAFETY: no pointers.
         unsafe { _mm256_cmp_ps::<_CMP_EQ_OQ>(self.0, _mm256_setzero_ps()) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn select(mask: __m256, yes: Self, no: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_blendv_ps(no.0, yes.0, mask) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn bits(mask: __m256) -> u32 {
         // SAFETY: no pointers.
         unsafe { _mm256_movemask_ps(mask) }.cast_unsigned()
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pick(from: Self, places: __m256i) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_permutevar8x32_ps(from.0, places) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn preceding(before: Self, here: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe {
@@ -169,13 +169,13 @@ impl Vector for Avx2 {
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn preceding_four(before: Self, here: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_permute2f128_ps::<0x21>(before.0, here.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn components(points: &[[f32; 4]]) -> [Self; 4] {
         let points = &points[..8];
         let (a, b) = (pair(&points[0], &points[4]), pair(&points[1], &points[5]));
@@ -183,7 +183,7 @@ impl Vector for Avx2 {
         Self::tiles([Self(a), Self(b), Self(c), Self(d)])
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn tiles([a, b, c, d]: [Self; 4]) -> [Self; 4] {
         // SAFETY: no pointers.
         unsafe {
@@ -198,7 +198,7 @@ impl Vector for Avx2 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn arrange<const STREAM: bool>(columns: &[f32], lines: &mut [Line]) {
         let (first, last) = lines.split_at_mut(lines.len() / 2);
         for ((four, first), last) in columns.chunks_exact(4 * Self::LANES).zip(first).zip(last) {
@@ -219,7 +219,7 @@ impl Vector for Avx2 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize) {
         let out = &mut out[..7 * stride + 4];
         let to = out.as_mut_ptr();
@@ -233,7 +233,7 @@ impl Vector for Avx2 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn scatter_eight(rows: [Self; 8], out: &mut [f32], stride: usize) {
         let out = &mut out[..7 * stride + 8];
         let to = out.as_mut_ptr();
@@ -250,51 +250,51 @@ impl Vector for Avx2 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn load_whole(from: &[u32]) -> __m256i {
         let from = &from[..8];
         // SAFETY: eight values are there; the load need not be aligned.
         unsafe { _mm256_loadu_si256(from.as_ptr().cast()) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn store_whole(values: __m256i, to: &mut [u32]) {
         let to = &mut to[..8];
         // SAFETY: eight places are there; the store need not be aligned.
         unsafe { _mm256_storeu_si256(to.as_mut_ptr().cast(), values) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn splat_whole(value: u32) -> __m256i {
         // SAFETY: no pointers.
         unsafe { _mm256_set1_epi32(value.cast_signed()) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn add_whole(a: __m256i, b: __m256i) -> __m256i {
         // SAFETY: no pointers.
         unsafe { _mm256_add_epi32(a, b) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn sub_whole(a: __m256i, b: __m256i) -> __m256i {
         // SAFETY: no pointers.
         unsafe { _mm256_sub_epi32(a, b) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn first(a: __m256i) -> u32 {
         // SAFETY: no pointers.
         unsafe { _mm256_cvtsi256_si32(a) }.cast_unsigned()
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn without_first(a: __m256i) -> __m256i {
         // SAFETY: no pointers.
         unsafe { _mm256_blend_epi32::<1>(a, _mm256_setzero_si256()) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn running_sum(a: __m256i) -> __m256i {
         // SAFETY: no pointers.
         unsafe {
@@ -306,50 +306,50 @@ impl Vector for Avx2 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn splat_last(a: __m256i) -> __m256i {
         // SAFETY: no pointers.
         unsafe { _mm256_permutevar8x32_epi32(a, _mm256_set1_epi32(7)) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn shift_left<const BY: i32>(a: __m256i) -> __m256i {
         // SAFETY: no pointers.
         unsafe { _mm256_slli_epi32::<BY>(a) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn shift_right<const BY: i32>(a: __m256i) -> __m256i {
         // SAFETY: no pointers.
         unsafe { _mm256_srli_epi32::<BY>(a) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn has_bit(a: __m256i, bit: u32) -> __m256 {
         let bit = Self::splat_whole(bit);
         // SAFETY: no pointers.
         unsafe { _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(a, bit), bit)) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn from_signed(a: __m256i) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_cvtepi32_ps(a) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn from_bits(a: __m256i) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_castsi256_ps(a) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn to_signed(self) -> __m256i {
         // SAFETY: no pointers.
         unsafe { _mm256_cvttps_epi32(self.0) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn stream(from: &[f32; LINE], to: &mut Line) {
         let to = to.0.as_mut_ptr();
         // SAFETY: a line is two aligned vectors; loads need not be aligned.
@@ -359,7 +359,7 @@ impl Vector for Avx2 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn stream_indices(table: &[u32; LINE], base: Self::Whole, to: &mut Line) {
         let to = to.0.as_mut_ptr();
         let (first, second) = (Self::load_whole(table), Self::load_whole(&table[8..]));
@@ -370,7 +370,7 @@ impl Vector for Avx2 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn fence() {
         // SAFETY: no pointers.
         unsafe { _mm_sfence() }

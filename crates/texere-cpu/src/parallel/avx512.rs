@@ -26,7 +26,7 @@ pub(super) struct Avx512(__m512);
 
 impl Add for Avx512 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn add(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_add_ps(self.0, other.0) })
@@ -35,7 +35,7 @@ impl Add for Avx512 {
 
 impl Sub for Avx512 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn sub(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_sub_ps(self.0, other.0) })
@@ -44,7 +44,7 @@ impl Sub for Avx512 {
 
 impl Mul for Avx512 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn mul(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_mul_ps(self.0, other.0) })
@@ -53,7 +53,7 @@ impl Mul for Avx512 {
 
 impl Div for Avx512 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn div(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_div_ps(self.0, other.0) })
@@ -65,33 +65,33 @@ impl Vector for Avx512 {
     type Mask = __mmask16;
     type Whole = __m512i;
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn load(from: &[f32]) -> Self {
         let from = &from[..16];
         // SAFETY: sixteen values are there; the load need not be aligned.
         Self(unsafe { _mm512_loadu_ps(from.as_ptr()) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn store(self, to: &mut [f32]) {
         let to = &mut to[..16];
         // SAFETY: sixteen places are there; the store need not be aligned.
         unsafe { _mm512_storeu_ps(to.as_mut_ptr(), self.0) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn splat(value: f32) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_set1_ps(value) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn sqrt(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_sqrt_ps(self.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn floor(self) -> Self {
         /// To no binary places, downwards, without exceptions.
         const DOWN: i32 = 0x09;
@@ -99,13 +99,13 @@ impl Vector for Avx512 {
         Self(unsafe { _mm512_roundscale_ps::<DOWN>(self.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn abs(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_abs_ps(self.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn negate(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe {
@@ -114,48 +114,48 @@ impl Vector for Avx512 {
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn min(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_min_ps(self.0, other.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn max(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_max_ps(self.0, other.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn less(self, other: Self) -> __mmask16 {
         // SAFETY: no pointers.
         unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn is_zero(self) -> __mmask16 {
         // SAFETY: no pointers.
         unsafe { _mm512_cmp_ps_mask::<_CMP_EQ_OQ>(self.0, _mm512_setzero_ps()) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn select(mask: __mmask16, yes: Self, no: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_mask_blend_ps(mask, no.0, yes.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn bits(mask: __mmask16) -> u32 {
         mask.into()
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pick(from: Self, places: __m512i) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_permutexvar_ps(places, from.0) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn preceding(before: Self, here: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe {
@@ -164,7 +164,7 @@ impl Vector for Avx512 {
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn preceding_four(before: Self, here: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe {
@@ -173,7 +173,7 @@ impl Vector for Avx512 {
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn components(points: &[[f32; 4]]) -> [Self; 4] {
         let points = points[..16].as_flattened();
         let (a, b) = (Self::load(points), Self::load(&points[16..]));
@@ -185,7 +185,7 @@ impl Vector for Avx512 {
         [Self::pick(x, order), Self::pick(y, order), Self::pick(z, order), Self::pick(w, order)]
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn tiles([a, b, c, d]: [Self; 4]) -> [Self; 4] {
         // SAFETY: no pointers.
         unsafe {
@@ -200,7 +200,7 @@ impl Vector for Avx512 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn arrange<const STREAM: bool>(columns: &[f32], lines: &mut [Line]) {
         let count = lines.len() / 4;
         let (first, others) = lines.split_at_mut(count);
@@ -229,7 +229,7 @@ impl Vector for Avx512 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize) {
         let out = &mut out[..15 * stride + 4];
         let to = out.as_mut_ptr();
@@ -244,7 +244,7 @@ impl Vector for Avx512 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn scatter_eight([a, b, c, d, e, f, g, h]: [Self; 8], out: &mut [f32], stride: usize) {
         let out = &mut out[..15 * stride + 8];
         let to = out.as_mut_ptr();
@@ -264,51 +264,51 @@ impl Vector for Avx512 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn load_whole(from: &[u32]) -> __m512i {
         let from = &from[..16];
         // SAFETY: sixteen values are there; the load need not be aligned.
         unsafe { _mm512_loadu_si512(from.as_ptr().cast()) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn store_whole(values: __m512i, to: &mut [u32]) {
         let to = &mut to[..16];
         // SAFETY: sixteen places are there; the store need not be aligned.
         unsafe { _mm512_storeu_si512(to.as_mut_ptr().cast(), values) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn splat_whole(value: u32) -> __m512i {
         // SAFETY: no pointers.
         unsafe { _mm512_set1_epi32(value.cast_signed()) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn add_whole(a: __m512i, b: __m512i) -> __m512i {
         // SAFETY: no pointers.
         unsafe { _mm512_add_epi32(a, b) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn sub_whole(a: __m512i, b: __m512i) -> __m512i {
         // SAFETY: no pointers.
         unsafe { _mm512_sub_epi32(a, b) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn first(a: __m512i) -> u32 {
         // SAFETY: no pointers.
         unsafe { _mm512_cvtsi512_si32(a) }.cast_unsigned()
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn without_first(a: __m512i) -> __m512i {
         // SAFETY: no pointers.
         unsafe { _mm512_maskz_mov_epi32(0xfffe, a) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn running_sum(a: __m512i) -> __m512i {
         // SAFETY: no pointers.
         unsafe {
@@ -320,62 +320,62 @@ impl Vector for Avx512 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn splat_last(a: __m512i) -> __m512i {
         // SAFETY: no pointers.
         unsafe { _mm512_permutexvar_epi32(_mm512_set1_epi32(15), a) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn shift_left<const BY: i32>(a: __m512i) -> __m512i {
         // SAFETY: no pointers.
         unsafe { _mm512_sllv_epi32(a, _mm512_set1_epi32(BY)) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn shift_right<const BY: i32>(a: __m512i) -> __m512i {
         // SAFETY: no pointers.
         unsafe { _mm512_srlv_epi32(a, _mm512_set1_epi32(BY)) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn has_bit(a: __m512i, bit: u32) -> __mmask16 {
         // SAFETY: no pointers.
         unsafe { _mm512_test_epi32_mask(a, Self::splat_whole(bit)) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn from_signed(a: __m512i) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_cvtepi32_ps(a) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn from_bits(a: __m512i) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_castsi512_ps(a) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn to_signed(self) -> __m512i {
         // SAFETY: no pointers.
         unsafe { _mm512_cvttps_epi32(self.0) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn stream(from: &[f32; LINE], to: &mut Line) {
         // SAFETY: a line is an aligned vector; loads need not be aligned.
         unsafe { _mm512_stream_ps(to.0.as_mut_ptr(), _mm512_loadu_ps(from.as_ptr())) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn stream_indices(table: &[u32; LINE], base: Self::Whole, to: &mut Line) {
         let indices = Self::add_whole(base, Self::load_whole(table));
         // SAFETY: a line is an aligned vector.
         unsafe { _mm512_stream_si512(to.0.as_mut_ptr().cast(), indices) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn fence() {
         // SAFETY: no pointers.
         unsafe { _mm_sfence() }

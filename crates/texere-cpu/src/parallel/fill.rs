@@ -28,7 +28,7 @@ struct Fill<'a> {
 }
 
 impl Job for Fill<'_> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn run<V: Vector>(self) {
         let (head, lines, tail) = bytemuck::pod_align_to_mut::<f32, Line>(self.out);
         head.fill(self.value);

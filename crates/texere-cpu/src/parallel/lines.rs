@@ -60,13 +60,13 @@ impl<'a> VertexLines<'a> {
     }
 
     /// Where the next vertices go. A few floats after them may be overwritten.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn next(&mut self) -> &mut [f32] {
         &mut self.scratch[self.end..]
     }
 
     /// Begins to send `floats` values that have been written, once what waited before is on its way.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn send<V: Vector>(&mut self, floats: usize) {
         let mut first = 0;
         self.end += floats;
@@ -86,14 +86,14 @@ impl<'a> VertexLines<'a> {
     }
 
     /// Sends what waits.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn send_waiting<V: Vector>(&mut self) {
         let waiting = std::mem::take(&mut self.waiting);
         self.pass::<V>(waiting);
     }
 
     /// Sends whole lines of the other scratch memory.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn pass<V: Vector>(&mut self, floats: Range<usize>) {
         let (from, _) = self.other[floats].as_chunks::<LINE>();
         let to = take(&mut self.out.lines, from.len());
@@ -105,7 +105,7 @@ impl<'a> VertexLines<'a> {
     }
 
     /// Sends the rest.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn finish<V: Vector>(mut self) {
         self.send_waiting::<V>();
         let Lines { head, tail, .. } = self.out;
@@ -159,7 +159,7 @@ impl<'a> IndexLines<'a> {
     }
 
     /// Sends the next lines, `count` at most.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn send<V: Vector>(&mut self, count: usize) {
         let mut left = count.min(self.out.lines.len());
         while left > 0 {
@@ -188,7 +188,7 @@ impl<'a> IndexLines<'a> {
     }
 
     /// Sends the rest.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn finish<V: Vector>(mut self) {
         self.send::<V>(usize::MAX);
         put(self.out.tail, &self.pattern[self.next], self.base);

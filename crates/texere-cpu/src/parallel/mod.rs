@@ -85,7 +85,7 @@ impl<'a> Maker<'a> {
 
     /// Calls `take` with the rings of `blocks`, which are one yarn's and follow each other, the first of them number `number`
     /// among all of the plan: a vector of rings at a time, with their rolls, and how many of them there are.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn rings<V: Vector>(&self, blocks: &[Block], number: u64, sink: &mut impl Sink) {
         let Work { plan, points, rolls } = self.work;
         let source = Source { plan, points, places: &self.places };
@@ -120,7 +120,7 @@ struct RingJob<'a> {
 }
 
 impl Job for RingJob<'_> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn run<V: Vector>(self) {
         let RingRun { blocks, first_block, rings, slopes } = self.run;
         let (mut number, mut sink) = (first_block, RingSink { rings, slopes });
@@ -138,7 +138,7 @@ struct RingSink<'a> {
 }
 
 impl Sink for RingSink<'_> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn take<V: Vector>(&mut self, rings: &Rings<V>, roll: V::Whole, count: usize) {
         let mut out = [Ring::default(); LANES_MAX];
         rings.store(roll, &mut out);
@@ -160,7 +160,7 @@ struct MeshJob<'a> {
 }
 
 impl Job for MeshJob<'_> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn run<V: Vector>(self) {
         let Self { maker, table, streams, run } = self;
         let plan = &maker.work.plan;
@@ -211,7 +211,7 @@ struct MeshSink<'a> {
 }
 
 impl Sink for MeshSink<'_> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn take<V: Vector>(&mut self, rings: &Rings<V>, _roll: V::Whole, count: usize) {
         match &mut self.vertices {
             Way::Tiles(tiles) => {

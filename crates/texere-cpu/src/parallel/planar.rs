@@ -18,7 +18,7 @@ const ONWARD: f32 = 1e-3;
 const EXTENT_MAX: f32 = 1e15;
 
 /// Whether every step between the rings of `stretch` is zero, as far as their frames go.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn stays_upright<V: Vector>(source: &Source<'_>, stretch: Stretch) -> bool {
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));
     let per_interval = plan.settings().subdivisions + 1;
@@ -46,7 +46,7 @@ pub(super) fn stays_upright<V: Vector>(source: &Source<'_>, stretch: Stretch) ->
 /// and backwards in y at constant x: a bit for each.
 ///
 /// A cubic's velocity lies between the three values of its Bézier form, of which the outer ones are those at the ends.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn ways_on<V: Vector>(points: &[[f32; 4]], first: usize, s: f32) -> [u32; 4] {
     let [before, start, end, after] = neighbours::<V>(points, first);
     let (before, start, end, after) = (xyz(before), xyz(start), xyz(end), xyz(after));

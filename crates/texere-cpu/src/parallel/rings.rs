@@ -19,7 +19,7 @@ pub(super) struct Source<'a> {
 
 impl<'a> Source<'a> {
     /// The padded control points from `yarn`'s first one on.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn yarn(&self, yarn: usize) -> &'a [[f32; 4]] {
         let points = &self.points.points()[self.plan.padded_offsets()[yarn] as usize..];
         bytemuck::cast_slice::<ControlPoint, _>(points)
@@ -68,7 +68,7 @@ pub(super) struct Walk<'a, V> {
 }
 
 impl<'a, V: Vector> Walk<'a, V> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(source: Source<'a>, stretch: Stretch) -> Self {
         let Source { plan, places, .. } = source;
         let points = source.yarn(stretch.yarn);
@@ -88,13 +88,13 @@ impl<'a, V: Vector> Walk<'a, V> {
     }
 
     /// How many rings there are in the next vector; 0 at the end.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn left(&self) -> usize {
         ((self.stretch.count - self.done) as usize).min(V::LANES)
     }
 
     /// The next vector of rings. Past the end of the stretch its lanes hold nothing of meaning.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn next(&mut self) -> Rings<V> {
         let Source { plan, places, .. } = self.source;
         let seats = &places.0[self.place];
@@ -122,7 +122,7 @@ impl<'a, V: Vector> Walk<'a, V> {
     }
 
     /// Has the core make those of the next rings whose bits are set in `rare`, and an open yarn's last ring.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn mended(&self, rings: Rings<V>, rare: u32) -> Rings<V> {
         let mut fields = rings.fields();
         let mut lanes = Lanes([[0.0; LANES_MAX]; FIELDS]);
@@ -149,7 +149,7 @@ struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
 impl<V: Vector> Rings<V> {
     /// Writes them to the first `LANES` places of a slice.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn store(&self, roll: V::Whole, out: &mut [Ring]) {
         const FLOATS: usize = size_of::<Ring>() / size_of::<f32>();
         let out: &mut [f32] = bytemuck::cast_slice_mut(out);
@@ -158,14 +158,14 @@ impl<V: Vector> Rings<V> {
         V::scatter([tx, ty, tz, V::from_bits(roll)], &mut out[FLOATS / 2..], FLOATS);
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn fields(&self) -> [V; FIELDS] {
         let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);
         let ([sx, sy, sz], [ux, uy, uz]) = (self.side, self.up);
         [cx, cy, cz, self.radius, tx, ty, tz, self.slope, sx, sy, sz, ux, uy, uz]
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn with_fields(self, fields: [V; FIELDS]) -> Self {
         let [cx, cy, cz, radius, tx, ty, tz, slope, sx, sy, sz, ux, uy, uz] = fields;
         let (centre, tangent) = ([cx, cy, cz], [tx, ty, tz]);
@@ -195,7 +195,7 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
 
 /// Upright rings at `t` of each lane's interval, which is number `interval` of `cubics`, and a bit for each that the core
 /// has to mend.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn upright<V: Vector>(cubics: &Cubics<V>, interval: V::Whole, t: V) -> (Rings<V>, u32) {
     let (one, zero) = (V::splat(1.0), V::splat(0.0));
     let sampled = cubics.sample(interval, t);

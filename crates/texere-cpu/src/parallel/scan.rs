@@ -75,7 +75,7 @@ struct ScanRun<'a> {
 }
 
 impl Job for ScanRun<'_> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn run<V: Vector>(self) {
         let Self { source, run: Run { yarn, first_ring, mut blocks, mut rings } } = self;
         let of_yarn = source.plan.rings(yarn);
@@ -107,7 +107,7 @@ impl Job for ScanRun<'_> {
 }
 
 /// Adds up the steps between the rings of `stretch`: `rings`, and perhaps the one after them.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn sums<V: Vector>(source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], rings: &mut [Turn]) {
     let mut walk = Walk::<V>::new(source, stretch);
     let mut steps = Steps::<V>::new(&source, stretch.yarn);

@@ -56,7 +56,7 @@ pub(super) struct Sampled<V> {
 
 impl<V: Vector> Cubics<V> {
     /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(points: &[[f32; 4]], first: usize, s: f32) -> Self {
         let [before, start, end, after] = neighbours::<V>(points, first);
         let (doubled, rest, less) = (V::splat(2.0 * s), V::splat(3.0 - 2.0 * s), V::splat(s - 2.0));
@@ -82,7 +82,7 @@ impl<V: Vector> Cubics<V> {
     }
 
     /// The spline at `t` of each lane's interval, which is number `interval` of these.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn sample(&self, interval: V::Whole, t: V) -> Sampled<V> {
         let zero = V::splat(0.0);
         let thrice = V::splat(3.0) * t;
@@ -103,13 +103,13 @@ impl<V: Vector> Cubics<V> {
 }
 
 /// The first three components.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn xyz<V: Vector>([x, y, z, _]: [V; 4]) -> [V; 3] {
     [x, y, z]
 }
 
 /// The points from number `first` on, one in each lane, and those from the next three numbers on.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn neighbours<V: Vector>(points: &[[f32; 4]], first: usize) -> [[V; 4]; 4] {
     let last;
     let window = match points.get(first..first + V::LANES + 3) {

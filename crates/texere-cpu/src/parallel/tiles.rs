@@ -52,13 +52,13 @@ impl<'a> TileLines<'a> {
     }
 
     /// Where the columns of the next rings go.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn next<V: Vector>(&mut self) -> &mut [f32] {
         &mut self.columns[BEFORE * V::LANES..]
     }
 
     /// Sends the lines of `count` rings whose columns have been written.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn send<V: Vector>(&mut self, count: usize) {
         let (before, here) = self.columns.split_at_mut(BEFORE * V::LANES);
         let last = &here[(4 * self.quarters - BEFORE) * V::LANES..][..BEFORE * V::LANES];
@@ -83,7 +83,7 @@ impl<'a> TileLines<'a> {
     }
 
     /// The same for the first rings, and for the last ones where they are no full vector.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn send_edge<V: Vector>(&mut self, count: usize) {
         let lines = self.quarters * V::LANES / QUARTER;
         let columns = &self.columns[(BEFORE - self.shift) * V::LANES..];
@@ -109,7 +109,7 @@ impl<'a> TileLines<'a> {
     }
 
     /// Sends the rest.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn finish<V: Vector>(self) {
         // The last lanes of the last columns, unless less than a vector came last.
         let last = &self.columns[(BEFORE - self.shift) * V::LANES..BEFORE * V::LANES];

@@ -26,7 +26,7 @@ struct Traces<V> {
 }
 
 impl<V: Vector> Steps<V> {
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(source: &Source<'_>, yarn: usize) -> Self {
         let twist = source.plan.twist_turns(yarn);
         Self {
@@ -37,7 +37,7 @@ impl<V: Vector> Steps<V> {
     }
 
     /// The step to each of the next rings from the one before it. That to the very first means nothing.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn next(&mut self, rings: &Rings<V>) -> V::Whole {
         let here =
             Traces { offset: rings.offset, span: rings.span, tangent: rings.tangent, side: rings.side };
@@ -45,7 +45,7 @@ impl<V: Vector> Steps<V> {
         self.between(&before, rings)
     }
 
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn between(&self, before: &Traces<V>, rings: &Rings<V>) -> V::Whole {
         let offset = preceding(before.offset, rings.offset);
         let span = preceding(before.span, rings.span);
@@ -63,7 +63,7 @@ impl<V: Vector> Steps<V> {
 
 impl<V: Vector> Rings<V> {
     /// These rings with their bases turned by `roll`.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn turned(&self, roll: V::Whole) -> Self {
         let (sin, cos) = sin_cos::<V>(roll);
         let level = V::from_signed(roll).is_zero();
@@ -77,7 +77,7 @@ impl<V: Vector> Rings<V> {
 }
 
 /// Rolls of a vector of rings of `yarn`, from ring `first` in block `block` on.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn rolls<V: Vector>(plan: &Plan, rolls: &Rolls, yarn: usize, first: u32, block: u64) -> V::Whole {
     let place = (plan.ring_offsets()[yarn] + u64::from(first)) as usize;
     let in_block = V::load_whole(bytemuck::cast_slice(&rolls.in_block[place..]));
@@ -94,13 +94,13 @@ pub(super) fn rolls<V: Vector>(plan: &Plan, rolls: &Rolls, yarn: usize, first: u
 }
 
 /// The vectors of the rings before `here`, the first of which is the last one in `before`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn preceding<V: Vector>(before: [V; 3], here: [V; 3]) -> [V; 3] {
     [V::preceding(before[0], here[0]), V::preceding(before[1], here[1]), V::preceding(before[2], here[2])]
 }
 
 /// Double reflection from the rings before to `rings`, in turns.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn transport<V: Vector>(before: &Traces<V>, rings: &Rings<V>, chord: [V; 3], length_squared: V) -> V {
     let tangent = preceding(before.tangent, rings.tangent);
     let apart = V::less(V::splat(NO_LENGTH), length_squared);
@@ -115,14 +115,14 @@ fn transport<V: Vector>(before: &Traces<V>, rings: &Rings<V>, chord: [V; 3], len
 }
 
 /// `v` mirrored in the plane at right angles to `mirror`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn reflect<V: Vector>(v: [V; 3], mirror: [V; 3], mirror_squared: V) -> [V; 3] {
     let share = V::splat(2.0) * dot(v, mirror) / mirror_squared;
     difference(v, scale(mirror, share))
 }
 
 /// `Turn::from_turns`
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn from_turns<V: Vector>(turns: V) -> V::Whole {
     let half = V::splat(0.5);
     let wrapped = (turns - (turns + half).floor()).max(half.negate());
@@ -130,7 +130,7 @@ fn from_turns<V: Vector>(turns: V) -> V::Whole {
 }
 
 /// `Turn::sin_cos`
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn sin_cos<V: Vector>(turn: V::Whole) -> (V, V) {
     let quarter = V::shift_right::<30>(V::add_whole(turn, V::splat_whole(1 << 29)));
     let rest = V::sub_whole(turn, V::shift_left::<30>(quarter));
@@ -149,7 +149,7 @@ fn sin_cos<V: Vector>(turn: V::Whole) -> (V, V) {
 }
 
 /// `atan2_turns` of the core
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn atan2_turns<V: Vector>(y: V, x: V) -> V {
     let (along, across) = (x.abs(), y.abs());
     let steep = V::less(along, across);

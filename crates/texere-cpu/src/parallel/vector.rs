@@ -97,7 +97,7 @@ pub(super) trait Vector:
     fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize);
 
     /// The same with eight rows.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     fn scatter_eight([a, b, c, d, e, f, g, h]: [Self; 8], out: &mut [f32], stride: usize) {
         Self::scatter([a, b, c, d], out, stride);
         Self::scatter([e, f, g, h], &mut out[4..], stride);
@@ -160,31 +160,31 @@ pub(super) trait Vector:
 }
 
 /// Dot product, added up in the order of `Vec3::dot`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn dot<V: Vector>(a: [V; 3], b: [V; 3]) -> V {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// `v * factor`
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn scale<V: Vector>(v: [V; 3], factor: V) -> [V; 3] {
     [v[0] * factor, v[1] * factor, v[2] * factor]
 }
 
 /// `a + b`
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn plus<V: Vector>(a: [V; 3], b: [V; 3]) -> [V; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 /// `a - b`
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn difference<V: Vector>(a: [V; 3], b: [V; 3]) -> [V; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// `yes` where `mask` says so, else `no`.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 pub(super) fn select<V: Vector>(mask: V::Mask, yes: [V; 3], no: [V; 3]) -> [V; 3] {
     [V::select(mask, yes[0], no[0]), V::select(mask, yes[1], no[1]), V::select(mask, yes[2], no[2])]
 }

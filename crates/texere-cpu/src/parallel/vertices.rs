@@ -27,7 +27,7 @@ impl<'a> Surface<'a> {
 
     /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as the `COLUMNS` that
     /// [`TileLines`](super::tiles::TileLines) wants.
-    #[inline(always)]
+    #[cfg_attr(optimized, inline(always))]
     pub(super) fn write<V: Vector, const COLUMNS: bool>(&self, rings: &Rings<V>, out: &mut [f32]) {
         if V::bits(rings.slope.is_zero()) != V::ALL {
             vertices::<V, SLOPED, COLUMNS>(rings, self.outline, out);
@@ -49,7 +49,7 @@ const PLAIN: u8 = 1;
 /// Nor do the section's normals differ from its points.
 const ROUND: u8 = 2;
 
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn vertices<V: Vector, const KIND: u8, const COLUMNS: bool>(
     rings: &Rings<V>,
     outline: &[SectionPoint],
@@ -64,7 +64,7 @@ fn vertices<V: Vector, const KIND: u8, const COLUMNS: bool>(
 
 /// All vertices of `rings` in columns. A column has the same four floats of every fourth ring; first come those of ring 0,
 /// from its first floats to its last, then those of ring 1.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn columns<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
     let (pairs, _) = outline.as_chunks::<2>();
     let quarters = 3 * pairs.len();
@@ -82,7 +82,7 @@ fn columns<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint]
 
 /// All vertices of `rings`, the last ones first: a store that reaches over the end of its ring is then followed by the next
 /// ring's own.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn scattered<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;
     let out = &mut out[..V::LANES * stride + OVERHANG];
@@ -114,7 +114,7 @@ fn scattered<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoin
 }
 
 /// A vertex of each of `rings`: rows of x, y, z and of the normal's, a ring in each lane.
-#[inline(always)]
+#[cfg_attr(optimized, inline(always))]
 fn vertex<V: Vector, const KIND: u8>(rings: &Rings<V>, point: &SectionPoint) -> [V; VERTEX] {
     let (x, y) = (V::splat(point.x), V::splat(point.y));
     let (normal_x, normal_y) = (V::splat(point.normal_x), V::splat(point.normal_y));

@@ -138,7 +138,7 @@ pub fn mesh(mesh: &Mesh, path: impl AsRef<Path>) -> Result<(), WriteError> {
 /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_formats::WriteError> {
 /// use texere_core::{Limits, Pipeline};
 /// // Half a gigabyte for control points and two chunks, however large the fabric.
-/// let limits = Limits { memory_bytes: 1 << 29, ..Limits::NONE };
+/// let limits = Limits { memory_bytes: 1 << 29, ..Limits::default() };
 /// let written = texere_formats::write::stream(Pipeline::new(yarns).limits(limits), device, "damask.ply")?;
 /// println!("{} triangles in {} bytes", written.triangles, written.bytes);
 /// # Ok(())

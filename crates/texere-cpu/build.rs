@@ -1,0 +1,13 @@
+//! Tells the vector code whether it is being optimised.
+//!
+//! Code that is generic over vectors must be inlined into a function that is compiled for their instructions, or it is
+//! slow. Where nothing is optimised that only gathers the temporaries of hundreds of functions in one frame of megabytes,
+//! more than a thread's stack may hold.
+
+fn main() {
+    println!("cargo::rustc-check-cfg=cfg(optimized)");
+    println!("cargo::rerun-if-changed=build.rs");
+    if std::env::var_os("OPT_LEVEL").is_some_and(|level| level != "0") {
+        println!("cargo::rustc-cfg=optimized");
+    }
+}

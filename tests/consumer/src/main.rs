@@ -1,0 +1,59 @@
+//! The README's example, then every backend of the CPU, with every kind of vectors, on threads with little stack.
+
+use std::error::Error;
+use std::thread;
+
+use texere::{Backend, Frame, Pipeline, PipelineError, Section, Settings, Topology, Yarns};
+use texere_cpu::{ParallelBackend, SerialBackend};
+
+/// The least stack that a thread of a program may be expected to have, bytes.
+const STACK: usize = 128 << 10;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let designs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../designs");
+
+    let design = texere::read(format!("{designs}/herringbone.wif"))?;
+    let yarns = design.yarns()?;
+    let device = texere::open("auto")?;
+    let mesh = Pipeline::new(&yarns).subdivisions(1).sides(6).mesh(&*device)?;
+    let folder = std::env::temp_dir().join(format!("texere-consumer-{}", std::process::id()));
+    std::fs::create_dir(&folder)?;
+    let written = texere::write(&mesh, folder.join("herringbone.glb"));
+    std::fs::remove_dir_all(&folder)?;
+    written?;
+    println!("{} by {}: {} triangles", design.name, device.info().name, mesh.plan.counts().triangles);
+
+    for file in ["twill.toml", "damask.toml"] {
+        let mut design = texere::read(format!("{designs}/{file}"))?;
+        design.set_section(Section::Lobed { plies: 2 })?;
+        let yarns = design.yarns()?;
+        on_little_stack(&yarns, &SerialBackend::new())?;
+        for device in ParallelBackend::each() {
+            on_little_stack(&yarns, &device)?;
+        }
+    }
+    Ok(())
+}
+
+/// All that a mesh may be asked for, called from a thread with little stack and worked on by such threads.
+fn on_little_stack(yarns: &Yarns, device: &dyn Backend) -> Result<(), Box<dyn Error>> {
+    let name = &device.info().name;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(4).stack_size(STACK).build()?;
+    let work = || -> Result<(), PipelineError> {
+        for topology in [Topology::Indexed, Topology::Shared, Topology::None] {
+            for (frame, sides) in [(Frame::Upright, 6), (Frame::RotationMinimizing, 6), (Frame::Upright, 13)] {
+                let settings = Settings { topology, frame, sides, caps: true, ..Settings::default() };
+                Pipeline::new(yarns).settings(settings).mesh(device)?;
+                Pipeline::new(yarns).settings(settings).trajectory(device)?;
+            }
+        }
+        Ok(())
+    };
+    thread::scope(|scope| {
+        let caller = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || pool.install(work))?;
+        caller.join().map_err(|_| format!("{name} panicked"))??;
+        Ok::<(), Box<dyn Error>>(())
+    })?;
+    println!("{name}: a stack of {STACK} bytes is enough");
+    Ok(())
+}

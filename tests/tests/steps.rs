@@ -1,0 +1,103 @@
+//! The steps of a run, as `Pipeline` promises them: bounded by default, told one by one, and no more of them after a stop.
+
+use std::ops::ControlFlow;
+
+use texere_conformance::cases;
+use texere_core::{
+    Backend, Chunk, Limits, MeshPiece, Pipeline, PipelineError, Progress, Topology, Vertex, Yarn, Yarns,
+};
+
+/// A yarn whose mesh takes half a gigabyte in each of its two buffers.
+fn yarns() -> Yarns {
+    cases::winding(1_800_000, Yarn::default())
+}
+
+/// The most that a buffer of a chunk may have unless more are asked for, bytes: what the docs of `Limits` say.
+const CHUNK_BUFFER: u64 = 64 << 20;
+
+/// Rings of six sides that such a buffer holds: four bytes for each of 36 indices, 24 for each of six vertices.
+const STEP_RINGS: u64 = CHUNK_BUFFER / 144;
+
+fn device() -> Box<dyn Backend> {
+    texere::open("cpu").unwrap()
+}
+
+/// Progress as it is told, in order.
+fn told(run: impl FnOnce(Pipeline<'_>, &dyn Backend)) -> Vec<Progress> {
+    let (yarns, mut told) = (yarns(), Vec::new());
+    run(
+        Pipeline::new(&yarns).progress(|progress| {
+            told.push(progress);
+            ControlFlow::Continue(())
+        }),
+        &*device(),
+    );
+    told
+}
+
+#[test]
+fn chunks_are_bounded_unless_asked_otherwise() {
+    let (yarns, device) = (yarns(), device());
+    let mut bytes = Vec::new();
+    let mut note = |chunk: &Chunk, _: MeshPiece<'_>| {
+        let vertices = u64::from(chunk.vertices) * size_of::<Vertex>() as u64;
+        bytes.push(vertices.max(u64::from(chunk.indices) * 4));
+        ControlFlow::<()>::Continue(())
+    };
+    let _ = Pipeline::new(&yarns).stream(&*device, &mut note).unwrap();
+    assert!(bytes.len() > 8 && bytes.iter().all(|bytes| *bytes <= CHUNK_BUFFER), "{bytes:?}");
+
+    let mesh = Pipeline::new(&yarns).topology(Topology::None).mesh(&*device).unwrap();
+    assert!(mesh.chunks.len() > 4);
+    let whole = Pipeline::new(&yarns).topology(Topology::None).limits(Limits::NONE).mesh(&*device).unwrap();
+    assert_eq!(whole.chunks.len(), 1);
+}
+
+#[test]
+fn progress_is_told_after_each_chunk() {
+    let runs: [fn(Pipeline<'_>, &dyn Backend); 3] = [
+        |pipeline, device| drop(pipeline.mesh(device).unwrap()),
+        |pipeline, device| {
+            let _ = pipeline.stream(device, |_, _| ControlFlow::<()>::Continue(())).unwrap();
+        },
+        |pipeline, device| drop(pipeline.trajectory(device).unwrap()),
+    ];
+    for run in runs {
+        let told = told(run);
+        let total = told[0].total;
+        assert!(told.iter().all(|progress| progress.total == total));
+        assert_eq!((told[0].rings, told[told.len() - 1].rings), (0, total));
+        let steps: Vec<_> = told.windows(2).map(|pair| pair[1].rings.checked_sub(pair[0].rings)).collect();
+        assert!(steps.iter().all(|step| step.is_some_and(|rings| rings <= STEP_RINGS)), "{steps:?}");
+    }
+}
+
+/// Half way the sink or progress says stop: no more than the chunk after it is handed over.
+#[test]
+fn a_stop_is_heard_at_the_next_chunk() {
+    let (yarns, device) = (yarns(), device());
+    let total = Pipeline::new(&yarns).plan().unwrap().counts().rings;
+    let mut rings = 0;
+    let answer = Pipeline::new(&yarns)
+        .stream(&*device, |chunk, piece| match piece {
+            MeshPiece::Vertices { first: 0, .. } if rings > total / 2 => ControlFlow::Break(rings),
+            MeshPiece::Vertices { first: 0, .. } => {
+                rings += u64::from(chunk.rings);
+                ControlFlow::Continue(())
+            }
+            _ => ControlFlow::Continue(()),
+        })
+        .unwrap();
+    let ControlFlow::Break(heard) = answer else { panic!("never heard") };
+    assert!(heard > total / 2 && heard <= total / 2 + STEP_RINGS, "{heard} of {total}");
+
+    let mut last = 0;
+    let cancelled = Pipeline::new(&yarns)
+        .progress(|progress| {
+            last = progress.rings;
+            if last > total / 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .mesh(&*device);
+    assert!(matches!(cancelled, Err(PipelineError::Cancelled)));
+    assert!(last > total / 2 && last <= total / 2 + STEP_RINGS, "{last} of {total}");
+}

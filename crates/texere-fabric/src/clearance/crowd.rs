@@ -9,7 +9,7 @@ use super::search::Part;
 /// A place that is not measured, because its yarns lie in one another many times over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crowd {
-    /// On the thickest yarn there.
+    /// On the thickest yarn there, nearest to the middle.
     pub place: YarnPlace,
     /// How thick that yarn is, mm: twice its radius.
     pub thickness_mm: f64,
@@ -30,7 +30,7 @@ impl Crowd {
     ) -> Option<Self> {
         let mut room = Bounds::NOTHING;
         let mut volume = 0.0;
-        let mut thickest: Option<(&Part<'_>, f64)> = None;
+        let mut thickest: f64 = 0.0;
         for part in parts {
             let line = &part.line;
             let cubic = line.cubic(part.point);
@@ -39,15 +39,21 @@ impl Crowd {
             let thinnest = cubic.radii().into_iter().fold(f64::INFINITY, f64::min).max(cubic.radius_floor());
             let chord = cubic.position(0.0).distance(cubic.position(1.0));
             volume += line.support.area() * thinnest * thinnest * chord;
-            let radius = cubic.at(0.0).radius[0];
-            if thickest.is_none_or(|(_, before)| radius > before) {
-                thickest = Some((part, radius));
-            }
+            thickest = thickest.max(cubic.at(0.0).radius[0]);
         }
         let size = (room.high - room.low).as_dvec3();
-        thickest.map(|(part, radius)| Self {
+        let middle = ((room.high + room.low) / 2.0).as_dvec3();
+        let off_middle = |part: &Part<'_>| {
+            let start = part.line.cubic(part.point).at(0.0);
+            (start.radius[0] == thickest).then(|| start.position.distance_squared(middle))
+        };
+        let nearest = parts
+            .iter()
+            .filter_map(|part| Some((part, off_middle(part)?)))
+            .min_by(|one, other| one.1.total_cmp(&other.1));
+        nearest.map(|(part, _)| Self {
             place: place(part),
-            thickness_mm: 2.0 * radius,
+            thickness_mm: 2.0 * thickest,
             intervals: parts.len(),
             fill: volume / size.element_product(),
         })

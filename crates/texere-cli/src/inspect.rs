@@ -86,7 +86,9 @@ impl Size {
 
 impl ClothReport {
     fn new(design: &Design, woven: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, Fail> {
-        let found = progress::during("measuring how near yarns come", || texere::clearance(yarns, tension))?;
+        let found = progress::during("measuring how near yarns come", |bar| {
+            texere::clearance_with_progress(yarns, tension, progress::share(bar))
+        })?;
         let names = Names { cloth: woven, yarns };
         let measures = Measures::new(woven, yarns, tension)?;
         Ok(Self {
@@ -153,6 +155,7 @@ impl ClothReport {
             }
         }
         lines.push(("clearance", self.clearance.to_string()));
+        lines.extend(self.clearance.crowd.iter().map(|crowd| ("crowded", crowd.to_string())));
         lines.push(("bends", self.curvature.to_string()));
         lines
     }

@@ -1,10 +1,11 @@
 //! Point paper: an image of which each pixel is a crossing.
 
 use std::collections::HashMap;
-use std::io::BufReader;
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use image::{ColorType, ImageDecoder, ImageReader, Limits};
+use image::{ColorType, ImageDecoder, ImageFormat, ImageReader, Limits};
 use serde::Deserialize;
 use texere_fabric::THREADS_MAX;
 
@@ -146,6 +147,16 @@ impl Image {
         let undecodable = |source| ReadError::Image { file: path.into(), source: Box::new(source) };
         let file = BufReader::new(file::open(path, FILE_LIMIT)?);
         let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
+        if reader.format() == Some(ImageFormat::Png) {
+            let mut file = reader.into_inner();
+            if let Some(bytes) = broken_palette(&mut file).map_err(io)? {
+                let source =
+                    format!("it has a palette of {bytes} bytes, not three for each of 1 to 256 colours");
+                return Err(ReadError::Image { file: path.into(), source: source.into() });
+            }
+            file.rewind().map_err(io)?;
+            reader = ImageReader::with_format(file, ImageFormat::Png);
+        }
         // These are for what stands before the pixels; a PNG's text and colour profile are not asked for their own.
         let mut limits = Limits::default();
         limits.max_alloc = Some(ASIDE_MAX);
@@ -189,5 +200,26 @@ impl Image {
                 _ => [channel(0), channel(1), channel(2), channel(3)],
             }
         })
+    }
+}
+
+/// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder takes that for granted.
+fn broken_palette(file: &mut BufReader<File>) -> io::Result<Option<u32>> {
+    // Behind the signature each chunk has its length, its name, its data and a checksum.
+    file.seek(SeekFrom::Start(8))?;
+    let mut head = [0; 8];
+    loop {
+        match file.read_exact(&mut head) {
+            // What is missing the decoder will miss too.
+            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(None),
+            other => other?,
+        }
+        let [a, b, c, d, name @ ..] = head;
+        let length = u32::from_be_bytes([a, b, c, d]);
+        match &name {
+            b"IDAT" | b"IEND" => return Ok(None),
+            b"PLTE" if !length.is_multiple_of(3) || !(3..=768).contains(&length) => return Ok(Some(length)),
+            _ => file.seek_relative(i64::from(length) + 4)?,
+        }
     }
 }

@@ -10,6 +10,9 @@ use texere_fuzz::{Reader, fuzz};
 #[global_allocator]
 static HEAP: PeakAlloc = PeakAlloc;
 
+/// Inputs after which progress is told.
+const TOLD: u64 = 10_000;
+
 /// Feeds mutated designs to texere's readers.
 #[derive(Debug, Parser)]
 struct Args {
@@ -33,13 +36,14 @@ fn main() {
         .into_iter()
         .filter(|reader| args.reader.as_ref().is_none_or(|name| name == reader.name()));
     for reader in readers {
-        let start = Instant::now();
-        let taken = fuzz(reader, args.first..args.first + args.inputs, &HEAP, &args.kept);
-        println!(
-            "{}: {} inputs, {taken} taken, {:.0} s",
-            reader.name(),
-            args.inputs,
-            start.elapsed().as_secs_f64()
-        );
+        let (start, end) = (Instant::now(), args.first + args.inputs);
+        let (mut number, mut taken) = (args.first, 0);
+        while number < end {
+            let next = end.min(number + TOLD);
+            taken += fuzz(reader, number..next, &HEAP, &args.kept);
+            number = next;
+            let (inputs, seconds) = (number - args.first, start.elapsed().as_secs_f64());
+            println!("{}: {inputs} inputs, {taken} taken, {seconds:.0} s", reader.name());
+        }
     }
 }

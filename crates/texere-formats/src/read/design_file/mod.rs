@@ -80,8 +80,8 @@ use cloth::Cloth;
 use schema::{DesignFile, Source};
 use threads::YarnTable;
 
-/// The largest design file that is read: one that names each of a million threads takes half as much.
-const FILE_LIMIT: u64 = 1 << 25;
+/// The largest design file that is read: one that names each of a million threads takes as much.
+const FILE_LIMIT: u64 = 1 << 24;
 
 pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let bytes = bytes_of(path, FILE_LIMIT)?;

@@ -26,6 +26,26 @@ pub(super) struct Ini<'a> {
     sections: HashMap<Cow<'a, str>, Section<'a>>,
 }
 
+/// The sections that a cloth is made of. Others may be as large as they like: nothing of them is kept.
+const READ: [&str; 16] = [
+    "text",
+    "weaving",
+    "warp",
+    "weft",
+    "threading",
+    "tieup",
+    "treadling",
+    "liftplan",
+    "color palette",
+    "color table",
+    "warp colors",
+    "weft colors",
+    "warp spacing",
+    "weft spacing",
+    "warp thickness",
+    "weft thickness",
+];
+
 impl<'a> Ini<'a> {
     /// Reads all sections. Where a section or a key comes twice, the later value of each key stands.
     pub(super) fn parse(file: &'a Path, text: &'a str) -> Self {
@@ -37,7 +57,8 @@ impl<'a> Ini<'a> {
                 continue;
             }
             if let Some(name) = text.strip_prefix('[').and_then(|rest| rest.split(']').next()) {
-                section = Some(sections.entry(lower_case(name.trim())).or_default());
+                let name = lower_case(name.trim());
+                section = READ.contains(&name.as_ref()).then(|| sections.entry(name).or_default());
             } else if let (Some(section), Some((key, value))) = (&mut section, text.split_once('=')) {
                 section.insert(lower_case(key.trim()), Entry { line: line + 1, value: value.trim() });
             }
@@ -106,14 +127,14 @@ mod tests {
 
     #[test]
     fn reads_what_programs_really_write() {
-        let text = b"junk\r\nkey=before any section\n[One]\rA = 1\r\nno equals sign\r\n;B=2\n[TWO\n[one]\na=3\nC=\n[Empty]\nx=\n\
+        let text = b"junk\r\nkey=before any section\n[Warp]\rA = 1\r\nno equals sign\r\n;B=2\n[TWO\n[warp]\na=3\nC=\n[Weft]\nx=\n\
                      [Text]\nAuthor=Andr\xe9=x\n";
         let text = decode(text);
         let ini = Ini::parse(Path::new("a.wif"), &text);
-        let a = ini.get("one", "a").unwrap();
+        let a = ini.get("warp", "a").unwrap();
         assert_eq!((a.value, a.line), ("3", 9));
-        assert!(ini.get("one", "b").is_none() && ini.get("one", "c").is_none());
-        assert!(!ini.has("empty"));
+        assert!(ini.get("warp", "b").is_none() && ini.get("warp", "c").is_none());
+        assert!(!ini.has("weft"));
         assert_eq!(ini.get("text", "author").unwrap().value, "André=x");
     }
 }

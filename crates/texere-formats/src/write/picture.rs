@@ -1,15 +1,13 @@
 //! Pictures that were drawn elsewhere, to PNG.
 
-use std::path::Path;
-
-use super::WriteError;
 use super::target::Target;
+use super::{Output, WriteError};
 
 /// Writes a picture of `size` pixels (width, height) to a PNG file: `rgb` is three bytes a pixel, sRGB, rows from the
 /// top.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `path` does not end in `.png`, [`WriteError::Io`], also for pixels that are
-/// not as many as `size` says.
+/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::Spared`], [`WriteError::Io`],
+/// also for pixels that are not as many as `size` says.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -19,8 +17,8 @@ use super::target::Target;
 /// assert!(texere_formats::write::picture([2, 2], &[0; 6], &path).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn picture([width, height]: [u32; 2], rgb: &[u8], path: impl AsRef<Path>) -> Result<(), WriteError> {
-    let mut target = Target::create(png_path(path.as_ref())?)?;
+pub fn picture([width, height]: [u32; 2], rgb: &[u8], output: impl Into<Output>) -> Result<(), WriteError> {
+    let mut target = Target::create(png(output.into())?)?;
     let mut encoder = png::Encoder::new(&mut target, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
@@ -36,13 +34,13 @@ pub fn picture([width, height]: [u32; 2], rgb: &[u8], path: impl AsRef<Path>) ->
     Ok(())
 }
 
-/// `path`, where it ends in `.png`.
+/// `output`, where it ends in `.png`.
 ///
 /// **Errors**: [`WriteError::NotPng`].
-pub(super) fn png_path(path: &Path) -> Result<&Path, WriteError> {
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        Ok(path)
+pub(super) fn png(output: Output) -> Result<Output, WriteError> {
+    if output.path().extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        Ok(output)
     } else {
-        Err(WriteError::NotPng { path: path.to_owned() })
+        Err(WriteError::NotPng { path: output.path().to_owned() })
     }
 }

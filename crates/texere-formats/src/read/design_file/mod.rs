@@ -98,7 +98,12 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let mut woven = threaded(&source, &file, &yarns, drawdown)?;
     laid.lay(&source, &mut woven)?;
     let name = file.name.unwrap_or_else(|| file_name(path));
-    Design::woven(name, woven, None, laid.jam, warnings).map_err(|error| source.fabric(error))
+    let design =
+        Design::woven(name, woven, None, laid.jam, warnings).map_err(|error| source.fabric(error))?;
+    Ok(match &file.weave.image {
+        Some(image) => design.noting(&path.parent().unwrap_or(Path::new("")).join(image)),
+        None => design,
+    })
 }
 
 /// A drawdown with the file's own threads.
@@ -135,12 +140,12 @@ fn from_wif(
             keys: "weave.wif and weave.ends with weave.picks",
         });
     }
-    let draft = source.path.parent().unwrap_or(Path::new("")).join(wif.as_ref());
-    if !draft.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif")) {
+    let path = source.path.parent().unwrap_or(Path::new("")).join(wif.as_ref());
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif")) {
         let (place, value) = (source.place("weave.wif", wif.span()), wif.as_ref().clone());
         return Err(ReadError::BadValue { place, value, expected: "the path of a .wif file".into() });
     }
-    let draft = wif::read(&draft)?;
+    let draft = wif::read(&path)?;
     let woven = &draft.woven;
     let drawdown = woven.drawdown().clone();
     // The draft's own materials and sections come first, so that its threads keep their numbers.
@@ -163,5 +168,7 @@ fn from_wif(
     let mut woven = Woven::new(drawdown, warp, weft, materials, sections).map_err(fabric)?;
     laid.lay(source, &mut woven)?;
     let name = file.name.clone().unwrap_or(draft.name);
-    Design::woven(name, woven, Some(draft.draft), laid.jam, draft.warnings).map_err(fabric)
+    Design::woven(name, woven, Some(draft.draft), laid.jam, draft.warnings)
+        .map(|design| design.noting(&path))
+        .map_err(fabric)
 }

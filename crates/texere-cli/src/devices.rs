@@ -7,6 +7,7 @@ use serde_json::json;
 
 use crate::args::DevicesArgs;
 use crate::fail::Fail;
+use crate::terminal::lines;
 
 pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     let devices = texere::devices();
@@ -39,7 +40,7 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     for (family, why) in missing {
         let _ = writeln!(text, "no {family} device: {why}");
     }
-    crate::print(&text)
+    crate::print(&lines(&text))
 }
 
 /// An error and its causes in one line.

@@ -44,7 +44,8 @@ pub use texere_fabric::{
     Tightness, Weave, Woven, YarnPlace, clearance, length_mm, lengths_mm,
 };
 pub use texere_formats::write::{
-    Format, Side, Written, draft as write_draft, mesh as write, picture as write_picture, stream,
+    Format, Output, Side, Written, abandon, draft as write_draft, file as write_file, mesh as write,
+    picture as write_picture, stream,
 };
 pub use texere_formats::{Design, ReadError, Structure, WriteError, read};
 #[cfg(feature = "render")]

@@ -1,5 +1,7 @@
 //! Pictures that were drawn elsewhere, to PNG.
 
+use std::io::{self, ErrorKind};
+
 use super::target::Target;
 use super::{Output, WriteError};
 
@@ -19,6 +21,7 @@ use super::{Output, WriteError};
 /// ```
 pub fn picture([width, height]: [u32; 2], rgb: &[u8], output: impl Into<Output>) -> Result<(), WriteError> {
     let mut target = Target::create(png(output.into())?)?;
+    encoder_room().map_err(|source| target.failed(source))?;
     let mut encoder = png::Encoder::new(&mut target, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
@@ -31,6 +34,16 @@ pub fn picture([width, height]: [u32; 2], rgb: &[u8], output: impl Into<Output>)
     });
     written.map_err(|error| target.failed(error.into()))?;
     target.commit()?;
+    Ok(())
+}
+
+/// An error where there is no memory for an encoder. It has none itself, and would end the program.
+pub(super) fn encoder_room() -> io::Result<()> {
+    // Its buffers and its tables take a third of this.
+    let mut room = Vec::<u8>::new();
+    room.try_reserve_exact(1 << 20).map_err(|_| ErrorKind::OutOfMemory)?;
+    // Or else the compiler sees that nobody uses it, and does not ask.
+    std::hint::black_box(&room);
     Ok(())
 }
 

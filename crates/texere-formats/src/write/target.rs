@@ -1,6 +1,6 @@
 //! The file under way, by its bytes.
 
-use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::unfinished::Unfinished;
@@ -13,14 +13,18 @@ const BUFFER_BYTES: usize = 1 << 18;
 #[derive(Debug)]
 pub(super) struct Target<W: Write + Seek> {
     path: PathBuf,
-    out: BufWriter<W>,
+    out: W,
+    /// What `out` has not got yet. Where there is no memory for it, it has no room, and `out` gets all at once.
+    waiting: Vec<u8>,
     position: u64,
 }
 
 impl<W: Write + Seek> Target<W> {
     /// A target that is written to `out`, which stands at its start.
     pub(super) fn over(out: W, path: &Path) -> Self {
-        Self { path: path.to_owned(), out: BufWriter::with_capacity(BUFFER_BYTES, out), position: 0 }
+        let mut waiting = Vec::new();
+        let _ = waiting.try_reserve_exact(BUFFER_BYTES);
+        Self { path: path.to_owned(), out, waiting, position: 0 }
     }
 
     /// What went wrong on the way to the file.
@@ -30,16 +34,17 @@ impl<W: Write + Seek> Target<W> {
 
     /// Writes on from where the last call ended.
     pub(super) fn write(&mut self, bytes: &[u8]) -> Result<(), WriteError> {
-        self.out.write_all(bytes).map_err(|source| self.failed(source))?;
-        self.position += bytes.len() as u64;
-        Ok(())
+        self.write_all(bytes).map_err(|source| self.failed(source))
     }
 
     /// Writes words in little-endian order, whatever the machine's own.
     pub(super) fn write_words(&mut self, words: &[u32]) -> Result<(), WriteError> {
-        for batch in words.chunks(BUFFER_BYTES / 4) {
-            let little: Vec<u32> = batch.iter().map(|word| word.to_le()).collect();
-            self.write(bytemuck::cast_slice(&little))?;
+        let mut little = [0; 1024];
+        for batch in words.chunks(little.len()) {
+            for (place, word) in little.iter_mut().zip(batch) {
+                *place = word.to_le();
+            }
+            self.write(bytemuck::cast_slice(&little[..batch.len()]))?;
         }
         Ok(())
     }
@@ -47,29 +52,44 @@ impl<W: Write + Seek> Target<W> {
     /// Goes to byte `position`, where the next call writes.
     pub(super) fn go_to(&mut self, position: u64) -> Result<(), WriteError> {
         if position != self.position {
-            self.out.seek(SeekFrom::Start(position)).map_err(|source| self.failed(source))?;
+            let moved = self.flush().and_then(|()| self.out.seek(SeekFrom::Start(position)));
+            moved.map_err(|source| self.failed(source))?;
             self.position = position;
         }
         Ok(())
     }
 
-    /// Hands on what is still in the buffer and gives back what was written to.
-    pub(super) fn into_inner(self) -> Result<W, WriteError> {
-        let Self { path, out, .. } = self;
-        out.into_inner().map_err(|error| WriteError::io("write", &path, error.into_error()))
+    /// Hands on what is still waiting and gives back what was written to.
+    pub(super) fn into_inner(mut self) -> Result<W, WriteError> {
+        self.flush().map_err(|source| self.failed(source))?;
+        Ok(self.out)
     }
 }
 
-/// For encoders that write by themselves.
 impl<W: Write + Seek> Write for Target<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let count = self.out.write(bytes)?;
-        self.position += count as u64;
-        Ok(count)
+        self.write_all(bytes)?;
+        Ok(bytes.len())
+    }
+
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let room = self.waiting.capacity() - self.waiting.len();
+        if bytes.len() > room {
+            self.flush()?;
+        }
+        if bytes.len() < self.waiting.capacity() {
+            self.waiting.extend_from_slice(bytes);
+        } else {
+            self.out.write_all(bytes)?;
+        }
+        self.position += bytes.len() as u64;
+        Ok(())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
+        self.out.write_all(&self.waiting)?;
+        self.waiting.clear();
+        Ok(())
     }
 }
 

@@ -16,7 +16,7 @@ mod sheet;
 
 use texere_fabric::{Draft, Shedding, Thread, Woven};
 
-use super::picture::png;
+use super::picture::{encoder_room, png};
 use super::target::Target;
 use super::{Output, WriteError};
 use sheet::{Block, INK, PAPER, Rgb, Sheet};
@@ -79,6 +79,7 @@ pub fn draft(
         return Err(WriteError::DraftTooLarge { ends, picks, width, height, limit: SIDE_MAX });
     }
     let mut target = Target::create(output)?;
+    encoder_room().map_err(|source| target.failed(source))?;
     let written = sheet.write(&mut target);
     written.map_err(|error| target.failed(error.into()))?;
     target.commit()?;

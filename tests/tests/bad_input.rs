@@ -238,13 +238,17 @@ fn limits_that_hold_no_block() {
         ] {
             let error = plan.chunks(&limits).unwrap_err();
             let (needed, limit) = match error {
-                PlanError::BlockTooLarge { needed, limit, .. } if limits.blocks == u64::MAX => (needed, limit),
+                PlanError::BlockTooLarge { needed, limit, .. } if limits.blocks == u64::MAX => {
+                    (needed, limit)
+                }
                 PlanError::BlockOverCount { needed, limit, what: "blocks", .. } => (needed, limit),
                 other => panic!("{limits:?}: {other}"),
             };
             assert!(needed > limit, "{limits:?}");
             let through = Pipeline::new(&yarns).settings(settings).limits(limits);
-            let Err(PipelineError::Plan(told)) = through.mesh(&NullBackend::default()) else { panic!("{error}") };
+            let Err(PipelineError::Plan(told)) = through.mesh(&NullBackend::default()) else {
+                panic!("{error}")
+            };
             assert_eq!(told, error);
         }
     }

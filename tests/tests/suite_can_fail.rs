@@ -19,7 +19,8 @@ fn yarns() -> Yarns {
         yarns.yarn(Yarn { twist: 0.5, ..Yarn::default() }, &points);
     }
     let on_circle = |k: u32| (k as f32 * 0.3).sin_cos();
-    let circle: Vec<_> = (0..20).map(on_circle).map(|(x, y)| ControlPoint::new(x, 10.0 + y, 0.0, 0.1)).collect();
+    let circle: Vec<_> =
+        (0..20).map(on_circle).map(|(x, y)| ControlPoint::new(x, 10.0 + y, 0.0, 0.1)).collect();
     yarns.yarn(Yarn { twist: 0.5, closed: true, ..Yarn::default() }, &circle);
     yarns.build().unwrap()
 }

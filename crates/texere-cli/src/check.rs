@@ -10,7 +10,7 @@ use crate::args::CheckArgs;
 use crate::cures::{self, Cure};
 use crate::fail::Fail;
 use crate::places::{ClearanceReport, ContactReport, Crossing, CrowdReport, CurvatureReport, Names, place};
-use crate::progress;
+use crate::{progress, terminal};
 
 /// The most jammed threads that are listed one by one.
 const LISTED: usize = 100;
@@ -158,10 +158,10 @@ impl Jams {
 
 impl Report {
     fn text(&self, clearance: &ClearanceReport, curvature: &CurvatureReport) -> String {
-        let mut text = format!("{}\n", self.name);
+        let mut text = format!("{}\n", terminal::line(&self.name));
         let mut line = |what: &str, said: String| {
             // Writing to a string can't fail.
-            let _ = writeln!(text, "{what:>10}  {said}");
+            let _ = writeln!(text, "{what:>10}  {}", terminal::line(said));
         };
         line("clearance", clearance.to_string());
         line("bends", curvature.to_string());

@@ -10,6 +10,7 @@ use crate::fail::Fail;
 use crate::measures::{JamsReport, MeasuresReport};
 use crate::places::{ClearanceReport, CurvatureReport, Names};
 use crate::progress;
+use crate::terminal::line;
 
 /// What is said of a design. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -163,7 +164,7 @@ impl ClothReport {
 
 impl Report {
     fn text(&self) -> String {
-        let mut text = format!("{}\n", self.name);
+        let mut text = format!("{}\n", line(&self.name));
         let size = &self.size;
         let mut lines = vec![
             ("yarns", size.yarns.to_string()),
@@ -177,7 +178,7 @@ impl Report {
         lines.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         for (what, value) in lines {
             // Writing to a string can't fail.
-            let _ = writeln!(text, "{what:>16}  {value}");
+            let _ = writeln!(text, "{what:>16}  {}", line(value));
         }
         text
     }

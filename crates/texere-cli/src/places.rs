@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 use texere::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, Clearance, Contact, Crowd, NO_CROSSING, Origin,
-    Woven, YarnPlace, Yarns,
+    Thread, Woven, YarnPlace, Yarns,
 };
 
 /// How near yarns come to one another.
@@ -147,14 +147,19 @@ impl Names<'_> {
 
     /// The pick nearest to height `y` of the cloth, mm.
     fn pick_at(&self, y: f64) -> u32 {
-        let weft = self.cloth.weft();
-        let mut at = -weft.first().map_or(0.0, |pick| pick.spacing_mm / 2.0);
-        let distances = weft.iter().map(|pick| {
-            at += pick.spacing_mm;
-            (at - y).abs()
-        });
+        let distances = middles(self.cloth.weft()).map(|middle| (middle - y).abs());
         (1..).zip(distances).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(1, |(pick, _)| pick)
     }
+}
+
+/// The middles of threads, mm from the cloth's edge: the first lies half its spacing in, each further one its own spacing
+/// from the one before.
+pub(crate) fn middles(threads: &[Thread]) -> impl Iterator<Item = f64> {
+    let mut at = -threads.first().map_or(0.0, |first| first.spacing_mm / 2.0);
+    threads.iter().map(move |thread| {
+        at += thread.spacing_mm;
+        at
+    })
 }
 
 impl fmt::Display for ClearanceReport {

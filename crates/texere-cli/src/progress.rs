@@ -2,6 +2,8 @@
 
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -33,9 +35,17 @@ pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T
     }
     bar.set_message(what);
     bar.set_length(STEPS);
-    // The first tick comes after a whole interval.
-    bar.enable_steady_tick(QUIET_FOR);
+    let (end, ended) = mpsc::channel::<()>();
+    let ticking = bar.clone();
+    // The bar's own ticker would panic where no thread can be had. Then nothing is shown.
+    let ticker = thread::Builder::new().spawn(move || {
+        while ended.recv_timeout(QUIET_FOR) == Err(RecvTimeoutError::Timeout) {
+            ticking.tick();
+        }
+    });
     let done = work(&bar);
+    drop(end);
+    let _ = ticker.map(JoinHandle::join);
     bar.finish_and_clear();
     done
 }

@@ -45,9 +45,10 @@ pub use texere_fabric::{
     length_mm, lengths_mm,
 };
 pub use texere_formats::write::{
-    Format, Side, Written, draft as write_draft, mesh as write, picture as write_picture, stream,
+    Format, Output, Side, Written, abandon, draft as write_draft, file as write_file, mesh as write,
+    picture as write_picture, stream,
 };
-pub use texere_formats::{Design, ReadError, Structure, WriteError, read};
+pub use texere_formats::{Design, Place, ReadError, Structure, WriteError, read};
 #[cfg(feature = "render")]
 pub use texere_render::{
     Camera, Cut, Extent, Phases, Picture, PictureTimings, Quality, RenderError, Renderer, Scene,

@@ -7,7 +7,7 @@ mod point_paper;
 mod wif;
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{self, Path, PathBuf};
 
 use texere_core::{Material, Section, Yarns};
 use texere_fabric::{Draft, FabricError, Jam, JamReport, Thread, Woven};
@@ -41,6 +41,7 @@ pub struct Design {
     pub jam: JamReport,
     /// What the reader had to assume or leave out.
     remarks: Vec<String>,
+    files: Vec<PathBuf>,
     relief: Jam,
     /// The cloth as it was designed, where relief has changed it.
     designed: Option<Woven>,
@@ -56,7 +57,30 @@ impl Design {
         remarks: Vec<String>,
     ) -> Result<Self, FabricError> {
         let (jam, designed) = relieve(&mut woven, relief)?;
-        Ok(Self { name, structure: Structure::Woven(woven), draft, jam, remarks, relief, designed })
+        Ok(Self {
+            name,
+            structure: Structure::Woven(woven),
+            draft,
+            jam,
+            remarks,
+            files: Vec::new(),
+            relief,
+            designed,
+        })
+    }
+
+    /// Notes a file that it was read from.
+    fn noting(mut self, file: &Path) -> Self {
+        // A program may change its folder; what can't be told of a path then is left as it is.
+        self.files.push(path::absolute(file).unwrap_or_else(|_| file.into()));
+        self
+    }
+
+    /// The files that it was read from: the design's own, and the image or WIF draft that it names.
+    /// [`Output::sparing`](crate::write::Output::sparing) keeps a writer from replacing them.
+    #[must_use]
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// What a person should know: what the reader had to assume or leave out, and what the cloth lacks.
@@ -115,6 +139,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
         Some("toml") => design_file::read(path),
         _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml" }),
     }
+    .map(|design| design.noting(path))
 }
 
 /// The materials and sections that `threads` have, in their order and each section once, and the threads with their

@@ -102,7 +102,12 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let mut woven = threaded(&source, &file, &yarns, drawdown)?;
     laid.lay(&source, &mut woven)?;
     let name = file.name.unwrap_or_else(|| file_name(path));
-    Design::woven(name, woven, None, laid.jam, warnings).map_err(|error| source.fabric(error))
+    let design =
+        Design::woven(name, woven, None, laid.jam, warnings).map_err(|error| source.fabric(error))?;
+    Ok(match &file.weave.image {
+        Some(image) => design.noting(&path.parent().unwrap_or(Path::new("")).join(image.as_ref())),
+        None => design,
+    })
 }
 
 /// A drawdown with the file's own threads.
@@ -167,5 +172,7 @@ fn from_wif(
     let mut woven = Woven::new(drawdown, warp, weft, materials, sections).map_err(fabric)?;
     laid.lay(source, &mut woven)?;
     let name = file.name.clone().unwrap_or(draft.name);
-    Design::woven(name, woven, Some(draft.draft), laid.jam, draft.warnings).map_err(fabric)
+    Design::woven(name, woven, Some(draft.draft), laid.jam, draft.warnings)
+        .map(|design| design.noting(&path))
+        .map_err(fabric)
 }

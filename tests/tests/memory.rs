@@ -30,7 +30,7 @@ fn peak_of<T>(work: impl FnOnce() -> T) -> f64 {
 /// A mesh of 600 MB, streamed: the control points and two chunks, each of two buffers of 64 MiB at most, with their tables.
 fn a_stream_peaks_at_two_chunks() {
     let yarns = cases::winding(1_000_000, Yarn::default());
-    let points = yarns.points().len() * size_of::<texere::ControlPoint>();
+    let points = size_of_val(yarns.points());
     let two_chunks = 2 * (2 * (64 << 20) + (1 << 20));
     for device in texere::devices().found.into_iter().filter(|device| device.name != "cpu-serial") {
         let device = texere::open(&device.name).unwrap();

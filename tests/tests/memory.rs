@@ -34,7 +34,8 @@ fn a_stream_peaks_at_two_chunks() {
     let two_chunks = 2 * (2 * (64 << 20) + (1 << 20));
     for device in texere::devices().found.into_iter().filter(|device| device.name != "cpu-serial") {
         let device = texere::open(&device.name).unwrap();
-        let stream = || Pipeline::new(&yarns).stream(&*device, |_, _| ControlFlow::<()>::Continue(())).unwrap();
+        let stream =
+            || Pipeline::new(&yarns).stream(&*device, |_, _| ControlFlow::<()>::Continue(())).unwrap();
         let _ = stream();
         let peak = peak_of(stream);
         let told = (points + two_chunks) as f64;

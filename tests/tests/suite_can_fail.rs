@@ -19,7 +19,8 @@ fn yarns() -> Yarns {
         yarns.yarn(Yarn { twist: 0.5, ..Yarn::default() }, &points);
     }
     let on_circle = |k: u32| (k as f32 * 0.3).sin_cos();
-    let circle: Vec<_> = (0..20).map(on_circle).map(|(x, y)| ControlPoint::new(x, 10.0 + y, 0.0, 0.1)).collect();
+    let circle: Vec<_> =
+        (0..20).map(on_circle).map(|(x, y)| ControlPoint::new(x, 10.0 + y, 0.0, 0.1)).collect();
     yarns.yarn(Yarn { twist: 0.5, closed: true, ..Yarn::default() }, &circle);
     yarns.build().unwrap()
 }
@@ -94,7 +95,6 @@ const FAST: &[Entry] = &[Entry::near("fast", || sabotaged(Sabotage::FastClock))]
 
 const WASTEFUL: &[Entry] = &[Entry::near("wasteful", || sabotaged(Sabotage::WholeUpload))];
 
-const INFLATED: &[Entry] = &[Entry::near("inflated", || sabotaged(Sabotage::InflatedRead))];
 
 const STALE: &[Entry] = &[Entry::near("stale", || sabotaged(Sabotage::LostEdit))];
 
@@ -175,7 +175,6 @@ fn an_edit_that_moves_too_much_or_nothing_is_told() {
         assert_fails("an-edit", registry, &format!("session::an-edit-moves-one-yarn::{device}"), why);
     };
     edited(WASTEFUL, "WholeUpload", "the edited yarn: ");
-    edited(INFLATED, "InflatedRead", "its chunks: ");
     edited(STALE, "LostEdit", "a new session makes another mesh of the edited cloth");
 }
 

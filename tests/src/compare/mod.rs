@@ -302,7 +302,8 @@ pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Rep
             report.note(Fault::Bits, place, old, new);
         }
         for point in 0..sides {
-            let (old, new) = (&output.vertices[first * sides + point], &output.vertices[last * sides + point]);
+            let (old, new) =
+                (&output.vertices[first * sides + point], &output.vertices[last * sides + point]);
             if !same_bits(old, new) {
                 report.note(Fault::Bits, Place { point: Some(point as u64), ..place }, old, new);
             }

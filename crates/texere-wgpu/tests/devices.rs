@@ -6,7 +6,7 @@ mod support;
 
 use texere_conformance::drive::Lent;
 use texere_conformance::{cases, check};
-use texere_core::{Backend, BackendError, Frame, Limits, SessionError, Settings, Yarn};
+use texere_core::{Backend, BackendError, Frame, Limits, Session, SessionError, Settings, Yarn};
 use texere_wgpu::{Schedule, WgpuBackend, WgpuSession};
 
 use support::{INSTALL, backend, plan, waves};

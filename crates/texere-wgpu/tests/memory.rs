@@ -4,7 +4,7 @@
 
 mod support;
 
-use texere_core::{Backend, Frame, Limits, Session, Settings, Topology, Yarn};
+use texere_core::{Backend, Frame, Limits, Settings, Topology, Yarn};
 use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::{INSTALL, plan, waves};

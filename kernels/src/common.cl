@@ -333,7 +333,8 @@ uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
     if (yarn->closed == 0u) {
         return sum;
     }
-    return ring == steps ? 0u : sum - turn_share(whole, ring, steps);
+    // Not `?:`, which PoCL 3.1 leaves out: there the last ring kept what rounding the share leaves.
+    return select(sum - turn_share(whole, ring, steps), 0u, ring == steps);
 }
 
 // ---- Vertex ----

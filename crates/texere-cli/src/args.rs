@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
-use texere::{Frame, Section, Settings, Topology};
+use texere::{Format, Frame, Section, Settings, Topology};
 
 /// Textile designs to yarn-level 3D geometry.
 #[derive(Debug, Parser)]
@@ -71,7 +72,7 @@ pub(crate) struct MeshArgs {
     /// A .wif draft or a .toml design
     pub(crate) design: PathBuf,
     /// The file to write: .glb or .ply
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = PathBufValueParser::new().try_map(mesh_file))]
     pub(crate) output: PathBuf,
     /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl, wgpu:nvidia, opencl:0/per-yarn
     #[arg(long, default_value = "auto")]
@@ -86,7 +87,7 @@ pub(crate) struct DraftArgs {
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point paper where there is no
     /// shaft draft
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
     pub(crate) output: Option<PathBuf>,
     /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left
     #[arg(long, required_unless_present = "output")]
@@ -118,7 +119,7 @@ pub(crate) struct SettingsArgs {
     /// whichever
     #[arg(long, value_enum, default_value_t = TopologyArg::Indexed)]
     topology: TopologyArg,
-    /// Close the ends of yarns
+    /// Close the ends of yarns; pictures always do
     #[arg(long)]
     caps: bool,
 }
@@ -154,6 +155,22 @@ impl SettingsArgs {
             caps: self.caps,
         }
     }
+}
+
+/// A path with the ending of a mesh file.
+fn mesh_file(path: PathBuf) -> Result<PathBuf, String> {
+    Format::from_path(&path).map(|_| path).map_err(|error| error.to_string())
+}
+
+/// A path with this `ending`, in upper or lower case.
+pub(crate) fn file_of(ending: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(move |path| {
+        if path.extension().is_some_and(|given| given.eq_ignore_ascii_case(ending)) {
+            Ok(path)
+        } else {
+            Err(format!("{} does not end in .{ending}", path.display()))
+        }
+    })
 }
 
 /// A number from 0 to below 1.

@@ -1,6 +1,7 @@
 //! `texere check`
 
 use std::fmt::Write;
+use std::ops::ControlFlow;
 
 use serde::Serialize;
 use texere::{FabricError, Settings, Structure, Woven};
@@ -8,8 +9,8 @@ use texere::{FabricError, Settings, Structure, Woven};
 use crate::args::CheckArgs;
 use crate::cures::{self, Cure};
 use crate::fail::Fail;
-use crate::places::{ClearanceReport, ContactReport, Crossing, CurvatureReport, Names, place};
-use crate::progress;
+use crate::places::{ClearanceReport, ContactReport, Crossing, CrowdReport, CurvatureReport, Names, place};
+use crate::{progress, terminal};
 
 /// The most jammed threads that are listed one by one.
 const LISTED: usize = 100;
@@ -29,6 +30,7 @@ struct Report {
 /// What is wrong with a cloth; nothing where all are none.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct Faults {
+    pub(crate) crowded: Option<CrowdReport>,
     pub(crate) pierces: Option<Pierces>,
     pub(crate) folds: Option<CurvatureReport>,
     pub(crate) jams: Option<Jams>,
@@ -68,11 +70,14 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         return Err(Fail::not_woven(&args.design));
     };
     let touching = 1.0 - args.accuracy;
-    let (faults, clearance, curvature) =
-        progress::during("measuring how near yarns come", || Faults::new(woven, touching))?;
+    let (faults, clearance, curvature) = progress::during("measuring how near yarns come", |bar| {
+        Faults::new(woven, touching, progress::share(bar))
+    })?;
     let faulty = faults.said();
     let cures = match &faulty {
-        Some(_) => progress::during("looking for cures", || cures::of(&design, woven, &faults, touching)),
+        Some(_) => progress::during("looking for cures", |bar| {
+            cures::of(&design, woven, &faults, touching, progress::share(bar))
+        }),
         None => Vec::new(),
     };
     let report = Report { name: design.name, clean: faulty.is_none(), touching, faults, cures };
@@ -92,15 +97,17 @@ impl Faults {
     pub(crate) fn new(
         cloth: &Woven,
         touching: f64,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<(Self, ClearanceReport, CurvatureReport), FabricError> {
         let yarns = cloth.yarns()?;
-        let found = texere::clearance(&yarns, Settings::default().tension)?;
+        let found = texere::clearance_with_progress(&yarns, Settings::default().tension, progress)?;
         let names = Names { cloth, yarns: &yarns };
         let (clearance, curvature) = (names.clearance(&found), names.curvature(&found));
         let worst: Vec<_> =
             clearance.worst.iter().take_while(|contact| contact.ratio < touching).cloned().collect();
         let faults = Self {
-            pierces: (!worst.is_empty()).then_some(Pierces { min: clearance.min, worst }),
+            crowded: clearance.crowd.clone(),
+            pierces: worst.first().map(|contact| contact.ratio).map(|min| Pierces { min, worst }),
             folds: (curvature.min < 1.0).then(|| curvature.clone()),
             jams: Jams::of(cloth),
         };
@@ -110,6 +117,7 @@ impl Faults {
     /// What the cloth does that it should not.
     pub(crate) fn kinds(&self) -> Vec<&'static str> {
         let kinds = [
+            self.crowded.as_ref().map(|_| "is crowded"),
             self.pierces.as_ref().map(|_| "pierces itself"),
             self.folds.as_ref().map(|_| "folds"),
             self.jams.as_ref().map(|_| "jams"),
@@ -150,13 +158,16 @@ impl Jams {
 
 impl Report {
     fn text(&self, clearance: &ClearanceReport, curvature: &CurvatureReport) -> String {
-        let mut text = format!("{}\n", self.name);
+        let mut text = format!("{}\n", terminal::line(&self.name));
         let mut line = |what: &str, said: String| {
             // Writing to a string can't fail.
-            let _ = writeln!(text, "{what:>10}  {said}");
+            let _ = writeln!(text, "{what:>10}  {}", terminal::line(said));
         };
         line("clearance", clearance.to_string());
         line("bends", curvature.to_string());
+        if let Some(crowded) = &self.faults.crowded {
+            line("crowded", crowded.to_string());
+        }
         if let Some(pierces) = &self.faults.pierces {
             let (count, listed) = (pierces.worst.len(), clearance.worst.len());
             let more = if count == listed && count > 1 { " or more" } else { "" };

@@ -6,10 +6,12 @@ use std::fmt::Write;
 use serde_json::json;
 
 use crate::args::DevicesArgs;
+use crate::drivers;
 use crate::fail::Fail;
+use crate::terminal::lines;
 
 pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
-    let devices = texere::devices();
+    let devices = drivers::quietly(|| Ok(texere::devices()))?;
     let (auto, why) = devices.auto();
     let missing = devices.missing.iter().map(|(family, error)| (*family, causes(error)));
     if args.json {
@@ -39,7 +41,7 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     for (family, why) in missing {
         let _ = writeln!(text, "no {family} device: {why}");
     }
-    crate::print(&text)
+    crate::print(&lines(&text))
 }
 
 /// An error and its causes in one line.

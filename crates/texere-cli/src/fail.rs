@@ -2,10 +2,13 @@
 
 use std::error::Error;
 use std::fmt;
+use std::iter::successors;
 use std::path::Path;
 use std::process::ExitCode;
 
-use texere::{BackendError, FabricError, PipelineError, PlanError, ReadError, RenderError, WriteError};
+use texere::{BackendError, FabricError, PlanError, ReadError, RenderError, WriteError};
+
+use crate::terminal::line;
 
 /// A command that failed.
 #[derive(Debug)]
@@ -18,7 +21,7 @@ pub(crate) struct Fail {
 const WORLD: u8 = 1;
 
 /// The command line is wrong; clap uses the same code.
-const USAGE: u8 = 2;
+pub(crate) const USAGE: u8 = 2;
 
 /// The design is wrong.
 const DESIGN: u8 = 3;
@@ -29,6 +32,11 @@ const CLOTH: u8 = 4;
 impl Fail {
     pub(crate) fn output(source: std::io::Error) -> Self {
         Self { code: WORLD, source: source.into() }
+    }
+
+    /// Memory for `what` could not be had.
+    pub(crate) fn out_of_memory(what: &str, bytes: usize) -> Self {
+        Self { code: WORLD, source: format!("out of memory: {bytes} bytes for {what}").into() }
     }
 
     /// A draft, or a check of a cloth, was asked of a design that is none.
@@ -46,6 +54,23 @@ impl Fail {
         Self { code: USAGE, source: format!("a picture shows one design, not {designs}").into() }
     }
 
+    /// A picture of a turntable that is, by a link, another one, too.
+    pub(crate) fn written_twice(path: &Path) -> Self {
+        Self {
+            code: USAGE,
+            source: format!("{} is a link to another of the pictures", path.display()).into(),
+        }
+    }
+
+    /// A point that a picture can't show. The cloth reaches from `low` to `high` (x, y), mm.
+    pub(crate) fn off_the_cloth([x, y]: [f32; 2], low: [f32; 2], high: [f32; 2]) -> Self {
+        let source = format!(
+            "--at {x},{y} is off the cloth, which reaches from {:.3},{:.3} to {:.3},{:.3}",
+            low[0], low[1], high[0], high[1]
+        );
+        Self { code: USAGE, source: source.into() }
+    }
+
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(self.code)
     }
@@ -53,49 +78,80 @@ impl Fail {
 
 impl fmt::Display for Fail {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "texere: {}", self.source)?;
+        write!(f, "texere: {}", line(&self.source))?;
         let mut cause = self.source.source();
         while let Some(error) = cause {
-            write!(f, "\n  because {error}")?;
+            write!(f, "\n  because {}", line(error))?;
             cause = error.source();
         }
         Ok(())
     }
 }
 
+/// Whose fault an error is. A cause tells more than what it led to: memory that ran out while a design was read is no
+/// fault of the design.
+fn code_of(error: &(dyn Error + 'static)) -> u8 {
+    let causes = successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source());
+    causes.filter_map(own_code).last().unwrap_or(WORLD)
+}
+
+/// Whose fault an error is by itself, as far as it tells.
+fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
+    // What is wrong with a file that the design names comes in a box.
+    let named = || error.downcast_ref::<Box<ReadError>>().map(|error| &**error);
+    let read = error.downcast_ref().or_else(named).map(|error| match error {
+        ReadError::Io { .. } | ReadError::NotAFile { .. } | ReadError::OutOfMemory { .. } => WORLD,
+        _ => DESIGN,
+    });
+    let fabric = error.downcast_ref().map(|error| match error {
+        FabricError::OutOfMemory { .. } => WORLD,
+        _ => DESIGN,
+    });
+    let plan = error.downcast_ref().map(|_: &PlanError| USAGE);
+    let backend = error.downcast_ref().map(|error| match error {
+        // Where there are others, the name is wrong; where there are none, the machine lacks them.
+        BackendError::NoDevice { found, .. } if !found.is_empty() => USAGE,
+        _ => WORLD,
+    });
+    let write = error.downcast_ref().map(|error| match error {
+        WriteError::UnknownFormat { .. }
+        | WriteError::NotPng { .. }
+        | WriteError::Spared { .. }
+        | WriteError::GlbTooLarge { .. }
+        | WriteError::TooManyVertices { .. } => USAGE,
+        WriteError::DraftTooLarge { .. } => DESIGN,
+        _ => WORLD,
+    });
+    read.or(fabric).or(plan).or(backend).or(write)
+}
+
 impl From<ReadError> for Fail {
     fn from(error: ReadError) -> Self {
-        let code = if matches!(error, ReadError::Io { .. }) { WORLD } else { DESIGN };
-        Self { code, source: error.into() }
+        Self { code: code_of(&error), source: error.into() }
     }
 }
 
 impl From<FabricError> for Fail {
     fn from(error: FabricError) -> Self {
-        Self { code: DESIGN, source: error.into() }
+        Self { code: code_of(&error), source: error.into() }
     }
 }
 
 impl From<PlanError> for Fail {
     fn from(error: PlanError) -> Self {
-        Self { code: USAGE, source: error.into() }
+        Self { code: code_of(&error), source: error.into() }
     }
 }
 
 impl From<BackendError> for Fail {
     fn from(error: BackendError) -> Self {
-        let code = if matches!(error, BackendError::NoDevice { .. }) { USAGE } else { WORLD };
-        Self { code, source: error.into() }
+        Self { code: code_of(&error), source: error.into() }
     }
 }
 
 impl From<WriteError> for Fail {
     fn from(error: WriteError) -> Self {
-        let code = match &error {
-            WriteError::Pipeline(PipelineError::Plan(_)) => USAGE,
-            _ => WORLD,
-        };
-        Self { code, source: error.into() }
+        Self { code: code_of(&error), source: error.into() }
     }
 }
 
@@ -106,5 +162,56 @@ impl From<RenderError> for Fail {
             RenderError::Plan(error) => error.into(),
             _ => Self { code: USAGE, source: error.into() },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::ErrorKind;
+
+    use texere::{PipelineError, Place};
+
+    use super::*;
+
+    #[test]
+    fn memory_devices_and_files_are_no_fault_of_the_design_or_the_command_line() {
+        let short = || FabricError::OutOfMemory { what: "control points", bytes: 1 << 40 };
+        let denied = || ErrorKind::PermissionDenied.into();
+        let image = || ReadError::Io { file: "motif.png".into(), source: denied() };
+        let place = Place { file: "cloth.toml".into(), line: 3, field: "weave.image".into() };
+        let world: [Fail; 10] = [
+            short().into(),
+            ReadError::OutOfMemory { what: "crossings", bytes: 1 << 40 }.into(),
+            ReadError::Named { place, source: image().into() }.into(),
+            ReadError::Fabric { file: "cloth.toml".into(), source: short() }.into(),
+            ReadError::Io { file: "cloth.toml".into(), source: denied() }.into(),
+            BackendError::OutOfMemory { what: "vertices", bytes: 1 << 40 }.into(),
+            BackendError::NoDevice { wanted: "wgpu".into(), found: vec![] }.into(),
+            RenderError::Backend(BackendError::OutOfMemory { what: "screen", bytes: 1 << 40 }).into(),
+            WriteError::Io { action: "write", path: "cloth.ply".into(), source: denied() }.into(),
+            WriteError::Pipeline(PipelineError::Backend(BackendError::OutOfMemory {
+                what: "rings",
+                bytes: 1,
+            }))
+            .into(),
+        ];
+        assert_eq!(world.each_ref().map(|fail| fail.code), [WORLD; 10]);
+        let design: [Fail; 3] = [
+            FabricError::Tension { tension: 2.0 }.into(),
+            ReadError::Fabric { file: "a.wif".into(), source: FabricError::Tension { tension: 2.0 } }.into(),
+            WriteError::DraftTooLarge { ends: 1, picks: 1, width: 1, height: 1, limit: 0 }.into(),
+        ];
+        assert_eq!(design.each_ref().map(|fail| fail.code), [DESIGN; 3]);
+        let sides = || PlanError::Sides { sides: 2, low: 3, high: 256 };
+        let usage: [Fail; 7] = [
+            sides().into(),
+            RenderError::Plan(sides()).into(),
+            WriteError::Pipeline(PipelineError::Plan(sides())).into(),
+            WriteError::GlbTooLarge { bytes: 2, limit: 1 }.into(),
+            WriteError::NotPng { path: "x.jpg".into() }.into(),
+            WriteError::Spared { path: "x.png".into(), spared: "x.png".into() }.into(),
+            BackendError::NoDevice { wanted: "abacus".into(), found: vec!["cpu".into()] }.into(),
+        ];
+        assert_eq!(usage.each_ref().map(|fail| fail.code), [USAGE; 7]);
     }
 }

@@ -10,6 +10,7 @@ use crate::fail::Fail;
 use crate::measures::{JamsReport, MeasuresReport};
 use crate::places::{ClearanceReport, CurvatureReport, Names};
 use crate::progress;
+use crate::terminal::line;
 
 /// What is said of a design. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -86,7 +87,9 @@ impl Size {
 
 impl ClothReport {
     fn new(design: &Design, woven: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, Fail> {
-        let found = progress::during("measuring how near yarns come", || texere::clearance(yarns, tension))?;
+        let found = progress::during("measuring how near yarns come", |bar| {
+            texere::clearance_with_progress(yarns, tension, progress::share(bar))
+        })?;
         let names = Names { cloth: woven, yarns };
         let measures = Measures::new(woven, yarns, tension)?;
         Ok(Self {
@@ -153,6 +156,7 @@ impl ClothReport {
             }
         }
         lines.push(("clearance", self.clearance.to_string()));
+        lines.extend(self.clearance.crowd.iter().map(|crowd| ("crowded", crowd.to_string())));
         lines.push(("bends", self.curvature.to_string()));
         lines
     }
@@ -160,7 +164,7 @@ impl ClothReport {
 
 impl Report {
     fn text(&self) -> String {
-        let mut text = format!("{}\n", self.name);
+        let mut text = format!("{}\n", line(&self.name));
         let size = &self.size;
         let mut lines = vec![
             ("yarns", size.yarns.to_string()),
@@ -174,7 +178,7 @@ impl Report {
         lines.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         for (what, value) in lines {
             // Writing to a string can't fail.
-            let _ = writeln!(text, "{what:>16}  {value}");
+            let _ = writeln!(text, "{what:>16}  {}", line(value));
         }
         text
     }

@@ -5,9 +5,11 @@
 
 mod args;
 mod check;
+mod cores;
 mod cures;
 mod devices;
 mod draft;
+mod drivers;
 mod fail;
 mod inspect;
 mod measures;
@@ -15,7 +17,11 @@ mod mesh;
 mod places;
 mod progress;
 mod render;
+#[cfg(unix)]
+mod signals;
+mod terminal;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -25,7 +31,14 @@ use fail::Fail;
 use serde::Serialize;
 
 fn main() -> ExitCode {
-    let outcome = match Args::parse().command {
+    let command = match Args::try_parse() {
+        Ok(args) => args.command,
+        Err(error) => return misused(&error),
+    };
+    #[cfg(unix)]
+    signals::listen();
+    cores::start();
+    let outcome = match command {
         Command::Devices(args) => devices::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Check(args) => check::run(&args),
@@ -33,6 +46,8 @@ fn main() -> ExitCode {
         Command::Draft(args) => draft::run(&args),
         Command::Render(args) => render::run(&args),
     };
+    #[cfg(unix)]
+    signals::give_way();
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(fail) => {
@@ -41,6 +56,20 @@ fn main() -> ExitCode {
             fail.exit_code()
         }
     }
+}
+
+/// Says what is wrong with the command line, or what was asked of the program itself.
+fn misused(error: &clap::Error) -> ExitCode {
+    let is_harmless = |arg: OsString| {
+        let arg = arg.to_string_lossy();
+        terminal::line(&arg) == arg
+    };
+    if std::env::args_os().all(is_harmless) {
+        // In colours.
+        error.exit();
+    }
+    let _ = std::io::stderr().write_all(terminal::lines(&error.to_string()).as_bytes());
+    ExitCode::from(fail::USAGE)
 }
 
 /// Prints `report` as JSON, for programs.

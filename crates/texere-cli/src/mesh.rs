@@ -2,14 +2,12 @@
 
 use std::io::IsTerminal;
 
-use texere::{Limits, Pipeline};
+use texere::{Output, Pipeline};
 
 use crate::args::MeshArgs;
 use crate::fail::Fail;
-use crate::progress;
-
-/// Memory for chunks in flight: enough to keep any device busy, little beside the fabric itself.
-const CHUNK_MEMORY: u64 = 256 << 20;
+use crate::terminal::line;
+use crate::{drivers, progress};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let mut design = texere::read(&args.design)?;
@@ -17,20 +15,19 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
         design.set_section(section.clone())?;
     }
     let yarns = design.yarns()?;
-    let device = texere::open(&args.device)?;
-    let pipeline = Pipeline::new(&yarns).settings(args.settings.settings());
-    let resident = pipeline.plan()?.resident_bytes();
-    let limits = Limits { memory_bytes: resident + CHUNK_MEMORY, ..Limits::NONE };
+    let device = drivers::quietly(|| texere::open(&args.device))?;
     let bar = progress::bar(std::io::stderr().is_terminal());
-    let written =
-        texere::stream(pipeline.limits(limits).progress(progress::teller(&bar)), &*device, &args.output)?;
+    let settings = args.settings.settings();
+    let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::teller(&bar));
+    let output = Output::to(&args.output).sparing(design.files());
+    let written = texere::stream(pipeline, &*device, output)?;
     bar.finish_and_clear();
     for warning in design.warnings() {
-        crate::print(&format!("warning: {warning}\n"))?;
+        crate::print(&format!("warning: {}\n", line(warning)))?;
     }
     crate::print(&format!(
         "{}: {} triangles, {} vertices, {} bytes, made by {}\n",
-        args.output.display(),
+        line(args.output.display()),
         written.triangles,
         written.vertices,
         written.bytes,

@@ -4,18 +4,37 @@ use std::fmt;
 
 use serde::Serialize;
 use texere::{
-    CLEARANCE_ACCURACY, CLEARANCE_BIN, Clearance, Contact, NO_CROSSING, Origin, Woven, YarnPlace, Yarns,
+    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, Clearance, Contact, Crowd, NO_CROSSING, Origin,
+    Thread, Woven, YarnPlace, Yarns,
 };
 
 /// How near yarns come to one another.
 #[derive(Debug, Serialize)]
 pub(crate) struct ClearanceReport {
-    /// The least ratio of all contacts, 1 where yarns just touch; null where none comes within 1.1.
+    /// The least ratio of all contacts, 1 where yarns just touch; null where none comes within 1.1. Where it is crowded it is
+    /// no more than this.
     pub(crate) min: f64,
     pub(crate) contacts: u64,
     pub(crate) below_one: u64,
     pub(crate) worst: Vec<ContactReport>,
     histogram: Histogram,
+    pub(crate) crowd: Option<CrowdReport>,
+}
+
+/// Yarns that lie in one another many times over, or too many of them together: they are not measured pair by pair.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct CrowdReport {
+    /// The volume of the yarns over the room that they have.
+    fill: f64,
+    /// Control intervals that lie there.
+    intervals: usize,
+    /// The thickest thread there.
+    yarn: String,
+    thickness_mm: f64,
+    /// Its distance to the thread before.
+    pitch_mm: Option<f64>,
+    place_mm: [f64; 3],
+    pub(crate) crossing: Option<Crossing>,
 }
 
 /// How many contacts have a ratio from 0 on, in bins of this width.
@@ -68,6 +87,25 @@ impl Names<'_> {
             below_one: found.below_one,
             worst: found.worst.iter().map(|contact| self.contact(contact)).collect(),
             histogram: Histogram { bin: CLEARANCE_BIN, counts: found.histogram.clone() },
+            crowd: found.crowd.as_ref().map(|crowd| self.crowd(crowd)),
+        }
+    }
+
+    fn crowd(&self, crowd: &Crowd) -> CrowdReport {
+        let thread = self.thread(&crowd.place);
+        let spaced = match thread {
+            Origin::End(number) => self.cloth.warp().get((number as usize).wrapping_sub(1)),
+            Origin::Pick(number) => self.cloth.weft().get((number as usize).wrapping_sub(1)),
+            _ => None,
+        };
+        CrowdReport {
+            fill: crowd.fill,
+            intervals: crowd.intervals,
+            yarn: thread.to_string(),
+            thickness_mm: crowd.thickness_mm,
+            pitch_mm: spaced.map(|thread| thread.spacing_mm),
+            place_mm: crowd.place.position,
+            crossing: self.crossing(&crowd.place),
         }
     }
 
@@ -109,23 +147,51 @@ impl Names<'_> {
 
     /// The pick nearest to height `y` of the cloth, mm.
     fn pick_at(&self, y: f64) -> u32 {
-        let weft = self.cloth.weft();
-        let mut at = -weft.first().map_or(0.0, |pick| pick.spacing_mm / 2.0);
-        let distances = weft.iter().map(|pick| {
-            at += pick.spacing_mm;
-            (at - y).abs()
-        });
+        let distances = middles(self.cloth.weft()).map(|middle| (middle - y).abs());
         (1..).zip(distances).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(1, |(pick, _)| pick)
     }
 }
 
+/// The middles of threads, mm from the cloth's edge: the first lies half its spacing in, each further one its own spacing
+/// from the one before.
+pub(crate) fn middles(threads: &[Thread]) -> impl Iterator<Item = f64> {
+    let mut at = -threads.first().map_or(0.0, |first| first.spacing_mm / 2.0);
+    threads.iter().map(move |thread| {
+        at += thread.spacing_mm;
+        at
+    })
+}
+
 impl fmt::Display for ClearanceReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(worst) = self.worst.first() else { return write!(f, "no yarns come near one another") };
+        let Some(worst) = self.worst.first() else {
+            return match &self.crowd {
+                None => write!(f, "no yarns come near one another"),
+                Some(_) if self.min.is_finite() => write!(f, "{:.4} of touching at the most", self.min),
+                Some(_) => write!(f, "not measured"),
+            };
+        };
         let [one, other] = &worst.yarns;
         let at = place(worst.place_mm);
-        write!(f, "{:.4} of touching at the least: {one} and {other} at {at}; ", self.min)?;
-        write!(f, "{} of {} contacts below {}", self.below_one, self.contacts, 1.0 - CLEARANCE_ACCURACY)
+        write!(f, "{:.4} of touching at the least: {one} and {other} at {at}; ", worst.ratio)?;
+        write!(f, "{} of {} contacts below {}", self.below_one, self.contacts, 1.0 - CLEARANCE_ACCURACY)?;
+        if self.crowd.is_some() { write!(f, " beside the crowd") } else { Ok(()) }
+    }
+}
+
+impl fmt::Display for CrowdReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { fill, intervals, yarn, thickness_mm, .. } = self;
+        if *fill > 1.0 {
+            write!(f, "{fill:.1} times as much yarn as there is room for: ")?;
+        } else {
+            write!(f, "{intervals} parts of yarns lie together, with over {CLEARANCE_BESIDE} beside one: ")?;
+        }
+        write!(f, "{yarn} is {thickness_mm:.4} mm thick")?;
+        if let Some(pitch) = self.pitch_mm {
+            write!(f, " and {pitch:.4} mm from the one before")?;
+        }
+        write!(f, ", at {}", place(self.place_mm))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -9,6 +11,9 @@ use texere::Progress;
 
 /// Shorter work shows no bar: it would only flicker.
 const QUIET_FOR: Duration = Duration::from_secs(1);
+
+/// Steps that a bar of shares has.
+const STEPS: u64 = 1000;
 
 /// A bar that is hidden until [`teller`] shows it, and for good where `terminal` is false.
 pub(crate) fn bar(terminal: bool) -> ProgressBar {
@@ -22,18 +27,38 @@ pub(crate) fn bar(terminal: bool) -> ProgressBar {
     bar
 }
 
-/// Does `work`, and says on a terminal that it goes on if it takes over a second.
-pub(crate) fn during<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+/// Does `work`, and says on a terminal how far it has come if it takes over a second: `work` tells the bar, see [`share`].
+pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T) -> T {
     let bar = bar(std::io::stderr().is_terminal());
-    if let Ok(style) = ProgressStyle::with_template("{msg}, {elapsed}") {
+    if let Ok(style) = ProgressStyle::with_template("{msg}: {percent} %, {elapsed}") {
         bar.set_style(style);
     }
     bar.set_message(what);
-    // The first tick comes after a whole interval.
-    bar.enable_steady_tick(QUIET_FOR);
-    let done = work();
+    bar.set_length(STEPS);
+    let (end, ended) = mpsc::channel::<()>();
+    let ticking = bar.clone();
+    // The bar's own ticker would panic where no thread can be had. Then nothing is shown.
+    let ticker = thread::Builder::new().spawn(move || {
+        while ended.recv_timeout(QUIET_FOR) == Err(RecvTimeoutError::Timeout) {
+            ticking.tick();
+        }
+    });
+    let done = work(&bar);
+    drop(end);
+    let _ = ticker.map(JoinHandle::join);
     bar.finish_and_clear();
     done
+}
+
+/// Moves `bar` on to shares of the work, from 0 to 1.
+pub(crate) fn share(bar: &ProgressBar) -> impl FnMut(f64) -> ControlFlow<()> + Send {
+    let (bar, start) = (bar.clone(), Instant::now());
+    move |done| {
+        if start.elapsed() >= QUIET_FOR {
+            bar.set_position((done * STEPS as f64) as u64);
+        }
+        ControlFlow::Continue(())
+    }
 }
 
 /// Moves `bar` on as the pipeline tells how far it has come.

@@ -23,10 +23,10 @@ fn a_picture_has_the_size_that_was_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plain.png");
     let out = path.to_str().unwrap();
-    // Round threads: 64 ends of 191 points and 48 picks of 255, 24 triangles an interval.
+    // Round threads: 64 ends of 191 points and 48 picks of 255, 24 triangles an interval, and 4 for each cap.
     let output = render(&[PLAIN, "-o", out, "--size", "120x90", "--view", "back", "--supersampling", "1"]);
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success() && text.contains("584448 triangles"), "{text}");
+    assert!(output.status.success() && text.contains("585344 triangles"), "{text}");
     assert_eq!(png_size(&path), [120, 90]);
 }
 
@@ -61,10 +61,93 @@ fn what_makes_no_picture_is_a_wrong_command_line() {
         &[PLAIN, "-o", "x.png", "--size", "wide"],
         &[PLAIN, "-o", "x.png", "--device", "abacus"],
         &[PLAIN, "-o", "x.png", "--view", "close-up", "--width", "-1"],
+        &[PLAIN, "-o", "x.png", "--view", "close-up", "--width", "NaN"],
+        &[PLAIN, "-o", "x.png", "--width", "0"],
+        &[PLAIN, "-o", "x.png", "--mm-per-pixel", "inf"],
+        &[PLAIN, "-o", "x.jpg"],
         &[PLAIN, PLAIN, "-o", "x.png"],
         &[PLAIN],
     ] {
         let output = render(args);
         assert_eq!(output.status.code(), Some(2), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+#[test]
+fn a_point_off_the_cloth_is_refused_with_the_cloths_limits() {
+    for at in ["100,5", "5,-3", "5,1e30"] {
+        let output = render(&[PLAIN, "-o", "x.png", "--view", "cut-warp", "--at", at]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        // 64 ends and 48 picks, 15 to the centimetre.
+        assert!(said.contains("is off the cloth, which reaches from") && said.contains("to 42."), "{said}");
+    }
+}
+
+#[test]
+fn supersampling_is_blamed_where_it_is_the_cause() {
+    // lavapipe's textures have 16,384 pixels at most.
+    let output = render(&[PLAIN, "-o", "x.png", "--size", "16384x1"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("supersampled 2 times") && said.contains("1 times is the most"), "{said}");
+}
+
+/// With an even number of threads the middle of the cloth lies between two of them.
+#[test]
+fn a_cut_goes_through_a_thread_if_it_is_not_told_where() {
+    let folder = tempfile::tempdir().unwrap();
+    let [design, cut, thread] = ["cloth.toml", "cut.png", "thread.png"].map(|name| folder.path().join(name));
+    let text = "[weave]\nnotation = \"plain\"\nends = 8\npicks = 6\n[yarns.a]\ndiameter_mm = 0.4\n\
+                [warp]\nyarns = [\"a\"]\nspacing_mm = 0.9\n[weft]\nyarns = [\"a\"]\nspacing_mm = 0.9\n";
+    std::fs::write(&design, text).unwrap();
+    let picture = |view, out: &PathBuf, at: &[&str]| {
+        let args = [design.to_str().unwrap(), "-o", out.to_str().unwrap(), "--view", view, "--size", "80x40"];
+        let output = render(&[&args[..], at].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        std::fs::read(out).unwrap()
+    };
+    // The middle is 3.6, 2.7: pick 3 lies at 2.25, pick 4 at 3.15; end 4 at 3.15, end 5 at 4.05.
+    for (view, either) in [("cut-warp", ["3.6,2.25", "3.6,3.15"]), ("cut-weft", ["3.15,2.7", "4.05,2.7"])] {
+        let drawn = picture(view, &cut, &[]);
+        assert!(either.iter().any(|at| picture(view, &thread, &["--at", at]) == drawn), "{view}");
+        assert!(picture(view, &thread, &["--at", "3.6,2.7"]) != drawn, "{view}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_turntable_keeps_a_name_that_is_no_unicode() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_texere"))
+        .args(["render", PLAIN, "--view", "turntable", "--frames", "1", "--size", "20x15", "-o"])
+        .arg(folder.path().join(OsStr::from_bytes(b"t\xffrn.png")))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    assert!(folder.path().join(OsStr::from_bytes(b"t\xffrn-001.png")).exists());
+}
+
+/// A machine without drivers lacks something; nothing is wrong with the command line.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_vulkan_and_no_opencl_exit_alike() {
+    let folder = tempfile::tempdir().unwrap();
+    for (command, device, out) in
+        [("render", "auto", "x.png"), ("mesh", "wgpu", "x.ply"), ("mesh", "opencl", "x.ply")]
+    {
+        let output = Command::new(env!("CARGO_BIN_EXE_texere"))
+            .args([command, PLAIN, "--device", device, "-o"])
+            .arg(folder.path().join(out))
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .envs([("OCL_ICD_VENDORS", "/nowhere"), ("OCL_ICD_FILENAMES", "")])
+            .envs([("VK_DRIVER_FILES", "/nowhere.json"), ("VK_ICD_FILENAMES", "/nowhere.json")])
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{command} {device}: {said}");
     }
 }

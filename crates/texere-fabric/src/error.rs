@@ -224,6 +224,9 @@ pub enum FabricError {
         /// Most taken.
         limit: u64,
     },
+    /// Whoever was told of the progress asked to stop.
+    #[error("cancelled")]
+    Cancelled,
     /// Yarns that are not those of the cloth that is measured.
     #[error("yarns of {points} control points; the cloth's have {planned}")]
     OtherYarns {

@@ -34,8 +34,8 @@ mod woven;
 mod yarn_size;
 
 pub use clearance::{
-    CLEARANCE_ACCURACY, CLEARANCE_BIN, CLEARANCE_NEAR, CONTACTS_LISTED, Clearance, Contact, YarnPlace,
-    clearance,
+    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
+    Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
 pub use error::FabricError;
 pub use length::{length_mm, lengths_mm};

@@ -268,6 +268,73 @@ fn faults_are_named_with_their_line() {
 }
 
 #[test]
+fn a_value_of_the_wrong_kind_is_named_with_its_key() {
+    refused("ends = 7", "ends = \"seven\"", &["line 4: weave.ends is \"seven\"", "a whole number"]);
+    refused("ends = 7", "ends = 7.5", &["line 4: weave.ends is \"7.5\"", "a whole number"]);
+    refused("tex = 84.0", "tex = true", &["line 7: yarns.indigo.tex is \"true\"", "a number"]);
+    refused("\"3/1\"", "[3, 1]", &["line 3: weave.notation is \"[3, 1]\"", "text in quotes"]);
+    refused("[\"ecru\"]", "\"ecru\"", &["line 17: weft.yarns is \"ecru\"", "a list"]);
+    refused("[\"ecru\"]", "[\"ecru\", 3]", &["line 17: weft.yarns is \"3\"", "text in quotes"]);
+    refused("name = \"Denim\"", "name = 3", &["line 1: name is \"3\"", "text in quotes"]);
+    refused("plies = 2", "section = 3", &["line 12: yarns.ecru.section is \"3\"", "a table"]);
+    refused(
+        "plies = 2",
+        "section = { shape = \"blob\" }",
+        &["line 12: yarns.ecru.section", "blob", "polygon"],
+    );
+    refused("plies = 2", "section = { shape = \"ellipse\" }", &["line 12: yarns.ecru.section", "aspect"]);
+    refused(
+        "plies = 2",
+        "section = { shape = \"ellipse\", aspect = \"wide\" }",
+        &["line 12: yarns.ecru.section", "wide", "expected"],
+    );
+    refused("[warp]\nyarns = [\"2 indigo\", \"ecru\"]", "[warp]", &["line 13: warp", "missing", "yarns"]);
+    refused("plies = 2", "diameter_mm = 3", &["line 12", "duplicate key"]);
+}
+
+#[test]
+fn a_number_that_is_far_too_small_is_not_written_in_zeros() {
+    refused("tex = 84.0", "tex = 1e-300", &["line 7: yarns.indigo.tex is 1e-300, outside 0.001 to 10000000"]);
+    refused("tex = 84.0", "tex = -1e300", &["yarns.indigo.tex is -1e300"]);
+}
+
+/// What the mesh stage would make no surface of is refused where it is written.
+#[test]
+fn a_polygon_without_a_direction_is_refused() {
+    let corners = |corners: &str, parts: &[&str]| {
+        let section = format!("section = {{ shape = \"polygon\", corners = {corners} }}");
+        refused("plies = 2", &section, &[&["line 12: yarns.ecru.section"], parts].concat());
+    };
+    corners("[[1e-30, 0.0], [0.0, 1e-30], [-1e-30, 0.0]]", &["corner 1", "too small or too sharp"]);
+    corners("[[1.0, 0.0], [1.0, 1e-30], [-1.0, 0.0]]", &["corner", "too small or too sharp"]);
+    // A needle: both edges at its point are the same, rounded, and point opposite ways.
+    corners("[[-1.0, 0.0], [1.0, 1e-45], [-1.0, 3e-45]]", &["corner", "too small or too sharp"]);
+    corners("[[1.0, 0.0], [0.0, 1.0, 5.0], [-1.0, 0.0]]", &[]);
+    corners("[[1.0, 0.0], [0.0, 1.0]]", &[]);
+}
+
+#[test]
+fn polygons_that_are_taken_make_a_mesh() {
+    for corners in [
+        "[[1.0, -0.1], [0.2, 0.9], [-1.0, 0.0]]",
+        "[[1e-9, 0.0], [0.0, 1e-9], [-1e-9, 0.0]]",
+        "[[1.0, 0.0], [1.0, 1e-6], [-1.0, 0.0]]",
+        "[[100.0, 0.0], [0.0, 100.0], [-100.0, -1e-3]]",
+    ] {
+        let section = format!("section = {{ shape = \"polygon\", corners = {corners} }}");
+        let text = DENIM.replace("plies = 2", &section).replace("[\"2 indigo\", \"ecru\"]", "[\"ecru\"]");
+        let Ok(design) = read_text(&text) else { continue };
+        let yarns = design.yarns().unwrap();
+        let mesh = texere_core::Pipeline::new(&yarns).sides(3).caps(true);
+        let mesh = mesh.mesh(&texere_cpu::SerialBackend::new()).unwrap();
+        let finite = |vertex: &texere_core::Vertex| {
+            vertex.position.iter().chain(&vertex.normal).all(|value| value.is_finite())
+        };
+        assert!(mesh.vertices.iter().all(finite), "{corners}");
+    }
+}
+
+#[test]
 fn a_weave_that_is_none_is_refused_with_its_cause() {
     let error = read_text(&DENIM.replace("3/1", "3|1")).unwrap_err();
     let cause = std::error::Error::source(&error).unwrap().to_string();

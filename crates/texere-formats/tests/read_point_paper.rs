@@ -194,13 +194,17 @@ fn faults_are_named_with_their_place() {
     );
     refused(folder, "repeat = [0, 1]\n", &["line 3: weave.repeat is 0", "1 to"]);
     refused(folder, "repeat = [1, -1]\n", &["line 3: weave.repeat is -1"]);
-    refused(folder, "repeat = [1]\n", &["line 3"]);
+    let two_numbers = "two whole numbers, across the ends and along the picks";
+    refused(folder, "repeat = [1]\n", &["line 3: weave.repeat is \"[1]\"", two_numbers]);
+    refused(folder, "repeat = [2, 3, 4]\n", &["line 3: weave.repeat is \"[2, 3, 4]\"", two_numbers]);
+    refused(folder, "repeat = [2, 3, 4, \"x\"]\n", &["line 3: weave.repeat is \"x\"", "a whole number"]);
+    refused(folder, "repeat = 2\n", &["line 3: weave.repeat is \"2\"", "a list"]);
     refused(
         folder,
         &format!("repeat = [1000000, 1000000]\n{two}\"#c81020\" = \"plain\"\n"),
         &["4000000 ends"],
     );
-    refused(folder, "rows = \"top\"\n", &["line 3", "top", "last-pick-first"]);
+    refused(folder, "rows = \"top\"\n", &["line 3: weave.rows", "top", "last-pick-first"]);
     refused(folder, "ends = 5\n", &["line 3: weave.ends is \"5\"", "4, as the image"]);
     refused(folder, "repeat = [2, 2]\npicks = 3\n", &["line 4: weave.picks is \"3\"", "6, as the image"]);
     refused(folder, "notation = \"plain\"\n", &["exactly one", "weave.image"]);
@@ -246,9 +250,15 @@ fn what_is_no_image_is_refused() {
     let path = folder.path().join("motif.png");
     let missing = design(folder.path(), "").unwrap_err();
     assert!(
-        matches!(missing, ReadError::Io { .. }) && missing.to_string().contains("motif.png"),
+        matches!(missing.innermost(), ReadError::Io { .. })
+            && missing.innermost().to_string().contains("motif.png"),
         "{missing}"
     );
+    // The design's own place, and what the decoder says at the end of the chain.
+    std::fs::write(&path, b"\x89PNG\r\n\x1a\n").unwrap();
+    let broken = design(folder.path(), "rows = \"last-pick-first\"\n").unwrap_err();
+    assert!(broken.to_string().contains("design.toml, line 2: weave.image can't be taken"), "{broken}");
+    assert!(broken.innermost().source().is_some_and(|cause| !cause.to_string().is_empty()));
     for bytes in
         [&b""[..], b"not an image", b"\xff\xd8\xff\xe0\0\x10JFIF\0", b"\x89PNG\r\n\x1a\n", b"BM", b"II*\0"]
     {
@@ -263,7 +273,7 @@ fn what_is_no_image_is_refused() {
             std::fs::write(&path, &whole[..length]).unwrap();
             let refused = design(folder.path(), "");
             assert!(
-                matches!(refused, Err(ReadError::Image { .. })),
+                refused.as_ref().is_err_and(|error| matches!(error.innermost(), ReadError::Image { .. })),
                 "{format:?} cut to {length}: {refused:?}"
             );
         }

@@ -165,7 +165,9 @@ fn refusals_name_section_and_key() {
     refused(&TWILL.replace("Threads=4", "Threads=99999999999"), &["[WEFT] threads", "outside 1 to"]);
     refused(&TWILL.replace("[TREADLING]\n1=1", "[TREADLING]\n1=1,5"), &["[TREADLING] 1 is 5", "to 4"]);
     refused(&TWILL.replace("[TIEUP]\n1=1,2", "[TIEUP]\n1=1,9"), &["[TIEUP] 1 is 9", "to 4"]);
-    refused(&TWILL.replace("[THREADING]\n1=1", "[THREADING]\n1=7"), &["[THREADING] 1 is 7", "to 4"]);
+    let beyond_any_loom = TWILL.replace("[THREADING]\n1=1", "[THREADING]\n1=100001");
+    refused(&beyond_any_loom, &["[THREADING] 1 is 100001", "to 100000"]);
+    refused(&TWILL.replace("[TIEUP]\n1=1,2", "[TIEUP]\n1=-1,2"), &["[TIEUP] 1 is -1", "outside 0 to 4"]);
     refused(
         &TWILL.replace("[THREADING]\n1=1", "[THREADING]\n1=x"),
         &["[THREADING] 1 is \"x\"", "whole numbers"],
@@ -175,12 +177,161 @@ fn refusals_name_section_and_key() {
     refused(&TWILL.replace("[COLOR TABLE]", "[OTHER]"), &["[WARP] color", "[COLOR TABLE]"]);
     refused(&TWILL.replace("1=10,20,30", "1=10,20"), &["[COLOR TABLE] 1", "red, green and blue"]);
     refused(&TWILL.replace("Range=0,255", "Range=9,9"), &["[COLOR PALETTE] range"]);
+    let tiny = TWILL.replace("Spacing=0.2", "Spacing=1e-300");
+    refused(&tiny, &["line 10: [WARP] spacing is 1e-300, outside 0.0001 to 100"]);
+    refused(&TWILL.replace("Thickness=0.1", "Thickness=1e-300"), &["line 11: [WARP] thickness is 1e-300"]);
     refused(&TWILL.replace("Spacing=0.2", "Spacing=-1"), &["[WARP] spacing is -1"]);
     refused(&TWILL.replace("Spacing=0.2", "Spacing=NaN"), &["[WARP] spacing is NaN"]);
     refused(&TWILL.replace("Spacing=0.2", "Spacing=wide"), &["[WARP] spacing is \"wide\""]);
     refused(&TWILL.replace("Units=Centimeters", "Units=ells"), &["[WARP] units is \"ells\"", "Decipoints"]);
     refused(&TWILL.replace("Rising Shed=true", "Rising Shed=maybe"), &["[WEAVING] rising shed is \"maybe\""]);
     refused("", &["Threads"]);
+}
+
+#[test]
+fn a_colour_below_one_is_refused_like_one_too_large() {
+    for number in ["0", "-1", "0,1,2,3"] {
+        let first = number.split(',').next().unwrap();
+        for (section, key) in
+            [("WARP", "color"), ("WEFT", "color"), ("WARP COLORS", "2"), ("WEFT COLORS", "3")]
+        {
+            let text = format!("{TWILL}[{section}]\n{key}={number}\n");
+            refused(&text, &["line 42", &format!("[{section}] {key} is {first}, outside 1 to 2")]);
+        }
+    }
+    // Nothing is still no colour.
+    assert!(read_text(format!("{TWILL}[WARP COLORS]\n2=\n")).is_ok());
+}
+
+#[test]
+fn utf_16_is_read() {
+    let text = format!("{TWILL}[TEXT]\nTitle=Köper 𝄞\n");
+    let units = || text.encode_utf16();
+    let little: Vec<u8> = units().flat_map(u16::to_le_bytes).collect();
+    let big: Vec<u8> = units().flat_map(u16::to_be_bytes).collect();
+    for bytes in [[b"\xff\xfe", &little[..]].concat(), [b"\xfe\xff", &big[..]].concat(), little, big] {
+        let design = read_text(&bytes).unwrap();
+        let Structure::Woven(woven) = design.structure else { panic!("not woven") };
+        assert_eq!((design.name.as_str(), woven.warp().len()), ("Köper 𝄞", 5));
+        // Cut anywhere, it is still text.
+        let _ = read_text(&bytes[..bytes.len() - 1]);
+    }
+}
+
+#[test]
+fn a_loom_has_what_is_set_up_on_it() {
+    let warned = |text: &str, parts: &[&str]| {
+        let warnings = read_text(text).unwrap().warnings();
+        let [warning] = &warnings[..] else { panic!("{warnings:?}") };
+        parts.iter().for_each(|part| assert!(warning.contains(part), "{warning}"));
+    };
+    // Ends hang on shafts, and the tie-up has rows, that nobody has counted.
+    warned(&TWILL.replace("Shafts=4", "Shafts=2"), &["[WEAVING] Shafts is 2", "[THREADING] goes up to 4"]);
+    warned(&TWILL.replace("Treadles=4", "Treadles=2"), &["[WEAVING] Treadles is 2", "[TIEUP] goes up to 4"]);
+    assert_eq!(drawdown(&TWILL.replace("Shafts=4", "Shafts=2")), TWILL_DRAWDOWN);
+    // A shaft that is lifted, and a treadle that is pressed, but that is neither counted nor set up.
+    let [lifted, pressed] = [("[TIEUP]\n1=1,2", "[TIEUP]\n1=1,5"), ("[TREADLING]\n1=1", "[TREADLING]\n1=5")]
+        .map(|(from, to)| TWILL.replace(from, to));
+    refused(&lifted, &["[TIEUP] 1 is 5, outside 0 to 4"]);
+    refused(&pressed, &["[TREADLING] 1 is 5, outside 0 to 4"]);
+    // Without a count there is none to go beyond.
+    for (text, count) in [(lifted, "Shafts=4\n"), (pressed, "Treadles=4\n")] {
+        assert!(read_text(text.replace(count, "")).unwrap().warnings().is_empty());
+    }
+}
+
+/// As programs write it: threads as thick as they are spaced.
+#[test]
+fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
+    let stated = |warp: &str, weft: &str, more: &str| {
+        let text =
+            TWILL.replace("Spacing=0.2\nThickness=0.1", warp).replace("Spacing=0.3\nThickness=0.1", weft);
+        read_text(text + more).unwrap()
+    };
+    let diameters = |design: &Design| {
+        let Structure::Woven(woven) = &design.structure else { panic!("not woven") };
+        [woven.warp(), woven.weft()]
+            .map(|set| set.iter().map(|thread| 2.0 * thread.radius_mm).collect::<Vec<_>>())
+    };
+    let near = |found: &[f32], expected: &[f32]| {
+        assert!(
+            found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-5),
+            "{found:?}, not {expected:?}"
+        );
+    };
+    let both = ("Spacing=.212\nThickness=.212", "Spacing=.212\nThickness=.2115");
+    let design = stated(both.0, both.1, "");
+    // Alike, all of them: half the spacing, but for the rounding of the file's own thickness.
+    let [warp, weft] = diameters(&design);
+    assert!(
+        warp.iter().chain(&weft).all(|diameter| (diameter / 1.06 - 1.0).abs() < 5e-3),
+        "{warp:?} {weft:?}"
+    );
+    let warnings = design.warnings();
+    for (warning, set) in warnings.iter().zip(["[WARP]", "[WEFT]"]) {
+        assert!(warning.starts_with(set) && warning.contains("as thick as they are spaced"), "{warning}");
+    }
+    assert_eq!(warnings.len(), 2);
+    // Threads of their own spacing and thickness are no thinner for it, but all of them where some are close.
+    let design = stated(both.0, both.1, "[WARP THICKNESS]\n2=.106\n[WARP SPACING]\n2=.106\n");
+    let [warp, weft] = diameters(&design);
+    assert!(
+        warp.iter().chain(&weft).all(|diameter| *diameter == warp[0]) && warp[0] < 1.06 / 1.7,
+        "{warp:?}"
+    );
+    assert!(design.warnings().concat().contains("lie closer than most"));
+    // A set of its own accord: the other's thickness stays as it is stated.
+    let design = stated("Spacing=.2\nThickness=.2", "Spacing=.4\nThickness=.08", "");
+    assert!(design.warnings()[0].starts_with("[WARP] has") && design.warnings().len() == 1);
+    let [warp, weft] = diameters(&design);
+    near(&[warp[0], weft[0]], &[1.0, 0.8]);
+    // What can be woven is not touched, and what the writer chose to jam is told, not changed.
+    near(&diameters(&stated("Spacing=.2\nThickness=.1", "Spacing=.3\nThickness=.1", ""))[0], &[1.0]);
+    near(&diameters(&stated("Spacing=.2\nThickness=.19", "Spacing=.3\nThickness=.19", ""))[0], &[1.9]);
+}
+
+/// Spacings that weavers use beside one another, in drafts of every kind: whatever is scaled comes out clear.
+#[test]
+fn what_is_given_room_does_not_pierce() {
+    let tie_ups = [
+        "1=1\n2=2\n3=1,3\n4=2,4\n",
+        "1=1,3\n2=2,4\n3=1,3\n4=2,4\n",
+        "1=1\n2=2\n3=3\n4=4\n",
+        "1=1,2\n2=2,3\n3=3,4\n4=4,1\n",
+    ];
+    let spacings = [
+        "",
+        "2=.159\n3=.106\n4=.053\n",
+        "1=.053\n2=.106\n3=.159\n5=.265\n6=.318\n",
+        "1=.6\n5=.6\n9=.6\n",
+        "2=.05\n4=.05\n6=.05\n8=.05\n10=.05\n12=.05\n",
+    ];
+    let straight: String = (1..=12).map(|thread| format!("{thread}={}\n", (thread - 1) % 4 + 1)).collect();
+    let straight = &straight;
+    // What a set says of itself, and what it says of its threads one by one.
+    let set = |name: &str, spacing: &str, own: &str, stated: bool| {
+        let thickness =
+            if stated { format!("Thickness={spacing}\n[{name} THICKNESS]\n{own}") } else { String::new() };
+        format!(
+            "[{name}]\nThreads=12\nUnits=cm\nSpacing={spacing}\n[{name} SPACING]\n{own}[{name}]\n{thickness}"
+        )
+    };
+    for stated in [true, false] {
+        for (tie_up, weft_spacing) in
+            tie_ups.iter().flat_map(|tie_up| [".212", ".1", ".6"].map(|weft| (tie_up, weft)))
+        {
+            for (warp, weft) in spacings.iter().flat_map(|warp| spacings.iter().map(move |weft| (warp, weft)))
+            {
+                let (warp, weft) =
+                    (set("WARP", ".212", warp, stated), set("WEFT", weft_spacing, weft, stated));
+                let draft = format!("[THREADING]\n{straight}[TIEUP]\n{tie_up}[TREADLING]\n{straight}");
+                let design = read_text(format!("{warp}{weft}{draft}")).unwrap();
+                let clearance = texere_fabric::clearance(&design.yarns().unwrap(), 0.0).unwrap().min;
+                // Of threads that touch by construction the spline between control points comes to 0.99.
+                assert!(clearance > 0.985, "{clearance}: {warp}{weft}{draft}");
+            }
+        }
+    }
 }
 
 #[test]

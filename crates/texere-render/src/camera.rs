@@ -82,7 +82,7 @@ impl Camera {
     ///
     /// **Errors**: [`RenderError::Camera`].
     pub fn true_scale(extent: &Extent, mm_per_pixel: f32) -> Result<Self, RenderError> {
-        let scale = checked("a scale (mm per pixel)", mm_per_pixel)?;
+        let scale = positive("a scale (mm per pixel)", mm_per_pixel)?;
         // A pixel that the cloth's edge only touches by rounding is none.
         let size = extent.size().map(|mm| (mm / scale - 1e-3).ceil().max(1.0) as u32);
         Ok(Self::straight(extent, size, size[1] as f32 * scale))
@@ -103,8 +103,10 @@ impl Camera {
 
     /// The whole cloth from above its lower edge, turned by `turn` radians about its middle: counter-clockwise as seen
     /// from above.
-    #[must_use]
-    pub fn oblique(extent: &Extent, turn: f32, size: [u32; 2]) -> Self {
+    ///
+    /// **Errors**: [`RenderError::Camera`].
+    pub fn oblique(extent: &Extent, turn: f32, size: [u32; 2]) -> Result<Self, RenderError> {
+        let turn = finite("a turn (radians)", turn)?;
         let mut camera = Self::above(extent, turn, OBLIQUE_HEIGHT, size);
         let [right, above] = camera.across();
         let slope = (FIELD_OF_VIEW * 0.5).tan();
@@ -114,14 +116,14 @@ impl Camera {
             corner.dot(camera.toward) + aside * (1.0 + MARGIN) / slope
         });
         camera.projection = Projection::Perspective { distance: needed.fold(0.0, f32::max) };
-        camera
+        Ok(camera)
     }
 
     /// A stretch of `width` mm round the point `at` (x, y), from above and aside.
     ///
     /// **Errors**: [`RenderError::Camera`].
     pub fn close_up(extent: &Extent, at: [f32; 2], width: f32, size: [u32; 2]) -> Result<Self, RenderError> {
-        let width = checked("a width (mm)", width)?;
+        let (at, width) = (point(at)?, positive("a width (mm)", width)?);
         let distance = 0.5 * width / aspect(size) / (FIELD_OF_VIEW * 0.5).tan();
         let camera = Self::above(extent, CLOSE_TURN, CLOSE_HEIGHT, size);
         Ok(Self {
@@ -141,7 +143,7 @@ impl Camera {
         width: f32,
         size: [u32; 2],
     ) -> Result<Self, RenderError> {
-        let width = checked("a width (mm)", width)?;
+        let (at, width) = (point(at)?, positive("a width (mm)", width)?);
         Ok(Self {
             size,
             target: Vec3::new(at[0], at[1], extent.middle().z),
@@ -203,6 +205,22 @@ fn aspect(size: [u32; 2]) -> f32 {
     size[0].max(1) as f32 / size[1].max(1) as f32
 }
 
-fn checked(what: &'static str, value: f32) -> Result<f32, RenderError> {
-    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(RenderError::Camera { what, value }) }
+fn positive(what: &'static str, value: f32) -> Result<f32, RenderError> {
+    if value.is_finite() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(RenderError::Camera { what, value, expected: "a finite number above zero" })
+    }
+}
+
+fn finite(what: &'static str, value: f32) -> Result<f32, RenderError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(RenderError::Camera { what, value, expected: "a finite number" })
+    }
+}
+
+fn point([x, y]: [f32; 2]) -> Result<[f32; 2], RenderError> {
+    Ok([finite("a point's x (mm)", x)?, finite("a point's y (mm)", y)?])
 }

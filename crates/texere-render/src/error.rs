@@ -8,26 +8,41 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum RenderError {
     /// The picture is empty, or larger than the device's textures.
-    #[error(
-        "a picture of {width} × {height} pixels, supersampled {supersampling} times, is not between 1 × 1 and {limit} × {limit}"
-    )]
+    #[error("a picture of {width} × {height} pixels is not between 1 × 1 and {limit} × {limit}")]
     Size {
         /// Pixels across.
         width: u32,
         /// Pixels down.
         height: u32,
+        /// The longest side that the device allows.
+        limit: u32,
+    },
+    /// The picture fits the device's textures, but not with so many pixels of the screen for each of its own.
+    #[error(
+        "supersampled {supersampling} times, a picture of {width} × {height} pixels is not between 1 × 1 and {limit} × {limit}; \
+         {most} times is the most"
+    )]
+    Supersampling {
         /// Pixels of the screen for a pixel of the picture, each way.
         supersampling: u32,
+        /// Most of them for a picture of this size.
+        most: u32,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
         /// The longest side that the device allows.
         limit: u32,
     },
     /// A number that a camera was given makes no view.
-    #[error("{what} of {value} makes no view: it must be a finite number above zero")]
+    #[error("{what} of {value} makes no view: it must be {expected}")]
     Camera {
         /// What the number says.
         what: &'static str,
         /// The number.
         value: f32,
+        /// What would do.
+        expected: &'static str,
     },
     /// The settings make no plan.
     #[error(transparent)]

@@ -71,7 +71,8 @@ impl Renderer {
         settings: &Settings,
         serial: &dyn Backend,
     ) -> Result<(Duration, Duration), RenderError> {
-        let settings = Settings { topology: Topology::Indexed, ..*settings };
+        // With caps, since the parallel one has them, too.
+        let settings = Settings { topology: Topology::Indexed, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let mut session = Session::new(serial, plan.clone())?;
         session.upload(0, yarns.points())?;

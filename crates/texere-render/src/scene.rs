@@ -73,11 +73,12 @@ pub struct Scene<'a> {
 }
 
 impl Renderer {
-    /// Sends a fabric to the device. Its topology is set aside: pictures list their own triangles.
+    /// Sends a fabric to the device. The settings' topology and caps are set aside: pictures list their own triangles, and
+    /// show yarns solid, also where they end or are cut.
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene<'_>, RenderError> {
-        let settings = Settings { topology: Topology::None, ..*settings };
+        let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let limits = chunk_limits(&plan).min(&self.info().limits);
         let mut session = self.device.lending_session(plan.clone())?;
@@ -173,8 +174,8 @@ impl Scene<'_> {
 
     /// Makes a picture.
     ///
-    /// **Errors**: [`RenderError::Size`] for one that the device has no textures for, [`RenderError::Plan`] where not
-    /// even one block fits the limits, [`RenderError::Backend`].
+    /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for one that the device has no textures for,
+    /// [`RenderError::Plan`] where not even one block fits the limits, [`RenderError::Backend`].
     pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
         let (size, supersampling) = (camera.size(), quality.supersampling);
         self.check_size(size, supersampling)?;
@@ -197,15 +198,14 @@ impl Scene<'_> {
 
     fn check_size(&self, [width, height]: [u32; 2], supersampling: u32) -> Result<(), RenderError> {
         let limit = self.renderer.side_limit();
-        let fits = |side: u32| {
-            let side = u64::from(side) * u64::from(supersampling);
-            (1..=u64::from(limit)).contains(&side)
-        };
-        if fits(width) && fits(height) {
-            Ok(())
-        } else {
-            Err(RenderError::Size { width, height, supersampling, limit })
+        if width.min(height) == 0 || width.max(height) > limit {
+            return Err(RenderError::Size { width, height, limit });
         }
+        let most = limit / width.max(height);
+        if !(1..=most).contains(&supersampling) {
+            return Err(RenderError::Supersampling { supersampling, most, width, height, limit });
+        }
+        Ok(())
     }
 
     /// Meshes and draws chunk after chunk. While one is drawn the next is made.

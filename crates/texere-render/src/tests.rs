@@ -97,7 +97,7 @@ fn cameras(extent: &Extent) -> [(&'static str, Camera); 5] {
     [
         ("face", Camera::face(extent, SIZE)),
         ("back", Camera::face(extent, SIZE).turned_over()),
-        ("oblique", Camera::oblique(extent, -0.5, SIZE)),
+        ("oblique", Camera::oblique(extent, -0.5, SIZE).unwrap()),
         ("close-up", Camera::close_up(extent, at, 5.0, SIZE).unwrap()),
         ("cut", Camera::cut(extent, Cut::Warp, at, 8.0, SIZE).unwrap()),
     ]
@@ -264,6 +264,24 @@ fn true_scale_is_true() {
     assert!(top(10).abs_diff(10) <= 1 && top(110).abs_diff(90) <= 1, "{} {}", top(10), top(110));
 }
 
+/// Straight tubes, through which one would see to the other side.
+#[test]
+fn a_cut_shows_solid_yarns() {
+    let yarns = two_yarns();
+    let extent = Extent::of(&yarns);
+    // Across both at y = 3: a millimetre is twenty pixels, x = 3.5 mm and z = 0 are in the middle.
+    let drawn = picture(&yarns, &Camera::cut(&extent, Cut::Warp, [3.5, 3.0], 7.0, [140, 40]).unwrap());
+    for x in [20, 120] {
+        let section: Vec<_> = (x - 6..=x + 6).flat_map(|x| (14..=26).map(move |y| (x, y))).collect();
+        assert!(section.iter().all(|&(x, y)| is_red(&drawn, x, y)), "{x}");
+        // One plane, and one light on it.
+        let colors: std::collections::HashSet<_> =
+            section.iter().map(|&(x, y)| drawn.get_pixel(x, y).0).collect();
+        assert_eq!(colors.len(), 1, "{colors:?}");
+        assert!(!is_red(&drawn, x, 4) && !is_red(&drawn, 70, 20));
+    }
+}
+
 #[test]
 fn the_back_is_turned_over_sideways() {
     let yarns = two_yarns();
@@ -286,9 +304,29 @@ fn sizes_that_no_texture_has_and_views_of_nothing_are_refused() {
     let extent = Extent::of(&yarns);
     let renderer = renderer().lock().unwrap();
     let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
-    for (size, supersampling) in [([0, 10], 1), ([10, 10], 0), ([1 << 20, 10], 1), ([1 << 31, 1], 2)] {
+    for (size, supersampling) in [([0, 10], 1), ([1 << 20, 10], 1), ([1 << 31, 1], 2), ([0, 1], 0)] {
         let refused = scene.picture(&Camera::face(&extent, size), Quality { supersampling });
         assert!(matches!(refused, Err(RenderError::Size { .. })), "{size:?}");
+    }
+    // What would fit without it is the supersampling's fault.
+    let limit = renderer.side_limit();
+    for (size, given, most) in [([10, 10], 0, limit / 10), ([limit, 1], 2, 1), ([1, limit / 2], 3, 2)] {
+        match scene.picture(&Camera::face(&extent, size), Quality { supersampling: given }) {
+            Err(RenderError::Supersampling { supersampling, most: told, .. }) => {
+                assert_eq!((supersampling, told), (given, most), "{size:?}");
+            }
+            other => panic!("{size:?}: {other:?}"),
+        }
+    }
+    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let refused = [
+            Camera::oblique(&extent, value, SIZE),
+            Camera::close_up(&extent, [value, 1.0], 1.0, SIZE),
+            Camera::close_up(&extent, [1.0, value], 1.0, SIZE),
+            Camera::cut(&extent, Cut::Warp, [value, 1.0], 1.0, SIZE),
+            Camera::cut(&extent, Cut::Weft, [1.0, value], 1.0, SIZE),
+        ];
+        assert!(refused.iter().all(|camera| matches!(camera, Err(RenderError::Camera { .. }))), "{value}");
     }
     for value in [0.0, -1.0, f32::NAN, f32::INFINITY] {
         let refused = [

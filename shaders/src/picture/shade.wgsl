@@ -100,8 +100,10 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let fibre = from_octahedron(packed.zw);
     let eye = to_eye(here.local);
     if (number & CUT) != 0u {
-        // Fibres end on: they swallow what falls between them.
-        return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * seen.x);
+        // Fibres end on: they swallow what falls between them. A cut is a plane with nothing before it; the depth kept is
+        // that of the yarn's far side, which says nothing of what surrounds the plane.
+        let open = select(seen.x, 1.0, view.has_ground == 0u);
+        return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * open);
     }
     let fade = clamp(view.reach_pixels / 120.0 - 0.25, 0.0, 1.0);
     let color = look.color * grain(look, yarn, f32(place.z) / 65536.0, f32(place.w) / 32.0, fade);

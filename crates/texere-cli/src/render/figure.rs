@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use texere::{Phases, Renderer, Settings};
+use texere::{Output, Phases, Renderer, Settings};
 
 use crate::fail::Fail;
+use crate::terminal::line;
 
 /// Bars of a group, in the order of the table: what they stand for, and their colour.
 const BARS: [(&str, &str); 5] = [
@@ -37,20 +38,24 @@ pub(super) fn run(
     settings: Settings,
     size: [u32; 2],
 ) -> Result<(), Fail> {
+    let named: Vec<_> =
+        designs.iter().map(|path| Ok((path, texere::read(path)?))).collect::<Result<_, Fail>>()?;
+    let output = Output::to(plot).sparing(named.iter().flat_map(|(_, design)| design.files()));
+    output.check()?;
     let serial = texere::open("cpu-serial")?;
     let mut rows = Vec::new();
-    for path in designs {
-        let yarns = texere::read(path)?.yarns()?;
+    for (path, design) in named {
+        let yarns = design.yarns()?;
         let phases = renderer.phases(&yarns, &settings, &*serial, size)?;
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = line(path.file_stem().unwrap_or_default().display());
         let row = Row { name, times: in_order(&phases) };
         if rows.is_empty() {
             crate::print(&header(&renderer.info().device))?;
         }
-        crate::print(&line(&row))?;
+        crate::print(&table_row(&row))?;
         rows.push(row);
     }
-    std::fs::write(plot, svg(&rows, &renderer.info().device)).map_err(Fail::output)
+    Ok(texere::write_file(svg(&rows, &renderer.info().device).as_bytes(), output)?)
 }
 
 fn in_order(phases: &Phases) -> [Duration; 5] {
@@ -71,7 +76,7 @@ fn header(device: &str) -> String {
     )
 }
 
-fn line(row: &Row) -> String {
+fn table_row(row: &Row) -> String {
     let times: String = row.times.iter().map(|time| format!(" {:.1} |", milliseconds(*time))).collect();
     format!("| {} |{times}\n", row.name)
 }

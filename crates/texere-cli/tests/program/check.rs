@@ -107,6 +107,60 @@ fn the_papers_shape_is_cured_by_the_round_one() {
     assert!(after["jams"].is_null() && after["pierces"].is_null(), "{after}");
 }
 
+/// Plain cloth of yarns far thicker than they lie apart.
+fn thick(folder: &Path, [ends, picks]: [usize; 2], diameter: f64, spacing: f64) -> PathBuf {
+    let path = folder.join("thick.toml");
+    let text = format!(
+        "[weave]\nnotation = \"plain\"\nends = {ends}\npicks = {picks}\n[yarns.a]\ndiameter_mm = {diameter}\n\
+         [warp]\nyarns = [\"a\"]\nspacing_mm = {spacing}\n[weft]\nyarns = [\"a\"]\nspacing_mm = {spacing}\n"
+    );
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+#[test]
+fn yarns_thicker_than_several_pitches_are_named_and_cured_by_numbers() {
+    let folder = TempDir::new().unwrap();
+    for (size, diameter, spacing) in
+        [([24, 24], 1000.0, 0.75), ([7, 9], 25.0, 0.25), ([163, 150], 25.0, 0.25), ([24, 24], 2.0, 0.75)]
+    {
+        let path = thick(folder.path(), size, diameter, spacing);
+        let (code, report) = check(&path, &[]);
+        assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)), "{report}");
+        let crowded = &report["crowded"];
+        let number = |key: &str| crowded[key].as_f64().unwrap_or_else(|| panic!("{crowded}"));
+        assert!((number("thickness_mm") / diameter - 1.0).abs() < 1e-6 && number("pitch_mm") == spacing);
+        assert!(number("fill") > 1.0, "{crowded}");
+        let (set, _) = crowded["yarn"].as_str().unwrap().split_once(' ').unwrap();
+        assert!(matches!(set, "end" | "pick"), "{crowded}");
+
+        // As it says: with yarns so thin the cloth is clean.
+        let thin = cure(&report, "diameter_mm of every yarn").unwrap_or_else(|| panic!("{report}"));
+        assert!(thin["leaves"].is_null());
+        let thin = thin["value"].as_str().unwrap().parse().unwrap();
+        let (code, after) = check(&thick(folder.path(), size, thin, spacing), &[]);
+        assert_eq!((code, &after["crowded"]), (0, &Value::Null), "{after}");
+        // Or so far apart, where a design may say so.
+        if let Some(wide) = cure(&report, "warp.spacing_mm, weft.spacing_mm") {
+            let (wide, _) = wide["value"].as_str().unwrap().split_once(", ").unwrap();
+            let (code, after) = check(&thick(folder.path(), size, diameter, wide.parse().unwrap()), &[]);
+            assert_eq!(code, 0, "{after}");
+        }
+    }
+    let path = thick(folder.path(), [24, 24], 1000.0, 0.75);
+    let output = texere(&["check", path.to_str().unwrap()]);
+    assert!(stderr(&output).contains("thick.toml is crowded, folds, jams"), "{}", stderr(&output));
+    let said = " is 1000.0000 mm thick and 0.7500 mm from the one before";
+    assert!(stdout(&output).contains(said), "{}", stdout(&output));
+    let text = stdout(&texere(&["inspect", path.to_str().unwrap()]));
+    assert!(
+        text.contains("times as much yarn as there is room for")
+            && text.contains(said)
+            && text.contains("of touching at the most"),
+        "{text}"
+    );
+}
+
 #[test]
 fn faults_of_the_design_are_not_the_cloths() {
     let folder = TempDir::new().unwrap();

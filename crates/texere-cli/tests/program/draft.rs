@@ -122,7 +122,7 @@ fn faults_have_their_exit_codes() {
     for (args, code, said) in [
         (vec!["draft", &plain], 2, "--text"),
         (vec!["draft", &plain, "--back"], 2, "--text"),
-        (vec!["draft", &plain, "-o", jpeg], 1, "draft.jpg does not end in .png"),
+        (vec!["draft", &plain, "-o", jpeg], 2, "draft.jpg does not end in .png"),
         (vec!["draft", &plain, "-o", nowhere], 1, "draft.png"),
         (vec!["draft", bad, "--text"], 3, "line 3: weave.repeat is 0"),
         (vec!["draft", odd, "--text"], 3, "motif.bmp, column 2, row 1 from the top left: colour #ffffff"),

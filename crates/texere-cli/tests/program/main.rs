@@ -4,7 +4,9 @@
 mod check;
 mod cli;
 mod draft;
+mod hostile;
 mod inspect;
+mod outputs;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

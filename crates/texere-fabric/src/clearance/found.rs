@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::crowd::Crowd;
 use super::{CLEARANCE_ACCURACY, CLEARANCE_BIN, CONTACTS_LISTED, Contact};
 
 /// Bins from 0 to [`CLEARANCE_NEAR`](super::CLEARANCE_NEAR).
@@ -12,13 +13,23 @@ pub(super) struct Found {
     pub(super) below_one: u64,
     pub(super) histogram: Vec<u64>,
     pub(super) worst: Vec<Contact>,
+    pub(super) crowd: Option<Crowd>,
+    /// Pairs of intervals that were looked at.
+    pub(super) pairs: u64,
     /// A ratio above which a contact is not among the worst.
     bar: f64,
 }
 
 impl Default for Found {
     fn default() -> Self {
-        Self { below_one: 0, histogram: vec![0; BINS], worst: Vec::new(), bar: f64::INFINITY }
+        Self {
+            below_one: 0,
+            histogram: vec![0; BINS],
+            worst: Vec::new(),
+            crowd: None,
+            pairs: 0,
+            bar: f64::INFINITY,
+        }
     }
 }
 
@@ -44,7 +55,13 @@ impl Found {
         }
     }
 
+    pub(super) fn add_crowd(&mut self, crowd: Option<Crowd>) {
+        self.crowd = [self.crowd, crowd].into_iter().flatten().reduce(Crowd::worse);
+    }
+
     pub(super) fn joined(mut self, other: Self) -> Self {
+        self.add_crowd(other.crowd);
+        self.pairs += other.pairs;
         self.below_one += other.below_one;
         for (bin, more) in self.histogram.iter_mut().zip(&other.histogram) {
             *bin += more;

@@ -1,5 +1,6 @@
 //! A uniform grid over the boxes of all intervals.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use glam::{UVec3, Vec3A};
@@ -8,7 +9,7 @@ use rayon::prelude::*;
 use crate::FabricError;
 
 /// The most cells that an interval lies in on average, before larger cells are taken.
-const ENTRIES: u64 = 6;
+pub(super) const ENTRIES: u64 = 6;
 
 /// A cell's side, in those of boxes on average: so large that most boxes lie in one or two, and few are far from one another.
 const CELL: f64 = 1.75;
@@ -24,9 +25,9 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    const NOTHING: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
+    pub(super) const NOTHING: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
 
-    fn joined(self, other: Self) -> Self {
+    pub(super) fn joined(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
@@ -163,11 +164,19 @@ impl Grid {
         self.ends.len()
     }
 
+    fn places(&self, cell: usize) -> Range<usize> {
+        let end = |cell: usize| self.ends[cell].load(Ordering::Relaxed) as usize;
+        if cell == 0 { 0..end(cell) } else { end(cell - 1)..end(cell) }
+    }
+
+    /// How many boxes reach into `cell`.
+    pub(super) fn count_in(&self, cell: usize) -> usize {
+        self.places(cell).len()
+    }
+
     /// The numbers of the boxes that reach into `cell`, in no particular order.
     pub(super) fn entries(&self, cell: usize) -> impl Iterator<Item = usize> + '_ {
-        let end = |cell: usize| self.ends[cell].load(Ordering::Relaxed) as usize;
-        let start = if cell == 0 { 0 } else { end(cell - 1) };
-        self.entries[start..end(cell)].iter().map(|entry| entry.load(Ordering::Relaxed) as usize)
+        self.entries[self.places(cell)].iter().map(|entry| entry.load(Ordering::Relaxed) as usize)
     }
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 
 use glam::{DVec3, Vec3A, Vec4};
+use rayon::prelude::*;
 use texere_core::{ControlPoint, Yarns};
 
 use super::grid::Bounds;
@@ -13,6 +14,9 @@ use super::{CLEARANCE_NEAR, YarnPlace};
 
 /// Intervals after the first over which a yarn may be seen to lead straight on.
 const LEAD: usize = 3;
+
+/// Control points from one whose way along the yarns is kept to the next.
+const STRIDE: usize = 64;
 
 const _: () = assert!(FRAC_1_SQRT_2 * std::f64::consts::FRAC_PI_2 > CLEARANCE_NEAR);
 
@@ -27,6 +31,23 @@ pub(super) struct Line<'a> {
     closed: bool,
     /// The factor of the spline's tangents.
     s: f64,
+    ways: &'a [f64],
+}
+
+/// The way along the chords from the fabric's first control point to every 64th one, mm, from one yarn to the next as if
+/// they were one: the way between two points of a yarn is known without going it.
+pub(super) fn ways(points: &[ControlPoint]) -> Vec<f64> {
+    let stride = |start: usize| -> f64 {
+        let chords = points[start..points.len().min(start + STRIDE + 1)].windows(2);
+        chords.map(|ends| f64::from(ends[0].position().distance(ends[1].position()))).sum()
+    };
+    let mut ways: Vec<f64> =
+        (0..points.len().div_ceil(STRIDE)).into_par_iter().map(|k| stride(k * STRIDE)).collect();
+    let mut way = 0.0;
+    for stride in &mut ways {
+        (way, *stride) = (way + *stride, way);
+    }
+    ways
 }
 
 /// Some intervals of one yarn that follow one another.
@@ -37,8 +58,8 @@ pub(super) struct Span<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// Yarn `yarn`, whose section reaches as far as `support` says.
-    pub(super) fn new(yarns: &'a Yarns, yarn: usize, support: &'a Support, s: f64) -> Self {
+    /// Yarn `yarn`, whose section reaches as far as `support` says; `ways` are the fabric's.
+    pub(super) fn new(yarns: &'a Yarns, yarn: usize, support: &'a Support, s: f64, ways: &'a [f64]) -> Self {
         Self {
             yarn,
             support,
@@ -46,6 +67,7 @@ impl<'a> Line<'a> {
             points: yarns.yarn_points(yarn).unwrap_or(&[]),
             closed: yarns.layout().yarns()[yarn].closed,
             s,
+            ways,
         }
     }
 
@@ -117,11 +139,18 @@ impl<'a> Line<'a> {
     /// apart along it, by its chords.
     pub(super) fn within(&self, window: f64, (from, s): (usize, f64), (to, t): (usize, f64)) -> bool {
         let forward = |(from, s): (usize, f64), (to, t): (usize, f64)| {
-            let (cubic, count) = (self.cubic(from), self.points.len());
+            let (cubic, count, to_own) = (self.cubic(from), self.points.len(), to - self.first);
             let mut left = window - cubic.position(s).distance(cubic.position(1.0));
             let mut at = (from - self.first + 1) % count.max(1);
             // Given up as soon as it is far enough.
-            while left > 0.0 && at != to - self.first {
+            while left > 0.0 && at != to_own {
+                // As far as it goes without passing the yarn's last point.
+                let ahead = if at < to_own { to_own } else { count - 1 };
+                if let Some((way, stride_end)) = self.strides(at, ahead) {
+                    left -= way;
+                    at = stride_end;
+                    continue;
+                }
                 let next = (at + 1) % count;
                 left -= f64::from(self.points[at].position().distance(self.points[next].position()));
                 if next == 0 && !self.closed {
@@ -133,6 +162,14 @@ impl<'a> Line<'a> {
             left > cubic.position(0.0).distance(cubic.position(t))
         };
         forward((from, s), (to, t)) || (self.closed && forward((to, t), (from, s)))
+    }
+
+    /// The way from the yarn's point `at` over whole strides towards its point `ahead`, and the point that they end at; none
+    /// where no whole stride begins there.
+    fn strides(&self, at: usize, ahead: usize) -> Option<(f64, usize)> {
+        let (from, to) = (self.first + at, (self.first + ahead) / STRIDE);
+        let starts = from % STRIDE == 0 && from / STRIDE < to;
+        starts.then(|| (self.ways[to] - self.ways[from / STRIDE], to * STRIDE - self.first))
     }
 
     /// The place at `t` of an interval, `sources` being the fabric's.

@@ -1,6 +1,7 @@
 //! Clearance: how near yarns come to one another and to themselves, and how tightly they bend.
 
 mod approach;
+mod crowd;
 mod curvature;
 mod found;
 mod grid;
@@ -9,15 +10,20 @@ mod line;
 mod passing;
 mod search;
 mod support;
+mod watch;
+
+use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 use texere_core::Yarns;
 
+pub use self::crowd::Crowd;
 pub(crate) use self::line::neighbours;
 
 use self::found::Found;
 use self::grid::Grid;
-use self::search::Probe;
+use self::search::{FULL, Probe, cell_work};
+use self::watch::Watch;
 use crate::FabricError;
 
 /// Contacts further apart than this factor are not looked for.
@@ -32,6 +38,18 @@ pub const CLEARANCE_ACCURACY: f64 = 1e-3;
 
 /// The most contacts that are listed one by one.
 pub const CONTACTS_LISTED: usize = 100;
+
+/// The most control intervals that one is compared with in a cell of the search, beside each other on one plane through it.
+///
+/// Yarns that are clear of one another come that close where a radius has some 250 control points, or where a thousand
+/// straight yarns of two points lie side by side.
+pub const CLEARANCE_BESIDE: usize = 1024;
+
+/// The most pairs of control intervals that are looked at for each control point: an interval lies in 6 cells on average
+/// at most, and is compared with [`CLEARANCE_BESIDE`] in each. Of cloth it is 20 to 60.
+pub const CLEARANCE_PAIRS: u64 = grid::ENTRIES * CLEARANCE_BESIDE as u64;
+
+const _: () = assert!(FULL / 2 <= CLEARANCE_BESIDE);
 
 /// Width of a bin of the histogram.
 pub const CLEARANCE_BIN: f64 = 0.01;
@@ -71,6 +89,8 @@ pub struct Contact {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
     /// The least ratio of all contacts (see [`Contact::ratio`]); infinite where nothing comes within [`CLEARANCE_NEAR`].
+    /// Where there is a [`Clearance::crowd`] it is no more than its yarns have room for, which may be less than that of any
+    /// contact.
     pub min: f64,
     /// All contacts within [`CLEARANCE_NEAR`]. Where two yarns run side by side each pair of control intervals may be one.
     pub contacts: u64,
@@ -85,6 +105,10 @@ pub struct Clearance {
     pub curvature_min: f64,
     /// Where that is.
     pub curvature_at: Option<YarnPlace>,
+    /// The worst of the places that are too crowded to be measured: contacts there are missing above.
+    pub crowd: Option<Crowd>,
+    /// Pairs of control intervals that were looked at, the work that it took: [`CLEARANCE_PAIRS`] a control point at most.
+    pub pairs: u64,
 }
 
 /// Measures how near yarns come to one another, to themselves, and how tightly they bend.
@@ -95,7 +119,8 @@ pub struct Clearance {
 /// is thick (Schur's theorem: no curve with that curvature brings its ends closer than the circle does), which the
 /// curvature tells. A loop within one control interval is told by the curvature alone.
 ///
-/// Time grows with the number of near pairs (flat sections take about five times as long as round ones); beside the yarns
+/// Where much more yarn lies than there is room for, no pairs are measured: yarns that are several times as thick as they
+/// lie apart are told by [`Clearance::crowd`] at once. So time grows with the control points alone (flat sections take about five times as long as round ones); beside the yarns
 /// it takes about 9 bytes a control point.
 ///
 /// **Errors**: [`FabricError::ClearancePoints`] for more control points than are measured, [`FabricError::Tension`] for
@@ -114,6 +139,35 @@ pub struct Clearance {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> {
+    clearance_with_progress(yarns, tension, |_| ControlFlow::Continue(()))
+}
+
+/// [`clearance`] that tells how far it has come, from 0 to 1, from any thread; `Break` ends it.
+///
+/// **Errors**: those of [`clearance`]; [`FabricError::Cancelled`] where `progress` asked to stop.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// use texere_fabric::{FabricError, clearance_with_progress};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let yarns = yarns.build()?;
+/// let mut told = 0.0;
+/// clearance_with_progress(&yarns, 0.0, |done| {
+///     told = done;
+///     ControlFlow::Continue(())
+/// })?;
+/// assert_eq!(told, 1.0);
+/// let stopped = clearance_with_progress(&yarns, 0.0, |_| ControlFlow::Break(()));
+/// assert_eq!(stopped, Err(FabricError::Cancelled));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn clearance_with_progress(
+    yarns: &Yarns,
+    tension: f32,
+    progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+) -> Result<Clearance, FabricError> {
     if !(0.0..1.0).contains(&tension) {
         return Err(FabricError::Tension { tension });
     }
@@ -127,22 +181,37 @@ pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> 
         let line = &spans[span].line;
         spans[span].points.clone().map(|point| (point, line.bounds(point, CLEARANCE_NEAR)))
     })?;
+    let work: u64 = (0..grid.len()).map(|cell| cell_work(grid.count_in(cell))).sum();
+    let watch = Watch::new(work + points as u64, progress);
     let mut found = (0..grid.len().div_ceil(TASK))
         .into_par_iter()
-        .map(|task| probe.search(&grid, task * TASK..grid.len().min((task + 1) * TASK)))
-        .reduce(Found::default, Found::joined);
+        .map(|task| probe.search(&grid, task * TASK..grid.len().min((task + 1) * TASK), &watch))
+        .try_reduce(Found::default, |one, other| Ok(one.joined(other)))?;
     found.keep_worst();
     let bend = spans
         .par_iter()
-        .map(|span| probe.tightest(span))
-        .reduce(|| (f64::INFINITY, None), |a, b| if b.0 < a.0 { b } else { a });
+        .map(|span| {
+            let bend = probe.tightest(span);
+            watch.advance(span.points.len() as u64).map(|()| bend)
+        })
+        .try_reduce(|| (f64::INFINITY, None), |a, b| Ok(if b.0 < a.0 { b } else { a }))?;
+    watch.advance(points as u64)?;
+    let measured = found.worst.first().map_or(f64::INFINITY, |contact| contact.ratio);
     Ok(Clearance {
-        min: found.worst.first().map_or(f64::INFINITY, |contact| contact.ratio),
+        min: found.crowd.map_or(measured, |crowd| measured.min(crowd.ratio_max())),
         contacts: found.histogram.iter().sum(),
         below_one: found.below_one,
         worst: found.worst,
         histogram: found.histogram,
         curvature_min: bend.0,
         curvature_at: bend.1,
+        crowd: found.crowd,
+        pairs: found.pairs,
     })
+}
+
+/// Makes sure that `list` can take `count` more.
+fn room_for<T>(list: &mut Vec<T>, count: usize, what: &'static str) -> Result<(), FabricError> {
+    let bytes = (count * size_of::<T>()) as u64;
+    list.try_reserve(count).map_err(|_| FabricError::OutOfMemory { what, bytes })
 }

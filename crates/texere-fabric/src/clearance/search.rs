@@ -2,24 +2,34 @@
 
 use std::cell::OnceCell;
 use std::f64::consts::FRAC_PI_2;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
-use glam::{DVec2, UVec3};
+use glam::{DVec2, UVec3, Vec3A};
 use texere_core::Yarns;
 
 use super::approach::{Side, refine};
+use super::crowd::Crowd;
 use super::found::Found;
 use super::grid::{Bounds, Grid};
 use super::interval::{Chords, Cubic, SAGITTA, closest};
-use super::line::{Line, Span};
+use super::line::{self, Line, Span};
 use super::passing::Passing;
 use super::support::Support;
-use super::{CLEARANCE_NEAR, Contact, YarnPlace, curvature};
+use super::watch::Watch;
+use super::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace, curvature, room_for};
+use crate::FabricError;
+
+/// The most intervals of a cell that are simply compared with one another. Threads that are clear of one another come to
+/// some 60, with one control point a crossing or several.
+pub(super) const FULL: usize = 256;
+
+/// Pairs between two times that progress is told.
+const TOLD: u64 = 1 << 14;
 
 /// One interval in a cell.
-struct Part<'a> {
-    point: usize,
-    line: Line<'a>,
+pub(super) struct Part<'a> {
+    pub(super) point: usize,
+    pub(super) line: Line<'a>,
     bounds: Bounds,
     /// The first cell that its box reaches into.
     cell: UVec3,
@@ -61,10 +71,17 @@ impl Curve {
     }
 }
 
+/// Pairs that are looked at in a cell of so many intervals, at most.
+pub(super) const fn cell_work(intervals: usize) -> u64 {
+    let half = if intervals < 2 * CLEARANCE_BESIDE { intervals } else { 2 * CLEARANCE_BESIDE };
+    intervals as u64 * half as u64 / 2
+}
+
 /// The yarns, and how far their sections reach.
 pub(super) struct Probe<'a> {
     yarns: &'a Yarns,
     supports: Vec<Support>,
+    ways: Vec<f64>,
     /// The factor of the spline's tangents.
     s: f64,
 }
@@ -72,12 +89,12 @@ pub(super) struct Probe<'a> {
 impl<'a> Probe<'a> {
     pub(super) fn new(yarns: &'a Yarns, tension: f32) -> Self {
         let supports = yarns.layout().sections().iter().map(Support::new).collect();
-        Self { yarns, supports, s: (1.0 - f64::from(tension)) / 2.0 }
+        Self { yarns, supports, ways: line::ways(yarns.points()), s: (1.0 - f64::from(tension)) / 2.0 }
     }
 
     fn line(&self, yarn: usize) -> Line<'_> {
         let section = self.yarns.layout().yarns()[yarn].section;
-        Line::new(self.yarns, yarn, &self.supports[section as usize], self.s)
+        Line::new(self.yarns, yarn, &self.supports[section as usize], self.s, &self.ways)
     }
 
     /// The yarn that control point `point` belongs to.
@@ -92,16 +109,26 @@ impl<'a> Probe<'a> {
     }
 
     /// All contacts of intervals that meet in `cells`.
-    pub(super) fn search(&self, grid: &Grid, cells: Range<usize>) -> Found {
+    ///
+    /// **Errors**: [`FabricError::OutOfMemory`]; [`FabricError::Cancelled`] where `watch` says so.
+    pub(super) fn search<T: FnMut(f64) -> ControlFlow<()> + Send>(
+        &self,
+        grid: &Grid,
+        cells: Range<usize>,
+        watch: &Watch<T>,
+    ) -> Result<Found, FabricError> {
         let mut found = Found::default();
         let mut points = Vec::new();
         let mut parts: Vec<Part<'_>> = Vec::new();
         let mut met: Vec<Met> = Vec::new();
+        let mut untold = 0;
         for cell in cells {
             points.clear();
+            room_for(&mut points, grid.count_in(cell), "a cell's intervals")?;
             points.extend(grid.entries(cell));
             points.sort_unstable();
             parts.clear();
+            room_for(&mut parts, points.len(), "a cell's intervals")?;
             for &point in &points {
                 let line = match parts.last() {
                     Some(before) if before.line.holds(point) => before.line,
@@ -110,18 +137,78 @@ impl<'a> Probe<'a> {
                 let bounds = line.bounds(point, CLEARANCE_NEAR);
                 parts.push(Part { point, line, bounds, cell: grid.cell(bounds.low) });
             }
+            // Two may meet in several cells: where what they share begins they count.
+            let counts = |one: &Part<'_>, other: &Part<'_>| {
+                one.bounds.meets(&other.bounds) && grid.number(one.cell.max(other.cell)) == cell
+            };
+            if parts.len() > FULL {
+                self.sweep(&mut parts, counts, &mut found, watch)?;
+                continue;
+            }
+            untold += cell_work(parts.len());
+            if untold >= TOLD {
+                watch.advance(std::mem::take(&mut untold))?;
+            }
             met.clear();
             met.resize_with(parts.len(), Met::default);
+            found.pairs += (parts.len() * parts.len().saturating_sub(1) / 2) as u64;
             for (second, other) in parts.iter().enumerate() {
                 for (first, one) in parts[..second].iter().enumerate() {
-                    // Two may meet in several cells: where what they share begins they count.
-                    if one.bounds.meets(&other.bounds) && grid.number(one.cell.max(other.cell)) == cell {
+                    if counts(one, other) {
                         self.pair([(one, &met[first]), (other, &met[second])], &mut found);
                     }
                 }
             }
         }
-        found
+        watch.advance(untold)?;
+        Ok(found)
+    }
+
+    /// All contacts of many intervals, or that they are a crowd.
+    ///
+    /// A plane is moved over them, and each is compared with those that the plane meets when it comes to it.
+    fn sweep<T: FnMut(f64) -> ControlFlow<()> + Send>(
+        &self,
+        parts: &mut [Part<'_>],
+        counts: impl Fn(&Part<'_>, &Part<'_>) -> bool,
+        found: &mut Found,
+        watch: &Watch<T>,
+    ) -> Result<(), FabricError> {
+        let crowd = Crowd::of(parts, |part| part.line.place(part.point, 0.0, self.yarns.sources()));
+        if crowd.is_some_and(|crowd| crowd.fill > 1.0) {
+            found.add_crowd(crowd);
+            return Ok(());
+        }
+        // Along the axis on which boxes are shortest beside all of them.
+        let (whole, sides) = parts.iter().fold((Bounds::NOTHING, Vec3A::ZERO), |(whole, sides), part| {
+            (whole.joined(part.bounds), sides + (part.bounds.high - part.bounds.low))
+        });
+        let axis = (sides / (whole.high - whole.low)).min_position();
+        parts.sort_by(|one, other| one.bounds.low[axis].total_cmp(&other.bounds.low[axis]));
+        let mut beside: Vec<(&Part<'_>, Box<Met>)> = Vec::new();
+        let (each, mut untold) = (cell_work(parts.len()) / parts.len() as u64, 0);
+        for part in &*parts {
+            beside.retain(|(other, _)| other.bounds.high[axis] >= part.bounds.low[axis]);
+            if beside.len() > CLEARANCE_BESIDE {
+                found.add_crowd(crowd);
+                break;
+            }
+            untold += each;
+            if untold >= TOLD {
+                watch.advance(std::mem::take(&mut untold))?;
+            }
+            found.pairs += beside.len() as u64;
+            let met = Box::new(Met::default());
+            for (other, other_met) in &beside {
+                if counts(part, other) {
+                    let mut pair = [(part, &*met), (*other, &**other_met)];
+                    pair.sort_by_key(|(part, _)| part.point);
+                    self.pair(pair, found);
+                }
+            }
+            beside.push((part, met));
+        }
+        watch.advance(untold)
     }
 
     /// The contacts of two intervals, the first one's number being the lower.

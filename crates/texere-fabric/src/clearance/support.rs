@@ -11,7 +11,7 @@ const DIRECTIONS: usize = 512;
 #[derive(Debug, Clone)]
 pub(super) enum Support {
     Circle,
-    Table { furthest: Vec<DVec2>, extent: f64 },
+    Table { furthest: Vec<DVec2>, extent: f64, area: f64 },
 }
 
 impl Support {
@@ -33,7 +33,9 @@ impl Support {
                 .unwrap_or_default()
         });
         let extent = outline.iter().map(|point| point.length()).fold(0.0, f64::max);
-        Self::Table { furthest: furthest.collect(), extent }
+        let next = outline.iter().cycle().skip(1);
+        let area = outline.iter().zip(next).map(|(point, next)| point.perp_dot(*next) / 2.0).sum();
+        Self::Table { furthest: furthest.collect(), extent, area }
     }
 
     pub(super) const fn is_circle(&self) -> bool {
@@ -45,6 +47,14 @@ impl Support {
         match self {
             Self::Circle => 1.0,
             Self::Table { extent, .. } => *extent,
+        }
+    }
+
+    /// The section's area, in squared radii of the yarn.
+    pub(super) const fn area(&self) -> f64 {
+        match self {
+            Self::Circle => std::f64::consts::PI,
+            Self::Table { area, .. } => *area,
         }
     }
 

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::drawdown::WORD;
+use super::zeroed;
 use crate::{CROSSINGS_MAX, Drawdown, FabricError};
 
 /// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.
@@ -78,7 +79,7 @@ impl Draft {
     /// [`CROSSINGS_MAX`].
     pub fn drawdown(&self) -> Result<Drawdown, FabricError> {
         let mut drawdown = Drawdown::new(self.ends(), self.picks())?;
-        let shafts = self.shafts();
+        let shafts = self.shafts()?;
         let lifts = match &self.shedding {
             Shedding::TieUp { tie_up, .. } => self.treadles(tie_up, &shafts)?,
             Shedding::LiftPlan(_) => shafts,
@@ -101,7 +102,7 @@ impl Draft {
     }
 
     /// What each shaft lifts, by its number.
-    fn shafts(&self) -> HashMap<u32, Lift> {
+    fn shafts(&self) -> Result<HashMap<u32, Lift>, FabricError> {
         let mut shafts: HashMap<u32, Vec<u32>> = HashMap::new();
         for (end, carried_by) in (0..).zip(&self.threading) {
             for &shaft in carried_by.iter().filter(|&&shaft| shaft > 0) {
@@ -109,7 +110,7 @@ impl Draft {
             }
         }
         let words = self.ends().div_ceil(WORD);
-        shafts.into_iter().map(|(shaft, ends)| (shaft, Lift::new(ends, words))).collect()
+        shafts.into_iter().map(|(shaft, ends)| Ok((shaft, Lift::new(ends, words)?))).collect()
     }
 
     /// What each treadle lifts, by its number.
@@ -123,12 +124,12 @@ impl Draft {
             return Err(FabricError::TieUp { treadles, ends, limit: CROSSINGS_MAX });
         }
         let row = |tied: &[u32]| {
-            let mut row = vec![0; ends.div_ceil(WORD)];
+            let mut row = zeroed("a tie-up", ends.div_ceil(WORD) as u64)?;
             tied.iter().filter_map(|shaft| shafts.get(shaft)).for_each(|lift| lift.raise(&mut row));
-            Lift::Many(row)
+            Ok::<_, FabricError>(Lift::Many(row))
         };
         let tied = (1..).zip(tie_up).filter(|(_, tied)| !tied.is_empty());
-        Ok(tied.map(|(treadle, tied)| (treadle, row(tied))).collect())
+        tied.map(|(treadle, tied)| Ok((treadle, row(tied)?))).collect()
     }
 }
 
@@ -142,15 +143,15 @@ enum Lift {
 
 impl Lift {
     /// `ends` of a cloth whose rows have `words`. A list as long as a row has words takes as long to lift as the row.
-    fn new(ends: Vec<u32>, words: usize) -> Self {
+    fn new(ends: Vec<u32>, words: usize) -> Result<Self, FabricError> {
         let many = ends.len() > words;
         let few = Self::Few(ends);
         if !many {
-            return few;
+            return Ok(few);
         }
-        let mut row = vec![0; words];
+        let mut row = zeroed("a threading", words as u64)?;
         few.raise(&mut row);
-        Self::Many(row)
+        Ok(Self::Many(row))
     }
 
     /// Puts these ends up in a row that is long enough for them.

@@ -79,6 +79,41 @@ impl Drawdown {
         Ok(drawdown)
     }
 
+    /// A drawdown whose warp is up where `up(end, pick)` says so of the first `repeat.0` ends and `repeat.1` picks, from
+    /// where they repeat over all others. `up` is asked once for each crossing of the repeat that the cloth has.
+    ///
+    /// **Errors**: those of [`Drawdown::new`].
+    ///
+    /// ```
+    /// use texere_fabric::Drawdown;
+    /// let stripes = Drawdown::repeating(5, 3, (2, 1), |end, _| end == 0)?;
+    /// assert!(stripes.up(4, 2) && !stripes.up(3, 2));
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    pub fn repeating(
+        ends: usize,
+        picks: usize,
+        repeat: (usize, usize),
+        mut up: impl FnMut(usize, usize) -> bool,
+    ) -> Result<Self, FabricError> {
+        let mut cloth = Self::new(ends, picks)?;
+        let (width, height) = (repeat.0.max(1), repeat.1.max(1));
+        for pick in 0..picks.min(height) {
+            let row = cloth.row_mut(pick);
+            for end in 0..ends {
+                let raised = match end.checked_sub(width) {
+                    None => u64::from(up(end, pick)),
+                    Some(same) => row[same / WORD] >> (same % WORD) & 1,
+                };
+                row[end / WORD] |= raised << (end % WORD);
+            }
+        }
+        for pick in height..picks {
+            cloth.copy_pick(pick - height, pick);
+        }
+        Ok(cloth)
+    }
+
     /// How many ends there are.
     #[must_use]
     pub const fn ends(&self) -> usize {
@@ -137,21 +172,6 @@ impl Drawdown {
                 *word &= last;
             }
         }
-    }
-
-    /// This drawdown as a repeat, side by side until it covers `ends` and `picks`.
-    pub(super) fn tiled(&self, ends: usize, picks: usize) -> Result<Self, FabricError> {
-        let mut cloth = Self::new(ends, picks)?;
-        for pick in 0..picks.min(self.picks) {
-            let row = cloth.row_mut(pick);
-            for end in 0..ends {
-                row[end / WORD] |= u64::from(self.up(end % self.ends, pick)) << (end % WORD);
-            }
-        }
-        for pick in self.picks..picks {
-            cloth.copy_pick(pick - self.picks, pick);
-        }
-        Ok(cloth)
     }
 }
 

@@ -1,10 +1,11 @@
 //! Reads the notation of weaves; [`super::Weave`] has its grammar.
 
 use super::REPEAT_MAX;
-use super::library::{CREPE, HONEYCOMB, Reversal};
+use super::library::{CREPE, HONEYCOMB, Reversal, drawn};
 use crate::FabricError;
 
 /// A weave as it is written.
+#[derive(Clone)]
 pub(super) enum Notation {
     /// A row of ends, each pick moved `step` ends (0 to below its length) further to the right; `picks` until it is back.
     Shifted { base: Vec<bool>, step: usize, picks: usize },
@@ -14,6 +15,31 @@ pub(super) enum Notation {
     Reversed { base: Vec<bool>, reversal: Reversal, way: usize },
     /// A drawing, the last pick on top.
     Drawn(&'static [&'static str; 8]),
+}
+
+impl Notation {
+    /// Ends and picks of the repeat.
+    pub(super) const fn repeat(&self) -> (usize, usize) {
+        match self {
+            Self::Shifted { base, picks, .. } => (base.len(), *picks),
+            Self::Matt { base, left, right } => (*left + *right, base.len()),
+            Self::Reversed { base, reversal, way } => (reversal.ends(*way), base.len()),
+            Self::Drawn(drawing) => (drawing.len(), drawing.len()),
+        }
+    }
+
+    /// Whether the warp is up where `end` and `pick` of the repeat cross.
+    pub(super) fn up(&self, end: usize, pick: usize) -> bool {
+        match self {
+            Self::Shifted { base, step, .. } => base[(end + (base.len() - step) * pick) % base.len()],
+            Self::Matt { base, left, .. } => base[pick] == (end < *left),
+            Self::Reversed { base, reversal, way } => {
+                let repeat = base.len();
+                base[(reversal.origin(end, *way, repeat) + repeat - pick) % repeat]
+            }
+            Self::Drawn(drawing) => drawn(*drawing, end, pick),
+        }
+    }
 }
 
 /// Characters of a text that an error shows: more than any sensible notation has.
@@ -235,12 +261,17 @@ impl Cursor<'_> {
         self.text.chars().count() - self.rest.trim_start().chars().count() + 1
     }
 
-    /// The text as errors show it.
+    /// The text as errors show it: on one line, cut where it is long.
     fn shown(&self) -> String {
-        match self.text.char_indices().nth(SHOWN) {
-            Some((cut, _)) => format!("{}…", self.text.split_at(cut).0),
-            None => self.text.to_owned(),
+        let mut shown = String::new();
+        for (place, character) in self.text.chars().enumerate() {
+            if place == SHOWN {
+                shown.push('…');
+                break;
+            }
+            shown.push(if character.is_control() { ' ' } else { character });
         }
+        shown
     }
 
     fn fail(&self, expected: &'static str) -> FabricError {

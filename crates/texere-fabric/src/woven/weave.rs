@@ -1,8 +1,8 @@
 //! The weave: one repeat, by its usual notation.
 
+use std::fmt;
 use std::str::FromStr;
 
-use super::library::drawn;
 use super::notation::{self, Notation};
 use crate::{Drawdown, FabricError};
 
@@ -52,21 +52,43 @@ pub const REPEAT_MAX: usize = 4096;
 /// assert!(error.to_string().contains("character 9: a satin of 8 ends can't have move 2"));
 /// # Ok::<(), texere_fabric::FabricError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Clone)]
 pub struct Weave {
-    repeat: Drawdown,
+    repeat: Repeat,
 }
+
+/// What is repeated. A notation stays one: a satin of 4,095 ends would fill two megabytes, of which a small cloth sees
+/// nothing.
+#[derive(Clone)]
+enum Repeat {
+    Written(Notation),
+    Woven(Drawdown),
+}
+
+impl fmt::Debug for Weave {
+    /// The size alone, as of a [`Drawdown`].
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Weave").field("repeat", &self.repeat()).finish_non_exhaustive()
+    }
+}
+
+/// Weaves are equal where all crossings of their repeats are, however they are written.
+impl PartialEq for Weave {
+    fn eq(&self, other: &Self) -> bool {
+        let (ends, picks) = self.repeat();
+        let same = |pick| (0..ends).all(|end| self.up(end, pick) == other.up(end, pick));
+        (ends, picks) == other.repeat() && (0..picks).all(same)
+    }
+}
+
+impl Eq for Weave {}
 
 impl Weave {
     /// The weave that repeats `repeat`.
     ///
     /// **Errors**: [`FabricError::Repeat`] for more than [`REPEAT_MAX`] ends or picks.
     pub fn new(repeat: Drawdown) -> Result<Self, FabricError> {
-        let (ends, picks) = (repeat.ends(), repeat.picks());
-        if ends > REPEAT_MAX || picks > REPEAT_MAX {
-            return Err(FabricError::Repeat { ends, picks, limit: REPEAT_MAX });
-        }
-        Ok(Self { repeat })
+        Self { repeat: Repeat::Woven(repeat) }.checked()
     }
 
     /// Reads the notation of a weave.
@@ -74,41 +96,42 @@ impl Weave {
     /// **Errors**: [`FabricError::Notation`] where the text departs from the grammar, [`FabricError::SatinMove`],
     /// [`FabricError::NoSatin`] and [`FabricError::TwillMove`] for what can't be woven, [`FabricError::Repeat`].
     pub fn parse(text: &str) -> Result<Self, FabricError> {
-        Self::new(match notation::parse(text)? {
-            Notation::Shifted { base, step, picks } => {
-                let ends = base.len();
-                Drawdown::from_fn(ends, picks, |end, pick| base[(end + (ends - step) * pick) % ends])
-            }
-            Notation::Matt { base, left, right } => {
-                Drawdown::from_fn(left + right, base.len(), |end, pick| base[pick] == (end < left))
-            }
-            Notation::Reversed { base, reversal, way } => {
-                let (ends, repeat) = (reversal.ends(way), base.len());
-                Drawdown::from_fn(ends, repeat, |end, pick| {
-                    base[(reversal.origin(end, way, repeat) + repeat - pick) % repeat]
-                })
-            }
-            Notation::Drawn(drawing) => Drawdown::from_fn(8, 8, |end, pick| drawn(drawing, end, pick)),
-        }?)
+        Self { repeat: Repeat::Written(notation::parse(text)?) }.checked()
+    }
+
+    fn checked(self) -> Result<Self, FabricError> {
+        let (ends, picks) = self.repeat();
+        if ends > REPEAT_MAX || picks > REPEAT_MAX {
+            return Err(FabricError::Repeat { ends, picks, limit: REPEAT_MAX });
+        }
+        Ok(self)
     }
 
     /// Whether the warp is up where `end` and `pick` of an endless cloth cross, both from 0.
     #[must_use]
     pub fn up(&self, end: usize, pick: usize) -> bool {
-        self.repeat.up(end % self.repeat.ends(), pick % self.repeat.picks())
+        let (ends, picks) = self.repeat();
+        let (end, pick) = (end % ends, pick % picks);
+        match &self.repeat {
+            Repeat::Written(notation) => notation.up(end, pick),
+            Repeat::Woven(drawdown) => drawdown.up(end, pick),
+        }
     }
 
     /// Ends and picks of the repeat.
     #[must_use]
     pub const fn repeat(&self) -> (usize, usize) {
-        (self.repeat.ends(), self.repeat.picks())
+        match &self.repeat {
+            Repeat::Written(notation) => notation.repeat(),
+            Repeat::Woven(drawdown) => (drawdown.ends(), drawdown.picks()),
+        }
     }
 
     /// A cloth of `ends` and `picks` in this weave.
     ///
     /// **Errors**: those of [`Drawdown::new`].
     pub fn drawdown(&self, ends: usize, picks: usize) -> Result<Drawdown, FabricError> {
-        self.repeat.tiled(ends, picks)
+        Drawdown::repeating(ends, picks, self.repeat(), |end, pick| self.up(end, pick))
     }
 }
 

@@ -19,14 +19,70 @@ pub struct Place {
 }
 
 impl Place {
-    pub(super) fn new(file: &Path, line: usize, field: impl Into<String>) -> Self {
-        Self { file: file.into(), line, field: field.into() }
+    pub(super) fn new(file: &Path, line: usize, field: &str) -> Self {
+        Self { file: file.into(), line, field: shown(field) }
+    }
+}
+
+/// Characters of a text from a file that an error shows.
+const SHOWN: usize = 60;
+
+/// Characters of a path that an error shows.
+const PATH_SHOWN: usize = 160;
+
+/// A file's text as errors show it: on one line, without codes that would steer a terminal, cut where it is long.
+pub(super) fn shown(text: &str) -> String {
+    let end = text.char_indices().nth(SHOWN).map_or(text.len(), |(end, _)| end);
+    let (text, rest) = text.split_at(end);
+    plain(text) + if rest.is_empty() { "" } else { "…" }
+}
+
+/// A path as errors show it; of a long one the end tells most.
+pub(super) fn named(path: &Path) -> String {
+    let path = path.to_string_lossy();
+    let start = path.char_indices().rev().nth(PATH_SHOWN).map_or(0, |(start, _)| start);
+    let (rest, path) = path.split_at(start);
+    if rest.is_empty() { plain(path) } else { format!("…{}", plain(path)) }
+}
+
+/// `text` with its control characters written out.
+fn plain(text: &str) -> String {
+    let mut plain = String::new();
+    for character in text.chars() {
+        if character.is_control() {
+            plain.extend(character.escape_default());
+        } else {
+            plain.push(character);
+        }
+    }
+    plain
+}
+
+/// The first few names of a list that may be long, separated by commas.
+pub(super) fn first_few(names: impl ExactSizeIterator<Item = String>) -> String {
+    const FEW: usize = 5;
+    let more = names.len().saturating_sub(FEW);
+    let few = names.take(FEW).map(|name| shown(&name)).collect::<Vec<_>>().join(", ");
+    if more > 0 { format!("{few} and {more} more") } else { few }
+}
+
+/// A number as a person writes it: with an exponent where it would have many zeros.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(number) = self;
+        if *number == 0.0 || !number.is_finite() || (1e-4..1e15).contains(&number.abs()) {
+            write!(f, "{number}")
+        } else {
+            write!(f, "{number:e}")
+        }
     }
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}, line {}: {}", self.file.display(), self.line, self.field)
+        write!(f, "{}, line {}: {}", named(&self.file), self.line, self.field)
     }
 }
 
@@ -35,15 +91,31 @@ impl fmt::Display for Place {
 #[non_exhaustive]
 pub enum ReadError {
     /// The file can't be opened or read.
-    #[error("can't read {}", .file.display())]
+    #[error("can't read {}", named(.file))]
     Io {
         /// The file.
         file: PathBuf,
         /// Why.
         source: std::io::Error,
     },
+    /// It is no regular file, but a folder, a pipe or a device. Nothing was read from it.
+    #[error("{} is {kind}, not a file", named(.file))]
+    NotAFile {
+        /// The path.
+        file: PathBuf,
+        /// What it is.
+        kind: &'static str,
+    },
+    /// Memory could not be had.
+    #[error("out of memory: {bytes} bytes for {what}")]
+    OutOfMemory {
+        /// What for.
+        what: &'static str,
+        /// How many bytes.
+        bytes: u64,
+    },
     /// The file is larger than any design of its kind.
-    #[error("{} has {bytes} bytes, more than {limit}", .file.display())]
+    #[error("{} has {bytes} bytes, more than {limit}", named(.file))]
     TooLarge {
         /// The file.
         file: PathBuf,
@@ -53,7 +125,7 @@ pub enum ReadError {
         limit: u64,
     },
     /// The file's ending is none that texere knows.
-    #[error("{} is of no known kind; known endings: {known}", .file.display())]
+    #[error("{} is of no known kind; known endings: {known}", named(.file))]
     UnknownKind {
         /// The file.
         file: PathBuf,
@@ -61,7 +133,7 @@ pub enum ReadError {
         known: &'static str,
     },
     /// A section that the design needs is missing or empty.
-    #[error("{}: section [{section}] is missing or empty; {needed_for}", .file.display())]
+    #[error("{}: section [{section}] is missing or empty; {needed_for}", named(.file))]
     MissingSection {
         /// The file.
         file: PathBuf,
@@ -71,7 +143,7 @@ pub enum ReadError {
         needed_for: &'static str,
     },
     /// A key that the design needs is missing or empty.
-    #[error("{}: {field} is missing or empty; {needed_for}", .file.display())]
+    #[error("{}: {field} is missing or empty; {needed_for}", named(.file))]
     MissingKey {
         /// The file.
         file: PathBuf,
@@ -91,7 +163,7 @@ pub enum ReadError {
         expected: String,
     },
     /// A number outside its limits.
-    #[error("{place} is {value}, outside {low} to {high}")]
+    #[error("{place} is {}, outside {} to {}", Short(*.value), Short(*.low), Short(*.high))]
     OutOfRange {
         /// Where.
         place: Place,
@@ -111,7 +183,7 @@ pub enum ReadError {
         nearest: Option<String>,
     },
     /// Two keys of which only one can be meant, or none of those of which one is needed.
-    #[error("{}: give exactly one of {keys}", .file.display())]
+    #[error("{}: give exactly one of {keys}", named(.file))]
     ExactlyOne {
         /// The file.
         file: PathBuf,
@@ -119,12 +191,20 @@ pub enum ReadError {
         keys: &'static str,
     },
     /// The file is not well-formed.
-    #[error("{}, line {line}: {message}", .file.display())]
+    #[error("{}, line {line}: {message}", named(.file))]
     Syntax {
         /// The file.
         file: PathBuf,
         /// The line, from 1.
         line: usize,
+        /// What the parser says.
+        message: String,
+    },
+    /// A value that the file's format does not allow there.
+    #[error("{place}: {message}")]
+    Value {
+        /// Where.
+        place: Place,
         /// What the parser says.
         message: String,
     },
@@ -144,8 +224,16 @@ pub enum ReadError {
         /// Why.
         source: FabricError,
     },
+    /// A file that the design names can't be taken.
+    #[error("{place} can't be taken")]
+    Named {
+        /// Where it is named.
+        place: Place,
+        /// What is wrong with it.
+        source: Box<ReadError>,
+    },
     /// A file that can't be decoded as an image.
-    #[error("{} can't be read as a PNG, BMP or TIFF image", .file.display())]
+    #[error("{} can't be read as a PNG, BMP or TIFF image", named(.file))]
     Image {
         /// The file.
         file: PathBuf,
@@ -155,7 +243,7 @@ pub enum ReadError {
     /// An image larger than any cloth that is taken. No memory was taken for it.
     #[error(
         "{} is {width} × {height} pixels; each side may have {side_limit} at most, and both together {limit}",
-        .file.display()
+        named(.file)
     )]
     ImageTooLarge {
         /// The file.
@@ -170,7 +258,7 @@ pub enum ReadError {
         limit: u64,
     },
     /// A pixel of a colour that stands for nothing.
-    #[error("{}, column {column}, row {row} from the top left: colour {color}, expected {expected}", .file.display())]
+    #[error("{}, column {column}, row {row} from the top left: colour {color}, expected {expected}", named(.file))]
     Pixel {
         /// The image.
         file: PathBuf,
@@ -183,6 +271,15 @@ pub enum ReadError {
         /// What would do.
         expected: String,
     },
+    /// A corner of a polygon at which its outline faces nowhere: it is too small for its edges to have a direction, or its
+    /// two edges point opposite ways.
+    #[error("{place}: the outline faces nowhere at corner {corner}; it is too small or too sharp there")]
+    Corner {
+        /// Where the polygon stands.
+        place: Place,
+        /// The corner, from 1.
+        corner: usize,
+    },
     /// A section whose numbers are not sound.
     #[error("{place} is no section")]
     Section {
@@ -192,11 +289,44 @@ pub enum ReadError {
         source: SectionError,
     },
     /// The structure that the design describes can't be made.
-    #[error("{} can't be made into a fabric", .file.display())]
+    #[error("{} can't be made into a fabric", named(.file))]
     Fabric {
         /// The file.
         file: PathBuf,
         /// Why.
         source: FabricError,
     },
+}
+
+impl ReadError {
+    /// What is wrong at the bottom of it: the error of the file that a design names, or else this one.
+    ///
+    /// ```
+    /// use texere_formats::{ReadError, read};
+    /// let error = read("missing.wif").unwrap_err();
+    /// assert!(matches!(error.innermost(), ReadError::Io { .. }));
+    /// ```
+    #[must_use]
+    pub fn innermost(&self) -> &Self {
+        match self {
+            Self::Named { source, .. } => source.innermost(),
+            _ => self,
+        }
+    }
+
+    /// What a fabric refused of the design in `file`. Memory that is short has nothing to do with the design.
+    pub(super) fn fabric(file: &Path, source: FabricError) -> Self {
+        match source {
+            FabricError::OutOfMemory { what, bytes } => Self::OutOfMemory { what, bytes },
+            source => Self::Fabric { file: file.into(), source },
+        }
+    }
+
+    /// This error of a file that the design names at `place`. Memory that is short has nothing to do with the file.
+    pub(super) fn named(self, place: Place) -> Self {
+        match self {
+            Self::OutOfMemory { .. } => self,
+            _ => Self::Named { place, source: Box::new(self) },
+        }
+    }
 }

@@ -2,15 +2,15 @@
 
 mod design_file;
 mod error;
+mod file;
 mod point_paper;
 mod wif;
 
-use std::fs::File;
-use std::io::Read;
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{self, Path, PathBuf};
 
-use texere_core::{Section, Yarns};
-use texere_fabric::{Draft, FabricError, Jam, JamReport, Woven};
+use texere_core::{Material, Section, Yarns};
+use texere_fabric::{Draft, FabricError, Jam, JamReport, Thread, Woven};
 
 pub use error::{Place, ReadError};
 
@@ -41,6 +41,7 @@ pub struct Design {
     pub jam: JamReport,
     /// What the reader had to assume or leave out.
     remarks: Vec<String>,
+    files: Vec<PathBuf>,
     relief: Jam,
     /// The cloth as it was designed, where relief has changed it.
     designed: Option<Woven>,
@@ -56,7 +57,30 @@ impl Design {
         remarks: Vec<String>,
     ) -> Result<Self, FabricError> {
         let (jam, designed) = relieve(&mut woven, relief)?;
-        Ok(Self { name, structure: Structure::Woven(woven), draft, jam, remarks, relief, designed })
+        Ok(Self {
+            name,
+            structure: Structure::Woven(woven),
+            draft,
+            jam,
+            remarks,
+            files: Vec::new(),
+            relief,
+            designed,
+        })
+    }
+
+    /// Notes a file that it was read from.
+    fn noting(mut self, file: &Path) -> Self {
+        // A program may change its folder; what can't be told of a path then is left as it is.
+        self.files.push(path::absolute(file).unwrap_or_else(|_| file.into()));
+        self
+    }
+
+    /// The files that it was read from: the design's own, and the image or WIF draft that it names.
+    /// [`Output::sparing`](crate::write::Output::sparing) keeps a writer from replacing them.
+    #[must_use]
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// What a person should know: what the reader had to assume or leave out, and what the cloth lacks.
@@ -109,28 +133,60 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
     match ending.as_deref() {
         Some("wif") => {
             let wif = wif::read(path)?;
-            let fabric = |source| ReadError::Fabric { file: path.into(), source };
-            Design::woven(wif.name, wif.woven, Some(wif.draft), Jam::Report, wif.warnings).map_err(fabric)
+            Design::woven(wif.name, wif.woven, Some(wif.draft), Jam::Report, wif.warnings)
+                .map_err(|source| ReadError::fabric(path, source))
         }
         Some("toml") => design_file::read(path),
         _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml" }),
     }
+    .map(|design| design.noting(path))
 }
 
-/// The largest design file that is read: a lift plan of 10,000 picks by 5,000 hooks takes half as much.
-const FILE_LIMIT: u64 = 1 << 28;
-
-/// A file's bytes, at most [`FILE_LIMIT`].
-fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
-    let io = |source| ReadError::Io { file: path.into(), source };
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(io)?;
-    // One byte more than the limit tells a file at the limit from one beyond it, whatever its metadata say.
-    let count = file.take(FILE_LIMIT + 1).read_to_end(&mut bytes).map_err(io)? as u64;
-    if count > FILE_LIMIT {
-        return Err(ReadError::TooLarge { file: path.into(), bytes: count, limit: FILE_LIMIT });
+/// The materials and sections that `threads` have, in their order and each section once, and the threads with their
+/// numbers. What nobody wears costs a cloth nothing.
+fn only_used(
+    threads: [&mut [Thread]; 2],
+    materials: &[Material],
+    sections: &[Section],
+) -> (Vec<Material>, Vec<Section>) {
+    let [mut worn, mut shaped] = [materials.len(), sections.len()].map(|count| vec![false; count]);
+    for thread in threads.iter().flat_map(|set| set.iter()) {
+        worn[thread.material as usize] = true;
+        shaped[thread.section as usize] = true;
     }
-    Ok(bytes)
+    let (mut kept, mut material) = (Vec::new(), vec![0; materials.len()]);
+    for (number, _) in worn.iter().enumerate().filter(|(_, worn)| **worn) {
+        material[number] = kept.len() as u32;
+        kept.push(materials[number].clone());
+    }
+    let (mut unlike, mut section) = (Vec::new(), vec![0; sections.len()]);
+    let mut numbers = HashMap::new();
+    for (number, _) in shaped.iter().enumerate().filter(|(_, shaped)| **shaped) {
+        section[number] = *numbers.entry(format!("{:?}", sections[number])).or_insert_with(|| {
+            unlike.push(sections[number].clone());
+            unlike.len() as u32 - 1
+        });
+    }
+    for thread in threads.into_iter().flatten() {
+        thread.material = material[thread.material as usize];
+        thread.section = section[thread.section as usize];
+    }
+    (kept, unlike)
+}
+
+/// `count` values, each `value`, where there is memory for them.
+fn filled<T: Clone>(what: &'static str, count: usize, value: T) -> Result<Vec<T>, ReadError> {
+    let mut values = room(what, count)?;
+    values.resize(count, value);
+    Ok(values)
+}
+
+/// Room for `count` values, where there is memory for them.
+fn room<T>(what: &'static str, count: usize) -> Result<Vec<T>, ReadError> {
+    let mut values = Vec::new();
+    let bytes = (count as u64).saturating_mul(size_of::<T>() as u64);
+    values.try_reserve_exact(count).map_err(|_| ReadError::OutOfMemory { what, bytes })?;
+    Ok(values)
 }
 
 /// The name of a design that has no title.

@@ -2,20 +2,27 @@
 
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use image::{GenericImageView, ImageDecoder, ImageReader, Limits, Rgba};
+use image::{ColorType, ImageDecoder, ImageFormat, ImageReader, Limits};
 use serde::Deserialize;
 use texere_fabric::THREADS_MAX;
 
-use super::ReadError;
+use super::{ReadError, file, room};
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
 const PIXELS_MAX: u64 = 1 << 28;
 
-/// The most memory for decoding an image, bytes: four for each pixel.
+/// The most memory for an image's pixels, bytes: four for each.
 const MEMORY_MAX: u64 = 4 * PIXELS_MAX;
+
+/// The most memory for what a decoder needs beside the pixels, bytes: a line or a tile of them, and what the file says of
+/// its picture. A colour profile has no more than a few MiB; compressed, one of a gigabyte fits a small file.
+const ASIDE_MAX: u64 = 1 << 25;
+
+/// The largest image file that is read: one that is not compressed.
+const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
 
 /// The most colours of a point paper: what a byte numbers. A weaver tells far fewer apart.
 const COLORS_MAX: usize = 256;
@@ -53,17 +60,17 @@ pub(super) struct PaperColor {
 
 impl PointPaper {
     pub(super) fn read(path: &Path, rows: RowOrder) -> Result<Self, ReadError> {
-        let image = decode(path)?;
-        let (ends, picks) = (image.width() as usize, image.height() as usize);
+        let image = Image::decode(path)?;
+        let (ends, picks) = (image.width, image.height);
         let mut numbers: HashMap<[u8; 4], u8> = HashMap::new();
-        let (mut colors, mut pixels) = (Vec::new(), Vec::with_capacity(ends * picks));
-        for (row, column) in (0..picks).flat_map(|row| (0..ends).map(move |column| (row, column))) {
-            let Rgba(rgba) = image.get_pixel(column as u32, row as u32);
+        let mut colors = Vec::new();
+        let mut pixels = room("the pixels of an image", ends * picks)?;
+        for (place, rgba) in image.pixels().enumerate() {
             if let Some(&number) = numbers.get(&rgba) {
                 pixels.push(number);
                 continue;
             }
-            let color = PaperColor { rgba, column: column + 1, row: row + 1 };
+            let color = PaperColor { rgba, column: place % ends + 1, row: place / ends + 1 };
             if colors.len() == COLORS_MAX {
                 let expected = format!("one of the {COLORS_MAX} colours before it; it is one too many");
                 return Err(color.refused(path, expected));
@@ -126,23 +133,93 @@ impl PaperColor {
     }
 }
 
-/// The pixels of an image that is not too large.
-fn decode(path: &Path) -> Result<image::DynamicImage, ReadError> {
-    let io = |source| ReadError::Io { file: path.into(), source };
-    let undecodable = |source| ReadError::Image { file: path.into(), source: Box::new(source) };
-    let file = BufReader::new(File::open(path).map_err(io)?);
-    let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MEMORY_MAX);
-    reader.limits(limits.clone());
-    let mut decoder = reader.into_decoder().map_err(undecodable)?;
-    let (width, height) = decoder.dimensions();
-    let side_limit = THREADS_MAX as u32;
-    if width.max(height) > side_limit || u64::from(width) * u64::from(height) > PIXELS_MAX {
-        let file = path.into();
-        return Err(ReadError::ImageTooLarge { file, width, height, side_limit, limit: PIXELS_MAX });
+/// An image that is not too large, as its decoder gives it.
+struct Image {
+    width: usize,
+    height: usize,
+    kind: ColorType,
+    bytes: Vec<u8>,
+}
+
+impl Image {
+    fn decode(path: &Path) -> Result<Self, ReadError> {
+        let io = |source| ReadError::Io { file: path.into(), source };
+        let undecodable = |source| ReadError::Image { file: path.into(), source: Box::new(source) };
+        let file = BufReader::new(file::open(path, FILE_LIMIT)?);
+        let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
+        if reader.format() == Some(ImageFormat::Png) {
+            let mut file = reader.into_inner();
+            if let Some(bytes) = broken_palette(&mut file).map_err(io)? {
+                let source =
+                    format!("it has a palette of {bytes} bytes, not three for each of 1 to 256 colours");
+                return Err(ReadError::Image { file: path.into(), source: source.into() });
+            }
+            file.rewind().map_err(io)?;
+            reader = ImageReader::with_format(file, ImageFormat::Png);
+        }
+        // These are for what stands before the pixels; a PNG's text and colour profile are not asked for their own.
+        let mut limits = Limits::default();
+        limits.max_alloc = Some(ASIDE_MAX);
+        reader.limits(limits.clone());
+        let mut decoder = reader.into_decoder().map_err(undecodable)?;
+        let (width, height) = decoder.dimensions();
+        let side_limit = THREADS_MAX as u32;
+        if width.max(height) > side_limit || u64::from(width) * u64::from(height) > PIXELS_MAX {
+            let file = path.into();
+            return Err(ReadError::ImageTooLarge { file, width, height, side_limit, limit: PIXELS_MAX });
+        }
+        let (kind, size) = (decoder.color_type(), decoder.total_bytes());
+        limits.max_alloc = Some(MEMORY_MAX);
+        limits.reserve(size).map_err(undecodable)?;
+        limits.max_alloc = Some(2 * size + ASIDE_MAX);
+        decoder.set_limits(limits).map_err(undecodable)?;
+
+        let mut bytes = super::filled("an image", size as usize, 0)?;
+        // Decoders take up to as much again and do not ask whether it is there.
+        drop(room::<u8>("decoding an image", (size + ASIDE_MAX) as usize)?);
+        decoder.read_image(&mut bytes).map_err(undecodable)?;
+        Ok(Self { width: width as usize, height: height as usize, kind, bytes })
     }
-    limits.reserve(decoder.total_bytes()).map_err(undecodable)?;
-    decoder.set_limits(limits).map_err(undecodable)?;
-    image::DynamicImage::from_decoder(decoder).map_err(undecodable)
+
+    /// Red, green, blue and opacity of each pixel, row by row from the top.
+    fn pixels(&self) -> impl Iterator<Item = [u8; 4]> {
+        let channels = usize::from(self.kind.channel_count());
+        let width = usize::from(self.kind.bytes_per_pixel()) / channels;
+        self.bytes.chunks_exact(width * channels).map(move |pixel| {
+            let channel = |number: usize| match pixel[number * width..][..width] {
+                [byte] => byte,
+                // Of 65,535, rounded.
+                [low, high] => ((u32::from(u16::from_ne_bytes([low, high])) + 128) / 257) as u8,
+                [a, b, c, d] => (f32::from_ne_bytes([a, b, c, d]).clamp(0.0, 1.0) * 255.0).round() as u8,
+                _ => 0,
+            };
+            match channels {
+                1 => [channel(0), channel(0), channel(0), u8::MAX],
+                2 => [channel(0), channel(0), channel(0), channel(1)],
+                3 => [channel(0), channel(1), channel(2), u8::MAX],
+                _ => [channel(0), channel(1), channel(2), channel(3)],
+            }
+        })
+    }
+}
+
+/// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder takes that for granted.
+fn broken_palette(file: &mut BufReader<File>) -> io::Result<Option<u32>> {
+    // Behind the signature each chunk has its length, its name, its data and a checksum.
+    file.seek(SeekFrom::Start(8))?;
+    let mut head = [0; 8];
+    loop {
+        match file.read_exact(&mut head) {
+            // What is missing the decoder will miss too.
+            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(None),
+            other => other?,
+        }
+        let [a, b, c, d, name @ ..] = head;
+        let length = u32::from_be_bytes([a, b, c, d]);
+        match &name {
+            b"IDAT" | b"IEND" => return Ok(None),
+            b"PLTE" if !length.is_multiple_of(3) || !(3..=768).contains(&length) => return Ok(Some(length)),
+            _ => file.seek_relative(i64::from(length) + 4)?,
+        }
+    }
 }

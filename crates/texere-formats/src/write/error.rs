@@ -1,7 +1,7 @@
 //! What can go wrong while a file is written.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use texere_core::PipelineError;
 use thiserror::Error;
@@ -18,16 +18,24 @@ pub enum WriteError {
         /// The path.
         path: PathBuf,
     },
-    /// The file system refused: no such folder, no permission, no room. A target that is a folder, a device or a
-    /// read-only file is refused before any work is done.
+    /// The file system refused: no such folder, no permission, no room. A target that is a folder, a device, a link
+    /// that leads nowhere or a file that its user may not write is refused before any work is done.
     #[error("can't {action} {}", .path.display())]
     Io {
-        /// What was being done: create, write or rename.
+        /// What was being done: create, write, rename or look at.
         action: &'static str,
         /// The file that was to be written.
         path: PathBuf,
         /// What the system said.
         source: io::Error,
+    },
+    /// The output is a file that was to be spared, by this name or another.
+    #[error("writing {} would replace {}, which must stay", .path.display(), .spared.display())]
+    Spared {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The file that it is.
+        spared: PathBuf,
     },
     /// The mesh could not be made, or progress asked to stop.
     #[error("the mesh could not be made")]
@@ -100,4 +108,11 @@ pub enum WriteError {
         /// How many there are.
         materials: usize,
     },
+}
+
+impl WriteError {
+    /// The system's refusal to `action` the file at `path`.
+    pub(super) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
+        Self::Io { action, path: path.to_owned(), source }
+    }
 }

@@ -11,21 +11,28 @@
 //! come from a device, and GLB keeps the index pattern that all yarns share once, which halves it.
 //!
 //! A file is written beside its target and renamed when it is whole. After an error, a cancellation or a panic nothing
-//! new is left, and an older file of that name is as it was.
+//! new is left, and an older file of that name is as it was. A program that a signal ends calls [`abandon`] first; what
+//! is left after a kill, the next write in that folder removes. An [`Output`] says which files must not be replaced.
 
 mod draft;
 mod error;
 mod feed;
+mod file;
 mod glb;
+mod output;
 mod picture;
 mod ply;
 mod target;
 #[cfg(test)]
 mod tests;
+mod unfinished;
 
 pub use draft::{SHAFTS_MAX, Side, draft};
 pub use error::WriteError;
+pub use file::file;
+pub use output::Output;
 pub use picture::picture;
+pub use unfinished::abandon;
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -89,7 +96,7 @@ pub struct Written {
     pub triangles: u64,
 }
 
-/// Writes a mesh that lies in memory, in the format that the extension of `path` stands for.
+/// Writes a mesh that lies in memory, in the format that the extension of `output` stands for.
 ///
 /// Triangles are those of the mesh's plan; its `indices` are not read, so that any topology will do.
 ///
@@ -108,11 +115,12 @@ pub struct Written {
 /// assert_eq!(std::fs::read(&path)?[..4], *b"glTF");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn mesh(mesh: &Mesh, path: impl AsRef<Path>) -> Result<(), WriteError> {
-    let (path, format) = (path.as_ref(), Format::from_path(path.as_ref())?);
+pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
+    let output = output.into();
+    let format = Format::from_path(output.path())?;
     let shared = Settings { topology: Topology::Shared, ..*mesh.plan.settings() };
     let plan = Plan::new(mesh.plan.layout().clone(), shared).map_err(PipelineError::from)?;
-    let mut feed = Feed::open(format, Target::create(path)?, &plan, &mesh.chunks, &mesh.materials)?;
+    let mut feed = Feed::open(format, Target::create(output)?, &plan, &mesh.chunks, &mesh.materials)?;
     let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
     if given != planned {
         return Err(WriteError::VertexCount { given, planned });
@@ -127,8 +135,8 @@ pub fn mesh(mesh: &Mesh, path: impl AsRef<Path>) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// Runs a pipeline on `device` and writes its mesh piece by piece, in the format that the extension of `path` stands
-/// for: never is more of it in memory than two chunks.
+/// Runs a pipeline on `device` and writes its mesh piece by piece, in the format that the extension of `output`
+/// stands for: never is more of it in memory than two chunks.
 ///
 /// The pipeline's topology is set aside for [`Topology::Shared`], which saves the device every index.
 ///
@@ -147,14 +155,15 @@ pub fn mesh(mesh: &Mesh, path: impl AsRef<Path>) -> Result<(), WriteError> {
 pub fn stream(
     pipeline: Pipeline<'_>,
     device: &dyn Backend,
-    path: impl AsRef<Path>,
+    output: impl Into<Output>,
 ) -> Result<Written, WriteError> {
-    let (path, format) = (path.as_ref(), Format::from_path(path.as_ref())?);
+    let output = output.into();
+    let format = Format::from_path(output.path())?;
     let pipeline = pipeline.topology(Topology::Shared);
     let plan = pipeline.plan().map_err(PipelineError::from)?;
     let chunks = plan.chunks(&pipeline.limits_on(device)).map_err(PipelineError::from)?;
     let materials = pipeline.yarns().materials().clone();
-    let mut feed = Feed::open(format, Target::create(path)?, &plan, chunks, &materials)?;
+    let mut feed = Feed::open(format, Target::create(output)?, &plan, chunks, &materials)?;
     let answer = pipeline.stream(device, |chunk, piece| {
         let fed = match piece {
             MeshPiece::Vertices { first, vertices } => feed.vertices(chunk, first, vertices),

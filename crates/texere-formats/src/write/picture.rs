@@ -1,15 +1,15 @@
 //! Pictures that were drawn elsewhere, to PNG.
 
-use std::path::Path;
+use std::io::{self, ErrorKind};
 
-use super::WriteError;
 use super::target::Target;
+use super::{Output, WriteError};
 
 /// Writes a picture of `size` pixels (width, height) to a PNG file: `rgb` is three bytes a pixel, sRGB, rows from the
 /// top.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `path` does not end in `.png`, [`WriteError::Io`], also for pixels that are
-/// not as many as `size` says.
+/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::Spared`], [`WriteError::Io`],
+/// also for pixels that are not as many as `size` says.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -19,8 +19,9 @@ use super::target::Target;
 /// assert!(texere_formats::write::picture([2, 2], &[0; 6], &path).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn picture([width, height]: [u32; 2], rgb: &[u8], path: impl AsRef<Path>) -> Result<(), WriteError> {
-    let mut target = Target::create(png_path(path.as_ref())?)?;
+pub fn picture([width, height]: [u32; 2], rgb: &[u8], output: impl Into<Output>) -> Result<(), WriteError> {
+    let mut target = Target::create(png(output.into())?)?;
+    encoder_room().map_err(|source| target.failed(source))?;
     let mut encoder = png::Encoder::new(&mut target, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
@@ -36,13 +37,23 @@ pub fn picture([width, height]: [u32; 2], rgb: &[u8], path: impl AsRef<Path>) ->
     Ok(())
 }
 
-/// `path`, where it ends in `.png`.
+/// An error where there is no memory for an encoder. It has none itself, and would end the program.
+pub(super) fn encoder_room() -> io::Result<()> {
+    // Its buffers and its tables take a third of this.
+    let mut room = Vec::<u8>::new();
+    room.try_reserve_exact(1 << 20).map_err(|_| ErrorKind::OutOfMemory)?;
+    // Or else the compiler sees that nobody uses it, and does not ask.
+    std::hint::black_box(&room);
+    Ok(())
+}
+
+/// `output`, where it ends in `.png`.
 ///
 /// **Errors**: [`WriteError::NotPng`].
-pub(super) fn png_path(path: &Path) -> Result<&Path, WriteError> {
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        Ok(path)
+pub(super) fn png(output: Output) -> Result<Output, WriteError> {
+    if output.path().extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        Ok(output)
     } else {
-        Err(WriteError::NotPng { path: path.to_owned() })
+        Err(WriteError::NotPng { path: output.path().to_owned() })
     }
 }

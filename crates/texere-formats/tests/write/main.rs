@@ -5,4 +5,5 @@ mod draft;
 mod fabric;
 mod files;
 mod glb;
+mod outputs;
 mod ply;

@@ -74,13 +74,17 @@ use texere_core::Section;
 use texere_fabric::{Crimp, Jam, Shape, Weave};
 use texere_fabric::{Drawdown, Woven};
 
-use super::{Design, ReadError, bytes_of, file_name, wif};
+use super::file::bytes_of;
+use super::{Design, ReadError, file_name, only_used, wif};
 use cloth::Cloth;
 use schema::{DesignFile, Source};
 use threads::YarnTable;
 
+/// The largest design file that is read: one that names each of a million threads takes as much.
+const FILE_LIMIT: u64 = 1 << 24;
+
 pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
-    let bytes = bytes_of(path)?;
+    let bytes = bytes_of(path, FILE_LIMIT)?;
     let source = Source::new(path, &bytes)?;
     let file: DesignFile = source.parse()?;
     let laid = Cloth::new(&source, &file.cloth)?;
@@ -98,7 +102,12 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let mut woven = threaded(&source, &file, &yarns, drawdown)?;
     laid.lay(&source, &mut woven)?;
     let name = file.name.unwrap_or_else(|| file_name(path));
-    Design::woven(name, woven, None, laid.jam, warnings).map_err(|error| source.fabric(error))
+    let design =
+        Design::woven(name, woven, None, laid.jam, warnings).map_err(|error| source.fabric(error))?;
+    Ok(match &file.weave.image {
+        Some(image) => design.noting(&path.parent().unwrap_or(Path::new("")).join(image.as_ref())),
+        None => design,
+    })
 }
 
 /// A drawdown with the file's own threads.
@@ -115,10 +124,10 @@ fn threaded(
     };
     let warp = file.warp.as_ref().ok_or_else(|| needed("warp"))?;
     let weft = file.weft.as_ref().ok_or_else(|| needed("weft"))?;
-    let warp = yarns.threads(source, "warp", warp, drawdown.ends())?;
-    let weft = yarns.threads(source, "weft", weft, drawdown.picks())?;
-    Woven::new(drawdown, warp, weft, yarns.materials.clone(), yarns.sections.clone())
-        .map_err(|error| source.fabric(error))
+    let mut warp = yarns.threads(source, "warp", warp, drawdown.ends())?;
+    let mut weft = yarns.threads(source, "weft", weft, drawdown.picks())?;
+    let (materials, sections) = only_used([&mut warp, &mut weft], &yarns.materials, &yarns.sections);
+    Woven::new(drawdown, warp, weft, materials, sections).map_err(|error| source.fabric(error))
 }
 
 fn from_wif(
@@ -135,12 +144,11 @@ fn from_wif(
             keys: "weave.wif and weave.ends with weave.picks",
         });
     }
-    let draft = source.path.parent().unwrap_or(Path::new("")).join(wif.as_ref());
-    if !draft.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif")) {
-        let (place, value) = (source.place("weave.wif", wif.span()), wif.as_ref().clone());
-        return Err(ReadError::BadValue { place, value, expected: "the path of a .wif file".into() });
+    let path = source.path.parent().unwrap_or(Path::new("")).join(wif.as_ref());
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif")) {
+        return Err(source.bad("weave.wif", wif, "the path of a .wif file"));
     }
-    let draft = wif::read(&draft)?;
+    let draft = wif::read(&path).map_err(|error| error.named(source.place("weave.wif", wif.span())))?;
     let woven = &draft.woven;
     let drawdown = woven.drawdown().clone();
     // The draft's own materials and sections come first, so that its threads keep their numbers.
@@ -157,11 +165,14 @@ fn from_wif(
             threads
         }),
     };
-    let warp = set("warp", &file.warp, woven.warp(), drawdown.ends())?;
-    let weft = set("weft", &file.weft, woven.weft(), drawdown.picks())?;
+    let mut warp = set("warp", &file.warp, woven.warp(), drawdown.ends())?;
+    let mut weft = set("weft", &file.weft, woven.weft(), drawdown.picks())?;
+    let (materials, sections) = only_used([&mut warp, &mut weft], &materials, &sections);
     let fabric = |error| source.fabric(error);
     let mut woven = Woven::new(drawdown, warp, weft, materials, sections).map_err(fabric)?;
     laid.lay(source, &mut woven)?;
     let name = file.name.clone().unwrap_or(draft.name);
-    Design::woven(name, woven, Some(draft.draft), laid.jam, draft.warnings).map_err(fabric)
+    Design::woven(name, woven, Some(draft.draft), laid.jam, draft.warnings)
+        .map(|design| design.noting(&path))
+        .map_err(fabric)
 }

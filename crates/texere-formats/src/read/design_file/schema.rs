@@ -8,6 +8,7 @@ use serde::Deserialize;
 use texere_fabric::{FabricError, Weave};
 use toml::Spanned;
 
+use crate::read::error::shown;
 use crate::read::point_paper::RowOrder;
 use crate::read::{Place, ReadError};
 
@@ -29,9 +30,9 @@ pub(super) struct DesignFile {
 pub(super) struct WeaveTable {
     pub(super) notation: Option<Spanned<String>>,
     pub(super) wif: Option<Spanned<String>>,
-    pub(super) image: Option<String>,
+    pub(super) image: Option<Spanned<String>>,
     pub(super) rows: Option<Spanned<RowOrder>>,
-    pub(super) repeat: Option<Spanned<[Spanned<i64>; 2]>>,
+    pub(super) repeat: Option<Spanned<Vec<Spanned<i64>>>>,
     pub(super) colors: Option<Spanned<BTreeMap<Spanned<String>, Spanned<String>>>>,
     pub(super) ends: Option<Spanned<i64>>,
     pub(super) picks: Option<Spanned<i64>>,
@@ -108,42 +109,58 @@ impl<'a> Source<'a> {
     }
 
     pub(super) fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, ReadError> {
-        toml::from_str(self.text).map_err(|error| {
-            let (line, message) = (self.line(error.span().unwrap_or(0..0)), error.message());
-            match unknown_field(message) {
-                Some((key, nearest)) => ReadError::UnknownKey {
-                    place: Place::new(self.path, line, format!("key \"{key}\"")),
-                    nearest,
-                },
-                None => {
-                    ReadError::Syntax { file: self.path.into(), line, message: message.trim_end().into() }
+        toml::from_str(self.text).map_err(|mut error| {
+            let span = error.span().unwrap_or(0..0);
+            let message = error.message().to_owned();
+            if let Some((key, nearest)) = unknown_field(&message) {
+                let place = self.place(&format!("key \"{}\"", shown(&key)), span);
+                return ReadError::UnknownKey { place, nearest };
+            }
+            // Without its input, an error ends with the keys that lead to the value.
+            error.set_input(None);
+            let told = error.to_string();
+            let field = told.trim_end().rsplit_once("\nin `").and_then(|(_, keys)| keys.strip_suffix('`'));
+            match (field, expected_instead(&message)) {
+                (Some(field), Some(expected)) => self.unfit(field, span, &expected),
+                (Some(field), None) => {
+                    ReadError::Value { place: self.place(field, span), message: one_line(&message) }
                 }
+                (None, _) => ReadError::Syntax {
+                    file: self.path.into(),
+                    line: self.line(span),
+                    message: one_line(&message),
+                },
             }
         })
+    }
+
+    /// A value as the file has it, without its quotes.
+    fn written(&self, span: Range<usize>) -> String {
+        shown(self.text.get(span).unwrap_or_default().trim_matches(['"', '\'']))
     }
 
     fn line(&self, span: Range<usize>) -> usize {
         self.text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1
     }
 
-    pub(super) fn place(&self, field: impl Into<String>, span: Range<usize>) -> Place {
+    pub(super) fn place(&self, field: &str, span: Range<usize>) -> Place {
         Place::new(self.path, self.line(span), field)
     }
 
     pub(super) fn bad<T: ToString>(&self, field: &str, value: &Spanned<T>, expected: &str) -> ReadError {
-        let (place, value) = (self.place(field, value.span()), value.as_ref().to_string());
+        let (place, value) = (self.place(field, value.span()), shown(&value.as_ref().to_string()));
         ReadError::BadValue { place, value, expected: expected.into() }
     }
 
     /// The refusal of a value that is not even of the right kind: it is shown as the file has it.
     pub(super) fn odd(&self, field: &str, value: &Spanned<toml::Value>, expected: &str) -> ReadError {
-        let span = value.span();
-        let written = self.text.get(span.clone()).unwrap_or_default().trim_matches(['"', '\'']);
-        ReadError::BadValue {
-            place: self.place(field, span),
-            value: written.into(),
-            expected: expected.into(),
-        }
+        self.unfit(field, value.span(), expected)
+    }
+
+    /// The refusal of what stands at `span`, shown as the file has it.
+    pub(super) fn unfit(&self, field: &str, span: Range<usize>, expected: &str) -> ReadError {
+        let (place, value) = (self.place(field, span.clone()), self.written(span));
+        ReadError::BadValue { place, value, expected: expected.into() }
     }
 
     /// A number of any size, whole or not.
@@ -215,7 +232,7 @@ impl<'a> Source<'a> {
     }
 
     pub(super) fn fabric(&self, source: FabricError) -> ReadError {
-        ReadError::Fabric { file: self.path.into(), source }
+        ReadError::fabric(self.path, source)
     }
 }
 
@@ -226,13 +243,42 @@ pub(super) fn real(value: &toml::Value) -> Option<f64> {
 
 /// The unknown key that serde complains of, and the known one nearest to it: its message lists them in backquotes.
 fn unknown_field(message: &str) -> Option<(String, Option<String>)> {
-    let mut quoted = message.strip_prefix("unknown field ")?.split('`').skip(1).step_by(2);
-    let key = quoted.next()?;
-    // Further apart than a third of its letters, a key is another word, not a misspelling.
-    let nearest = quoted
+    let rest = message.strip_prefix("unknown field `")?;
+    // The list that follows has no backquote but those round its keys; the unknown key may have any.
+    let (key, list) = rest.rsplit_once("`, expected ")?;
+    // Further apart than a third of its letters, a key is another word, not a misspelling. One much longer than all
+    // known ones is that without being compared letter by letter.
+    let most = |known: &str| known.len().max(3) / 3 + 1;
+    let nearest = list
+        .split('`')
+        .skip(1)
+        .step_by(2)
+        .filter(|known| key.len() <= known.len() + 4 * most(known))
         .map(|known| (strsim::damerau_levenshtein(key, known), known))
-        .min()
-        .filter(|(distance, known)| *distance <= known.len().max(3) / 3 + 1)
-        .map(|(_, known)| known.into());
-    Some((key.into(), nearest))
+        .filter(|(distance, known)| *distance <= most(known))
+        .min();
+    Some((key.into(), nearest.map(|(_, known)| known.into())))
+}
+
+/// What should have stood where a value of the wrong kind stands, in a designer's words for serde's.
+fn expected_instead(message: &str) -> Option<String> {
+    let (_, expected) = message.strip_prefix("invalid type: ")?.rsplit_once(", expected ")?;
+    Some(match expected {
+        "i64" => "a whole number".into(),
+        "f64" | "f32" => "a number".into(),
+        "a string" => "text in quotes".into(),
+        "a sequence" | "a tuple" => "a list".into(),
+        "a map" => "a table".into(),
+        other if other.starts_with("struct ") || other.starts_with("internally tagged enum ") => {
+            "a table".into()
+        }
+        other => shown(other),
+    })
+}
+
+/// What a parser says, on one line of sane length.
+fn one_line(message: &str) -> String {
+    const MOST: usize = 160;
+    let words = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    words.chars().filter(|character| !character.is_control()).take(MOST).collect()
 }

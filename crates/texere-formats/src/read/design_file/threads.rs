@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use texere_core::{Material, Section};
+use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::{COTTON_DENSITY, Thread};
 use toml::Spanned;
 
 use super::schema::{SectionSpec, Source, ThreadSet, YarnSpec, real};
-use crate::read::ReadError;
+use crate::read::error::{first_few, shown};
+use crate::read::{ReadError, room};
 
 /// Thinnest and thickest diameter, and narrowest and widest spacing, that a design file may ask for, mm.
 const LENGTH_MM: (f64, f64) = (1e-3, 1e3);
@@ -41,7 +42,11 @@ impl YarnTable {
                 (None, None) => {
                     let file = source.path.into();
                     let needed_for = "a yarn needs a diameter, or tex to work it out from";
-                    return Err(ReadError::MissingKey { file, field: field("diameter_mm"), needed_for });
+                    return Err(ReadError::MissingKey {
+                        file,
+                        field: shown(&field("diameter_mm")),
+                        needed_for,
+                    });
                 }
             };
             let twist_per_m = spec
@@ -99,16 +104,18 @@ impl YarnTable {
         let mut repeat = Vec::new();
         for item in spec.yarns.as_ref() {
             let (times, thread) = self.item(source, set, item)?;
-            repeat.resize(repeat.len() + times as usize, thread);
-            // A repeat longer than the cloth is never seen; cut, many long items take no more memory than one.
-            repeat.truncate(count);
+            // What of a repeat goes beyond the cloth is never seen.
+            let times = count.saturating_sub(repeat.len()).min(times as usize);
+            repeat.extend(std::iter::repeat_n(thread, times));
         }
         if repeat.is_empty() {
-            let (place, value) = (source.place(format!("{set}.yarns"), spec.yarns.span()), "[]".into());
+            let (place, value) = (source.place(&format!("{set}.yarns"), spec.yarns.span()), "[]".into());
             return Err(ReadError::BadValue { place, value, expected: "at least one yarn".into() });
         }
-        let threads = repeat.into_iter().cycle().zip(spacings_mm.into_iter().cycle());
-        Ok(threads.map(|(thread, spacing_mm)| Thread { spacing_mm, ..thread }).take(count).collect())
+        let mut threads = room("threads", count)?;
+        let each = repeat.into_iter().cycle().zip(spacings_mm.into_iter().cycle());
+        threads.extend(each.map(|(thread, spacing_mm)| Thread { spacing_mm, ..thread }).take(count));
+        Ok(threads)
     }
 
     /// One item of a repeat: `"indigo"`, or `"3 indigo"` for three in a row.
@@ -125,11 +132,8 @@ impl YarnTable {
         }
         let (times, name) = text.split_once(char::is_whitespace).unwrap_or(("1", text));
         let Some(thread) = self.names.get(name.trim()) else {
-            let known: Vec<_> = self.names.keys().map(|name| format!("\"{name}\"")).collect();
-            let expected = format!(
-                "a yarn of [yarns], with a number before it or none; there are: {}",
-                known.join(", ")
-            );
+            let known = first_few(self.names.keys().map(|name| format!("\"{name}\"")));
+            let expected = format!("a yarn of [yarns], with a number before it or none; there are: {known}");
             return Err(source.bad(&field, item, &expected));
         };
         match times.parse() {
@@ -179,9 +183,15 @@ fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, 
         SectionSpec::PowerEllipse { aspect, exponent } => Section::PowerEllipse { aspect, exponent },
         SectionSpec::Polygon { corners } => Section::Polygon(corners),
     };
-    section.validate().map_err(|error| ReadError::Section {
-        place: source.place(format!("yarns.{name}.section"), shape.span()),
-        source: error,
-    })?;
+    let place = || source.place(&format!("yarns.{name}.section"), shape.span());
+    section.validate().map_err(|error| ReadError::Section { place: place(), source: error })?;
+    // A polygon's corners are the only points of an outline that a design gives; from those that face nowhere no
+    // surface can be made.
+    let faces = |corner: &SectionPoint| corner.normal_x.is_finite() && corner.normal_y.is_finite();
+    if let Section::Polygon(corners) = &section
+        && let Some(corner) = section.outline(corners.len() as u32).iter().position(|corner| !faces(corner))
+    {
+        return Err(ReadError::Corner { place: place(), corner: corner + 1 });
+    }
     Ok(section)
 }

@@ -8,6 +8,7 @@ use toml::Spanned;
 
 use super::schema::{Source, WeaveTable};
 use crate::read::ReadError;
+use crate::read::error::{first_few, named};
 use crate::read::point_paper::PointPaper;
 
 /// One weave over the whole cloth.
@@ -48,20 +49,24 @@ pub(super) fn without_image(source: &Source<'_>, table: &WeaveTable) -> Result<(
 pub(super) fn from_image(
     source: &Source<'_>,
     table: &WeaveTable,
-    image: &str,
+    image: &Spanned<String>,
     warnings: &mut Vec<String>,
 ) -> Result<Drawdown, ReadError> {
     let weaves = table.colors.as_ref().map(|colors| weaves(source, colors.as_ref())).transpose()?;
     let [across, along] = match &table.repeat {
         None => [1, 1],
-        Some(repeat) => {
-            let [across, along] = repeat.as_ref();
-            [source.count("weave.repeat", across)?, source.count("weave.repeat", along)?]
-        }
+        Some(repeat) => match &repeat.as_ref()[..] {
+            [across, along] => [source.count("weave.repeat", across)?, source.count("weave.repeat", along)?],
+            _ => {
+                let expected = "two whole numbers, across the ends and along the picks";
+                return Err(source.unfit("weave.repeat", repeat.span(), expected));
+            }
+        },
     };
-    let path = source.path.parent().unwrap_or(Path::new("")).join(image);
+    let path = source.path.parent().unwrap_or(Path::new("")).join(image.as_ref());
     let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
-    let paper = PointPaper::read(&path, rows)?;
+    let refused = |error: ReadError| error.named(source.place("weave.image", image.span()));
+    let paper = PointPaper::read(&path, rows).map_err(refused)?;
     // Drawdown refuses what is too large.
     let (ends, picks) = (paper.ends.saturating_mul(across), paper.picks.saturating_mul(along));
     for (field, given, size) in [("weave.ends", &table.ends, ends), ("weave.picks", &table.picks, picks)] {
@@ -71,49 +76,83 @@ pub(super) fn from_image(
     }
     let drawdown = match weaves {
         None => {
-            let darker = paper.darker()?;
-            Drawdown::from_fn(ends, picks, |end, pick| paper.color(end, pick) == darker)
+            let darker = paper.darker().map_err(refused)?;
+            let up = |end, pick| paper.color(end, pick) == darker;
+            Drawdown::repeating(ends, picks, (paper.ends, paper.picks), up)
         }
         Some(weaves) => {
-            let weaves = of_colors(&paper, weaves, warnings)?;
-            Drawdown::from_fn(ends, picks, |end, pick| weaves[paper.color(end, pick)].up(end, pick))
+            let weaves = of_colors(source, &paper, weaves, warnings)?.map_err(refused)?;
+            // Everything repeats where the paper and all its weaves do.
+            let repeat = weaves.iter().map(Weave::repeat).fold((paper.ends, paper.picks), |all, one| {
+                (common_multiple(all.0, one.0), common_multiple(all.1, one.1))
+            });
+            let up = |end, pick| weaves[paper.color(end, pick)].up(end, pick);
+            Drawdown::repeating(ends, picks, repeat, up)
         }
     };
     drawdown.map_err(|error| source.fabric(error))
 }
 
-/// The table of colours, by red, green and blue.
-fn weaves(
+/// The least number that both divide, or the most that there is.
+fn common_multiple(a: usize, b: usize) -> usize {
+    let (mut divisor, mut rest) = (a, b);
+    while rest != 0 {
+        (divisor, rest) = (rest, divisor % rest);
+    }
+    (a / divisor.max(1)).saturating_mul(b)
+}
+
+/// The table of colours, by red, green and blue. A weave is read here only to know that it is one: no more of them are
+/// kept than a paper has colours.
+fn weaves<'a>(
     source: &Source<'_>,
-    colors: &BTreeMap<Spanned<String>, Spanned<String>>,
-) -> Result<BTreeMap<[u8; 3], Weave>, ReadError> {
+    colors: &'a BTreeMap<Spanned<String>, Spanned<String>>,
+) -> Result<BTreeMap<[u8; 3], Notated<'a>>, ReadError> {
     let mut weaves = BTreeMap::new();
     for (color, notation) in colors {
         let rgb = source.rgb("a colour of [weave.colors]", color)?;
-        let weave = source.weave(&format!("weave.colors.\"{}\"", color.as_ref()), notation)?;
-        if weaves.insert(rgb, weave).is_some() {
+        let notated = Notated { color, notation };
+        notated.weave(source)?;
+        if weaves.insert(rgb, notated).is_some() {
             return Err(source.bad("a colour of [weave.colors]", color, "each colour once, in either case"));
         }
     }
     Ok(weaves)
 }
 
-/// The weave of each colour of the paper; a warning for each that is in the table alone.
+/// A colour and its weave, as `[weave.colors]` has them.
+struct Notated<'a> {
+    color: &'a Spanned<String>,
+    notation: &'a Spanned<String>,
+}
+
+impl Notated<'_> {
+    fn weave(&self, source: &Source<'_>) -> Result<Weave, ReadError> {
+        source.weave(&format!("weave.colors.\"{}\"", self.color.as_ref()), self.notation)
+    }
+}
+
+/// The weave of each colour of the paper, or the refusal of a colour that has none; a warning of those in the table alone.
 fn of_colors(
+    source: &Source<'_>,
     paper: &PointPaper,
-    mut weaves: BTreeMap<[u8; 3], Weave>,
+    mut weaves: BTreeMap<[u8; 3], Notated<'_>>,
     warnings: &mut Vec<String>,
-) -> Result<Vec<Weave>, ReadError> {
+) -> Result<Result<Vec<Weave>, ReadError>, ReadError> {
     let hex = |[red, green, blue]: &[u8; 3]| format!("#{red:02x}{green:02x}{blue:02x}");
-    let known: Vec<_> = weaves.keys().map(hex).collect();
-    let found = paper.colors.iter().map(|color| {
-        let weave = color.rgb().and_then(|rgb| weaves.remove(&rgb));
-        weave
-            .ok_or_else(|| color.refused(&paper.file, format!("one of [weave.colors]: {}", known.join(", "))))
-    });
-    let found = found.collect::<Result<_, _>>()?;
-    let unused = weaves.keys().map(hex);
-    let file = paper.file.display();
-    warnings.extend(unused.map(|color| format!("weave.colors has {color}, which no pixel of {file} has")));
-    Ok(found)
+    let known = first_few(weaves.keys().map(hex));
+    let mut found = Vec::new();
+    for color in &paper.colors {
+        match color.rgb().and_then(|rgb| weaves.remove(&rgb)) {
+            Some(notated) => found.push(notated.weave(source)?),
+            None => return Ok(Err(color.refused(&paper.file, format!("one of [weave.colors]: {known}")))),
+        }
+    }
+    if !weaves.is_empty() {
+        let (count, file) = (weaves.len(), named(&paper.file));
+        let colors = if count == 1 { "a colour" } else { &format!("{count} colours") };
+        let unused = first_few(weaves.keys().map(hex));
+        warnings.push(format!("weave.colors has {colors} that no pixel of {file} has: {unused}"));
+    }
+    Ok(Ok(found))
 }

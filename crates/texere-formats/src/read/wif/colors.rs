@@ -20,15 +20,15 @@ pub(super) struct Palette {
 pub(super) const NO_COLOR: u32 = 0;
 
 impl Palette {
-    pub(super) fn read(ini: &Ini, warnings: &mut Vec<String>) -> Result<Self, ReadError> {
+    pub(super) fn read(ini: &Ini<'_>, warnings: &mut Vec<String>) -> Result<Self, ReadError> {
         let mut palette = Self { materials: vec![Material::default()], by_number: BTreeMap::new() };
         let mut table = BTreeMap::new();
         for (key, entry) in ini.entries("color table").filter(|(_, entry)| !entry.value.is_empty()) {
             let expected = "red, green and blue, numbered from 1";
             let number = key.parse().ok().filter(|&number: &u32| number > 0);
             let number = number.ok_or_else(|| bad(ini, "color table", key, entry, expected))?;
-            let rgb = <[u32; 3]>::try_from(list(ini, "color table", key, entry)?)
-                .map_err(|_| bad(ini, "color table", key, entry, expected))?;
+            let rgb = few(ini, "color table", key, entry)?;
+            let rgb = <[u32; 3]>::try_from(rgb).map_err(|_| bad(ini, "color table", key, entry, expected))?;
             table.insert(number, rgb);
         }
         let (low, high) = range(ini, &table, warnings)?;
@@ -51,20 +51,20 @@ impl Palette {
     /// `None` where it says none.
     pub(super) fn material(
         &mut self,
-        ini: &Ini,
+        ini: &Ini<'_>,
         section: &str,
         key: &str,
-        entry: &Entry,
+        entry: &Entry<'_>,
     ) -> Result<Option<u32>, ReadError> {
-        let numbers = list(ini, section, key, entry)?;
-        let Some(&number) = numbers.first() else { return Ok(None) };
-        if number == 0 {
-            return Ok(None);
-        }
+        let Some(first) = list(ini, section, key, entry).next().transpose()? else { return Ok(None) };
+        // No colour stands for none, as shaft 0 does for no shaft: the table counts from 1.
+        let number = u32::try_from(first).unwrap_or(0);
         if let Some(&material) = self.by_number.get(&number) {
             return Ok(Some(material));
         }
-        if let [_, red, green, blue] = numbers[..] {
+        if number > 0
+            && let [_, red, green, blue] = few(ini, section, key, entry)?[..]
+        {
             let srgb = [red, green, blue].map(|channel| scaled(channel, 0, 255));
             let material = self.materials.len() as u32;
             self.by_number.insert(number, material);
@@ -75,9 +75,9 @@ impl Palette {
             return Err(bad(ini, section, key, entry, "no colour, since there is no [COLOR TABLE]"));
         }
         let high = self.by_number.keys().max().copied().unwrap_or(0);
-        if number > high {
-            let place = place(ini, section, key, entry);
-            return Err(ReadError::OutOfRange { place, value: number.into(), low: 1.0, high: high.into() });
+        if number == 0 || number > high {
+            let (place, value) = (place(ini, section, key, entry), first as f64);
+            return Err(ReadError::OutOfRange { place, value, low: 1.0, high: high.into() });
         }
         Err(bad(ini, section, key, entry, "the number of a colour in [COLOR TABLE]"))
     }
@@ -87,15 +87,23 @@ impl Palette {
     }
 }
 
+/// The numbers of a value that has no more than four of them, or five where it has more.
+fn few(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Result<Vec<u32>, ReadError> {
+    let numbers = list(ini, section, key, entry).take(5).map(|number| {
+        u32::try_from(number?).map_err(|_| bad(ini, section, key, entry, "numbers from 0 to 4294967295"))
+    });
+    numbers.collect()
+}
+
 /// The range of the table's values. Where the file does not say, 0 to 255, or 0 to 999 (Fiberworks) or 0 to 65,535 where
 /// values go beyond.
 fn range(
-    ini: &Ini,
+    ini: &Ini<'_>,
     table: &BTreeMap<u32, [u32; 3]>,
     warnings: &mut Vec<String>,
 ) -> Result<(u32, u32), ReadError> {
     if let Some(entry) = ini.get("color palette", "range") {
-        return match list(ini, "color palette", "range", entry)?[..] {
+        return match few(ini, "color palette", "range", entry)?[..] {
             [low, high] if low < high => Ok((low, high)),
             _ => Err(bad(ini, "color palette", "range", entry, "two numbers, the lower one first")),
         };

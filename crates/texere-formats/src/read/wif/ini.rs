@@ -3,45 +3,69 @@
 //! No INI crate fits: real drafts have text before the first section, lines without `=`, doubled sections and keys,
 //! mixed line ends and Latin-1 letters, and an error has to name the line.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A `key=value` line.
-#[derive(Debug, Clone)]
-pub(super) struct Entry {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry<'a> {
     /// The line, from 1.
     pub(super) line: usize,
     /// As written, without the space around it; may be empty.
-    pub(super) value: String,
+    pub(super) value: &'a str,
 }
 
-/// The sections of a file, by name in lower case; in them the entries, by key in lower case.
+/// The entries of a section, by key in lower case.
+type Section<'a> = HashMap<Cow<'a, str>, Entry<'a>>;
+
+/// The sections of a file, by name in lower case.
 #[derive(Debug)]
-pub(super) struct Ini {
-    pub(super) file: PathBuf,
-    sections: HashMap<String, HashMap<String, Entry>>,
+pub(super) struct Ini<'a> {
+    pub(super) file: &'a Path,
+    sections: HashMap<Cow<'a, str>, Section<'a>>,
 }
 
-impl Ini {
+/// The sections that a cloth is made of. Others may be as large as they like: nothing of them is kept.
+const READ: [&str; 16] = [
+    "text",
+    "weaving",
+    "warp",
+    "weft",
+    "threading",
+    "tieup",
+    "treadling",
+    "liftplan",
+    "color palette",
+    "color table",
+    "warp colors",
+    "weft colors",
+    "warp spacing",
+    "weft spacing",
+    "warp thickness",
+    "weft thickness",
+];
+
+impl<'a> Ini<'a> {
     /// Reads all sections. Where a section or a key comes twice, the later value of each key stands.
-    pub(super) fn parse(file: &Path, bytes: &[u8]) -> Self {
-        let mut sections: HashMap<String, HashMap<String, Entry>> = HashMap::new();
+    pub(super) fn parse(file: &'a Path, text: &'a str) -> Self {
+        let mut sections: HashMap<Cow<'a, str>, Section<'a>> = HashMap::new();
         let mut section = None;
-        for (line, text) in lines(&decode(bytes)).enumerate() {
+        for (line, text) in lines(text).enumerate() {
             let text = text.trim();
             if text.starts_with(';') {
                 continue;
             }
             if let Some(name) = text.strip_prefix('[').and_then(|rest| rest.split(']').next()) {
-                section = Some(name.trim().to_lowercase());
-            } else if let (Some(section), Some((key, value))) = (&section, text.split_once('=')) {
-                let entry = Entry { line: line + 1, value: value.trim().into() };
-                sections.entry(section.clone()).or_default().insert(key.trim().to_lowercase(), entry);
+                let name = lower_case(name.trim());
+                section = READ.contains(&name.as_ref()).then(|| sections.entry(name).or_default());
+            } else if let (Some(section), Some((key, value))) = (&mut section, text.split_once('=')) {
+                section.insert(lower_case(key.trim()), Entry { line: line + 1, value: value.trim() });
             }
         }
         // A section of nothing but empty values says nothing.
         sections.retain(|_, entries| entries.values().any(|entry| !entry.value.is_empty()));
-        Self { file: file.into(), sections }
+        Self { file, sections }
     }
 
     /// Whether a section says anything. `name` is in lower case.
@@ -50,23 +74,46 @@ impl Ini {
     }
 
     /// The value of a key that is there and not empty. Both names are in lower case.
-    pub(super) fn get(&self, section: &str, key: &str) -> Option<&Entry> {
+    pub(super) fn get(&self, section: &str, key: &str) -> Option<&Entry<'a>> {
         self.sections.get(section)?.get(key).filter(|entry| !entry.value.is_empty())
     }
 
     /// The entries of a section, empty ones too.
-    pub(super) fn entries(&self, section: &str) -> impl Iterator<Item = (&str, &Entry)> {
-        self.sections.get(section).into_iter().flatten().map(|(key, entry)| (key.as_str(), entry))
+    pub(super) fn entries(&self, section: &str) -> impl Iterator<Item = (&str, &Entry<'a>)> {
+        self.sections.get(section).into_iter().flatten().map(|(key, entry)| (key.as_ref(), entry))
     }
 }
 
-/// UTF-8 where it is that, Latin-1 where it is not.
-fn decode(bytes: &[u8]) -> String {
+/// Most names are numbers, which stay where they are.
+fn lower_case(name: &str) -> Cow<'_, str> {
+    if name.bytes().all(|byte| byte.is_ascii_digit() || byte.is_ascii_lowercase()) {
+        Cow::Borrowed(name)
+    } else {
+        Cow::Owned(name.to_lowercase())
+    }
+}
+
+/// The text of a file: UTF-16 where it begins as that, UTF-8 where it is that, Latin-1 where it is neither.
+pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
+    // Without a byte order mark UTF-16 shows in the zeros of its first two letters: a WIF file begins with "[W".
+    match *bytes {
+        [0xff, 0xfe, ..] => return utf16(&bytes[2..], u16::from_le_bytes),
+        [0xfe, 0xff, ..] => return utf16(&bytes[2..], u16::from_be_bytes),
+        [1..=255, 0, 1..=255, 0, ..] => return utf16(bytes, u16::from_le_bytes),
+        [0, 1..=255, 0, 1..=255, ..] => return utf16(bytes, u16::from_be_bytes),
+        _ => {}
+    }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {
         Ok(text) => text.into(),
         Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
     }
+}
+
+/// Letters that are none are shown as such; half a letter at the end of a file is left out.
+fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Cow<'_, str> {
+    let units = bytes.as_chunks().0.iter().map(|&bytes| unit(bytes));
+    char::decode_utf16(units).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
 }
 
 /// Lines that end in LF, CRLF or a lone CR.
@@ -80,13 +127,14 @@ mod tests {
 
     #[test]
     fn reads_what_programs_really_write() {
-        let text = b"junk\r\nkey=before any section\n[One]\rA = 1\r\nno equals sign\r\n;B=2\n[TWO\n[one]\na=3\nC=\n[Empty]\nx=\n\
+        let text = b"junk\r\nkey=before any section\n[Warp]\rA = 1\r\nno equals sign\r\n;B=2\n[TWO\n[warp]\na=3\nC=\n[Weft]\nx=\n\
                      [Text]\nAuthor=Andr\xe9=x\n";
-        let ini = Ini::parse(Path::new("a.wif"), text);
-        let a = ini.get("one", "a").unwrap();
-        assert_eq!((a.value.as_str(), a.line), ("3", 9));
-        assert!(ini.get("one", "b").is_none() && ini.get("one", "c").is_none());
-        assert!(!ini.has("empty"));
+        let text = decode(text);
+        let ini = Ini::parse(Path::new("a.wif"), &text);
+        let a = ini.get("warp", "a").unwrap();
+        assert_eq!((a.value, a.line), ("3", 9));
+        assert!(ini.get("warp", "b").is_none() && ini.get("warp", "c").is_none());
+        assert!(!ini.has("weft"));
         assert_eq!(ini.get("text", "author").unwrap().value, "André=x");
     }
 }

@@ -3,6 +3,12 @@
 //! Sections and keys come in any order and case; sparse lists take defaults; 0 or nothing stands for none; what CONTENTS
 //! claims is not trusted. Refused, with section and key: a treadle or shaft that the loom has not got, a colour that no
 //! table holds, a tie-up, treadling or lift plan that the others need.
+//!
+//! A loom has the shafts and treadles that WEAVING declares. Where ends are threaded on more shafts, or the tie-up has rows
+//! for more treadles, it has those too, with a warning; what then lifts a shaft or presses a treadle beyond them is
+//! refused. Without a declaration there is nothing to go beyond.
+//!
+//! A thickness that leaves threads no room to cross is read as how wide they are drawn: see [`threads::roomy`].
 
 mod colors;
 mod ini;
@@ -14,7 +20,8 @@ use std::path::Path;
 use texere_core::Section;
 use texere_fabric::{Draft, Drawdown, Shedding, Woven};
 
-use super::{ReadError, bytes_of, file_name};
+use super::file::bytes_of;
+use super::{ReadError, file_name, only_used};
 use ini::Ini;
 use numbers::{integer, lists};
 
@@ -23,6 +30,9 @@ const LOOM_LIMIT: u32 = 100_000;
 
 /// Most threads of a warp or weft.
 const THREAD_LIMIT: u32 = 1_000_000;
+
+/// The largest WIF file that is read: a lift plan of 10,000 picks by 5,000 hooks takes half as much.
+const FILE_LIMIT: u64 = 1 << 28;
 
 /// A WIF file, read.
 #[derive(Debug)]
@@ -34,37 +44,45 @@ pub(super) struct WifDraft {
 }
 
 pub(super) fn read(path: &Path) -> Result<WifDraft, ReadError> {
-    let ini = Ini::parse(path, &bytes_of(path)?);
+    let bytes = bytes_of(path, FILE_LIMIT)?;
+    let text = ini::decode(&bytes);
+    let ini = Ini::parse(path, &text);
     let mut warnings = Vec::new();
-    let fabric = |source| ReadError::Fabric { file: path.into(), source };
 
     let ends = thread_count(&ini, "warp", "WARP")?;
     let picks = thread_count(&ini, "weft", "WEFT")?;
     let (draft, drawdown) = draft(&ini, ends, picks, &mut warnings)?;
     let mut palette = colors::Palette::read(&ini, &mut warnings)?;
-    let (warp, weft) = threads::read(&ini, [ends, picks], &mut palette, &mut warnings)?;
-    let woven =
-        Woven::new(drawdown, warp, weft, palette.into_materials(), vec![Section::Circle]).map_err(fabric)?;
-    let name = ini.get("text", "title").map_or_else(|| file_name(path), |entry| entry.value.clone());
+    let (mut threads, stated) = threads::read(&ini, [ends, picks], &mut palette, &mut warnings)?;
+    let [warp, weft] = &mut threads;
+    let (materials, sections) = only_used([warp, weft], &palette.into_materials(), &[Section::Circle]);
+    let woven = if stated {
+        let [warp, weft] = threads;
+        Woven::new(drawdown, warp, weft, materials, sections)
+    } else {
+        threads::roomy(drawdown, threads, materials, sections, &mut warnings)
+    };
+    let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
+    let name = ini.get("text", "title").map_or_else(|| file_name(path), |entry| entry.value.into());
     Ok(WifDraft { name, woven, draft, warnings })
 }
 
-fn thread_count(ini: &Ini, section: &str, name: &str) -> Result<u32, ReadError> {
+fn thread_count(ini: &Ini<'_>, section: &str, name: &str) -> Result<u32, ReadError> {
     integer(ini, section, "threads", 1, THREAD_LIMIT)?.ok_or_else(|| ReadError::MissingKey {
-        file: ini.file.clone(),
+        file: ini.file.into(),
         field: format!("[{name}] Threads"),
         needed_for: "it says how many threads there are",
     })
 }
 
-fn missing(ini: &Ini, section: &'static str, needed_for: &'static str) -> ReadError {
-    ReadError::MissingSection { file: ini.file.clone(), section, needed_for }
+fn missing(ini: &Ini<'_>, section: &'static str, needed_for: &'static str) -> ReadError {
+    ReadError::MissingSection { file: ini.file.into(), section, needed_for }
 }
 
 /// The draft, of threading and tie-up with treadling or lift plan, and its drawdown. Where a file has both and they
 /// differ, the tie-up stands, and a warning says so.
 fn draft(
-    ini: &Ini,
+    ini: &Ini<'_>,
     ends: u32,
     picks: u32,
     warnings: &mut Vec<String>,
@@ -72,8 +90,9 @@ fn draft(
     if !ini.has("threading") {
         return Err(missing(ini, "THREADING", "it says which shaft each end is on"));
     }
-    let shafts = integer(ini, "weaving", "shafts", 1, LOOM_LIMIT)?.unwrap_or(LOOM_LIMIT);
-    let threading = lists(ini, "threading", ends, shafts, warnings)?;
+    let threading = lists(ini, "threading", ends, LOOM_LIMIT, warnings)?;
+    let highest = threading.iter().flatten().max().copied().unwrap_or(0);
+    let shafts = on_loom(ini, "Shafts", highest, "THREADING", warnings)?.unwrap_or(LOOM_LIMIT);
     let rising_shed = rising_shed(ini)?;
     let treadled = treadled(ini, picks, shafts, warnings)?;
     let lift_plan =
@@ -92,7 +111,7 @@ fn draft(
             return Err(missing(ini, "LIFTPLAN", "without TIEUP and TREADLING it says what each pick lifts"));
         }
     };
-    let fabric = |source| ReadError::Fabric { file: ini.file.clone(), source };
+    let fabric = |source| ReadError::fabric(ini.file, source);
     let mut draft = Draft { threading, shedding, rising_shed };
     let drawdown = draft.drawdown().map_err(fabric)?;
     if let Some(other) = other {
@@ -107,7 +126,7 @@ fn draft(
 
 /// Tie-up and treadling, where both are there.
 fn treadled(
-    ini: &Ini,
+    ini: &Ini<'_>,
     picks: u32,
     shafts: u32,
     warnings: &mut Vec<String>,
@@ -115,16 +134,35 @@ fn treadled(
     if !ini.has("tieup") || !ini.has("treadling") {
         return Ok(None);
     }
-    let declared = integer(ini, "weaving", "treadles", 1, LOOM_LIMIT)?.unwrap_or(0);
-    // Some programs write more tie-up rows than treadles.
-    let highest = ini.entries("tieup").filter_map(|(key, _)| key.parse().ok()).max().unwrap_or(0);
-    let treadles = declared.max(highest).min(LOOM_LIMIT);
-    let tie_up = lists(ini, "tieup", treadles, shafts, warnings)?;
-    let treadling = lists(ini, "treadling", picks, treadles, warnings)?;
+    let rows = ini.entries("tieup").filter_map(|(key, _)| key.parse().ok());
+    let highest = rows.filter(|row| *row <= LOOM_LIMIT).max().unwrap_or(0);
+    let treadles = on_loom(ini, "Treadles", highest, "TIEUP", warnings)?;
+    let tie_up = lists(ini, "tieup", treadles.unwrap_or(highest), shafts, warnings)?;
+    let treadling = lists(ini, "treadling", picks, treadles.unwrap_or(LOOM_LIMIT), warnings)?;
     Ok(Some(Shedding::TieUp { tie_up, treadling }))
 }
 
-fn rising_shed(ini: &Ini) -> Result<bool, ReadError> {
+/// How many shafts or treadles the loom has: as many as [WEAVING] says under `key`, or `highest`, the number that
+/// `section` goes up to, where that is more. None where nothing is declared.
+fn on_loom(
+    ini: &Ini<'_>,
+    key: &str,
+    highest: u32,
+    section: &str,
+    warnings: &mut Vec<String>,
+) -> Result<Option<u32>, ReadError> {
+    let Some(declared) = integer(ini, "weaving", &key.to_lowercase(), 1, LOOM_LIMIT)? else {
+        return Ok(None);
+    };
+    if highest > declared {
+        warnings.push(format!(
+            "[WEAVING] {key} is {declared}, but [{section}] goes up to {highest}; so many are taken"
+        ));
+    }
+    Ok(Some(declared.max(highest)))
+}
+
+fn rising_shed(ini: &Ini<'_>) -> Result<bool, ReadError> {
     let Some(entry) = ini.get("weaving", "rising shed") else { return Ok(true) };
     match entry.value.to_lowercase().as_str() {
         "true" | "yes" | "on" | "1" => Ok(true),

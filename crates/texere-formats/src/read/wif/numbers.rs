@@ -1,21 +1,23 @@
 //! Numbers and lists of numbers in WIF sections.
 
+use super::LOOM_LIMIT;
 use super::ini::{Entry, Ini};
-use crate::read::{Place, ReadError};
+use crate::read::error::shown;
+use crate::read::{Place, ReadError, filled};
 
 /// Where an entry stands, as WIF writes it: `[WARP COLORS] 3`.
-pub(super) fn place(ini: &Ini, section: &str, key: &str, entry: &Entry) -> Place {
-    Place::new(&ini.file, entry.line, format!("[{}] {key}", section.to_uppercase()))
+pub(super) fn place(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Place {
+    Place::new(ini.file, entry.line, &format!("[{}] {key}", section.to_uppercase()))
 }
 
-pub(super) fn bad(ini: &Ini, section: &str, key: &str, entry: &Entry, expected: &str) -> ReadError {
-    let (place, value) = (place(ini, section, key, entry), entry.value.clone());
+pub(super) fn bad(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>, expected: &str) -> ReadError {
+    let (place, value) = (place(ini, section, key, entry), shown(entry.value));
     ReadError::BadValue { place, value, expected: expected.into() }
 }
 
 /// A whole number within `low` and `high`, or `None` where the key is missing or empty.
 pub(super) fn integer(
-    ini: &Ini,
+    ini: &Ini<'_>,
     section: &str,
     key: &str,
     low: u32,
@@ -34,40 +36,42 @@ pub(super) fn integer(
 }
 
 /// The numbers of a comma-separated value.
-pub(super) fn list(ini: &Ini, section: &str, key: &str, entry: &Entry) -> Result<Vec<u32>, ReadError> {
+pub(super) fn list(
+    ini: &Ini<'_>,
+    section: &str,
+    key: &str,
+    entry: &Entry<'_>,
+) -> impl Iterator<Item = Result<i64, ReadError>> {
     let value = entry.value.split(';').next().unwrap_or_default();
     let items = value.split(',').map(str::trim).filter(|item| !item.is_empty());
-    items
-        .map(|item| {
-            item.parse().map_err(|_| bad(ini, section, key, entry, "whole numbers separated by commas"))
-        })
-        .collect()
+    items.map(move |item| {
+        item.parse().map_err(|_| bad(ini, section, key, entry, "whole numbers separated by commas"))
+    })
 }
 
-/// A section of `number=list` lines as one list for each of 1 to `count`; 0 stands for none, numbers above `limit` are
-/// refused. Lines beyond `count` are left out with a warning.
+/// A section of `number=list` lines as one list for each of 1 to `count`, each number in it once; 0 stands for none,
+/// numbers above `limit`, which is [`LOOM_LIMIT`] at most, are refused. Lines beyond `count` are left out with a warning.
 pub(super) fn lists(
-    ini: &Ini,
+    ini: &Ini<'_>,
     section: &str,
     count: u32,
     limit: u32,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Vec<u32>>, ReadError> {
-    let mut lists = vec![Vec::new(); count as usize];
+    let mut lists = filled("a draft", count as usize, Vec::new())?;
+    // The line that last had each number.
+    let mut had = vec![0; LOOM_LIMIT as usize + 1];
     for (number, entry) in numbered(ini, section, count, warnings) {
         let key = number.to_string();
-        for value in list(ini, section, &key, entry)? {
-            if value > limit {
-                let place = place(ini, section, &key, entry);
-                return Err(ReadError::OutOfRange {
-                    place,
-                    value: value.into(),
-                    low: 0.0,
-                    high: limit.into(),
-                });
+        for value in list(ini, section, &key, &entry) {
+            let value = value?;
+            if !(0..=i64::from(limit)).contains(&value) {
+                let place = place(ini, section, &key, &entry);
+                let (value, high) = (value as f64, limit.into());
+                return Err(ReadError::OutOfRange { place, value, low: 0.0, high });
             }
-            if value > 0 {
-                lists[number as usize - 1].push(value);
+            if value > 0 && std::mem::replace(&mut had[value as usize], number) != number {
+                lists[number as usize - 1].push(value as u32);
             }
         }
     }
@@ -76,15 +80,15 @@ pub(super) fn lists(
 
 /// The lines of a section whose key is a number from 1 to `count`, in order; a warning counts the others.
 pub(super) fn numbered<'a>(
-    ini: &'a Ini,
+    ini: &Ini<'a>,
     section: &str,
     count: u32,
     warnings: &mut Vec<String>,
-) -> Vec<(u32, &'a Entry)> {
+) -> Vec<(u32, Entry<'a>)> {
     let (mut lines, mut others) = (Vec::new(), 0);
     for (key, entry) in ini.entries(section) {
         match key.parse::<u32>() {
-            Ok(number) if (1..=count).contains(&number) => lines.push((number, entry)),
+            Ok(number) if (1..=count).contains(&number) => lines.push((number, *entry)),
             _ => others += 1,
         }
     }
@@ -98,24 +102,22 @@ pub(super) fn numbered<'a>(
     lines
 }
 
-/// A length in the file's unit above 0 and up to `limit`, or `None` for 0.
+/// A length in the file's unit within `low` and `high`, or `None` for 0.
 pub(super) fn length(
-    ini: &Ini,
+    ini: &Ini<'_>,
     section: &str,
     key: &str,
-    entry: &Entry,
-    limit: f64,
+    entry: &Entry<'_>,
+    [low, high]: [f64; 2],
 ) -> Result<Option<f64>, ReadError> {
     // A decimal comma is what some programs write where their user's language has one.
     let value: f64 =
         entry.value.replace(',', ".").parse().map_err(|_| bad(ini, section, key, entry, "a length"))?;
-    if !(0.0..=limit).contains(&value) {
-        return Err(ReadError::OutOfRange {
-            place: place(ini, section, key, entry),
-            value,
-            low: 0.0,
-            high: limit,
-        });
+    if value == 0.0 {
+        return Ok(None);
     }
-    Ok((value > 0.0).then_some(value))
+    if !(low..=high).contains(&value) {
+        return Err(ReadError::OutOfRange { place: place(ini, section, key, entry), value, low, high });
+    }
+    Ok(Some(value))
 }

@@ -1,37 +1,51 @@
 //! Spacing, thickness and colour of each end and pick.
 
-use texere_fabric::Thread;
+use texere_core::{Material, Section};
+use texere_fabric::{Drawdown, FabricError, Thread, Woven};
 
 use super::colors::{NO_COLOR, Palette};
 use super::ini::Ini;
 use super::numbers::{bad, length, numbered};
-use crate::read::ReadError;
+use crate::read::{ReadError, filled, room};
 
 /// Spacing where the file gives none, mm: 10 threads to the centimetre.
 const DEFAULT_SPACING_MM: f64 = 1.0;
 
-/// The widest spacing or thickness that is taken, mm.
-const LENGTH_LIMIT_MM: f64 = 1000.0;
+/// The least and the widest spacing or thickness that is taken, mm: as in a design file.
+const LENGTH_MM: [f64; 2] = [1e-3, 1e3];
+
+/// How much room threads get to cross where the file leaves it to us, in least pitches: what half the spacing is in a cloth
+/// of threads alike, and what keeps them clear beside gaps of up to twelve times their pitch, tested.
+const ROOM: f64 = 1.154_700_538_379_251_5;
+const ROOM_UNEVEN: f64 = 1.85;
+
+/// The share by which room may fall short before it counts: radii are rounded to `f32`.
+const ROUNDING: f64 = 1e-6;
+
+/// By how much a thickness may differ from the spacing and still be the same, rounded.
+const ALIKE: f64 = 0.01;
 
 /// What one of the two sets of threads is told by.
 #[derive(Debug, Default)]
 struct Set {
+    /// Spacing and thickness of all threads that have none of their own.
+    common: [Option<f64>; 2],
     spacing_mm: Vec<Option<f64>>,
     thickness_mm: Vec<Option<f64>>,
     material: Vec<Option<u32>>,
 }
 
-/// The warp's and the weft's threads, `counts` of them.
+/// The warp's and the weft's threads, `counts` of them, and whether the file says how thick they are.
 pub(super) fn read(
-    ini: &Ini,
+    ini: &Ini<'_>,
     counts: [u32; 2],
     palette: &mut Palette,
     warnings: &mut Vec<String>,
-) -> Result<(Vec<Thread>, Vec<Thread>), ReadError> {
+) -> Result<([Vec<Thread>; 2], bool), ReadError> {
     let warp = Set::read(ini, "warp", counts[0], palette, warnings)?;
     let weft = Set::read(ini, "weft", counts[1], palette, warnings)?;
     // A set without any spacing of its own is set as close as the other.
-    let [warp_pitch, weft_pitch] = [warp.mean_spacing(), weft.mean_spacing()];
+    let [warp_pitch, weft_pitch] = [&warp, &weft].map(|set| mean(&set.spacing_mm));
     let fallback = warp_pitch.or(weft_pitch).unwrap_or(DEFAULT_SPACING_MM);
     for (name, pitch) in [("WARP", warp_pitch), ("WEFT", weft_pitch)] {
         if pitch.is_none() {
@@ -39,63 +53,131 @@ pub(super) fn read(
         }
     }
     let diameter = warp_pitch.unwrap_or(fallback).min(weft_pitch.unwrap_or(fallback)) / 2.0;
+    let drawn = [&warp, &weft].map(Set::is_drawn);
+    let missing = [&warp, &weft].map(|set| mean(&set.thickness_mm).is_none());
     let threads =
         |name: &str, set: Set, warnings: &mut Vec<String>| set.threads(name, fallback, diameter, warnings);
-    Ok((threads("WARP", warp, warnings), threads("WEFT", weft, warnings)))
+    let threads = [threads("WARP", warp, warnings)?, threads("WEFT", weft, warnings)?];
+    Ok((threads, drawn == [false; 2] && missing != [true; 2]))
+}
+
+/// A cloth of `threads`, all of them thinned by one factor where some need it to cross: for a file that does not say
+/// how thick they are.
+///
+/// Many programs write as a thread's thickness what they draw it with, the whole of its spacing. Nothing can be woven of
+/// such threads, as those that cross have to pass between them. So a `Thickness` that is the set's `Spacing`, or threads
+/// that together are as wide as the set, say nothing of the yarn: as where a file states no thickness, half the mean
+/// spacing is taken, of the set that lies closer. That is 2/√3 of the least pitch (Peirce's, [`texere_fabric::Pitch`])
+/// where threads are alike and evenly spaced; where they are not, some may have less.
+pub(super) fn roomy(
+    drawdown: Drawdown,
+    [warp, weft]: [Vec<Thread>; 2],
+    materials: Vec<Material>,
+    sections: Vec<Section>,
+    warnings: &mut Vec<String>,
+) -> Result<Woven, FabricError> {
+    let woven = Woven::new(drawdown, warp, weft, materials, sections)?;
+    let sets = woven.pitches();
+    let even = sets.iter().all(|set| {
+        let pitches = || set.iter().map(|pitch| pitch.pitch_mm);
+        pitches().fold(0.0, f64::max) <= (1.0 + ALIKE) * pitches().fold(f64::INFINITY, f64::min)
+    });
+    let room = if even { ROOM } else { ROOM_UNEVEN };
+    let needed =
+        sets.iter().flatten().map(|pitch| (room * pitch.passing_mm).max(pitch.beside_mm) / pitch.pitch_mm);
+    let needed = needed.fold(0.0, f64::max);
+    if needed <= 1.0 + ROUNDING {
+        return Ok(woven);
+    }
+    let factor = (1.0 / needed) as f32;
+    warnings.push(format!(
+        "some threads lie closer than most; all diameters are taken {factor:.4} times as large"
+    ));
+    let thinner = |set: &[Thread]| {
+        set.iter().map(|thread| Thread { radius_mm: factor * thread.radius_mm, ..*thread }).collect()
+    };
+    let (warp, weft) = (thinner(woven.warp()), thinner(woven.weft()));
+    Woven::new(woven.drawdown().clone(), warp, weft, woven.materials().to_vec(), woven.sections().to_vec())
+}
+
+/// The mean of those that are known.
+fn mean(lengths: &[Option<f64>]) -> Option<f64> {
+    let (count, sum) =
+        lengths.iter().flatten().fold((0, 0.0), |(count, sum), length| (count + 1, sum + length));
+    (count > 0).then(|| sum / f64::from(count))
 }
 
 impl Set {
     fn read(
-        ini: &Ini,
+        ini: &Ini<'_>,
         section: &str,
         count: u32,
         palette: &mut Palette,
         warnings: &mut Vec<String>,
     ) -> Result<Self, ReadError> {
         let unit = unit_mm(ini, section, warnings)?;
-        let mut lengths = |what: &str| -> Result<Vec<Option<f64>>, ReadError> {
-            let limit = LENGTH_LIMIT_MM / unit;
+        let mut lengths = |what: &str| -> Result<(Option<f64>, Vec<Option<f64>>), ReadError> {
+            let limits = LENGTH_MM.map(|limit| limit / unit);
             let common =
-                ini.get(section, what).map(|entry| length(ini, section, what, entry, limit)).transpose()?;
-            let mut values = vec![common.flatten().map(|value| value * unit); count as usize];
+                ini.get(section, what).map(|entry| length(ini, section, what, entry, limits)).transpose()?;
+            let common = common.flatten().map(|value| value * unit);
+            let mut values = filled("lengths of threads", count as usize, common)?;
             let single = format!("{section} {what}");
             for (number, entry) in numbered(ini, &single, count, warnings) {
                 if entry.value.is_empty() {
                     continue;
                 }
-                if let Some(value) = length(ini, &single, &number.to_string(), entry, limit)? {
+                if let Some(value) = length(ini, &single, &number.to_string(), &entry, limits)? {
                     values[number as usize - 1] = Some(value * unit);
                 }
             }
-            Ok(values)
+            Ok((common, values))
         };
-        let (spacing_mm, thickness_mm) = (lengths("spacing")?, lengths("thickness")?);
+        let ((spacing, spacing_mm), (thickness, thickness_mm)) = (lengths("spacing")?, lengths("thickness")?);
 
         let common = ini.get(section, "color");
         let common =
             common.map(|entry| palette.material(ini, section, "color", entry)).transpose()?.flatten();
-        let mut material = vec![common; count as usize];
+        let mut material = filled("colours of threads", count as usize, common)?;
         let single = format!("{section} colors");
         for (number, entry) in numbered(ini, &single, count, warnings) {
-            if let Some(own) = palette.material(ini, &single, &number.to_string(), entry)? {
+            if let Some(own) = palette.material(ini, &single, &number.to_string(), &entry)? {
                 material[number as usize - 1] = Some(own);
             }
         }
-        Ok(Self { spacing_mm, thickness_mm, material })
+        Ok(Self { common: [spacing, thickness], spacing_mm, thickness_mm, material })
     }
 
-    fn mean_spacing(&self) -> Option<f64> {
-        let known: Vec<f64> = self.spacing_mm.iter().copied().flatten().collect();
-        (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
+    /// Whether threads are as thick as they are spaced: in what the set says of all of them, or in sum.
+    fn is_drawn(&self) -> bool {
+        let alike = |[spacing, thickness]: [Option<f64>; 2]| {
+            spacing.zip(thickness).map(|(spacing, thickness)| thickness / spacing)
+        };
+        alike(self.common).is_some_and(|ratio| (ratio - 1.0).abs() <= ALIKE)
+            || alike([&self.spacing_mm, &self.thickness_mm].map(|of| mean(of)))
+                .is_some_and(|ratio| ratio >= 1.0 - ALIKE)
     }
 
     /// The threads, with `spacing` and `diameter` where the file gives none.
-    fn threads(self, name: &str, spacing: f64, diameter: f64, warnings: &mut Vec<String>) -> Vec<Thread> {
+    fn threads(
+        self,
+        name: &str,
+        spacing: f64,
+        diameter: f64,
+        warnings: &mut Vec<String>,
+    ) -> Result<Vec<Thread>, ReadError> {
         let count = self.material.len();
-        let without = |what: &[bool]| what.iter().filter(|&&missing| missing).count();
-        let thin = without(&self.thickness_mm.iter().map(Option::is_none).collect::<Vec<_>>());
-        let plain = without(&self.material.iter().map(Option::is_none).collect::<Vec<_>>());
-        if thin > 0 {
+        let drawn = self.is_drawn();
+        let thickness_mm =
+            if drawn { filled("thicknesses of threads", count, None)? } else { self.thickness_mm };
+        let thin = thickness_mm.iter().filter(|thickness| thickness.is_none()).count();
+        let plain = self.material.iter().filter(|material| material.is_none()).count();
+        if drawn {
+            warnings.push(format!(
+                "[{name}] has threads as thick as they are spaced, which leaves those that cross no room; {diameter:.4} mm \
+                 is taken, half the mean spacing"
+            ));
+        } else if thin > 0 {
             warnings.push(format!(
                 "[{name}] {thin} of {count} threads have no thickness; {diameter:.4} mm is taken, half the mean spacing"
             ));
@@ -104,21 +186,22 @@ impl Set {
             warnings.push(format!("[{name}] {plain} of {count} threads have no colour; undyed is taken"));
         }
         // A thread without spacing among others that have one is set like their mean.
-        let spacing = self.mean_spacing().unwrap_or(spacing);
-        let each = self.spacing_mm.into_iter().zip(self.thickness_mm).zip(self.material);
-        each.map(|((own_spacing, thickness), material)| Thread {
+        let spacing = mean(&self.spacing_mm).unwrap_or(spacing);
+        let mut threads = room("threads", count)?;
+        let each = self.spacing_mm.into_iter().zip(thickness_mm).zip(self.material);
+        threads.extend(each.map(|((own_spacing, thickness), material)| Thread {
             spacing_mm: own_spacing.unwrap_or(spacing),
             radius_mm: (thickness.unwrap_or(diameter) / 2.0) as f32,
             material: material.unwrap_or(NO_COLOR),
             section: 0,
             twist: 0.0,
-        })
-        .collect()
+        }));
+        Ok(threads)
     }
 }
 
 /// The unit of a section's lengths in mm.
-fn unit_mm(ini: &Ini, section: &str, warnings: &mut Vec<String>) -> Result<f64, ReadError> {
+fn unit_mm(ini: &Ini<'_>, section: &str, warnings: &mut Vec<String>) -> Result<f64, ReadError> {
     /// A decipoint is a tenth of a point, of which 72 make an inch.
     const DECIPOINT_MM: f64 = 25.4 / 720.0;
     let Some(entry) = ini.get(section, "units") else {

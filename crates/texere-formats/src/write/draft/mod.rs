@@ -14,13 +14,11 @@
 mod font;
 mod sheet;
 
-use std::path::Path;
-
 use texere_fabric::{Draft, Shedding, Thread, Woven};
 
-use super::WriteError;
-use super::picture::png_path;
+use super::picture::{encoder_room, png};
 use super::target::Target;
+use super::{Output, WriteError};
 use sheet::{Block, INK, PAPER, Rgb, Sheet};
 
 /// The most shafts, and the most treadles, that are drawn: more than any loom with treadles or a dobby has.
@@ -50,8 +48,8 @@ pub enum Side {
 
 /// Draws a cloth, and where it has one its shaft `draft`, to a PNG file. Gives the picture's width and height in pixels.
 ///
-/// **Errors**: [`WriteError::NotPng`] where `path` does not end in `.png`, [`WriteError::DraftTooLarge`] for cloth that
-/// needs more pixels than pictures have, [`WriteError::Io`].
+/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::DraftTooLarge`] for cloth that
+/// needs more pixels than pictures have, [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -70,9 +68,9 @@ pub fn draft(
     cloth: &Woven,
     draft: Option<&Draft>,
     side: Side,
-    path: impl AsRef<Path>,
+    output: impl Into<Output>,
 ) -> Result<[u32; 2], WriteError> {
-    let path = png_path(path.as_ref())?;
+    let output = png(output.into())?;
     let loom = draft.filter(|_| side == Side::Face).map(Loom::new).filter(Loom::fits);
     let sheet = lay_out(cloth, loom.as_ref(), side);
     let [width, height] = sheet.size;
@@ -80,7 +78,8 @@ pub fn draft(
         let (ends, picks) = (cloth.drawdown().ends(), cloth.drawdown().picks());
         return Err(WriteError::DraftTooLarge { ends, picks, width, height, limit: SIDE_MAX });
     }
-    let mut target = Target::create(path)?;
+    let mut target = Target::create(output)?;
+    encoder_room().map_err(|source| target.failed(source))?;
     let written = sheet.write(&mut target);
     written.map_err(|error| target.failed(error.into()))?;
     target.commit()?;

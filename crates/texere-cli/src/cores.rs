@@ -1,0 +1,46 @@
+//! The threads that share the work, as many as can be had.
+
+use std::num::NonZero;
+use std::sync::mpsc;
+use std::{env, io, thread};
+
+use rayon::{ThreadBuilder, ThreadPoolBuilder};
+
+/// Starts a thread for each core, or as many as the system gives; where it gives none, the program does all by itself.
+///
+/// Rayon would start them at first use, and panic where it can't have them all. So they are started before it is told how
+/// many they are.
+pub(crate) fn start() {
+    let (mut workers, wanted) = (Vec::new(), wanted());
+    while workers.len() < wanted {
+        let (hand_over, wait) = mpsc::channel::<ThreadBuilder>();
+        let started = thread::Builder::new().spawn(move || {
+            if let Ok(worker) = wait.recv() {
+                worker.run();
+            }
+        });
+        if started.is_err() {
+            break;
+        }
+        workers.push(hand_over);
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(workers.len().max(1));
+    // It fails where there is a pool already, and nobody has made one.
+    let _ = if workers.is_empty() {
+        pool.use_current_thread().build_global()
+    } else {
+        let mut waiting = workers.into_iter();
+        pool.spawn_handler(move |worker| {
+            let handed = waiting.next().and_then(|hand_over| hand_over.send(worker).ok());
+            handed.ok_or_else(|| io::ErrorKind::BrokenPipe.into())
+        })
+        .build_global()
+    };
+}
+
+/// As many as rayon would start.
+fn wanted() -> usize {
+    let told = env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
+    told.filter(|number| *number > 0)
+        .unwrap_or_else(|| thread::available_parallelism().map_or(1, NonZero::get))
+}

@@ -1,0 +1,61 @@
+//! What drivers write to standard error by themselves while they are loaded, such as complaints about the environment.
+
+use texere::BackendError;
+
+/// Does `work`, which loads drivers. What they write meanwhile is shown if it fails, and says nothing to a person if not.
+#[cfg(unix)]
+pub(crate) fn quietly<T>(work: impl FnOnce() -> Result<T, BackendError>) -> Result<T, BackendError> {
+    // Where there is no room to put it aside, it is shown.
+    let aside = aside::Aside::begin().ok();
+    let done = work();
+    if let (Some(aside), Ok(_)) = (aside, &done) {
+        aside.drop_quietly();
+    }
+    done
+}
+
+/// Other systems' drivers write nothing there.
+#[cfg(not(unix))]
+pub(crate) fn quietly<T>(work: impl FnOnce() -> Result<T, BackendError>) -> Result<T, BackendError> {
+    work()
+}
+
+#[cfg(unix)]
+mod aside {
+    use std::fs::File;
+    use std::io::{self, Read, Seek, Write};
+    use std::os::fd::OwnedFd;
+
+    use crate::terminal::lines;
+
+    /// Standard error, led to a file without a name until this goes; what is there then is shown.
+    pub(super) struct Aside {
+        stderr: OwnedFd,
+        written: File,
+        shown: bool,
+    }
+
+    impl Aside {
+        pub(super) fn begin() -> io::Result<Self> {
+            let written = tempfile::tempfile()?;
+            let stderr = rustix::io::dup(io::stderr())?;
+            rustix::stdio::dup2_stderr(&written)?;
+            Ok(Self { stderr, written, shown: true })
+        }
+
+        pub(super) fn drop_quietly(mut self) {
+            self.shown = false;
+        }
+    }
+
+    impl Drop for Aside {
+        fn drop(&mut self) {
+            // Nobody is left to tell if that fails.
+            let _ = rustix::stdio::dup2_stderr(&self.stderr);
+            let mut text = Vec::new();
+            if self.shown && self.written.rewind().is_ok() && self.written.read_to_end(&mut text).is_ok() {
+                let _ = io::stderr().write_all(lines(&String::from_utf8_lossy(&text)).as_bytes());
+            }
+        }
+    }
+}

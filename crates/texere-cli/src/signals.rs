@@ -1,0 +1,45 @@
+//! Signals that end the program: what is not finished goes first.
+
+use std::sync::{Mutex, PoisonError, mpsc};
+use std::{fs, thread};
+
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use signal_hook::low_level::emulate_default_handler;
+
+/// Held by whom a signal has told to end the program, until it is ended.
+static ENDING: Mutex<()> = Mutex::new(());
+
+/// From here on Ctrl-C and its like first remove what is not finished, whatever the program is doing. It then ends by that
+/// very signal, so that a shell knows why. A signal that whoever started the program wants ignored stays ignored, as
+/// `nohup` wants it of SIGHUP.
+pub(crate) fn listen() {
+    let (hand_over, wait) = mpsc::channel::<Signals>();
+    let listener = thread::Builder::new().spawn(move || {
+        let Some(signal) = wait.recv().ok().and_then(|mut signals| signals.forever().next()) else { return };
+        let _until_the_end = ENDING.lock();
+        texere::abandon();
+        let _ = emulate_default_handler(signal);
+    });
+    // Where no thread can be had, signals end the program as they always do; the next write removes what is left then.
+    if listener.is_ok() {
+        let ignored = ignored();
+        let heard = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
+        if let Ok(signals) = Signals::new(heard) {
+            let _ = hand_over.send(signals);
+        }
+    }
+}
+
+/// Waits for the end, if a signal has told the program to end. A write that was stopped by that is no failure of its
+/// own.
+pub(crate) fn give_way() {
+    drop(ENDING.lock().unwrap_or_else(PoisonError::into_inner));
+}
+
+/// The signals that are ignored, a bit each from the lowest. Linux tells; where nobody does, SIGHUP may be.
+fn ignored() -> u64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(1 << (SIGHUP - 1))
+}

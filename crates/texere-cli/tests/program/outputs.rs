@@ -1,0 +1,238 @@
+//! What the program writes, and what it never replaces.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::TempDir;
+
+use crate::{design, stderr, texere};
+
+const THREADS: &str = "[yarns.a]\ndiameter_mm = 0.3\n[warp]\nyarns = [\"a\"]\nper_cm = 8.0\n\
+                       [weft]\nyarns = [\"a\"]\nper_cm = 8.0\n";
+
+/// A design by an image, `motif.png`, in a folder of its own.
+fn by_image() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    texere::write_picture([2, 2], &[0, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0], at("motif.png"))
+        .unwrap();
+    fs::write(at("cloth.toml"), format!("[weave]\nimage = \"motif.png\"\nrepeat = [6, 6]\n{THREADS}"))
+        .unwrap();
+    folder
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort_unstable();
+    names
+}
+
+#[test]
+fn no_command_replaces_what_the_design_was_read_from() {
+    let folder = by_image();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    for (link, file) in [("link.ply", "motif.png"), ("link.svg", "cloth.toml")] {
+        fs::hard_link(at(file), at(link)).unwrap();
+    }
+    let contents =
+        || names(folder.path()).into_iter().map(|name| fs::read(at(&name)).unwrap()).collect::<Vec<_>>();
+    let (before, cloth) = (contents(), at("cloth.toml"));
+    for args in [
+        vec!["draft", &cloth, "-o", &at("motif.png")],
+        vec!["draft", &cloth, "--text", "-o", &at("motif.png")],
+        vec!["mesh", &cloth, "-o", &at("link.ply"), "--device", "cpu"],
+        vec!["render", &cloth, "-o", &at("motif.png"), "--size", "8x8"],
+        vec!["render", &cloth, "--timings", &at("link.svg"), "--size", "8x8"],
+    ] {
+        let output = texere(&args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains("which must stay"), "{args:?}: {}", stderr(&output));
+        assert!(contents() == before, "{args:?}");
+    }
+}
+
+#[test]
+fn endings_are_looked_at_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    for (args, said) in [
+        (["mesh", "no-such.toml", "-o", "cloth.obj"], "glb, ply"),
+        (["draft", "no-such.toml", "-o", "cloth.jpg"], "cloth.jpg does not end in .png"),
+        (["render", "no-such.toml", "-o", "cloth.glb"], "cloth.glb does not end in .png"),
+        (["render", "no-such.toml", "--timings", "no-such.toml"], "no-such.toml does not end in .svg"),
+    ] {
+        let output = texere(&args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(said), "{args:?}: {}", stderr(&output));
+    }
+    assert!(names(folder.path()).is_empty());
+}
+
+/// The plot of `--timings` is written beside its place, as all files are: a full disk leaves an old one as it was.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_plot_that_can_not_be_finished_leaves_the_old_one() {
+    use std::process::Command;
+    let folder = by_image();
+    let (cloth, plot) = (folder.path().join("cloth.toml"), folder.path().join("plot.svg"));
+    fs::write(&plot, "old").unwrap();
+    // A file may have no byte more than none.
+    let output = Command::new("prlimit")
+        .args(["--fsize=0", "--", "sh", "-c", "trap '' XFSZ; exec \"$@\" >/dev/null", "sh"])
+        .args([env!("CARGO_BIN_EXE_texere"), "render", "--size", "8x8", "--timings"])
+        .args([&plot, &cloth])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert_eq!(fs::read(&plot).unwrap(), b"old");
+    assert_eq!(names(folder.path()), ["cloth.toml", "motif.png", "plot.svg"]);
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    use std::os::unix::process::{CommandExt, ExitStatusExt};
+    use std::process::{Child, Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    use super::*;
+
+    /// Waits until there is an unfinished file: the program is at work then.
+    fn at_work(folder: &Path, program: &mut Child) {
+        let start = Instant::now();
+        while !names(folder).iter().any(|name| name.starts_with(".texere-")) {
+            assert!(program.try_wait().unwrap().is_none(), "it ended too soon");
+            assert!(start.elapsed() < Duration::from_secs(60), "it never began");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// The program, making a mesh that takes it seconds.
+    fn meshing(folder: &Path, shell: &str) -> Child {
+        let program = Command::new("sh")
+            .args(["-c", &format!("{shell} exec \"$@\""), "sh", env!("CARGO_BIN_EXE_texere")])
+            .args(["mesh", &design("paper/1630x1500.toml"), "--device", "cpu-serial", "-o"])
+            .arg(folder.join("cloth.ply"))
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .process_group(0)
+            .spawn();
+        program.unwrap()
+    }
+
+    fn send(signal: &str, program: &Child) {
+        let sent = Command::new("kill").args([&format!("-{signal}"), &program.id().to_string()]).status();
+        assert!(sent.unwrap().success());
+    }
+
+    #[test]
+    fn a_signal_leaves_nothing_and_is_what_the_program_dies_of() {
+        for (signal, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+            let folder = tempfile::tempdir().unwrap();
+            fs::write(folder.path().join("cloth.ply"), "old").unwrap();
+            let mut program = meshing(folder.path(), "");
+            at_work(folder.path(), &mut program);
+            send(signal, &program);
+            let output = program.wait_with_output().unwrap();
+            assert_eq!(output.status.signal(), Some(number), "{signal}: {:?}", output.status);
+            assert_eq!(stderr(&output), "");
+            assert_eq!(names(folder.path()), ["cloth.ply"], "{signal}");
+            assert_eq!(fs::read(folder.path().join("cloth.ply")).unwrap(), b"old");
+        }
+    }
+
+    /// As `nohup` starts it.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_signal_that_was_ignored_stays_ignored() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut program = meshing(folder.path(), "trap '' HUP;");
+        at_work(folder.path(), &mut program);
+        send("HUP", &program);
+        std::thread::sleep(Duration::from_millis(300));
+        assert!(program.try_wait().unwrap().is_none());
+        send("TERM", &program);
+        assert_eq!(program.wait().unwrap().signal(), Some(15));
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn what_a_kill_leaves_the_next_write_removes_and_no_more() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut killed = meshing(folder.path(), "");
+        at_work(folder.path(), &mut killed);
+        send("KILL", &killed);
+        assert_eq!(killed.wait().unwrap().signal(), Some(9));
+        assert_eq!(names(folder.path()).len(), 1);
+        // Another one is at work: that file must stay, the killed one's must not.
+        let left = names(folder.path());
+        let mut working = meshing(folder.path(), "");
+        let start = Instant::now();
+        while names(folder.path()) == left {
+            assert!(start.elapsed() < Duration::from_secs(60) && working.try_wait().unwrap().is_none());
+        }
+        let plain = folder.path().join("plain.ply");
+        let output =
+            texere(&["mesh", &design("plain.toml"), "-o", plain.to_str().unwrap(), "--device", "cpu"]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let after = names(folder.path());
+        assert!(after.len() == 2 && after[0].starts_with(".texere-") && after[0] != left[0], "{after:?}");
+        send("TERM", &working);
+        working.wait().unwrap();
+        assert_eq!(names(folder.path()), ["plain.ply"]);
+    }
+
+    /// Someone who is not root, and a file of root's.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_file_that_its_user_may_not_write_is_not_replaced() {
+        if Command::new("id").arg("-u").output().unwrap().stdout != b"0\n" {
+            // Nobody else's file can be made.
+            return;
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::copy(env!("CARGO_BIN_EXE_texere"), at("texere")).unwrap();
+        fs::copy(design("plain.toml"), at("plain.toml")).unwrap();
+        fs::write(at("cloth.ply"), "root's").unwrap();
+        // The folder is anyone's.
+        for (name, mode) in [("cloth.ply", 0o644), (".", 0o777), ("texere", 0o755)] {
+            fs::set_permissions(at(name), fs::Permissions::from_mode(mode)).unwrap();
+        }
+        let output = Command::new(at("texere"))
+            .args(["mesh", "plain.toml", "-o", "cloth.ply", "--device", "cpu"])
+            .current_dir(folder.path())
+            .uid(65534)
+            .gid(65534)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(stderr(&output).contains("Permission denied"), "{}", stderr(&output));
+        assert_eq!(fs::read(at("cloth.ply")).unwrap(), b"root's");
+        assert_eq!(names(folder.path()), ["cloth.ply", "plain.toml", "texere"]);
+    }
+
+    #[test]
+    fn a_turntable_of_links_to_one_another_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("turn-002.png"), "old").unwrap();
+        symlink("turn-002.png", at("turn-001.png")).unwrap();
+        let (cloth, out) = (design("plain.toml"), at("turn.png"));
+        let args = [
+            "render",
+            &cloth,
+            "-o",
+            out.to_str().unwrap(),
+            "--view",
+            "turntable",
+            "--frames",
+            "2",
+            "--size",
+            "8x8",
+        ];
+        let output = texere(&args);
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        assert_eq!(fs::read(at("turn-002.png")).unwrap(), b"old");
+    }
+}

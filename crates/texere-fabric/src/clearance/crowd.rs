@@ -1,0 +1,73 @@
+//! Places where more yarns lie than can lie there, or more parts of yarns than are compared.
+
+use std::cmp::Ordering;
+
+use super::YarnPlace;
+use super::grid::Bounds;
+use super::search::Part;
+
+/// A place that is not measured, because its yarns lie in one another many times over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crowd {
+    /// On the thickest yarn there, nearest to the middle.
+    pub place: YarnPlace,
+    /// How thick that yarn is, mm: twice its radius.
+    pub thickness_mm: f64,
+    /// Control intervals that lie there.
+    pub intervals: usize,
+    /// The volume of their yarns over that of the box that holds them. Above 1 they can't but pierce one another or
+    /// fold, and some come within 1/√fill of touching. Up to 1 it is their number alone that is too high (see
+    /// [`CLEARANCE_BESIDE`](super::CLEARANCE_BESIDE)): control points lie much closer than the yarns are thick, or very
+    /// long intervals side by side.
+    pub fill: f64,
+}
+
+impl Crowd {
+    /// What `parts` would be as a crowd; `place` makes a place of a part. None where there are no parts.
+    pub(super) fn of<'p, 'a: 'p>(
+        parts: &'p [Part<'a>],
+        place: impl FnOnce(&'p Part<'a>) -> YarnPlace,
+    ) -> Option<Self> {
+        let mut room = Bounds::NOTHING;
+        let mut volume = 0.0;
+        let mut thickest: f64 = 0.0;
+        for part in parts {
+            let line = &part.line;
+            let cubic = line.cubic(part.point);
+            room = room.joined(line.bounds(part.point, 1.0));
+            // No less than the interval's: it is no shorter than its chord, and nowhere thinner.
+            let thinnest = cubic.radii().into_iter().fold(f64::INFINITY, f64::min).max(cubic.radius_floor());
+            let chord = cubic.position(0.0).distance(cubic.position(1.0));
+            volume += line.support.area() * thinnest * thinnest * chord;
+            thickest = thickest.max(cubic.at(0.0).radius[0]);
+        }
+        let size = (room.high - room.low).as_dvec3();
+        let middle = ((room.high + room.low) / 2.0).as_dvec3();
+        let off_middle = |part: &Part<'_>| {
+            let start = part.line.cubic(part.point).at(0.0);
+            (start.radius[0] == thickest).then(|| start.position.distance_squared(middle))
+        };
+        let nearest = parts
+            .iter()
+            .filter_map(|part| Some((part, off_middle(part)?)))
+            .min_by(|one, other| one.1.total_cmp(&other.1));
+        nearest.map(|(part, _)| Self {
+            place: place(part),
+            thickness_mm: 2.0 * thickest,
+            intervals: parts.len(),
+            fill: volume / size.element_product(),
+        })
+    }
+
+    /// What the least ratio there can be at most; infinite where it is not known.
+    pub(super) fn ratio_max(&self) -> f64 {
+        if self.fill > 1.0 { self.fill.sqrt().recip() } else { f64::INFINITY }
+    }
+
+    /// The more crowded one of two; of two alike the one that comes first along the yarns.
+    pub(super) fn worse(self, other: Self) -> Self {
+        let place = |crowd: &Self| (crowd.place.yarn, crowd.place.interval);
+        let order = self.fill.total_cmp(&other.fill).then(self.intervals.cmp(&other.intervals));
+        if order.then_with(|| place(&other).cmp(&place(&self))) == Ordering::Less { other } else { self }
+    }
+}

@@ -1,0 +1,44 @@
+//! How far the measuring has come, and whether it is to stop.
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use crate::FabricError;
+
+/// Tells a caller, from whatever thread is at work, how much is done.
+pub(super) struct Watch<T> {
+    total: u64,
+    done: AtomicU64,
+    stopped: AtomicBool,
+    tell: Mutex<T>,
+}
+
+impl<T> fmt::Debug for Watch<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Watch").field("total", &self.total).field("done", &self.done).finish_non_exhaustive()
+    }
+}
+
+impl<T: FnMut(f64) -> ControlFlow<()> + Send> Watch<T> {
+    /// For work of `total` units.
+    pub(super) fn new(total: u64, tell: T) -> Self {
+        Self { total, done: AtomicU64::new(0), stopped: AtomicBool::new(false), tell: Mutex::new(tell) }
+    }
+
+    /// So many units more are done.
+    ///
+    /// **Errors**: [`FabricError::Cancelled`] once the caller has asked to stop.
+    pub(super) fn advance(&self, units: u64) -> Result<(), FabricError> {
+        self.done.fetch_add(units, Ordering::Relaxed);
+        // Whoever finds another thread telling goes on with its work.
+        if let Ok(mut tell) = self.tell.try_lock() {
+            let done = self.done.load(Ordering::Relaxed).min(self.total);
+            if tell(done as f64 / self.total.max(1) as f64).is_break() {
+                self.stopped.store(true, Ordering::Relaxed);
+            }
+        }
+        if self.stopped.load(Ordering::Relaxed) { Err(FabricError::Cancelled) } else { Ok(()) }
+    }
+}

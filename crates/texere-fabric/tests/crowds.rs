@@ -1,0 +1,288 @@
+//! How much work clearance takes: it is counted, grows with the control points, and is bounded whatever the yarns. Yarns
+//! thicker than several pitches are told as such.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
+
+mod cloths;
+mod oracle;
+
+use std::f32::consts::TAU;
+use std::ops::ControlFlow;
+
+use proptest::prelude::*;
+use texere_core::{ControlPoint, Section, Yarn, Yarns};
+use texere_fabric::{
+    CLEARANCE_BESIDE, CLEARANCE_PAIRS, Clearance, FabricError, Shape, Thread, clearance,
+    clearance_with_progress,
+};
+
+use cloths::{cloth, weave, weaves};
+use oracle::round_clearance;
+
+/// Pairs a control point that cloth may take whose yarns are clear of one another; a small cloth in one cell takes most.
+const SANE: u64 = 128;
+
+/// Plain cloth of `size` ends and picks, 0.75 mm apart.
+fn plain(shape: Shape, size: usize, diameter: f32) -> Yarns {
+    let up = weave("plain");
+    let drawdown =
+        texere_fabric::Drawdown::from_fn(size, size, |end, pick| up.up(end % 2, pick % 2)).unwrap();
+    cloth(shape, drawdown, [Thread::new(0.75, diameter / 2.0); 2], Section::Circle).yarns().unwrap()
+}
+
+fn yarns(each: impl IntoIterator<Item = (bool, Vec<[f32; 4]>)>) -> Yarns {
+    let mut yarns = Yarns::builder();
+    for (closed, points) in each {
+        let points: Vec<_> = points.iter().map(|[x, y, z, r]| ControlPoint::new(*x, *y, *z, *r)).collect();
+        yarns.yarn(Yarn { closed, ..Yarn::default() }, &points);
+    }
+    yarns.build().unwrap()
+}
+
+/// The clearance of `yarns`, whose work is bounded and whose numbers are numbers.
+fn bounded(yarns: &Yarns) -> Clearance {
+    let found = clearance(yarns, 0.0).unwrap();
+    let limit = CLEARANCE_PAIRS * yarns.points().len() as u64;
+    assert!(found.pairs <= limit, "{} pairs, more than {limit}", found.pairs);
+    assert!(found.min >= 0.0 && found.curvature_min >= 0.0, "{found:?}");
+    assert!(found.crowd.is_none_or(|crowd| crowd.fill >= 0.0), "{found:?}");
+    found
+}
+
+#[test]
+fn clear_cloth_takes_few_pairs_and_is_no_crowd() {
+    for (name, drawdown) in weaves() {
+        for shape in [Shape::Round, Shape::Crossing] {
+            // From a little over the least pitch on.
+            for pitch in [1.8, 2.5, 4.0, 6.0] {
+                let threads = [Thread::new(pitch * 0.2, 0.1); 2];
+                let yarns = cloth(shape, drawdown.clone(), threads, Section::Circle).yarns().unwrap();
+                let found = bounded(&yarns);
+                assert_eq!(found.crowd, None, "{name}");
+                let each = found.pairs / yarns.points().len() as u64;
+                assert!(each < SANE, "{name} at {pitch} diameters: {each} pairs a control point");
+            }
+        }
+    }
+}
+
+#[test]
+fn work_grows_with_the_cloth_however_thick_its_yarns() {
+    for diameter in [0.25, 0.75, 1.0, 1.5, 3.0, 25.0, 1000.0] {
+        let [small, large] = [40, 80].map(|size| {
+            let yarns = plain(Shape::Round, size, diameter);
+            (bounded(&yarns), yarns.points().len() as u64)
+        });
+        let each = large.0.pairs / large.1;
+        assert!(each < 2 * SANE, "{diameter} mm: {each} pairs a control point");
+        // Four times the cloth, a little over four times the work: it has less edge.
+        assert!(
+            large.0.pairs < 6 * small.0.pairs.max(large.1),
+            "{diameter} mm: {} and {}",
+            small.0.pairs,
+            large.0.pairs
+        );
+    }
+}
+
+#[test]
+fn yarns_thicker_than_several_pitches_are_told_with_place_and_thickness() {
+    for shape in [Shape::Round, Shape::Crossing] {
+        // Twice the pitch, four times, far too thick.
+        for diameter in [1.5f32, 3.0, 1000.0] {
+            let yarns = plain(shape, 24, diameter);
+            let found = bounded(&yarns);
+            let crowd = found.crowd.unwrap_or_else(|| panic!("{diameter} mm is no crowd"));
+            assert!(crowd.fill > 1.0 && crowd.intervals > 256, "{crowd:?}");
+            assert!((crowd.thickness_mm / f64::from(diameter) - 1.0).abs() < 1e-6, "{crowd:?}");
+            let points = yarns.yarn_points(crowd.place.yarn).unwrap();
+            let place = points[crowd.place.interval].position().as_dvec3().to_array();
+            assert_eq!(crowd.place.position, place);
+            assert!(crowd.place.source.is_some());
+            // The more yarn there is for the same room, the less of touching.
+            assert!(found.min <= crowd.fill.sqrt().recip());
+        }
+    }
+}
+
+#[test]
+fn a_crowd_is_nearer_somewhere_than_its_fill_says() {
+    for diameter in [1.4, 1.8, 2.5, 6.0] {
+        let yarns = plain(Shape::Crossing, 14, diameter);
+        let found = bounded(&yarns);
+        let crowd = found.crowd.unwrap();
+        let brute = round_clearance(&yarns, 12);
+        assert!(brute < crowd.fill.sqrt().recip(), "{diameter} mm: {brute}, but {crowd:?}");
+    }
+}
+
+#[test]
+fn one_crowd_does_not_hide_the_rest() {
+    let yarn = |x: f32, y: f32, along: [f32; 2]| {
+        let at = |t: f32| [x + along[0] * t, y + along[1] * t, 0.0, 0.1];
+        (false, (0..4).map(|k| at(k as f32)).collect::<Vec<_>>())
+    };
+    // A hundred yarns in one another, and far off two that touch to three quarters.
+    let crowded = (0..100).map(|k| yarn(0.0, 0.001 * k as f32, [0.1, 0.0]));
+    let pair = [yarn(50.0, 50.0, [1.0, 0.0]), yarn(50.0, 50.15, [1.0, 0.0])];
+    let found = bounded(&yarns(crowded.chain(pair)));
+    assert!(found.crowd.is_some_and(|crowd| crowd.place.yarn < 100 && crowd.fill > 1.0), "{found:?}");
+    assert!((found.worst[0].ratio - 0.75).abs() < 1e-4, "{:?}", found.worst[0]);
+    assert_eq!(found.worst[0].places.map(|place| place.yarn), [100, 101]);
+}
+
+#[test]
+fn a_fine_cloth_within_a_coarse_one_is_measured_like_each_of_them() {
+    let scaled = |size: usize, scale: f32| -> Vec<(bool, Vec<[f32; 4]>)> {
+        let yarns = plain(Shape::Round, size, 0.25);
+        let whole = |point: &ControlPoint| [point.x, point.y, point.z, point.radius].map(|each| each * scale);
+        let points = |yarn| (false, yarns.yarn_points(yarn).unwrap().iter().map(whole).collect());
+        (0..yarns.layout().yarns().len()).map(points).collect()
+    };
+    let (fine, coarse) = (scaled(60, 1e-3), scaled(30, 1.0));
+    // Between the coarse one's threads.
+    let moved = |(closed, points): &(bool, Vec<[f32; 4]>)| {
+        (*closed, points.iter().map(|[x, y, z, r]| [x + 0.75 - 0.02, y + 0.75 - 0.02, *z, *r]).collect())
+    };
+    let fine: Vec<_> = fine.iter().map(moved).collect();
+    let alone = [&fine, &coarse].map(|each| bounded(&yarns(each.iter().cloned())));
+    let both = bounded(&yarns(fine.iter().chain(&coarse).cloned()));
+    assert_eq!(both.crowd, None);
+    assert_eq!(both.contacts, alone[0].contacts + alone[1].contacts);
+    assert!((both.min - alone[0].min.min(alone[1].min)).abs() < 1e-9);
+}
+
+#[test]
+fn straight_yarns_of_two_points_meet_as_often_as_they_cross() {
+    // A layer of 700 on one of 800, each crossing a contact; no thread is near the one beside it.
+    let wefts = (0..700).map(|k| (false, vec![[0.0, k as f32, 0.0, 0.1], [800.0, k as f32, 0.0, 0.1]]));
+    let warps = (0..800).map(|k| (false, vec![[k as f32, 0.0, 0.19, 0.1], [k as f32, 700.0, 0.19, 0.1]]));
+    let found = bounded(&yarns(wefts.chain(warps)));
+    assert_eq!((found.crowd, found.contacts), (None, 700 * 800));
+    assert!((found.min - 0.95).abs() < 1e-6);
+    // More side by side than one is compared with: that is told, too.
+    let many = (0..2 * CLEARANCE_BESIDE).map(|k| {
+        let at = k as f32 * 0.01;
+        (false, vec![[at, at, at, 0.001], [at + 99.0, at + 100.0, at + 101.0, 0.001]])
+    });
+    let found = bounded(&yarns(many));
+    assert!(found.crowd.is_some_and(|crowd| crowd.fill < 1.0), "{:?}", found.crowd);
+}
+
+#[test]
+fn a_yarn_coiled_on_itself_ends() {
+    // 100,000 turns in one another, as thick as they would be and as thin as can be.
+    for radius in [0.1, 1e-6] {
+        let turn = |k: usize| ((k as f32 * TAU / 8.0).cos(), (k as f32 * TAU / 8.0).sin());
+        let coil = (0..800_000).map(|k| (turn(k % 8).0, turn(k % 8).1)).map(|(x, y)| [x, y, 0.0, radius]);
+        let found = bounded(&yarns([(false, coil.collect())]));
+        assert!(found.crowd.is_some(), "{found:?}");
+    }
+}
+
+#[test]
+fn points_in_one_place_end() {
+    // So many that the way along the yarn from one to another must not be gone point by point; a few beside them.
+    for count in [200, 300, 1000, 1500, 200_000] {
+        let still = std::iter::repeat_n([1.0, 1.0, 1.0, 0.1], count);
+        let beside = (0..250).map(|k| [1.0 + 1e-3 * k as f32, 1.0, 1.0, 0.1]);
+        let around = (0..250).map(|k| [1.0, 1.0 + 1e-3 * k as f32, 1.0, 0.1]);
+        for closed in [false, true] {
+            bounded(&yarns([(closed, beside.clone().chain(still.clone()).chain(around.clone()).collect())]));
+        }
+    }
+}
+
+#[test]
+fn progress_is_told_and_heard() {
+    let yarns = plain(Shape::Round, 60, 0.25);
+    let mut told = vec![0.0];
+    let found = clearance_with_progress(&yarns, 0.0, |done| {
+        told.push(done);
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert_eq!(found, clearance(&yarns, 0.0).unwrap());
+    assert!(told.is_sorted() && told.len() > 10 && told.last() == Some(&1.0), "{told:?}");
+    // Each time a little, or a user would think that it hangs.
+    assert!(told.windows(2).all(|pair| pair[1] - pair[0] < 0.3), "{told:?}");
+    let mut last = 0.0;
+    let stopped = clearance_with_progress(&yarns, 0.0, |done| {
+        last = done;
+        if done > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert_eq!(stopped, Err(FabricError::Cancelled));
+    assert!(last < 0.7, "{last}");
+}
+
+/// Numbers at the limits of what yarns take, and between.
+fn extreme() -> impl Strategy<Value = f32> {
+    prop_oneof![Just(0.0f32), Just(1e9), Just(-1e9), Just(1e-6), -1.0..1.0f32, -1e6..1e6f32]
+}
+
+fn thick() -> impl Strategy<Value = f32> {
+    prop_oneof![Just(1e-6f32), Just(1e6), 0.01..1.0f32]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn any_yarns_end(each in prop::collection::vec(
+        (any::<bool>(), prop::collection::vec(([extreme(), extreme(), extreme()], thick()), 3..6), 1..150usize),
+        1..4,
+    )) {
+        // Each yarn many times over, in the same place.
+        let each = each.into_iter().flat_map(|(closed, points, times)| {
+            let points: Vec<_> = points.into_iter().map(|([x, y, z], r)| [x, y, z, r]).collect();
+            std::iter::repeat_n((closed, points), times)
+        });
+        bounded(&yarns(each));
+    }
+
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(10))]
+
+    #[test]
+    fn what_is_swept_is_what_is_compared_pair_by_pair(
+        ends in prop::collection::vec([[0.0..10.0f32, 0.0..10.0f32, 0.0..10.0f32], [0.0..10.0f32, 0.0..10.0f32, 0.0..10.0f32]], 300..400),
+    ) {
+        // Thin straight yarns all through one another: their contacts are those of their middle lines.
+        let found = bounded(&yarns(ends.iter().map(|ends| {
+            (false, ends.iter().map(|[x, y, z]| [*x, *y, *z, 0.02]).collect::<Vec<_>>())
+        })));
+        prop_assert_eq!(found.crowd, None);
+        let near = |one: &[[f32; 3]; 2], other: &[[f32; 3]; 2]| segments_apart(one, other) / 0.04;
+        let mut contacts = 0;
+        let mut least = f64::INFINITY;
+        for (number, one) in ends.iter().enumerate() {
+            for other in &ends[..number] {
+                let ratio = near(one, other);
+                prop_assume!((ratio - 1.1).abs() > 1e-4);
+                contacts += u64::from(ratio < 1.1);
+                least = least.min(ratio);
+            }
+        }
+        prop_assert_eq!(found.contacts, contacts);
+        prop_assert!((found.min - least).abs() < 1e-4 || least > 1.1, "{} but {least}", found.min);
+    }
+}
+
+/// Distance of two straight lines between their ends, by halving the way on the one: it is convex along it.
+fn segments_apart(one: &[[f32; 3]; 2], other: &[[f32; 3]; 2]) -> f64 {
+    let [a, b] = one.map(|point| glam::Vec3::from(point).as_dvec3());
+    let [p, q] = other.map(|point| glam::Vec3::from(point).as_dvec3());
+    let apart = |t: f64| {
+        let place = a.lerp(b, t);
+        let along = ((place - p).dot(q - p) / (q - p).length_squared()).clamp(0.0, 1.0);
+        place.distance(p.lerp(q, along))
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..40 {
+        let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if apart(left) < apart(right) { high = right } else { low = left }
+    }
+    apart((low + high) / 2.0)
+}

@@ -1,0 +1,79 @@
+//! Files as they are opened: regular ones alone, and no larger than any design of their kind.
+
+use std::fs::{File, Metadata, OpenOptions};
+use std::io::Read;
+use std::path::Path;
+
+use super::ReadError;
+
+/// Opens a regular file of at most `limit` bytes. A pipe that nobody writes to would be waited for without end, and a
+/// device never ends.
+pub(super) fn open(path: &Path, limit: u64) -> Result<File, ReadError> {
+    let io = |source| ReadError::Io { file: path.into(), source };
+    // Before it is opened, as opening alone can do something to a device. After it, as the name may stand for another
+    // file by then.
+    regular(path, &std::fs::metadata(path).map_err(io)?, limit)?;
+    let file = options().open(path).map_err(io)?;
+    regular(path, &file.metadata().map_err(io)?, limit)?;
+    Ok(file)
+}
+
+/// A regular file's bytes, at most `limit` of them.
+pub(super) fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let file = open(path, limit)?;
+    let mut bytes = Vec::new();
+    // One byte more than the limit tells a file that has grown since.
+    let count = file.take(limit + 1).read_to_end(&mut bytes).map_err(|source| match source.kind() {
+        std::io::ErrorKind::OutOfMemory => {
+            ReadError::OutOfMemory { what: "a design's file", bytes: bytes.len() as u64 }
+        }
+        _ => ReadError::Io { file: path.into(), source },
+    })? as u64;
+    if count > limit {
+        return Err(ReadError::TooLarge { file: path.into(), bytes: count, limit });
+    }
+    Ok(bytes)
+}
+
+fn regular(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), ReadError> {
+    if !metadata.is_file() {
+        return Err(ReadError::NotAFile { file: path.into(), kind: kind(metadata) });
+    }
+    if metadata.len() > limit {
+        return Err(ReadError::TooLarge { file: path.into(), bytes: metadata.len(), limit });
+    }
+    Ok(())
+}
+
+#[cfg(unix)]
+fn options() -> OpenOptions {
+    use std::os::unix::fs::OpenOptionsExt;
+    let mut options = File::options();
+    // Opening a pipe then does not wait either, should one have taken the file's place.
+    options.read(true).custom_flags(libc::O_NONBLOCK);
+    options
+}
+
+#[cfg(not(unix))]
+fn options() -> OpenOptions {
+    let mut options = File::options();
+    options.read(true);
+    options
+}
+
+/// What it is that is no regular file.
+fn kind(metadata: &Metadata) -> &'static str {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        let kind = metadata.file_type();
+        if kind.is_fifo() {
+            return "a pipe";
+        } else if kind.is_socket() {
+            return "a socket";
+        } else if kind.is_char_device() || kind.is_block_device() {
+            return "a device";
+        }
+    }
+    if metadata.is_dir() { "a folder" } else { "something else" }
+}

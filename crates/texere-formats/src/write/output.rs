@@ -1,0 +1,157 @@
+//! Where a file goes, and what it must not replace there.
+
+use std::fs::{self, Metadata, OpenOptions};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use same_file::Handle;
+
+use super::WriteError;
+
+/// Where a file goes, and the files that it must not replace: those that the design was read from, for one.
+///
+/// Any path is an output that replaces whatever file lies there. All writers take one:
+///
+/// ```
+/// use texere_formats::WriteError;
+/// use texere_formats::write::{self, Output};
+/// # let folder = tempfile::tempdir()?;
+/// # let motif = folder.path().join("motif.png");
+/// write::picture([1, 1], &[0; 3], &motif)?;
+/// let error = write::picture([1, 1], &[9; 3], Output::to(&motif).sparing([&motif])).unwrap_err();
+/// assert!(matches!(error, WriteError::Spared { .. }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Output {
+    path: PathBuf,
+    spared: Vec<PathBuf>,
+}
+
+impl Output {
+    /// A file at `path`; where that is a symbolic link, the file that it leads to.
+    pub fn to(path: impl AsRef<Path>) -> Self {
+        Self { path: path.as_ref().to_owned(), spared: Vec::new() }
+    }
+
+    /// Does not replace any of `files`, under whatever name: another spelling, a hard link or a symbolic one. Those of a
+    /// design are [`Design::files`](crate::Design::files). It adds to what was spared before.
+    #[must_use]
+    pub fn sparing(mut self, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Self {
+        self.spared.extend(files.into_iter().map(|file| file.as_ref().to_owned()));
+        self
+    }
+
+    /// The path as it was given.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether a file may be put there as things are now: for a program that has much to do before it writes. Writers ask
+    /// by themselves, before they begin and again when they are done.
+    ///
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where there is no such folder, or something that no file
+    /// takes the place of.
+    pub fn check(&self) -> Result<(), WriteError> {
+        self.clone().place().map(drop)
+    }
+
+    /// The place that the path stands for, once it is known that a file may be put there.
+    pub(super) fn place(self) -> Result<Place, WriteError> {
+        let real = follow(&self.path).map_err(|source| WriteError::io("create", &self.path, source))?;
+        let place = Place { output: self, real };
+        place.check()?;
+        Ok(place)
+    }
+}
+
+impl<P: AsRef<Path>> From<P> for Output {
+    fn from(path: P) -> Self {
+        Self::to(path)
+    }
+}
+
+/// Where an output goes, all links followed.
+#[derive(Debug)]
+pub(super) struct Place {
+    output: Output,
+    pub(super) real: PathBuf,
+}
+
+impl Place {
+    /// The path as it was given.
+    pub(super) fn path(&self) -> &Path {
+        &self.output.path
+    }
+
+    /// What is to be replaced, if there is anything.
+    ///
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] for what no file may take the place of.
+    pub(super) fn check(&self) -> Result<Option<Metadata>, WriteError> {
+        let refused = |source| WriteError::io("create", self.path(), source);
+        let old = match fs::symlink_metadata(&self.real) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            old => old.map_err(refused)?,
+        };
+        if old.is_file() {
+            self.check_spared()?;
+        }
+        replaceable(&self.real, &old).map_err(refused)?;
+        Ok(Some(old))
+    }
+
+    fn check_spared(&self) -> Result<(), WriteError> {
+        let refused = |source| WriteError::io("create", self.path(), source);
+        let old =
+            self.output.spared.first().map(|_| Handle::from_path(&self.real)).transpose().map_err(refused)?;
+        for spared in &self.output.spared {
+            match Handle::from_path(spared) {
+                Ok(file) if Some(&file) == old.as_ref() => {
+                    return Err(WriteError::Spared { path: self.path().into(), spared: spared.clone() });
+                }
+                Ok(_) => {}
+                // What is gone can't be replaced.
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                Err(error) => return Err(WriteError::io("look at", spared, error)),
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the open `file` must stay.
+    pub(super) fn spares(&self, file: &Handle) -> bool {
+        self.output.spared.iter().any(|spared| Handle::from_path(spared).is_ok_and(|spared| spared == *file))
+    }
+}
+
+/// Follows symbolic links to where a file is, or would be.
+fn follow(path: &Path) -> io::Result<PathBuf> {
+    match fs::canonicalize(path) {
+        Err(error) if fs::symlink_metadata(path).is_ok() => {
+            Err(io::Error::new(error.kind(), "a symbolic link that leads nowhere, or in a circle"))
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let name = path.file_name().ok_or(error)?;
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            Ok(fs::canonicalize(folder.unwrap_or(Path::new(".")))?.join(name))
+        }
+        answer => answer,
+    }
+}
+
+/// Whether what lies at a place may be replaced: a rename would also take the place of a device, or of a file that its
+/// user may not write.
+fn replaceable(place: &Path, old: &Metadata) -> io::Result<()> {
+    if old.is_dir() {
+        Err(ErrorKind::IsADirectory.into())
+    } else if !old.is_file() {
+        Err(io::Error::new(ErrorKind::InvalidInput, "not a regular file"))
+    } else if old.permissions().readonly() {
+        // Root could write it all the same.
+        Err(io::Error::new(ErrorKind::PermissionDenied, "read-only file"))
+    } else {
+        // Only the system knows whether this user may write it. Nothing is changed by asking.
+        OpenOptions::new().write(true).open(place).map(drop)
+    }
+}

@@ -1,0 +1,76 @@
+//! What inputs are made from.
+
+/// Small drafts, each with something that the others lack.
+pub(crate) const WIF: &[&str] = &[
+    "[WIF]\nVersion=1.1\n[WEAVING]\nShafts=4\nTreadles=4\nRising Shed=true\n[WARP]\nThreads=5\nUnits=Centimeters\n\
+     Spacing=0.2\nThickness=0.1\nColor=1\n[WEFT]\nThreads=4\nUnits=Centimeters\nSpacing=0.3\nThickness=0.1\nColor=2\n\
+     [COLOR PALETTE]\nEntries=2\nRange=0,255\n[COLOR TABLE]\n1=10,20,30\n2=40,50,60\n[THREADING]\n1=1\n2=2\n3=3\n4=4\n5=1\n\
+     [TIEUP]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n[TREADLING]\n1=1\n2=2\n3=3\n4=4\n",
+    "[WEAVING]\nShafts=2\nRising Shed=0\n[WARP]\nThreads=6\nUnits=Decipoints\nSpacing=60\nThickness=60\n[WEFT]\nThreads=6\n\
+     Units=Inches\nSpacing=.083\nThickness=.083\n[WARP SPACING]\n2=30\n5=90\n[WEFT THICKNESS]\n1=.04\n3=\n[WARP COLORS]\n1=3\n\
+     2=4,1,2,3\n[COLOR TABLE]\n3=999,0,500\n[THREADING]\n1=1\n2=2\n3=1,2\n4=0\n5=1\n6=2\n[LIFTPLAN]\n1=1\n2=2\n3=1,2\n4=0,1\n",
+    "junk\n[TEXT]\nTitle=T\n[CONTENTS]\nTIEUP=true\n[THREADING]\n1=1\n2=2\n3=3\n[TIEUP]\n1=1\n2=2\n3=3\n6=1,2,3\n[TREADLING]\n\
+     1=1,6\n2=2\n3=3\n[LIFTPLAN]\n1=1\n2=2\n3=3\n[WEAVING]\nTreadles=3\nShafts=3\n[WARP]\nThreads=3\nColor=1,255,0,0\n[WEFT]\n\
+     Threads=3\n[PRIVATE X Y]\n1=2\n",
+];
+
+/// Design files by notation.
+pub(crate) const DESIGNS: &[&str] = &[
+    "name = \"Denim\"\n[weave]\nnotation = \"3/1\"\nends = 7\npicks = 5\n[yarns.indigo]\ntex = 84.0\ncolor = \"#2b3f6b\"\n\
+     twist_per_m = -500.0\n[yarns.ecru]\ndiameter_mm = 0.25\nplies = 2\n[warp]\nyarns = [\"2 indigo\", \"ecru\"]\nper_cm = 12.5\n\
+     [weft]\nyarns = [\"ecru\"]\nspacing_mm = 1.25\n",
+    "[weave]\nnotation = \"satin 8(3)\"\nends = 9\npicks = 8\n[cloth]\nshape = \"crossing\"\nwarp_crimp = 0.3\nselvedge = true\n\
+     jam = \"flatten\"\n[yarns.a]\ndiameter_mm = 0.3\nsection = { shape = \"ellipse\", aspect = 1.4 }\n[yarns.b]\ndiameter_mm = 0.3\n\
+     section = { shape = \"lenticular\", aspect = 2.0, distortion = 0.2 }\n[warp]\nyarns = [\"a\", \"3 b\"]\nspacing_mm = [0.9, 0.3]\n\
+     [weft]\nyarns = [\"b\"]\nper_cm = 20\n",
+    "[weave]\nnotation = \"herringbone 2/2(4)\"\nends = 8\npicks = 8\n[cloth]\nshape = \"round\"\njam = \"shrink\"\n[yarns.p]\n\
+     diameter_mm = 0.4\nsection = { shape = \"polygon\", corners = [[1.0, -0.5], [1.0, 0.5], [-1.0, 0.5], [-1.0, -0.5]] }\n\
+     [yarns.q]\ntex = 20\nsection = { shape = \"power-ellipse\", aspect = 2.0, exponent = 0.6 }\n[warp]\nyarns = [\"p\"]\n\
+     spacing_mm = 0.5\n[weft]\nyarns = [\"p\"]\nspacing_mm = 0.5\n",
+];
+
+/// Design files with an image `motif.png` or a draft `draft.wif` beside them.
+pub(crate) const PAPERS: &[&str] = &[
+    "[weave]\nimage = \"motif.png\"\n[yarns.a]\ndiameter_mm = 0.2\n[warp]\nyarns = [\"a\"]\nspacing_mm = 0.6\n[weft]\nyarns = [\"a\"]\n\
+     spacing_mm = 0.6\n",
+    "[weave]\nimage = \"motif.png\"\nrows = \"first-pick-first\"\nrepeat = [2, 1]\n[weave.colors]\n\"#000000\" = \"3/1\"\n\
+     \"#ffffff\" = \"sateen 5(2)\"\n\"#c81020\" = \"plain\"\n[yarns.a]\ndiameter_mm = 0.2\n[yarns.b]\ntex = 30\ncolor = \"#010203\"\n\
+     [warp]\nyarns = [\"2 a\", \"b\"]\nspacing_mm = 0.6\n[weft]\nyarns = [\"b\"]\nper_cm = 15\n",
+    "[weave]\nwif = \"draft.wif\"\n[cloth]\njam = \"shrink\"\nselvedge = true\n[yarns.a]\ndiameter_mm = 0.1\ncolor = \"#010203\"\n\
+     [weft]\nyarns = [\"a\"]\nper_cm = 20.0\n",
+];
+
+/// Weaves, each of another form.
+pub(crate) const NOTATIONS: &[&str] = &[
+    "plain",
+    "3/1",
+    "2/2(1)",
+    "1/3(-1)",
+    "3/1*1/2(2)",
+    "2/2(2+2)",
+    "satin 8(3)",
+    "sateen 5",
+    "matt 2",
+    "hopsack 3/2",
+    "herringbone 2/2(16)",
+    "pointed 3/1(4)",
+    "honeycomb",
+    "crepe",
+    "twill 2/1",
+];
+
+/// A sound design in the weave `notation`, which may hold anything.
+pub(crate) fn design_of(notation: &str) -> String {
+    let quoted: String = notation
+        .chars()
+        .map(|letter| match letter {
+            '"' | '\\' => format!("\\{letter}"),
+            _ if letter.is_control() => format!("\\u{:04x}", u32::from(letter)),
+            _ => letter.into(),
+        })
+        .collect();
+    format!(
+        "[weave]\nnotation = \"{quoted}\"\nends = 9\npicks = 7\n[yarns.a]\ndiameter_mm = 0.2\n[warp]\nyarns = [\"a\"]\n\
+         spacing_mm = 0.6\n[weft]\nyarns = [\"a\"]\nspacing_mm = 0.6\n"
+    )
+}

@@ -1,0 +1,128 @@
+//! From a file to all that is made of it.
+
+use std::error::Error;
+use std::path::Path;
+
+use texere_core::{Pipeline, PipelineError, PlanError, Section, Topology};
+use texere_cpu::ParallelBackend;
+use texere_fabric::{Measures, Woven, clearance};
+use texere_formats::{Structure, read};
+
+/// The most crossings of a cloth whose yarns are made, and the most control points of one whose mesh is.
+const CROSSINGS: usize = 2_000;
+const POINTS: usize = 10_000;
+
+/// Yarns wider than so many pitches meet so many others that clearance takes long, and nothing new is seen.
+const PITCHES: f64 = 3.0;
+
+/// What became of a design.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// It was refused: the error and its causes.
+    Refused(String),
+    /// It was read, but is larger than what is worked on here.
+    Large,
+    /// Its yarns were refused.
+    NoYarns(String),
+    /// It went all the way.
+    Taken,
+}
+
+/// Reads the design in `path` and goes on as far as its size lets it.
+///
+/// # Panics
+///
+/// Where an error is long or would steer a terminal, a draft is not its cloth's, or a mesh has numbers that are none.
+#[must_use]
+pub fn drive(path: &Path) -> Outcome {
+    let mut design = match read(path) {
+        Ok(design) => design,
+        Err(error) => return Outcome::Refused(told(&error)),
+    };
+    for warning in design.warnings() {
+        assert!(warning.chars().count() < 600, "a warning of {} characters", warning.chars().count());
+    }
+    let Structure::Woven(woven) = &design.structure else { return Outcome::Large };
+    if woven.warp().len() * woven.weft().len() > CROSSINGS {
+        return Outcome::Large;
+    }
+    if let Some(draft) = &design.draft {
+        assert_eq!(draft.drawdown().as_ref(), Ok(woven.drawdown()), "a draft that is another cloth's");
+    }
+    let outcome = cloth(woven);
+    // Another section instead, and everything again where that is taken.
+    if design.set_section(Section::Ellipse { aspect: 1.5 }).is_ok()
+        && let Structure::Woven(woven) = &design.structure
+    {
+        let _ = cloth(woven);
+    }
+    outcome
+}
+
+/// Yarns, mesh, measures and clearance of a small cloth.
+fn cloth(woven: &Woven) -> Outcome {
+    let yarns = match woven.yarns() {
+        Ok(yarns) => yarns,
+        Err(error) => return Outcome::NoYarns(told(&error)),
+    };
+    assert_eq!(woven.point_count(), yarns.points().len() as u64, "points that were not counted");
+    if yarns.points().len() > POINTS {
+        return Outcome::Large;
+    }
+    let corners = woven.sections().iter().find_map(|section| match section {
+        Section::Polygon(corners) => Some(corners.len() as u32),
+        _ => None,
+    });
+    let pipeline = Pipeline::new(&yarns)
+        .sides(corners.unwrap_or(5))
+        .subdivisions(1)
+        .topology(Topology::Indexed)
+        .caps(true);
+    match pipeline.mesh(&ParallelBackend::new()) {
+        Ok(mesh) => {
+            let whole = |vertex: &texere_core::Vertex| {
+                vertex.position.iter().chain(&vertex.normal).all(|value| value.is_finite())
+            };
+            assert!(mesh.vertices.iter().all(whole), "a vertex that is no place");
+        }
+        Err(PipelineError::Plan(PlanError::PolygonSides { .. })) => {}
+        Err(error) => panic!("a mesh that could not be made: {}", told(&error)),
+    }
+    let _ = Measures::new(woven, &yarns, 0.0);
+    if !is_crowded(woven) {
+        let report = clearance(&yarns, 0.0).expect("clearance of sound yarns");
+        assert!(report.min >= 0.0 && report.curvature_min >= 0.0, "{report:?}");
+    }
+    Outcome::Taken
+}
+
+/// Whether a yarn is wider than several pitches, of either set.
+fn is_crowded(woven: &Woven) -> bool {
+    let threads = || woven.warp().iter().chain(woven.weft());
+    let widest = woven
+        .sections()
+        .iter()
+        .map(|section| section.half_width().max(section.half_height()))
+        .fold(0.0, f32::max);
+    let thickest = threads().map(|thread| thread.radius_mm).fold(0.0, f32::max);
+    let closest = threads().map(|thread| thread.spacing_mm).fold(f64::INFINITY, f64::min);
+    2.0 * f64::from(widest * thickest) > PITCHES * closest
+}
+
+/// An error and its causes, each of which fits a line or two.
+fn told(error: &dyn Error) -> String {
+    let mut told = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        let message = error.to_string();
+        assert!(
+            message.chars().count() < 400,
+            "a message of {} characters: {message:.200}",
+            message.chars().count()
+        );
+        told = format!("{told}: {message}");
+        cause = error.source();
+    }
+    assert!(!told.contains(|letter: char| letter.is_control()), "a message that steers a terminal: {told:?}");
+    told
+}

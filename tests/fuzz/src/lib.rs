@@ -1,0 +1,84 @@
+//! Designs that nobody would write, made from ones that somebody would: whatever a reader takes goes on through yarns,
+//! plan, mesh and clearance, and whatever it refuses has a short error. Nothing panics, hangs or takes a great deal of memory.
+//!
+//! An input is made from a reader and a number alone, so that a failure's number makes it again:
+//!
+//! ```
+//! use texere_fuzz::{Input, Reader};
+//! assert_eq!(Input::new(Reader::Wif, 7), Input::new(Reader::Wif, 7));
+//! ```
+
+mod corpus;
+mod drive;
+mod image_bytes;
+mod text;
+mod watch;
+
+pub use drive::{Outcome, drive};
+pub use watch::fuzz;
+
+/// What is fed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reader {
+    /// WIF drafts.
+    Wif,
+    /// Design files with a notation.
+    Design,
+    /// The notation of a weave, in a design that is sound otherwise.
+    Notation,
+    /// Point paper, in a design that is sound otherwise.
+    Image,
+    /// Design files with an image or a WIF draft, both mutated.
+    Paper,
+}
+
+impl Reader {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Wif, Self::Design, Self::Notation, Self::Image, Self::Paper];
+
+    /// Its name, in lower case.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Wif => "wif",
+            Self::Design => "design",
+            Self::Notation => "notation",
+            Self::Image => "image",
+            Self::Paper => "paper",
+        }
+    }
+}
+
+/// A mutated design: files of one folder, the one that is read first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Input {
+    /// Names and bytes.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+}
+
+impl Input {
+    /// The input with that number.
+    #[must_use]
+    pub fn new(reader: Reader, number: u64) -> Self {
+        let mut random = fastrand::Rng::with_seed(number);
+        let random = &mut random;
+        let files = match reader {
+            Reader::Wif => vec![("design.wif", text::mutated(corpus::WIF, random))],
+            Reader::Design => vec![("design.toml", text::mutated(corpus::DESIGNS, random))],
+            Reader::Notation => {
+                let notation = text::notation(random);
+                vec![("design.toml", corpus::design_of(&notation).into_bytes())]
+            }
+            Reader::Image => {
+                let design = random.choice(corpus::PAPERS).copied().unwrap_or_default();
+                vec![("design.toml", design.into()), ("motif.png", image_bytes::mutated(random))]
+            }
+            Reader::Paper => vec![
+                ("design.toml", text::mutated(corpus::PAPERS, random)),
+                ("motif.png", image_bytes::mutated(random)),
+                ("draft.wif", text::mutated(corpus::WIF, random)),
+            ],
+        };
+        Self { files }
+    }
+}

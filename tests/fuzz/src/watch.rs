@@ -1,0 +1,99 @@
+//! Many inputs, one after the other, under watch.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use peak_alloc::PeakAlloc;
+
+use crate::{Input, Outcome, Reader, drive};
+
+/// How long an input may take: a hundred times as long as any takes here, so that only what hangs is caught.
+const LIMIT: Duration = Duration::from_secs(20);
+
+/// The most memory that the whole program may have taken with an input, MiB.
+const MEMORY_MIB: f32 = 1024.0;
+
+/// Runs the inputs numbered `numbers` and gives back how many were taken.
+///
+/// `heap` counts the program's memory. The files of an input that fails are kept in `kept`, a folder.
+///
+/// # Panics
+///
+/// At the first input that panics or takes more memory than it may. One that hangs ends the program, after its files have
+/// been kept: nothing else can stop it.
+#[must_use]
+pub fn fuzz(reader: Reader, numbers: std::ops::Range<u64>, heap: &PeakAlloc, kept: &Path) -> u64 {
+    let folder = tempfile::tempdir().expect("a folder for inputs");
+    let now = Arc::new(Mutex::new((Instant::now(), numbers.start)));
+    let ended = Arc::new(AtomicU64::new(0));
+    let watch = watch(reader, Arc::clone(&now), Arc::clone(&ended), kept.into());
+    let mut taken = 0;
+    for number in numbers {
+        *now.lock().expect("the watch") = (Instant::now(), number);
+        let input = Input::new(reader, number);
+        let path = write(&input, folder.path());
+        heap.reset_peak_usage();
+        let outcome = catch_unwind(AssertUnwindSafe(|| drive(&path)));
+        let peak = heap.peak_usage_as_mb();
+        let failed = match outcome {
+            Err(_) => Some("panics".to_owned()),
+            Ok(_) if peak > MEMORY_MIB => Some(format!("takes {peak} MiB")),
+            Ok(outcome) => {
+                taken += u64::from(outcome == Outcome::Taken);
+                None
+            }
+        };
+        if let Some(failed) = failed {
+            panic!("{} input {number} {failed}; it is kept in {}", reader.name(), keep(reader, number, kept));
+        }
+    }
+    ended.store(1, Ordering::Relaxed);
+    watch.join().expect("the watch");
+    taken
+}
+
+/// Looks twice a second at how long the present input has been worked on.
+fn watch(
+    reader: Reader,
+    now: Arc<Mutex<(Instant, u64)>>,
+    ended: Arc<AtomicU64>,
+    kept: PathBuf,
+) -> std::thread::JoinHandle<()> {
+    std::thread::spawn(move || {
+        while ended.load(Ordering::Relaxed) == 0 {
+            std::thread::sleep(Duration::from_millis(500));
+            let (since, number) = *now.lock().expect("the watch");
+            if since.elapsed() > LIMIT && Arc::strong_count(&now) > 1 {
+                let place = keep(reader, number, &kept);
+                eprintln!(
+                    "{} input {number} takes more than {LIMIT:?}; it is kept in {place}",
+                    reader.name()
+                );
+                std::process::abort();
+            }
+            // The one that fed inputs has panicked.
+            if Arc::strong_count(&now) == 1 {
+                return;
+            }
+        }
+    })
+}
+
+/// Writes an input's files to `folder`; the path of the one that is read.
+fn write(input: &Input, folder: &Path) -> PathBuf {
+    for (name, bytes) in &input.files {
+        std::fs::write(folder.join(name), bytes).expect("an input's file");
+    }
+    folder.join(input.files[0].0)
+}
+
+/// Keeps an input's files.
+fn keep(reader: Reader, number: u64, kept: &Path) -> String {
+    let folder = kept.join(format!("{}-{number}", reader.name()));
+    std::fs::create_dir_all(&folder).expect("a folder for what failed");
+    write(&Input::new(reader, number), &folder);
+    folder.display().to_string()
+}

@@ -1,0 +1,40 @@
+//! Ten thousand inputs for each reader. A failure tells the input's number, which makes it again.
+
+use std::path::Path;
+
+use peak_alloc::PeakAlloc;
+use texere_fuzz::{Reader, fuzz};
+
+#[global_allocator]
+static HEAP: PeakAlloc = PeakAlloc;
+
+fn ten_thousand(reader: Reader) {
+    let taken = fuzz(reader, 0..10_000, &HEAP, Path::new(env!("CARGO_TARGET_TMPDIR")));
+    // Mutations are small, so that much of what is fed gets far; least where a design and its image are both mutated.
+    assert!(taken > 300, "only {taken} were taken");
+}
+
+#[test]
+fn wif_drafts() {
+    ten_thousand(Reader::Wif);
+}
+
+#[test]
+fn design_files() {
+    ten_thousand(Reader::Design);
+}
+
+#[test]
+fn notations() {
+    ten_thousand(Reader::Notation);
+}
+
+#[test]
+fn images() {
+    ten_thousand(Reader::Image);
+}
+
+#[test]
+fn designs_with_images_and_drafts() {
+    ten_thousand(Reader::Paper);
+}

@@ -95,7 +95,6 @@ const FAST: &[Entry] = &[Entry::near("fast", || sabotaged(Sabotage::FastClock))]
 
 const WASTEFUL: &[Entry] = &[Entry::near("wasteful", || sabotaged(Sabotage::WholeUpload))];
 
-
 const STALE: &[Entry] = &[Entry::near("stale", || sabotaged(Sabotage::LostEdit))];
 
 const EAGER: &[Entry] = &[Entry::near("eager", || sabotaged(Sabotage::Eager))];

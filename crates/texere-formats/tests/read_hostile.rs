@@ -77,6 +77,7 @@ fn work_grows_with_the_file_and_memory_with_the_picture() {
     // One test, so that nothing beside it takes memory.
     thousands_of_weaves();
     profile_that_inflates();
+    short_file_of_many_pixels();
     lists_that_repeat();
     long_names();
     unused_yarns();
@@ -123,6 +124,22 @@ fn profile_that_inflates() {
         });
         assert!(peak < 64.0, "{kind:?}: {peak} MiB");
     }
+}
+
+/// A PNG that says it has 268 million pixels, and has none.
+fn short_file_of_many_pixels() {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 4096, 65_535);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header().unwrap().write_chunk(png::chunk::IDAT, &[]).unwrap();
+    let folder = file("motif.png", bytes);
+    let path = folder.path().join("design.toml");
+    std::fs::write(&path, format!("[weave]\nimage = \"motif.png\"\n{THREADS}")).unwrap();
+    let peak = peak_mib(move || {
+        let error = soon(move || read(path)).unwrap_err();
+        assert!(told(&error).contains("bytes are too few for 4096 × 65535 pixels"), "{}", told(&error));
+    });
+    assert!(peak < 64.0, "{peak} MiB");
 }
 
 fn lists_that_repeat() {

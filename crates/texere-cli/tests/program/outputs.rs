@@ -109,8 +109,11 @@ mod unix {
 
     /// The program, making a mesh that takes it seconds.
     fn meshing(folder: &Path, shell: &str) -> Child {
-        let program = Command::new("sh")
-            .args(["-c", &format!("{shell} exec \"$@\""), "sh", env!("CARGO_BIN_EXE_texere")])
+        // Whoever started the tests may have had signals ignored, as a shell has that of what it runs in the background.
+        let heard = cfg!(target_os = "linux").then_some(["--default-signal=INT,TERM,HUP"]);
+        let program = Command::new("env")
+            .args(heard.into_iter().flatten())
+            .args(["sh", "-c", &format!("{shell} exec \"$@\""), "sh", env!("CARGO_BIN_EXE_texere")])
             .args(["mesh", &design("paper/1630x1500.toml"), "--device", "cpu-serial", "-o"])
             .arg(folder.join("cloth.ply"))
             .stdout(Stdio::null())

@@ -27,14 +27,28 @@ impl Place {
 /// Characters of a text from a file that an error shows.
 const SHOWN: usize = 60;
 
+/// Characters of what a parser or decoder says that an error shows.
+const SAID: usize = 160;
+
 /// Characters of a path that an error shows.
 const PATH_SHOWN: usize = 160;
 
 /// A file's text as errors show it: on one line, without codes that would steer a terminal, cut where it is long.
 pub(super) fn shown(text: &str) -> String {
-    let end = text.char_indices().nth(SHOWN).map_or(text.len(), |(end, _)| end);
+    cut(text, SHOWN)
+}
+
+/// The first `most` characters of a text, control characters written out.
+fn cut(text: &str, most: usize) -> String {
+    let end = text.char_indices().nth(most).map_or(text.len(), |(end, _)| end);
     let (text, rest) = text.split_at(end);
     plain(text) + if rest.is_empty() { "" } else { "…" }
+}
+
+/// What a parser or decoder says, as errors show it: on one line, cut where it is long.
+pub(super) fn said(message: &str) -> String {
+    let words = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    cut(&plain(&words), SAID)
 }
 
 /// A path as errors show it; of a long one the end tells most.

@@ -5,10 +5,11 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use image::{ColorType, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{ColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use serde::Deserialize;
 use texere_fabric::THREADS_MAX;
 
+use super::error::said;
 use super::{ReadError, file, room};
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
@@ -23,6 +24,10 @@ const ASIDE_MAX: u64 = 1 << 25;
 
 /// The largest image file that is read: one that is not compressed.
 const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
+
+/// The most pixels that a byte of a file stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
+/// one bit. So a short file takes no memory for pixels that it can't have.
+const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// The most colours of a point paper: what a byte numbers. A weaver tells far fewer apart.
 const COLORS_MAX: usize = 256;
@@ -144,8 +149,14 @@ struct Image {
 impl Image {
     fn decode(path: &Path) -> Result<Self, ReadError> {
         let io = |source| ReadError::Io { file: path.into(), source };
-        let undecodable = |source| ReadError::Image { file: path.into(), source: Box::new(source) };
-        let file = BufReader::new(file::open(path, FILE_LIMIT)?);
+        // Decoders say much, and what a file says, too.
+        let undecodable = |error: ImageError| ReadError::Image {
+            file: path.into(),
+            source: said(&error.to_string()).into(),
+        };
+        let file = file::open(path, FILE_LIMIT)?;
+        let file_bytes = file.metadata().map_err(io)?.len();
+        let file = BufReader::new(file);
         let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
         if reader.format() == Some(ImageFormat::Png) {
             let mut file = reader.into_inner();
@@ -167,6 +178,10 @@ impl Image {
         if width.max(height) > side_limit || u64::from(width) * u64::from(height) > PIXELS_MAX {
             let file = path.into();
             return Err(ReadError::ImageTooLarge { file, width, height, side_limit, limit: PIXELS_MAX });
+        }
+        if u64::from(width) * u64::from(height) > PIXELS_PER_BYTE * file_bytes {
+            let source = format!("its {file_bytes} bytes are too few for {width} × {height} pixels");
+            return Err(ReadError::Image { file: path.into(), source: source.into() });
         }
         let (kind, size) = (decoder.color_type(), decoder.total_bytes());
         limits.max_alloc = Some(MEMORY_MAX);

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use texere_fabric::{FabricError, Weave};
 use toml::Spanned;
 
-use crate::read::error::shown;
+use crate::read::error::{said, shown};
 use crate::read::point_paper::RowOrder;
 use crate::read::{Place, ReadError};
 
@@ -123,12 +123,12 @@ impl<'a> Source<'a> {
             match (field, expected_instead(&message)) {
                 (Some(field), Some(expected)) => self.unfit(field, span, &expected),
                 (Some(field), None) => {
-                    ReadError::Value { place: self.place(field, span), message: one_line(&message) }
+                    ReadError::Value { place: self.place(field, span), message: said(&message) }
                 }
                 (None, _) => ReadError::Syntax {
                     file: self.path.into(),
                     line: self.line(span),
-                    message: one_line(&message),
+                    message: said(&message),
                 },
             }
         })
@@ -274,11 +274,4 @@ fn expected_instead(message: &str) -> Option<String> {
         }
         other => shown(other),
     })
-}
-
-/// What a parser says, on one line of sane length.
-fn one_line(message: &str) -> String {
-    const MOST: usize = 160;
-    let words = message.split_whitespace().collect::<Vec<_>>().join(" ");
-    words.chars().filter(|character| !character.is_control()).take(MOST).collect()
 }

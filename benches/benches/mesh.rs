@@ -58,8 +58,8 @@ fn reused(
 ) {
     let (plan, chunks) = plan(yarns, settings).unwrap();
     let (chunk, elements) = (&chunks[0], plan.counts().triangles);
-    let mut vertices = texere_core::zeroed("vertices", chunk.vertices.into()).unwrap();
-    let mut indices = texere_core::zeroed("indices", chunk.indices.into()).unwrap();
+    let mut vertices = texere_core::zeroed("vertices", chunk.vertices().into()).unwrap();
+    let mut indices = texere_core::zeroed("indices", chunk.indices().into()).unwrap();
     let bytes = (size_of_val(&vertices[..]) + size_of_val(&indices[..])) as u64;
     // What lies in the caches instead, where nothing of the mesh shall.
     let mut others = vec![0u32; if stage == "mesh-cold" { CACHES } else { 0 }];

@@ -12,10 +12,10 @@ pub mod tables;
 use std::sync::Arc;
 
 use texere::{
-    Backend, BackendError, FabricError, Limits, Material, Plan, PlanError, Section, Settings, Shape, Thread,
-    Weave, Woven, Yarn, YarnError, Yarns,
+    Backend, FabricError, Limits, Material, Plan, PlanError, Section, Settings, Shape, Thread, Weave, Woven,
+    Yarn, YarnError, Yarns,
 };
-use texere_core::{Chunk, Session};
+use texere_core::{Chunk, Session, SessionError};
 
 /// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth, its middle one, and its largest.
 pub const SIZES: [(usize, usize); 3] = [(163, 150), (815, 750), (2880, 1840)];
@@ -65,13 +65,9 @@ pub fn plan(yarns: &Yarns, settings: Settings) -> Result<(Arc<Plan>, Vec<Chunk>)
 
 /// A session on `device` that holds `yarns`, uploaded and scanned.
 ///
-/// **Errors**: [`BackendError`] from the device.
-pub fn session(
-    device: &dyn Backend,
-    plan: &Arc<Plan>,
-    yarns: &Yarns,
-) -> Result<Box<dyn Session>, BackendError> {
-    let mut session = device.session(plan.clone())?;
+/// **Errors**: [`SessionError`] from the device.
+pub fn session(device: &dyn Backend, plan: &Arc<Plan>, yarns: &Yarns) -> Result<Session, SessionError> {
+    let mut session = Session::new(device, plan.clone())?;
     session.upload(0, yarns.points())?;
     session.scan()?;
     Ok(session)

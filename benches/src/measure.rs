@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, BackendError, Limits, Plan, PlanError, Settings, Yarns};
-use texere_core::{Chunk, Session, StageTimings};
+use texere::{Backend, Limits, Plan, PlanError, Settings, Yarns};
+use texere_core::{Chunk, Session, SessionError, StageTimings};
 use thiserror::Error;
 
 use crate::median;
@@ -19,7 +19,7 @@ pub enum MeasureError {
     Plan(#[from] PlanError),
     /// The device gave up.
     #[error(transparent)]
-    Backend(#[from] BackendError),
+    Session(#[from] SessionError),
 }
 
 /// A fabric on a device, ready to be meshed again and again.
@@ -28,7 +28,7 @@ pub struct Bench {
     /// Its plan.
     pub plan: Arc<Plan>,
     chunks: Vec<Chunk>,
-    session: Box<dyn Session>,
+    session: Session,
     yarns: Yarns,
     /// Getting memory and sending tables, by the host's clock.
     pub creation: Duration,
@@ -45,7 +45,7 @@ impl Bench {
         let limits = device.info().limits.min(&Limits { memory_bytes: HOST_SHARE, ..Limits::NONE });
         let chunks = plan.chunks(&limits)?.collect();
         let start = Instant::now();
-        let mut session = device.session(plan.clone())?;
+        let mut session = Session::new(device, plan.clone())?;
         let creation = start.elapsed();
         let start = Instant::now();
         session.upload(0, yarns.points())?;
@@ -57,16 +57,16 @@ impl Bench {
 
     /// Scan and mesh once, both stages fused where the device fuses them. Times of this run alone.
     ///
-    /// **Errors**: [`BackendError`] from the device.
-    pub fn fused(&mut self) -> Result<StageTimings, BackendError> {
+    /// **Errors**: [`SessionError`] from the device.
+    pub fn fused(&mut self) -> Result<StageTimings, SessionError> {
         self.run(|session, chunk| session.mesh(chunk))
     }
 
     /// Scan, then stage 1 and stage 2 one after the other for each chunk. Times of this run alone; a device that always
     /// fuses does stage 1 twice.
     ///
-    /// **Errors**: [`BackendError`] from the device.
-    pub fn staged(&mut self) -> Result<StageTimings, BackendError> {
+    /// **Errors**: [`SessionError`] from the device.
+    pub fn staged(&mut self) -> Result<StageTimings, SessionError> {
         self.run(|session, chunk| {
             session.trajectory(chunk)?;
             session.mesh(chunk)
@@ -75,14 +75,14 @@ impl Bench {
 
     fn run(
         &mut self,
-        stages: impl Fn(&mut dyn Session, &Chunk) -> Result<(), BackendError>,
-    ) -> Result<StageTimings, BackendError> {
+        stages: impl Fn(&mut Session, &Chunk) -> Result<(), SessionError>,
+    ) -> Result<StageTimings, SessionError> {
         // An upload makes the session forget what it has made; one point costs next to nothing.
         self.session.upload(0, &self.yarns.points()[..1])?;
         let before = self.session.timings();
         self.session.scan()?;
         for chunk in &self.chunks {
-            stages(&mut *self.session, chunk)?;
+            stages(&mut self.session, chunk)?;
         }
         let after = self.session.timings();
         Ok(StageTimings {
@@ -97,8 +97,8 @@ impl Bench {
     /// Sends all control points again, and gives back the time that takes by the host's clock until they are there, which
     /// the session's timings wait for.
     ///
-    /// **Errors**: [`BackendError`] from the device.
-    pub fn send(&mut self) -> Result<Duration, BackendError> {
+    /// **Errors**: [`SessionError`] from the device.
+    pub fn send(&mut self) -> Result<Duration, SessionError> {
         let start = Instant::now();
         self.session.upload(0, self.yarns.points())?;
         self.session.timings();
@@ -108,8 +108,8 @@ impl Bench {
     /// Reads the whole mesh, piece by piece, and gives back the time that takes by the host's clock: the bytes are lent
     /// where the driver puts them, and not looked at.
     ///
-    /// **Errors**: [`BackendError`] from the device.
-    pub fn read(&mut self) -> Result<Duration, BackendError> {
+    /// **Errors**: [`SessionError`] from the device.
+    pub fn read(&mut self) -> Result<Duration, SessionError> {
         let mut time = Duration::ZERO;
         for chunk in &self.chunks {
             self.session.mesh(chunk)?;

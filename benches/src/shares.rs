@@ -21,7 +21,7 @@ struct Case {
     name: &'static str,
     plan: Arc<Plan>,
     chunks: Vec<Chunk>,
-    session: Box<dyn Session>,
+    session: Session,
     rounds: Vec<Round>,
 }
 
@@ -93,7 +93,7 @@ impl Case {
         yarns: &Yarns,
         vertices: &mut [Vertex],
         indices: &mut [u32],
-    ) -> Result<Round, texere::BackendError> {
+    ) -> Result<Round, texere_core::SessionError> {
         let start = Instant::now();
         texere_cpu::fill(bytemuck::cast_slice_mut(vertices), 1.0);
         texere_cpu::fill(bytemuck::cast_slice_mut(indices), 1.0);
@@ -108,8 +108,8 @@ impl Case {
         let start = Instant::now();
         let (mut vertices, mut indices) = (vertices, indices);
         for chunk in &self.chunks {
-            let (own_vertices, others) = vertices.split_at_mut(chunk.vertices as usize);
-            let (own_indices, other_indices) = indices.split_at_mut(chunk.indices as usize);
+            let (own_vertices, others) = vertices.split_at_mut(chunk.vertices() as usize);
+            let (own_indices, other_indices) = indices.split_at_mut(chunk.indices() as usize);
             (vertices, indices) = (others, other_indices);
             self.session.mesh_into(chunk, MeshMut { vertices: own_vertices, indices: own_indices })?;
         }

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut jobs = Vec::new();
     for (name, yarns) in &fabrics {
         let (plan, chunks) = plan(yarns, Settings::default())?;
-        let largest = chunks.iter().map(|chunk| (chunk.vertices as usize, chunk.indices as usize));
+        let largest = chunks.iter().map(|chunk| (chunk.vertices() as usize, chunk.indices() as usize));
         let (most_vertices, most_indices) = largest
             .fold((vertices.len(), indices.len()), |most, here| (most.0.max(here.0), most.1.max(here.1)));
         vertices.resize(most_vertices, Vertex::default());
@@ -37,8 +37,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         for (_, session, _, chunks, times) in &mut jobs {
             let start = Instant::now();
             for chunk in &*chunks {
-                let vertices = &mut vertices[..chunk.vertices as usize];
-                let indices = &mut indices[..chunk.indices as usize];
+                let vertices = &mut vertices[..chunk.vertices() as usize];
+                let indices = &mut indices[..chunk.indices() as usize];
                 session.mesh_into(chunk, MeshMut { vertices, indices })?;
             }
             times.push(start.elapsed().as_secs_f64());

@@ -57,15 +57,15 @@ impl Worst {
 fn compare(yarns: &Yarns, device: &dyn Backend) -> Worst {
     let radius = yarns.points().iter().map(|point| point.radius).fold(f32::MAX, f32::min);
     let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default()).unwrap());
-    let mut gold = texere::open("cpu").unwrap().session(plan.clone()).unwrap();
+    let mut gold = Session::new(&*texere::open("cpu").unwrap(), plan.clone()).unwrap();
     gold.upload(0, yarns.points()).unwrap();
     gold.scan().unwrap();
 
     let mut worst = Worst::default();
     let mut expected: Option<Expected> = None;
     let flow = Pipeline::new(yarns).stream(device, |chunk, piece| {
-        if expected.as_ref().is_none_or(|expected| expected.chunk != chunk.index) {
-            expected = Some(Expected::new(&mut *gold, chunk));
+        if expected.as_ref().is_none_or(|expected| expected.chunk != chunk.index()) {
+            expected = Some(Expected::new(&mut gold, chunk));
             worst.chunks += 1;
         }
         worst.take(expected.as_ref().unwrap(), piece, radius);
@@ -90,11 +90,11 @@ struct Expected {
 }
 
 impl Expected {
-    fn new(gold: &mut dyn Session, chunk: &Chunk) -> Self {
-        let mut vertices = zeroed("vertices", chunk.vertices.into()).unwrap();
-        let mut indices = zeroed("indices", chunk.indices.into()).unwrap();
+    fn new(gold: &mut Session, chunk: &Chunk) -> Self {
+        let mut vertices = zeroed("vertices", chunk.vertices().into()).unwrap();
+        let mut indices = zeroed("indices", chunk.indices().into()).unwrap();
         gold.mesh_into(chunk, MeshMut { vertices: &mut vertices, indices: &mut indices }).unwrap();
-        Self { chunk: chunk.index, vertices, indices }
+        Self { chunk: chunk.index(), vertices, indices }
     }
 }
 

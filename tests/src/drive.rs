@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_core::{
-    Backend, BackendError, Chunk, Limits, MeshMut, MeshPiece, Plan, PlanError, Ring, Session, Turn, Vertex,
-    Yarns,
+    Backend, Chunk, Engine, Limits, MeshMut, MeshPiece, Plan, PlanError, Ring, Session, SessionError, Turn,
+    Vertex, Yarns,
 };
 use thiserror::Error;
 
@@ -18,9 +18,9 @@ pub enum DriveError {
     /// The case's settings can't be planned for, or its chunks don't fit the device.
     #[error("the case can't be planned")]
     Plan(#[from] PlanError),
-    /// The backend failed.
-    #[error("the backend failed")]
-    Backend(#[from] BackendError),
+    /// The session, or the backend behind it, failed.
+    #[error("the session failed")]
+    Session(#[from] SessionError),
 }
 
 /// A NaN that no arithmetic makes: what it covers was never written.
@@ -77,9 +77,9 @@ pub struct ChunkOutput {
 impl ChunkOutput {
     fn poisoned(chunk: &Chunk) -> Self {
         Self {
-            rings: vec![POISONED_RING; chunk.rings as usize],
-            vertices: vec![POISONED_VERTEX; chunk.vertices as usize],
-            indices: vec![POISONED_INDEX; chunk.indices as usize],
+            rings: vec![POISONED_RING; chunk.rings() as usize],
+            vertices: vec![POISONED_VERTEX; chunk.vertices() as usize],
+            indices: vec![POISONED_INDEX; chunk.indices() as usize],
         }
     }
 }
@@ -104,8 +104,8 @@ pub fn drive(
     way: Way,
     report: &mut Report,
 ) -> Result<Output, DriveError> {
-    let mut session = device.session(plan.clone())?;
-    upload(&mut *session, yarns, way)?;
+    let mut session = Session::new(device, plan.clone())?;
+    upload(&mut session, yarns, way)?;
     if plan.needs_scan() {
         session.scan()?;
     }
@@ -120,27 +120,27 @@ pub fn drive(
                 let out = MeshMut { vertices: &mut output.vertices, indices: &mut output.indices };
                 session.mesh_into(chunk, out)?;
                 session.trajectory(chunk)?;
-                read_rings(&mut *session, chunk, output, report)?;
+                read_rings(&mut session, chunk, output, report)?;
             }
             Way::Streamed => {
                 if let Some(next) = chunks.get(number + 1) {
                     session.mesh(next)?;
                 }
-                read_mesh(&mut *session, chunk, output, report)?;
-                read_rings(&mut *session, chunk, output, report)?;
+                read_mesh(&mut session, chunk, output, report)?;
+                read_rings(&mut session, chunk, output, report)?;
             }
             Way::Staged => {
                 session.trajectory(chunk)?;
-                read_rings(&mut *session, chunk, output, report)?;
+                read_rings(&mut session, chunk, output, report)?;
                 session.mesh(chunk)?;
-                read_mesh(&mut *session, chunk, output, report)?;
+                read_mesh(&mut session, chunk, output, report)?;
             }
         }
     }
     Ok(Output { plan: plan.clone(), chunks, meshes })
 }
 
-fn upload(session: &mut dyn Session, yarns: &Yarns, way: Way) -> Result<(), BackendError> {
+fn upload(session: &mut Session, yarns: &Yarns, way: Way) -> Result<(), SessionError> {
     let points = yarns.points();
     if way == Way::Into {
         return session.upload(0, points);
@@ -179,11 +179,11 @@ fn take<T: Copy>(
 }
 
 fn read_rings(
-    session: &mut dyn Session,
+    session: &mut Session,
     chunk: &Chunk,
     output: &mut ChunkOutput,
     report: &mut Report,
-) -> Result<(), BackendError> {
+) -> Result<(), SessionError> {
     let mut done = 0;
     let answer = session.read_trajectory(chunk, &mut |piece| {
         let at = done;
@@ -194,11 +194,11 @@ fn read_rings(
 }
 
 fn read_mesh(
-    session: &mut dyn Session,
+    session: &mut Session,
     chunk: &Chunk,
     output: &mut ChunkOutput,
     report: &mut Report,
-) -> Result<(), BackendError> {
+) -> Result<(), SessionError> {
     let ChunkOutput { vertices: all_vertices, indices: all_indices, .. } = output;
     let (mut vertices_done, mut indices_done) = (0, 0);
     let answer = session.read_mesh(chunk, &mut |piece| match piece {
@@ -230,7 +230,7 @@ impl Lent {
     /// Reads the mesh of `chunk`, which must be in flight.
     ///
     /// **Errors**: those of [`Session::read_mesh`].
-    pub fn read(session: &mut dyn Session, chunk: &Chunk) -> Result<Self, BackendError> {
+    pub fn read<E: Engine + ?Sized>(session: &mut Session<E>, chunk: &Chunk) -> Result<Self, SessionError> {
         let mut lent = Self::default();
         let _ = session.read_mesh(chunk, &mut |piece| {
             match piece {

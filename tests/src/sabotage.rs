@@ -7,13 +7,13 @@ use std::time::Duration;
 
 use glam::Vec3;
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Limits, MeshMut, MeshPiece, Part, Plan, Ring,
-    Schedule, Session, StageTimings, Traffic, Turn, Vertex,
+    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Engine, Limits, MeshMut, MeshPiece, MeshSink,
+    Part, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Turn, Vertex,
 };
 use texere_cpu::SerialBackend;
 
 use crate::compare::Fault;
-use crate::drive::{Lent, POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+use crate::drive::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
 /// What a broken backend does wrong. Unless it says otherwise it does so once, in its second chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,8 +61,6 @@ pub enum Sabotage {
     FastClock,
     /// Every upload sends the whole fabric.
     WholeUpload,
-    /// Each read of a mesh counts a byte more than it lends.
-    InflatedRead,
     /// Control points that came once stay, whatever comes after them.
     LostEdit,
     /// It calls itself per-yarn, and refuses nothing.
@@ -101,7 +99,6 @@ impl Sabotage {
             | Self::StoppedClock
             | Self::FastClock
             | Self::WholeUpload
-            | Self::InflatedRead
             | Self::LostEdit
             | Self::Eager
             | Self::Lazy => &[],
@@ -153,31 +150,21 @@ impl Backend for SabotagedBackend {
         &self.info
     }
 
-    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
+    fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
         if self.sabotage == Sabotage::Lazy {
             let (schedule, what) = (self.info.name.clone(), "caps, nor anything else".into());
             return Err(BackendError::Unsupported { schedule, what });
         }
-        let serial = self.serial.session(plan.clone())?;
-        Ok(Box::new(SabotagedSession {
-            plan,
-            serial,
-            sabotage: self.sabotage,
-            uploads: 0,
-            read: 0,
-            kept: Vec::new(),
-        }))
+        let serial = self.serial.engine(plan.clone())?;
+        Ok(Box::new(SabotagedEngine { plan, serial, sabotage: self.sabotage, kept: Vec::new() }))
     }
 }
 
 #[derive(Debug)]
-struct SabotagedSession {
+struct SabotagedEngine {
     plan: Arc<Plan>,
-    serial: Box<dyn Session>,
+    serial: Box<dyn Engine>,
     sabotage: Sabotage,
-    uploads: u64,
-    /// Bytes read, as [`Sabotage::InflatedRead`] counts them.
-    read: u64,
     /// The first upload, which [`Sabotage::LostEdit`] holds fast to.
     kept: Vec<ControlPoint>,
 }
@@ -185,9 +172,9 @@ struct SabotagedSession {
 /// The chunk that most sabotage happens in.
 const VICTIM: u64 = 1;
 
-impl SabotagedSession {
+impl SabotagedEngine {
     fn spoil_rings(&self, chunk: &Chunk, rings: &mut [Ring]) {
-        let victim = chunk.index == VICTIM;
+        let victim = chunk.index() == VICTIM;
         match self.sabotage {
             Sabotage::Zeros if victim => rings.fill(Ring::default()),
             Sabotage::MissingChunk if victim => rings.fill(POISONED_RING),
@@ -205,7 +192,7 @@ impl SabotagedSession {
 
     fn spoil_mesh(&self, chunk: &Chunk, vertices: &mut [Vertex], indices: &mut [u32]) {
         let sides = self.plan.settings().sides as usize;
-        let victim = chunk.index == VICTIM;
+        let victim = chunk.index() == VICTIM;
         match self.sabotage {
             Sabotage::ShiftedVertex if victim => {
                 let centre = ring_centre(&vertices[10 * sides..11 * sides]);
@@ -233,13 +220,13 @@ impl SabotagedSession {
                 let first = &mut vertices[0].position[0];
                 *first = first.next_up();
             }
-            Sabotage::LooseSeam if victim && chunk.repeats_ring => {
-                let last = &mut vertices[chunk.rings as usize * sides - 1].position[0];
+            Sabotage::LooseSeam if victim && chunk.repeats_ring() => {
+                let last = &mut vertices[chunk.rings() as usize * sides - 1].position[0];
                 *last = last.next_up();
             }
             Sabotage::LooseEnd => {
                 let ends = |part: &&Part| part.first_ring + part.rings == self.plan.rings(part.yarn as usize);
-                for part in chunk.parts.iter().filter(ends) {
+                for part in chunk.parts().iter().filter(ends) {
                     if self.plan.yarn(part.yarn as usize).closed {
                         let end = (part.first_vertex + part.rings * sides as u32) as usize;
                         let last = &mut vertices[end - 1].position[0];
@@ -248,7 +235,7 @@ impl SabotagedSession {
                 }
             }
             Sabotage::OpenCap => {
-                for cap in &chunk.caps {
+                for cap in chunk.caps() {
                     let first = cap.first_index as usize;
                     indices.copy_within(first..first + 3, first + 3);
                 }
@@ -277,7 +264,7 @@ fn roll(ring: &mut [Vertex]) {
 
 /// Exchanges the first two parts of a chunk that are equally long; `per_ring` values belong to each ring.
 fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
-    if let [first, second, ..] = &chunk.parts[..]
+    if let [first, second, ..] = &chunk.parts()[..]
         && first.rings == second.rings
     {
         let (one, other) = values.split_at_mut(first.rings as usize * per_ring);
@@ -285,9 +272,8 @@ fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
     }
 }
 
-impl Session for SabotagedSession {
-    fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), BackendError> {
-        self.uploads += 1;
+impl Engine for SabotagedEngine {
+    fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError> {
         if self.sabotage == Sabotage::LostEdit {
             let range = first as usize..first as usize + points.len();
             if let Some(old) = self.kept.get(range) {
@@ -295,28 +281,38 @@ impl Session for SabotagedSession {
             }
             self.kept = points.to_vec();
         }
-        self.serial.upload(first, points)
+        let sent = self.serial.upload(first, points)?;
+        Ok(if self.sabotage == Sabotage::WholeUpload { self.plan.resident_bytes() } else { sent })
     }
 
-    fn scan(&mut self) -> Result<(), BackendError> {
-        self.serial.scan()
+    fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        self.serial.scan(chunks)
     }
 
-    fn trajectory(&mut self, chunk: &Chunk) -> Result<(), BackendError> {
-        self.serial.trajectory(chunk)
+    fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.serial.load(slot, chunk)
     }
 
-    fn mesh(&mut self, chunk: &Chunk) -> Result<(), BackendError> {
-        self.serial.mesh(chunk)
+    fn mesh_reads_rings(&self) -> bool {
+        self.serial.mesh_reads_rings()
+    }
+
+    fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.serial.trajectory(slot, chunk)
+    }
+
+    fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.serial.mesh(slot, chunk)
     }
 
     fn read_trajectory(
         &mut self,
+        slot: Slot,
         chunk: &Chunk,
-        sink: &mut dyn FnMut(&[Ring]) -> ControlFlow<()>,
+        sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
         let mut rings = Vec::new();
-        let _ = self.serial.read_trajectory(chunk, &mut |piece| {
+        let _ = self.serial.read_trajectory(slot, chunk, &mut |piece| {
             rings.extend_from_slice(piece);
             ControlFlow::Continue(())
         })?;
@@ -326,45 +322,46 @@ impl Session for SabotagedSession {
 
     fn read_mesh(
         &mut self,
+        slot: Slot,
         chunk: &Chunk,
-        sink: &mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>,
+        sink: MeshSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Lent { mut vertices, mut indices } = Lent::read(&mut *self.serial, chunk)?;
-        self.read += (size_of_val(&vertices[..]) + size_of_val(&indices[..])) as u64 + 1;
+        let (mut vertices, mut indices) = (Vec::new(), Vec::new());
+        let _ = self.serial.read_mesh(slot, chunk, &mut |piece| {
+            match piece {
+                MeshPiece::Vertices { vertices: piece, .. } => vertices.extend_from_slice(piece),
+                MeshPiece::Indices { indices: piece, .. } => indices.extend_from_slice(piece),
+                _ => {}
+            }
+            ControlFlow::Continue(())
+        })?;
         self.spoil_mesh(chunk, &mut vertices, &mut indices);
-        let first = u32::from(self.sabotage == Sabotage::MisplacedPiece && chunk.index == VICTIM);
+        let first = u32::from(self.sabotage == Sabotage::MisplacedPiece && chunk.index() == VICTIM);
         let flow = sink(MeshPiece::Vertices { first, vertices: &vertices });
-        let withheld = self.sabotage == Sabotage::MissingPiece && chunk.index == VICTIM;
+        let withheld = self.sabotage == Sabotage::MissingPiece && chunk.index() == VICTIM;
         if flow.is_break() || withheld {
             return Ok(flow);
         }
         Ok(sink(MeshPiece::Indices { first: 0, indices: &indices }))
     }
 
-    fn mesh_into(&mut self, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
+    fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
         let MeshMut { vertices, indices } = out;
-        self.serial.mesh_into(chunk, MeshMut { vertices, indices })?;
+        self.serial.mesh_into(slot, chunk, MeshMut { vertices, indices })?;
         self.spoil_mesh(chunk, vertices, indices);
         Ok(())
     }
 
-    fn timings(&self) -> StageTimings {
+    fn lends_its_own(&self) -> bool {
+        true
+    }
+
+    fn timings(&mut self) -> StageTimings {
         let timings = self.serial.timings();
         match self.sabotage {
             Sabotage::StoppedClock => StageTimings { mesh: Duration::ZERO, ..timings },
             Sabotage::FastClock => StageTimings { mesh: Duration::from_secs(24 * 60 * 60), ..timings },
             _ => timings,
-        }
-    }
-
-    fn traffic(&self) -> Traffic {
-        let traffic = self.serial.traffic();
-        match self.sabotage {
-            Sabotage::WholeUpload => {
-                Traffic { uploaded: self.uploads * self.plan.resident_bytes(), ..traffic }
-            }
-            Sabotage::InflatedRead => Traffic { read: self.read, ..traffic },
-            _ => traffic,
         }
     }
 }

@@ -38,7 +38,7 @@ pub fn able_devices(yarns: &Yarns, settings: &Settings) -> impl Iterator<Item = 
 /// Passes where `device` refuses `yarns` under `settings` as [`BackendError::Unsupported`].
 pub(crate) fn refuses(device: &dyn Backend, yarns: &Yarns, settings: Settings) -> Result<(), Failed> {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-    match device.session(plan) {
+    match device.engine(plan) {
         Err(BackendError::Unsupported { .. }) => Ok(()),
         other => Err(format!("not refused as unsupported: {other:?}").into()),
     }

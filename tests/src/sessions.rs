@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use libtest_mimic::{Failed, Trial};
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, Frame, Limits, Plan, Schedule, Session, Settings,
+    Backend, Chunk, ControlPoint, Frame, Limits, Plan, Schedule, Session, SessionError, Settings,
     StageTimings, Vertex, Yarn, Yarns,
 };
 
@@ -46,7 +46,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     let yarns = cases::winding(2_500, yarn);
     let settings = Settings { subdivisions: 7, sides: 8, ..settings };
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-    let mut session = device.session(plan.clone())?;
+    let mut session = Session::new(device, plan.clone())?;
     let started = Instant::now();
     session.upload(0, yarns.points())?;
     session.scan()?;
@@ -87,7 +87,7 @@ fn a_second_scan_is_no_work(device: &dyn Backend) -> Result<(), Failed> {
     let (settings, yarn) = all_of(device);
     let yarns = cases::winding(2_500, yarn);
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-    let mut session = device.session(plan.clone())?;
+    let mut session = Session::new(device, plan.clone())?;
     session.upload(0, yarns.points())?;
     session.scan()?;
     let once = session.timings().scan;
@@ -121,13 +121,13 @@ const EDITED: usize = 815 + 375;
 fn an_edit_moves_one_yarn(device: &dyn Backend) -> Result<(), Failed> {
     let mut yarns = cloth().clone();
     let plan = Arc::new(Plan::new(yarns.layout().clone(), all_of(device).0)?);
-    let of_edited = |chunk: &Chunk| chunk.parts.iter().any(|part| part.yarn as usize == EDITED);
+    let of_edited = |chunk: &Chunk| chunk.parts().iter().any(|part| part.yarn as usize == EDITED);
     let chunks: Vec<_> = plan.chunks(&EDIT_LIMITS.min(&device.info().limits))?.filter(of_edited).collect();
-    let mut session = device.session(plan.clone())?;
+    let mut session = Session::new(device, plan.clone())?;
     session.upload(0, yarns.points())?;
     moved("the whole cloth", session.traffic().uploaded, plan.resident_bytes())?;
     session.scan()?;
-    let before = meshes(&mut *session, &chunks)?;
+    let before = meshes(&mut session, &chunks)?;
 
     let raised: Vec<_> = yarns
         .yarn_points(EDITED)
@@ -140,22 +140,22 @@ fn an_edit_moves_one_yarn(device: &dyn Backend) -> Result<(), Failed> {
     let sent = session.traffic();
     session.upload(first, &raised)?;
     session.scan()?;
-    let after = meshes(&mut *session, &chunks)?;
+    let after = meshes(&mut session, &chunks)?;
     let own = plan.padded_offsets()[EDITED + 1] - plan.padded_offsets()[EDITED];
     let traffic = session.traffic();
     moved("the edited yarn", traffic.uploaded - sent.uploaded, own * size_of::<ControlPoint>() as u64)?;
     if device.info().timed_by_device || traffic.read > 0 {
         let bytes = |chunk: &Chunk| {
-            u64::from(chunk.vertices) * size_of::<Vertex>() as u64
-                + u64::from(chunk.indices) * size_of::<u32>() as u64
+            u64::from(chunk.vertices()) * size_of::<Vertex>() as u64
+                + u64::from(chunk.indices()) * size_of::<u32>() as u64
         };
         moved("its chunks", traffic.read - sent.read, chunks.iter().map(bytes).sum())?;
     }
 
-    let mut fresh = device.session(plan.clone())?;
+    let mut fresh = Session::new(device, plan.clone())?;
     fresh.upload(0, yarns.points())?;
     fresh.scan()?;
-    if meshes(&mut *fresh, &chunks)? != after {
+    if meshes(&mut fresh, &chunks)? != after {
         return Err("a new session makes another mesh of the edited cloth".into());
     }
     let sides = plan.settings().sides;
@@ -165,7 +165,7 @@ fn an_edit_moves_one_yarn(device: &dyn Backend) -> Result<(), Failed> {
         let wrong =
             (0..).zip(changed).find(|(at, changed)| own.iter().any(|own| own.contains(at)) != *changed);
         if let Some((vertex, _)) = wrong {
-            return Err(format!("vertex {vertex} of chunk {}: the yarn's own {own:?}", chunk.index).into());
+            return Err(format!("vertex {vertex} of chunk {}: the yarn's own {own:?}", chunk.index()).into());
         }
     }
     Ok(())
@@ -175,7 +175,7 @@ fn moved(what: &str, bytes: u64, expected: u64) -> Result<(), Failed> {
     if bytes == expected { Ok(()) } else { Err(format!("{what}: {bytes} bytes, not {expected}").into()) }
 }
 
-fn meshes(session: &mut dyn Session, chunks: &[Chunk]) -> Result<Vec<Lent>, BackendError> {
+fn meshes(session: &mut Session, chunks: &[Chunk]) -> Result<Vec<Lent>, SessionError> {
     let read = |chunk| {
         session.mesh(chunk)?;
         Lent::read(session, chunk)
@@ -185,8 +185,8 @@ fn meshes(session: &mut dyn Session, chunks: &[Chunk]) -> Result<Vec<Lent>, Back
 
 /// Where in a chunk's vertices the edited yarn's lie: its tube's, and those of its caps.
 fn own_vertices(chunk: &Chunk, sides: u32) -> Vec<Range<u32>> {
-    let parts = chunk.parts.iter().filter(|part| part.yarn as usize == EDITED);
-    let caps = chunk.caps.iter().filter(|cap| cap.yarn as usize == EDITED);
+    let parts = chunk.parts().iter().filter(|part| part.yarn as usize == EDITED);
+    let caps = chunk.caps().iter().filter(|cap| cap.yarn as usize == EDITED);
     parts
         .map(|part| part.first_vertex..part.first_vertex + part.rings * sides)
         .chain(caps.map(|cap| cap.first_vertex..cap.first_vertex + sides))

@@ -1,13 +1,11 @@
 //! Whatever comes in, a named error comes out: never a panic, never a great deal of memory first.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_conformance::schedule::able_devices;
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, Frame, Layout, Limits, Material, MeshMut, NullBackend,
-    Pipeline, PipelineError, Plan, PlanError, Section, SectionError, Session, Settings, Topology, Vertex,
-    Yarn, YarnError, Yarns,
+    ControlPoint, Frame, Layout, Limits, Material, NullBackend, Pipeline, PipelineError, Plan, PlanError,
+    Section, SectionError, Settings, Topology, Yarn, YarnError, Yarns,
 };
 
 fn straight(count: u16) -> Vec<ControlPoint> {
@@ -252,112 +250,6 @@ fn limits_that_hold_no_block() {
             assert_eq!(told, error);
         }
     }
-}
-
-/// A twisted yarn of several blocks, on every device that does it: with a session that has its points but no scan yet.
-fn on_every_device(check: impl Fn(&dyn Backend, &Arc<Plan>, &[Chunk], Box<dyn Session>)) {
-    let points = straight(200);
-    let yarns = one_yarn(Yarn { twist: 1.0, ..Yarn::default() }, &points).unwrap();
-    let settings = Settings { frame: Frame::RotationMinimizing, ..Settings::default() };
-    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
-    for device in able_devices(&yarns, &settings) {
-        let limits = device.info().limits.min(&Limits { blocks: 2, ..Limits::NONE });
-        let chunks: Vec<_> = plan.chunks(&limits).unwrap().collect();
-        let mut session = device.session(plan.clone()).unwrap();
-        session.upload(0, &points).unwrap();
-        check(&*device, &plan, &chunks, session);
-    }
-}
-
-fn read_nothing(session: &mut dyn Session, chunk: &Chunk) -> [Result<ControlFlow<()>, BackendError>; 2] {
-    [
-        session.read_trajectory(chunk, &mut |_| panic!("lent rings")),
-        session.read_mesh(chunk, &mut |_| panic!("lent a mesh")),
-    ]
-}
-
-#[test]
-fn an_upload_past_the_last_point() {
-    on_every_device(|device, _, _, mut session| {
-        for (first, count) in [(0, 201), (199, 2), (200, 1), (u64::MAX, 2), (1 << 40, 1)] {
-            let error = session.upload(first, &straight(count)).unwrap_err();
-            assert!(
-                matches!(error, BackendError::UploadRange { first: named, points: 200, .. } if named == first),
-                "{}: {error:?}",
-                device.info().name
-            );
-        }
-        session.upload(200, &[]).unwrap();
-    });
-}
-
-#[test]
-fn a_stage_before_its_scan() {
-    on_every_device(|device, _, chunks, mut session| {
-        let name = &device.info().name;
-        let mut vertices = vec![Vertex::default(); chunks[0].vertices as usize];
-        let mut indices = vec![0; chunks[0].indices as usize];
-        let out = MeshMut { vertices: &mut vertices, indices: &mut indices };
-        let calls = [
-            ("trajectory", session.trajectory(&chunks[0])),
-            ("mesh", session.mesh(&chunks[0])),
-            ("mesh", session.mesh_into(&chunks[0], out)),
-        ];
-        for (named, result) in calls {
-            let error = result.unwrap_err();
-            assert!(
-                matches!(error, BackendError::OutOfOrder { call, needed: "scan" } if call == named),
-                "{name}: {error:?}"
-            );
-        }
-        // New points make the old scan worthless.
-        session.scan().unwrap();
-        session.mesh(&chunks[0]).unwrap();
-        session.upload(3, &straight(2)).unwrap();
-        let error = session.mesh(&chunks[0]).unwrap_err();
-        assert!(matches!(error, BackendError::OutOfOrder { needed: "scan", .. }), "{name}: {error:?}");
-    });
-}
-
-#[test]
-fn a_chunk_that_is_not_in_flight() {
-    on_every_device(|device, _, chunks, mut session| {
-        let name = &device.info().name;
-        session.scan().unwrap();
-        for result in read_nothing(&mut *session, &chunks[1]) {
-            assert!(matches!(result, Err(BackendError::NotInFlight { chunk: 1 })), "{name}: {result:?}");
-        }
-        // Rings alone are no mesh.
-        session.trajectory(&chunks[2]).unwrap();
-        let result = session.read_mesh(&chunks[2], &mut |_| panic!("lent a mesh"));
-        assert!(matches!(result, Err(BackendError::NotInFlight { chunk: 2 })), "{name}: {result:?}");
-    });
-}
-
-#[test]
-fn slices_of_another_length() {
-    on_every_device(|device, _, chunks, mut session| {
-        session.scan().unwrap();
-        let (chunk, name) = (&chunks[0], &device.info().name);
-        let (right_vertices, right_indices) = (chunk.vertices as usize, chunk.indices as usize);
-        for (vertices, indices, wrong) in [
-            (right_vertices - 1, right_indices, "vertices"),
-            (right_vertices + 1, right_indices, "vertices"),
-            (0, right_indices, "vertices"),
-            (right_vertices, right_indices - 1, "indices"),
-            (right_vertices, right_indices + 1, "indices"),
-        ] {
-            let (mut vertices, mut indices) = (vec![Vertex::default(); vertices], vec![7; indices]);
-            let out = MeshMut { vertices: &mut vertices, indices: &mut indices };
-            let error = session.mesh_into(chunk, out).unwrap_err();
-            assert!(
-                matches!(error, BackendError::OutputLength { what, .. } if what == wrong),
-                "{name}: {error:?}"
-            );
-            let untouched = vertices.iter().all(|&vertex| vertex == Vertex::default());
-            assert!(untouched && indices.iter().all(|&index| index == 7), "{name}: half-written");
-        }
-    });
 }
 
 /// The largest and smallest numbers that are taken make finite output, and normals of length 1.

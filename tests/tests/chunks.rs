@@ -100,14 +100,14 @@ fn parts_cover_every_ring_once() {
     for_all(|name, _, plan, limits| {
         let (mut yarn, mut ring) = (0, 0);
         for (number, chunk) in chunks(plan, limits).iter().enumerate() {
-            assert_eq!(chunk.index, number as u64, "{name}");
+            assert_eq!(chunk.index(), number as u64, "{name}");
             let mut rings = 0;
-            for (at, part) in chunk.parts.iter().enumerate() {
+            for (at, part) in chunk.parts().iter().enumerate() {
                 assert_eq!((part.yarn, part.first_ring), (yarn, ring), "{name}");
                 assert_eq!(part.first_vertex, rings * plan.settings().sides, "{name}");
                 rings += part.rings;
                 // The ring that a cut repeats is the first of the next chunk, even where it is a yarn's last.
-                let again = u32::from(chunk.repeats_ring && at + 1 == chunk.parts.len());
+                let again = u32::from(chunk.repeats_ring() && at + 1 == chunk.parts().len());
                 assert!(part.rings > again, "{name}");
                 ring += part.rings - again;
                 if ring == plan.rings(yarn as usize) {
@@ -116,7 +116,7 @@ fn parts_cover_every_ring_once() {
                     assert_eq!(again, 1, "{name}: yarn {yarn} breaks off at ring {ring}");
                 }
             }
-            assert_eq!(rings, chunk.rings, "{name}");
+            assert_eq!(rings, chunk.rings(), "{name}");
         }
         assert_eq!((yarn as usize, ring), (plan.layout().yarns().len(), 0), "{name}");
     });
@@ -127,18 +127,18 @@ fn caps_come_once_for_each_open_end() {
     for_all(|name, _, plan, limits| {
         let mut caps = Vec::new();
         for chunk in chunks(plan, limits) {
-            let mut vertex = chunk.rings * plan.settings().sides;
-            for cap in &chunk.caps {
+            let mut vertex = chunk.rings() * plan.settings().sides;
+            for cap in chunk.caps() {
                 assert_eq!(cap.first_vertex, vertex, "{name}: after all tube vertices");
                 vertex += plan.settings().sides;
                 let ring = cap.chunk_ring;
-                let part = chunk.parts.iter().find(|part| part.yarn == cap.yarn).unwrap();
+                let part = chunk.parts().iter().find(|part| part.yarn == cap.yarn).unwrap();
                 let own = ring - part.first_vertex / plan.settings().sides + part.first_ring;
                 let end = if cap.end == End::Start { 0 } else { plan.rings(cap.yarn as usize) - 1 };
                 assert_eq!(own, end, "{name}: {cap:?}");
                 caps.push((cap.yarn as usize, cap.end == End::Finish));
             }
-            assert_eq!(vertex, chunk.vertices, "{name}");
+            assert_eq!(vertex, chunk.vertices(), "{name}");
         }
         let open = |&yarn: &usize| plan.settings().caps && !plan.layout().yarns()[yarn].closed;
         let yarns = (0..plan.layout().yarns().len()).filter(open);
@@ -153,16 +153,16 @@ fn chunks_stay_within_their_limits() {
         for chunk in chunks(plan, limits) {
             let bytes = |count: u64, each: usize| count * each as u64;
             let buffers = [
-                bytes(chunk.vertices.into(), size_of::<Vertex>()),
-                bytes(chunk.indices.into(), 4),
-                bytes(chunk.rings.into(), size_of::<Ring>()),
-                bytes(chunk.blocks.len() as u64, size_of::<Block>()),
+                bytes(chunk.vertices().into(), size_of::<Vertex>()),
+                bytes(chunk.indices().into(), 4),
+                bytes(chunk.rings().into(), size_of::<Ring>()),
+                bytes(chunk.blocks().len() as u64, size_of::<Block>()),
             ];
-            let window = bytes(chunk.window.end - chunk.window.start, size_of::<ControlPoint>());
+            let window = bytes(chunk.window().end - chunk.window().start, size_of::<ControlPoint>());
             assert!(buffers.iter().chain([&window]).all(|&buffer| buffer <= limits.binding_bytes), "{name}");
             let memory = plan.resident_bytes() + 2 * buffers.iter().sum::<u64>();
             assert!(memory <= limits.memory_bytes, "{name}: {memory}");
-            assert!(chunk.blocks.len() as u64 <= limits.blocks, "{name}");
+            assert!(chunk.blocks().len() as u64 <= limits.blocks, "{name}");
         }
     });
 }
@@ -172,19 +172,19 @@ fn windows_hold_every_point_that_is_read() {
     for_all(|name, _, plan, limits| {
         let per_interval = plan.settings().subdivisions + 1;
         for chunk in chunks(plan, limits) {
-            assert_eq!(chunk.window.start % WINDOW_POINTS, 0, "{name}");
-            assert!(chunk.window.end <= *plan.padded_offsets().last().unwrap(), "{name}");
-            for part in &chunk.parts {
+            assert_eq!(chunk.window().start % WINDOW_POINTS, 0, "{name}");
+            assert!(chunk.window().end <= *plan.padded_offsets().last().unwrap(), "{name}");
+            for part in chunk.parts() {
                 let (yarn, padded) = (part.yarn as usize, plan.padded_offsets()[part.yarn as usize]);
                 for ring in part.first_ring..part.first_ring + part.rings {
                     let open_end = !plan.yarn(yarn).closed && ring + 1 == plan.rings(yarn);
                     let interval = padded + u64::from(ring / per_interval - u32::from(open_end));
                     let read = interval..interval + 4;
-                    let within = chunk.window.start <= read.start && read.end <= chunk.window.end;
+                    let within = chunk.window().start <= read.start && read.end <= chunk.window().end;
                     assert!(
                         within,
                         "{name}: ring {ring} of yarn {yarn} reads {read:?} of {:?}",
-                        chunk.window
+                        chunk.window()
                     );
                 }
             }
@@ -197,9 +197,9 @@ fn the_block_table_says_the_same_as_the_parts() {
     for_all(|name, _, plan, limits| {
         let (sides, per_interval) = (plan.settings().sides, plan.settings().subdivisions + 1);
         for chunk in chunks(plan, limits) {
-            let mut rows = chunk.blocks.iter();
+            let mut rows = chunk.blocks().iter();
             let (mut ring, mut index) = (0, 0);
-            for part in &chunk.parts {
+            for part in chunk.parts() {
                 assert_eq!(part.first_index, index, "{name}");
                 let mut own = 0;
                 while own < part.rings {
@@ -208,7 +208,7 @@ fn the_block_table_says_the_same_as_the_parts() {
                     let first = part.first_ring + own;
                     assert_eq!(place, (part.yarn, first, ring, ring * sides, index), "{name}");
                     let point = plan.padded_offsets()[part.yarn as usize] + u64::from(first / per_interval);
-                    assert_eq!(chunk.window.start + u64::from(row.first_point), point, "{name}");
+                    assert_eq!(chunk.window().start + u64::from(row.first_point), point, "{name}");
                     assert!((1..=64).contains(&row.rings), "{name}");
                     own += row.rings;
                     ring += row.rings;
@@ -240,7 +240,7 @@ fn each_part_holds_its_ring_range_of_the_whole() {
         let cut = run(yarns, plan, limits);
         let [mesh] = &whole.meshes[..] else { panic!("{name}: the whole is {} chunks", whole.chunks.len()) };
         for (chunk, own) in cut.chunks.iter().zip(&cut.meshes) {
-            for part in &chunk.parts {
+            for part in chunk.parts() {
                 let from = plan.ring_offsets()[part.yarn as usize] as usize + part.first_ring as usize;
                 let (rings, vertices) = (part.rings as usize, part.rings as usize * sides);
                 let first = part.first_vertex as usize;
@@ -249,9 +249,11 @@ fn each_part_holds_its_ring_range_of_the_whole() {
                     && bits(&own.rings[first / sides..][..rings]) == bits(&mesh.rings[from..][..rings]);
                 assert!(same, "{name}: {part:?}");
             }
-            for cap in &chunk.caps {
-                let twin =
-                    whole.chunks[0].caps.iter().find(|other| (other.yarn, other.end) == (cap.yarn, cap.end));
+            for cap in chunk.caps() {
+                let twin = whole.chunks[0]
+                    .caps()
+                    .iter()
+                    .find(|other| (other.yarn, other.end) == (cap.yarn, cap.end));
                 let from = twin.unwrap().first_vertex as usize;
                 let own = &own.vertices[cap.first_vertex as usize..][..sides];
                 assert!(bits(own) == bits(&mesh.vertices[from..][..sides]), "{name}: {cap:?}");
@@ -273,16 +275,16 @@ fn drawn(mesh: &Mesh) -> Vec<[Corner; 3]> {
     let mut corners = vec![None; mesh.vertices.len()];
     for chunk in &mesh.chunks {
         let mut name = |first: u32, count: u64, corner: &dyn Fn(u64) -> Corner| {
-            let first = (chunk.first_vertex + u64::from(first)) as usize;
+            let first = (chunk.first_vertex() + u64::from(first)) as usize;
             for at in 0..count {
                 corners[first + at as usize] = Some(corner(at));
             }
         };
-        for part in &chunk.parts {
+        for part in chunk.parts() {
             let ring = |at: u64| (part.yarn, u64::from(part.first_ring) + at / sides, at % sides);
             name(part.first_vertex, u64::from(part.rings) * sides, &ring);
         }
-        for cap in &chunk.caps {
+        for cap in chunk.caps() {
             let end = u64::MAX - u64::from(cap.end == End::Start);
             name(cap.first_vertex, sides, &|at| (cap.yarn, end, at));
         }
@@ -343,25 +345,25 @@ fn chunks_of_two_cuts_do_not_mix() {
     for device in able_devices(&yarns, &settings) {
         let cut = |blocks| chunks(&plan, &device.info().limits.min(&Limits { blocks, ..Limits::NONE }));
         let (fine, coarse) = (cut(2), cut(4));
-        let mut session = device.session(plan.clone()).unwrap();
+        let mut session = Session::new(&*device, plan.clone()).unwrap();
         session.upload(0, yarns.points()).unwrap();
         session.scan().unwrap();
-        let mesh = |session: &mut dyn Session, chunk: &Chunk| {
-            let mut vertices = vec![Vertex::default(); chunk.vertices as usize];
-            let mut indices = vec![0; chunk.indices as usize];
+        let mesh = |session: &mut Session, chunk: &Chunk| {
+            let mut vertices = vec![Vertex::default(); chunk.vertices() as usize];
+            let mut indices = vec![0; chunk.indices() as usize];
             session.mesh_into(chunk, MeshMut { vertices: &mut vertices, indices: &mut indices }).unwrap();
             vertices
         };
         let number = fine.len().min(coarse.len()) - 1;
         session.trajectory(&fine[number]).unwrap();
-        let coarse_vertices = mesh(&mut *session, &coarse[number]);
+        let coarse_vertices = mesh(&mut session, &coarse[number]);
         session.trajectory(&coarse[number]).unwrap();
-        let fine_vertices = mesh(&mut *session, &fine[number]);
+        let fine_vertices = mesh(&mut session, &fine[number]);
         for (chunk, vertices) in [(&coarse[number], coarse_vertices), (&fine[number], fine_vertices)] {
-            let mut fresh = device.session(plan.clone()).unwrap();
+            let mut fresh = Session::new(&*device, plan.clone()).unwrap();
             fresh.upload(0, yarns.points()).unwrap();
             fresh.scan().unwrap();
-            assert!(bits(&vertices) == bits(&mesh(&mut *fresh, chunk)), "{}", device.info().name);
+            assert!(bits(&vertices) == bits(&mesh(&mut fresh, chunk)), "{}", device.info().name);
         }
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use texere_conformance::cases::{sections, winding};
-use texere_core::{ControlPoint, Frame, Mesh, Pipeline, Section, Settings, Topology, Yarn, Yarns};
+use texere_core::{ControlPoint, Frame, Mesh, Pipeline, Section, Session, Settings, Topology, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
@@ -185,17 +185,17 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
     let settings = Settings { frame: Frame::RotationMinimizing, ..Settings::default() };
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
     let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
-    let run = |session: &mut dyn texere_core::Session| {
+    let run = |session: &mut Session| {
         session.scan().unwrap();
-        let mut vertices = vec![Vertex::default(); chunk.vertices as usize];
-        let mut indices = vec![0; chunk.indices as usize];
+        let mut vertices = vec![Vertex::default(); chunk.vertices() as usize];
+        let mut indices = vec![0; chunk.indices() as usize];
         session.mesh_into(&chunk, MeshMut { vertices: &mut vertices, indices: &mut indices }).unwrap();
         vertices
     };
     for device in [&SerialBackend::new() as &dyn Backend, &ParallelBackend::new()] {
-        let mut edited = device.session(plan.clone()).unwrap();
+        let mut edited = Session::new(&*device, plan.clone()).unwrap();
         edited.upload(0, yarns.points()).unwrap();
-        let before = run(&mut *edited);
+        let before = run(&mut edited);
         for yarn in [0, 9, 20] {
             let range = yarns.range(yarn).unwrap();
             let moved: Vec<_> = yarns.points()[range.clone()]
@@ -205,9 +205,9 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
             yarns.set_points(yarn, &moved).unwrap();
             edited.upload(range.start as u64, &moved).unwrap();
         }
-        let mut fresh = device.session(plan.clone()).unwrap();
+        let mut fresh = Session::new(&*device, plan.clone()).unwrap();
         fresh.upload(0, yarns.points()).unwrap();
-        let (edited, fresh) = (run(&mut *edited), run(&mut *fresh));
+        let (edited, fresh) = (run(&mut edited), run(&mut fresh));
         assert!(bytemuck::cast_slice::<Vertex, u8>(&edited) == bytemuck::cast_slice::<Vertex, u8>(&fresh));
         assert!(bytemuck::cast_slice::<Vertex, u8>(&before) != bytemuck::cast_slice::<Vertex, u8>(&fresh));
     }

@@ -76,8 +76,8 @@ fn normal_form(mesh: &Mesh) -> (Vec<u8>, Vec<Vec<u8>>) {
     let offsets = mesh.plan.ring_offsets();
     let mut whole = vec![Vertex::default(); mesh.plan.counts().rings as usize * sides];
     for chunk in &mesh.chunks {
-        for part in &chunk.parts {
-            let from = (chunk.first_vertex + u64::from(part.first_vertex)) as usize;
+        for part in chunk.parts() {
+            let from = (chunk.first_vertex() + u64::from(part.first_vertex)) as usize;
             let to = (offsets[part.yarn as usize] + u64::from(part.first_ring)) as usize * sides;
             let count = part.rings as usize * sides;
             whole[to..to + count].copy_from_slice(&mesh.vertices[from..from + count]);

@@ -40,8 +40,8 @@ fn chunks_are_bounded_unless_asked_otherwise() {
     let (yarns, device) = (yarns(), device());
     let mut bytes = Vec::new();
     let mut note = |chunk: &Chunk, _: MeshPiece<'_>| {
-        let vertices = u64::from(chunk.vertices) * size_of::<Vertex>() as u64;
-        bytes.push(vertices.max(u64::from(chunk.indices) * 4));
+        let vertices = u64::from(chunk.vertices()) * size_of::<Vertex>() as u64;
+        bytes.push(vertices.max(u64::from(chunk.indices()) * 4));
         ControlFlow::<()>::Continue(())
     };
     let _ = Pipeline::new(&yarns).stream(&*device, &mut note).unwrap();
@@ -82,7 +82,7 @@ fn a_stop_is_heard_at_the_next_chunk() {
         .stream(&*device, |chunk, piece| match piece {
             MeshPiece::Vertices { first: 0, .. } if rings > total / 2 => ControlFlow::Break(rings),
             MeshPiece::Vertices { first: 0, .. } => {
-                rings += u64::from(chunk.rings);
+                rings += u64::from(chunk.rings());
                 ControlFlow::Continue(())
             }
             _ => ControlFlow::Continue(()),

@@ -95,8 +95,6 @@ const FAST: &[Entry] = &[Entry::near("fast", || sabotaged(Sabotage::FastClock))]
 
 const WASTEFUL: &[Entry] = &[Entry::near("wasteful", || sabotaged(Sabotage::WholeUpload))];
 
-const INFLATED: &[Entry] = &[Entry::near("inflated", || sabotaged(Sabotage::InflatedRead))];
-
 const STALE: &[Entry] = &[Entry::near("stale", || sabotaged(Sabotage::LostEdit))];
 
 const EAGER: &[Entry] = &[Entry::near("eager", || sabotaged(Sabotage::Eager))];
@@ -176,7 +174,6 @@ fn an_edit_that_moves_too_much_or_nothing_is_told() {
         assert_fails("an-edit", registry, &format!("session::an-edit-moves-one-yarn::{device}"), why);
     };
     edited(WASTEFUL, "WholeUpload", "the edited yarn: ");
-    edited(INFLATED, "InflatedRead", "its chunks: ");
     edited(STALE, "LostEdit", "a new session makes another mesh of the edited cloth");
 }
 

@@ -324,6 +324,12 @@ pub enum BackendError {
         /// What the driver said.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+}
+
+/// A call of a session that could not be done: misuse, the same on every backend, or what the backend says.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SessionError {
     /// An upload past the last control point.
     #[error("upload of points {first} to {end}, but there are {points}")]
     UploadRange {
@@ -342,7 +348,7 @@ pub enum BackendError {
         /// What has to come first.
         needed: &'static str,
     },
-    /// A chunk that is not of the session's plan; kernels that check no bounds would go astray on it.
+    /// A chunk that is not of the session's plan.
     #[error("chunk {chunk} is of another plan than the session's")]
     ForeignChunk {
         /// The chunk's index.
@@ -364,6 +370,12 @@ pub enum BackendError {
         /// What the plan says.
         planned: u64,
     },
+    /// Not even one block of the plan fits the device.
+    #[error("the device is too small for the plan")]
+    Plan(#[from] PlanError),
+    /// The backend failed.
+    #[error("the backend failed")]
+    Backend(#[from] BackendError),
 }
 
 /// What can end a run of the whole pipeline.
@@ -376,7 +388,20 @@ pub enum PipelineError {
     /// The backend failed.
     #[error("the backend failed")]
     Backend(#[from] BackendError),
+    /// A call of the session that the pipeline should not have made.
+    #[error("the session was misused")]
+    Session(#[source] SessionError),
     /// The progress callback asked to stop.
     #[error("cancelled")]
     Cancelled,
+}
+
+impl From<SessionError> for PipelineError {
+    fn from(error: SessionError) -> Self {
+        match error {
+            SessionError::Backend(error) => Self::Backend(error),
+            SessionError::Plan(error) => Self::Plan(error),
+            misuse => Self::Session(misuse),
+        }
+    }
 }

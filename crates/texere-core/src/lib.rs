@@ -17,6 +17,7 @@
 //! This crate does no I/O, knows no GPU and holds no unsafe code.
 
 mod backend;
+mod engine;
 mod error;
 mod frame;
 mod material;
@@ -31,12 +32,14 @@ mod ring;
 mod sampling;
 mod schedule;
 mod section;
+mod session;
 mod spline;
 mod turn;
 mod yarns;
 
-pub use backend::{Backend, DeviceInfo, DeviceKind, Session, StageTimings, Traffic, check_output};
-pub use error::{BackendError, PipelineError, PlanError, SectionError, YarnError};
+pub use backend::{Backend, DeviceInfo, DeviceKind};
+pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
+pub use error::{BackendError, PipelineError, PlanError, SectionError, SessionError, YarnError};
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;
 pub use mesh::{Draw, End, Mesh, MeshMut, MeshPiece, SHARED_GAPS, Topology, Vertex, index_pattern};
@@ -53,6 +56,7 @@ pub use ring::{Ring, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use schedule::Schedule;
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
+pub use session::{Session, Traffic};
 pub use spline::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};
 pub use yarns::{Layout, Origin, TWIST_LIMIT, Yarn, Yarns, YarnsBuilder};

@@ -137,7 +137,7 @@ impl Plan {
     pub fn draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = Draw> + 'a {
         let sides = u64::from(self.settings().sides);
         let topology = self.settings().topology;
-        let tubes = chunk.parts.iter().flat_map(move |part| {
+        let tubes = chunk.parts().iter().flat_map(move |part| {
             let gaps = u64::from(part.rings) - 1;
             // A shared pattern starts anew at each stretch's first ring; an indexed part is one stretch.
             let stretch = if topology == Topology::Shared { SHARED_GAPS } else { gaps.max(1) };
@@ -145,21 +145,21 @@ impl Plan {
                 let here = stretch.min(gaps - number * stretch);
                 let (indices, base_vertex) = match topology {
                     Topology::Shared => (0, u64::from(part.first_vertex) + number * stretch * sides),
-                    _ => (chunk.first_index + u64::from(part.first_index), 0),
+                    _ => (chunk.first_index() + u64::from(part.first_index), 0),
                 };
                 Draw {
                     yarn: part.yarn,
                     indices: indices..indices + here * sides * 6,
-                    base_vertex: chunk.first_vertex + base_vertex,
+                    base_vertex: chunk.first_vertex() + base_vertex,
                     vertices: if topology == Topology::Shared {
                         (here + 1) * sides
                     } else {
-                        chunk.vertices.into()
+                        chunk.vertices().into()
                     },
                 }
             })
         });
-        let caps = chunk.caps.iter().map(move |cap| {
+        let caps = chunk.caps().iter().map(move |cap| {
             let each = (sides - 2) * 3;
             let (indices, base_vertex) = match topology {
                 Topology::Shared => {
@@ -167,13 +167,13 @@ impl Plan {
                     let before = section * 2 + u64::from(cap.end == End::Finish);
                     (self.shared_gaps() * sides * 6 + before * each, u64::from(cap.first_vertex))
                 }
-                _ => (chunk.first_index + u64::from(cap.first_index), 0),
+                _ => (chunk.first_index() + u64::from(cap.first_index), 0),
             };
             Draw {
                 yarn: cap.yarn,
                 indices: indices..indices + each,
-                base_vertex: chunk.first_vertex + base_vertex,
-                vertices: if topology == Topology::Shared { sides } else { chunk.vertices.into() },
+                base_vertex: chunk.first_vertex() + base_vertex,
+                vertices: if topology == Topology::Shared { sides } else { chunk.vertices().into() },
             }
         });
         tubes.chain(caps).filter(move |_| topology != Topology::None)
@@ -203,9 +203,9 @@ pub enum MeshPiece<'a> {
 /// Where a caller wants a chunk's mesh: slices exactly as long as planned.
 #[derive(Debug)]
 pub struct MeshMut<'a> {
-    /// `chunk.vertices` long.
+    /// `chunk.vertices()` long.
     pub vertices: &'a mut [Vertex],
-    /// `chunk.indices` long.
+    /// `chunk.indices()` long.
     pub indices: &'a mut [u32],
 }
 

@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::{
-    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Limits, MeshPiece, Plan, Ring,
-    Session, StageTimings, Traffic,
+    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits, MeshSink, Plan,
+    RingSink, ScanChunks, Slot, StageTimings,
 };
 
-/// A backend that checks what it is asked, and writes nothing: outputs stay as they were.
+/// A backend that writes nothing: outputs stay as they were.
 ///
 /// ```
 /// use texere_core::{Backend, NullBackend};
@@ -49,77 +49,58 @@ impl Backend for NullBackend {
         &self.info
     }
 
-    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
-        Ok(Box::new(NullSession { plan, scanned: false, in_flight: None }))
+    fn engine(&self, _plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
+        Ok(Box::new(NullEngine))
     }
 }
 
 #[derive(Debug)]
-struct NullSession {
-    plan: Arc<Plan>,
-    scanned: bool,
-    in_flight: Option<u64>,
-}
+struct NullEngine;
 
-impl NullSession {
-    fn launch(&mut self, call: &'static str, chunk: &Chunk) -> Result<(), BackendError> {
-        if self.plan.needs_scan() && !self.scanned {
-            return Err(BackendError::OutOfOrder { call, needed: "scan" });
-        }
-        self.in_flight = Some(chunk.index);
+impl Engine for NullEngine {
+    fn upload(&mut self, _first: u64, _points: &[ControlPoint]) -> Result<u64, BackendError> {
+        Ok(0)
+    }
+
+    fn scan(&mut self, _chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         Ok(())
     }
 
-    fn wait(&self, chunk: &Chunk) -> Result<ControlFlow<()>, BackendError> {
-        if self.in_flight == Some(chunk.index) {
-            Ok(ControlFlow::Continue(()))
-        } else {
-            Err(BackendError::NotInFlight { chunk: chunk.index })
-        }
-    }
-}
-
-impl Session for NullSession {
-    fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), BackendError> {
-        let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
-        self.scanned = false;
-        if end > total { Err(BackendError::UploadRange { first, end, points: total }) } else { Ok(()) }
-    }
-
-    fn scan(&mut self) -> Result<(), BackendError> {
-        self.scanned = true;
+    fn load(&mut self, _slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
         Ok(())
     }
 
-    fn trajectory(&mut self, chunk: &Chunk) -> Result<(), BackendError> {
-        self.launch("trajectory", chunk)
+    fn trajectory(&mut self, _slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
+        Ok(())
     }
 
-    fn mesh(&mut self, chunk: &Chunk) -> Result<(), BackendError> {
-        self.launch("mesh", chunk)
+    fn mesh(&mut self, _slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
+        Ok(())
     }
 
     fn read_trajectory(
         &mut self,
-        chunk: &Chunk,
-        _sink: &mut dyn FnMut(&[Ring]) -> ControlFlow<()>,
+        _slot: Slot,
+        _chunk: &Chunk,
+        _sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        self.wait(chunk)
+        Ok(ControlFlow::Continue(()))
     }
 
     fn read_mesh(
         &mut self,
-        chunk: &Chunk,
-        _sink: &mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>,
+        _slot: Slot,
+        _chunk: &Chunk,
+        _sink: MeshSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        self.wait(chunk)
+        Ok(ControlFlow::Continue(()))
     }
 
-    fn timings(&self) -> StageTimings {
+    fn lends_its_own(&self) -> bool {
+        true
+    }
+
+    fn timings(&mut self) -> StageTimings {
         StageTimings::default()
-    }
-
-    fn traffic(&self) -> Traffic {
-        Traffic::default()
     }
 }

@@ -13,7 +13,7 @@ use crate::{BackendError, ControlPoint, Plan};
 /// # let yarns = yarns.build()?;
 /// let plan = Plan::new(yarns.layout().clone(), Settings::default())?; // one open yarn at x = 0, 1, 2
 /// let mut padded = PaddedPoints::new(&plan)?;
-/// assert_eq!(padded.upload(&plan, 0, yarns.points())?, 0..5);
+/// assert_eq!(padded.upload(&plan, 0, yarns.points()), 0..5);
 /// assert_eq!(padded.yarn(&plan, 0).iter().map(|point| point.x).collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0, 3.0]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -31,25 +31,19 @@ impl PaddedPoints {
         Ok(Self { points: zeroed("control points", count)? })
     }
 
-    /// Takes `points`, the first of which is number `first` of the fabric, and renews the virtual ends that they touch.
+    /// Takes `points`, the first of which is number `first` of the fabric, and renews the virtual ends that they touch. Points
+    /// past the fabric's last are left out.
     ///
     /// Gives back the range of padded points that may have changed.
-    ///
-    /// **Errors**: [`BackendError::UploadRange`] past the last control point.
-    pub fn upload(
-        &mut self,
-        plan: &Plan,
-        first: u64,
-        points: &[ControlPoint],
-    ) -> Result<Range<u64>, BackendError> {
-        let yarns = touched(plan, first, points.len())?;
+    pub fn upload(&mut self, plan: &Plan, first: u64, points: &[ControlPoint]) -> Range<u64> {
+        let yarns = touched(plan, first, points.len());
         for yarn in yarns.clone() {
             let (own, sent) = overlap(plan, yarn, first, points.len());
             let padded = &mut self.points[yarn_range(plan, yarn)];
             padded[1 + own.start..1 + own.end].copy_from_slice(&points[sent]);
             renew_ends(padded, plan.yarn(yarn).closed);
         }
-        Ok(plan.padded_offsets()[yarns.start]..plan.padded_offsets()[yarns.end])
+        plan.padded_offsets()[yarns.start]..plan.padded_offsets()[yarns.end]
     }
 
     /// All of them.
@@ -72,19 +66,14 @@ fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
 }
 
 /// The yarns that `count` points from number `first` on belong to.
-///
-/// **Errors**: [`BackendError::UploadRange`] past the last control point.
-pub(crate) fn touched(plan: &Plan, first: u64, count: usize) -> Result<Range<usize>, BackendError> {
+pub(crate) fn touched(plan: &Plan, first: u64, count: usize) -> Range<usize> {
     let offsets = plan.layout().offsets();
-    let (end, total) = (first.saturating_add(count as u64), plan.layout().point_count());
-    if end > total {
-        return Err(BackendError::UploadRange { first, end, points: total });
-    }
-    if count == 0 {
-        return Ok(0..0);
+    let end = first.saturating_add(count as u64).min(plan.layout().point_count());
+    if first >= end {
+        return 0..0;
     }
     let yarn_before = |end: u64| offsets.partition_point(|&start| start < end);
-    Ok(yarn_before(first + 1) - 1..yarn_before(end))
+    yarn_before(first + 1) - 1..yarn_before(end)
 }
 
 /// Which of a yarn's own points are among `count` points from number `first` on, and which of those they are.

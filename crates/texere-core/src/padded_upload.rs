@@ -20,7 +20,7 @@ pub(crate) type Ends = [ControlPoint; 5];
 /// # let yarns = yarns.build()?;
 /// let plan = Plan::new(yarns.layout().clone(), Settings::default())?; // one open yarn at x = 0, 1, 2
 /// let mut ends = YarnEnds::new(&plan)?;
-/// let upload = ends.upload(&plan, 0, yarns.points())?;
+/// let upload = ends.upload(&plan, 0, yarns.points());
 /// assert_eq!(upload.ranges(), [0..0, 0..5, 0..0]);
 /// assert_eq!(upload.copied(0..5).iter().map(|point| point.x).collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0, 3.0]);
 /// ends.keep(&upload);
@@ -39,23 +39,18 @@ impl YarnEnds {
         Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)? })
     }
 
-    /// What an upload of `points`, the first of which is number `first` of the fabric, has to write.
-    ///
-    /// **Errors**: [`BackendError::UploadRange`] past the last control point.
+    /// What an upload of `points`, the first of which is number `first` of the fabric, has to write. Points past the fabric's
+    /// last are left out.
     ///
     /// **Panics** for another plan that has more yarns.
-    pub fn upload<'a>(
-        &self,
-        plan: &'a Plan,
-        first: u64,
-        points: &'a [ControlPoint],
-    ) -> Result<PaddedUpload<'a>, BackendError> {
-        let yarns = touched(plan, first, points.len())?;
+    #[must_use]
+    pub fn upload<'a>(&self, plan: &'a Plan, first: u64, points: &'a [ControlPoint]) -> PaddedUpload<'a> {
+        let yarns = touched(plan, first, points.len());
         let mut upload = PaddedUpload { plan, first, points, yarns, cut: Default::default() };
         if let Some(last) = upload.yarns.clone().last() {
             upload.cut = [upload.yarns.start, last].map(|yarn| upload.renewed(yarn, self.ends[yarn]));
         }
-        Ok(upload)
+        upload
     }
 
     /// Remembers the ends of an upload that has been written.

@@ -146,12 +146,12 @@ impl<'a> Pipeline<'a> {
         let (plan, mut session) = self.start(device)?;
         let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
         let total = |count: fn(&Chunk) -> u32| chunks.iter().map(|chunk| u64::from(count(chunk))).sum();
-        let mut vertices = zeroed("vertices", total(|chunk| chunk.vertices))?;
-        let mut indices = zeroed("indices", total(|chunk| chunk.indices))?;
+        let mut vertices = zeroed("vertices", total(|chunk| chunk.vertices()))?;
+        let mut indices = zeroed("indices", total(|chunk| chunk.indices()))?;
         let (mut vertices_left, mut indices_left) = (&mut vertices[..], &mut indices[..]);
         for chunk in &chunks {
-            let (chunk_vertices, others) = vertices_left.split_at_mut(chunk.vertices as usize);
-            let (chunk_indices, other_indices) = indices_left.split_at_mut(chunk.indices as usize);
+            let (chunk_vertices, others) = vertices_left.split_at_mut(chunk.vertices() as usize);
+            let (chunk_indices, other_indices) = indices_left.split_at_mut(chunk.indices() as usize);
             (vertices_left, indices_left) = (others, other_indices);
             session.mesh_into(chunk, MeshMut { vertices: chunk_vertices, indices: chunk_indices })?;
             self.tell(&plan, chunk)?;
@@ -225,16 +225,16 @@ impl<'a> Pipeline<'a> {
                 at += piece.len();
                 ControlFlow::Continue(())
             })?;
-            done += chunk.rings as usize - usize::from(chunk.repeats_ring);
+            done += chunk.rings() as usize - usize::from(chunk.repeats_ring());
             self.tell(&plan, &chunk)?;
         }
         Ok(Trajectory { rings, offsets: plan.ring_offsets().to_vec() })
     }
 
     /// Plans, opens a session, uploads and scans.
-    fn start(&mut self, device: &dyn Backend) -> Result<(Arc<Plan>, Box<dyn Session>), PipelineError> {
+    fn start(&mut self, device: &dyn Backend) -> Result<(Arc<Plan>, Session), PipelineError> {
         let plan = Arc::new(self.plan()?);
-        let mut session = device.session(plan.clone())?;
+        let mut session = Session::new(device, plan.clone())?;
         let mut first = 0;
         for points in self.yarns.points().chunks(UPLOAD_POINTS) {
             session.upload(first, points)?;
@@ -249,8 +249,8 @@ impl<'a> Pipeline<'a> {
 
     fn tell(&mut self, plan: &Plan, chunk: &Chunk) -> Result<(), PipelineError> {
         // Rings of the yarns before, and of this one up to the chunk's end.
-        let done = chunk.parts.last().map_or(0, |part| {
-            let own = part.first_ring + part.rings - u32::from(chunk.repeats_ring);
+        let done = chunk.parts().last().map_or(0, |part| {
+            let own = part.first_ring + part.rings - u32::from(chunk.repeats_ring());
             plan.ring_offsets()[part.yarn as usize] + u64::from(own)
         });
         self.report(Progress { rings: done, total: plan.counts().rings })

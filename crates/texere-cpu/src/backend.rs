@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Limits, Plan, Session};
+use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan};
 
+use crate::engine::CpuEngine;
 use crate::parallel::{Parallel, Path};
 use crate::serial::Serial;
-use crate::session::CpuSession;
 
 /// One thread, one yarn after the other: the reference.
 #[derive(Debug)]
@@ -90,8 +90,8 @@ impl Backend for SerialBackend {
         &self.info
     }
 
-    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
-        Ok(Box::new(CpuSession::new(Serial, plan)?))
+    fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
+        Ok(Box::new(CpuEngine::new(Serial, plan)?))
     }
 }
 
@@ -100,7 +100,7 @@ impl Backend for ParallelBackend {
         &self.info
     }
 
-    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
-        Ok(Box::new(CpuSession::new(Parallel(self.path), plan)?))
+    fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
+        Ok(Box::new(CpuEngine::new(Parallel(self.path), plan)?))
     }
 }

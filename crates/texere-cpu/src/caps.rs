@@ -2,13 +2,13 @@
 
 use texere_core::{Chunk, End, MeshMut, Topology, Vertex};
 
-use crate::session::Work;
+use crate::engine::Work;
 
 /// Writes the caps of `chunk` once its tube vertices stand: the end ring's positions again, with the end's own normal.
 pub(crate) fn caps(work: &Work, chunk: &Chunk, out: MeshMut<'_>) {
     let plan = &work.plan;
     let sides = plan.settings().sides as usize;
-    for cap in &chunk.caps {
+    for cap in chunk.caps() {
         let yarn = cap.yarn as usize;
         let rings = plan.rings(yarn);
         let (ring, sign) = if cap.end == End::Start { (0, -1.0) } else { (rings - 1, 1.0) };

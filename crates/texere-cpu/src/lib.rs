@@ -18,11 +18,11 @@
 
 mod backend;
 mod caps;
+mod engine;
 mod pages;
 mod parallel;
 mod rolls;
 mod serial;
-mod session;
 
 pub use backend::{ParallelBackend, SerialBackend};
 pub use parallel::fill;

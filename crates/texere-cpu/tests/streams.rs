@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use texere_core::{
-    Backend, ControlPoint, Frame, Limits, MeshMut, Pipeline, Plan, Settings, Topology, Vertex, Yarn, Yarns,
+    Backend, ControlPoint, Frame, Limits, MeshMut, Pipeline, Plan, Session, Settings, Topology, Vertex, Yarn,
+    Yarns,
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 
@@ -35,7 +36,7 @@ fn mesh(device: &ParallelBackend, yarns: &Yarns, settings: Settings, skew: usize
     let untouched = Vertex { position: [-7.0; 3], normal: [-7.0; 3] };
     let mut vertex_room = vec![untouched; count + 2 * skew];
     let mut index_room = vec![u32::MAX; indices + 2 * skew];
-    let mut session = device.session(plan).unwrap();
+    let mut session = Session::new(device, plan).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.scan().unwrap();
     let out =

@@ -15,13 +15,13 @@ use opencl3::platform::Platform;
 use opencl3::program::{
     CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
 };
-use texere_core::{Backend, BackendError, DeviceInfo, Limits, Plan, Session};
+use texere_core::{Backend, BackendError, DeviceInfo, Engine, Limits, Plan, Session};
 use texere_kernels::{PER_RING, PER_YARN, Program};
 
 use crate::device::{self, listed};
 use crate::faults::failed;
 use crate::handles::Handle;
-use crate::{OpenClSession, Schedule};
+use crate::{OpenClEngine, OpenClSession, Schedule};
 
 /// The kernels of a schedule.
 fn program(schedule: Schedule) -> Program {
@@ -195,13 +195,13 @@ impl OpenClBackend {
         self
     }
 
-    /// Starts work on a plan, as [`Backend::session`] does, and keeps what OpenCL can do beyond [`Session`]: see
-    /// [`OpenClSession::device_mesh`].
+    /// Starts work on a plan in a session that lends its memory: see [`OpenClSession::device_mesh`].
     ///
     /// **Errors**: [`BackendError::OutOfMemory`], also where the control points exceed one buffer;
     /// [`BackendError::Unsupported`] for what [`Schedule::PerYarn`] does not do.
-    pub fn session_on_device(&self, plan: Arc<Plan>) -> Result<OpenClSession, BackendError> {
-        OpenClSession::new(self.opened.clone(), self.info.limits, plan)
+    pub fn lending_session(&self, plan: Arc<Plan>) -> Result<OpenClSession, BackendError> {
+        let engine = OpenClEngine::new(self.opened.clone(), &self.info.limits, plan.clone())?;
+        Ok(OpenClSession(Session::with_engine(Box::new(engine), self.info.limits, plan)))
     }
 }
 
@@ -210,8 +210,8 @@ impl Backend for OpenClBackend {
         &self.info
     }
 
-    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
-        Ok(Box::new(self.session_on_device(plan)?))
+    fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
+        Ok(Box::new(OpenClEngine::new(self.opened.clone(), &self.info.limits, plan)?))
     }
 }
 

@@ -11,7 +11,7 @@ use opencl3::command_queue::{
 };
 use opencl3::event::wait_for_events;
 use opencl3::memory::{CL_MAP_READ, CL_MEM_READ_WRITE, create_buffer};
-use texere_core::{BackendError, Traffic};
+use texere_core::BackendError;
 
 use crate::backend::Opened;
 use crate::clock::{Clock, Stage};
@@ -153,7 +153,7 @@ impl Buffer {
         opened: &Opened,
         out: &mut [T],
         after: Option<&Handle>,
-        meter: &mut Meter<'_>,
+        clock: &mut Clock,
     ) -> Result<(), BackendError> {
         if out.is_empty() {
             return Ok(());
@@ -162,7 +162,7 @@ impl Buffer {
         let event = unsafe {
             self.enqueue_read(opened, CL_BLOCKING, 0, size_of_val(out), out.as_mut_ptr().cast(), after)
         }?;
-        meter.read(&event, size_of_val(out));
+        clock.note(Stage::Readback, &event);
         Ok(())
     }
 
@@ -197,25 +197,6 @@ impl Buffer {
     }
 }
 
-/// Where what goes over the bus gets counted.
-#[derive(Debug)]
-pub(crate) struct Meter<'a> {
-    pub(crate) clock: &'a mut Clock,
-    pub(crate) traffic: &'a mut Traffic,
-}
-
-impl Meter<'_> {
-    fn read(&mut self, event: &Arc<Handle>, bytes: usize) {
-        self.clock.note(Stage::Readback, event);
-        self.traffic.read += bytes as u64;
-    }
-
-    pub(crate) fn sent(&mut self, first: &Arc<Handle>, last: &Arc<Handle>, bytes: u64) {
-        self.clock.note_all(Stage::Upload, first, last);
-        self.traffic.uploaded += bytes;
-    }
-}
-
 /// Bytes of a piece that a sink is lent: whole vertices (24 bytes) and rings (32), large enough that the transfer's
 /// start does not matter.
 const PIECE_BYTES: usize = (16 << 20) / 96 * 96;
@@ -237,7 +218,7 @@ impl Staging {
         buffer: &Buffer,
         count: u32,
         after: Option<&Handle>,
-        meter: &mut Meter<'_>,
+        clock: &mut Clock,
         sink: Sink<'_, T>,
     ) -> Result<ControlFlow<()>, BackendError> {
         let (count, each) = (count as usize, size_of::<T>());
@@ -256,7 +237,7 @@ impl Staging {
             let event = unsafe {
                 buffer.enqueue_read(opened, CL_NON_BLOCKING, first * each, here * each, start, after)
             }?;
-            meter.read(&event, here * each);
+            clock.note(Stage::Readback, &event);
             flush(opened.transfers.raw()).map_err(opened.failed("clFlush"))?;
             Ok(event)
         };

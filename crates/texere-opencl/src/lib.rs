@@ -16,20 +16,22 @@
 
 mod backend;
 mod buffers;
+mod chunk_memory;
 mod clock;
 mod device;
+mod engine;
 mod faults;
 mod handles;
 mod kernel;
 mod per_yarn;
 mod pinned;
-mod resident;
 mod session;
-mod slot;
 mod stages;
+mod tables;
 mod upload;
 
 pub use backend::OpenClBackend;
+pub use engine::OpenClEngine;
 pub use faults::OpenClError;
 pub use session::{DeviceMesh, OpenClSession};
 pub use texere_core::Schedule;

@@ -6,8 +6,8 @@ use texere_kernels::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 
 use crate::Schedule;
 use crate::backend::Opened;
+use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel};
-use crate::slot::Slot;
 use crate::stages::{Launches, Stages, Work};
 
 /// A lane a part.
@@ -29,8 +29,8 @@ impl PerYarn {
 }
 
 /// The parameters of a launch whose table has one row a part.
-fn part_params(plan: &Plan, chunk: &Chunk, slot: &Slot) -> Params {
-    Params { blocks: slot.rows as u32, ..plan.params(chunk) }
+fn part_params(plan: &Plan, chunk: &Chunk, memory: &ChunkMemory) -> Params {
+    Params { blocks: memory.rows as u32, ..plan.params(chunk) }
 }
 
 impl Stages for PerYarn {
@@ -39,7 +39,7 @@ impl Stages for PerYarn {
     }
 
     /// There is nothing to scan: a plan with rolls is refused.
-    fn block_turns(&mut self, _: Work<'_>, _: &Chunk, _: &Slot) -> Result<Launches, BackendError> {
+    fn block_turns(&mut self, _: Work<'_>, _: &Chunk, _: &ChunkMemory) -> Result<Launches, BackendError> {
         Ok(Vec::new())
     }
 
@@ -47,34 +47,44 @@ impl Stages for PerYarn {
         Ok(Vec::new())
     }
 
-    fn trajectory(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
+    fn trajectory(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError> {
         let Work { opened, plan, .. } = work;
-        let (params, window) = (part_params(plan, chunk, slot), chunk.window.start);
-        let outputs = [Arg::Memory(&slot.rings), Arg::Memory(&slot.slopes)];
-        let args = [&work.inputs(&params, &window, slot)[..5], &outputs].concat();
-        let groups = slot.rows.div_ceil(self.trajectory.group());
+        let (params, window) = (part_params(plan, chunk, memory), chunk.window().start);
+        let outputs = [Arg::Memory(&memory.rings), Arg::Memory(&memory.slopes)];
+        let args = [&work.inputs(&params, &window, memory)[..5], &outputs].concat();
+        let groups = memory.rows.div_ceil(self.trajectory.group());
         // SAFETY: the arguments are those of `trajectory_per_yarn`; a lane reads its part and what that names, and writes
-        // the part's rings and slopes, for which the slot has room. Lanes past the last part do nothing.
-        unsafe { self.trajectory.run(opened, &args, groups, slot.ready.as_deref()) }
+        // the part's rings and slopes, for which there is room. Lanes past the last part do nothing.
+        unsafe { self.trajectory.run(opened, &args, groups, memory.ready.as_deref()) }
     }
 
-    fn mesh(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
-        let Work { opened, plan, resident } = work;
-        let params = part_params(plan, chunk, slot);
+    fn mesh(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError> {
+        let Work { opened, plan, tables } = work;
+        let params = part_params(plan, chunk, memory);
         let args = [
             Arg::Value(bytes_of(&params)),
-            Arg::Memory(&resident.yarns),
-            Arg::Memory(&slot.table),
-            Arg::Memory(&slot.rings),
-            Arg::Memory(&slot.slopes),
-            Arg::Memory(&resident.outlines),
-            Arg::Memory(&resident.pattern),
-            Arg::Memory(&slot.vertices),
-            Arg::Memory(&slot.indices),
+            Arg::Memory(&tables.yarns),
+            Arg::Memory(&memory.table),
+            Arg::Memory(&memory.rings),
+            Arg::Memory(&memory.slopes),
+            Arg::Memory(&tables.outlines),
+            Arg::Memory(&tables.pattern),
+            Arg::Memory(&memory.vertices),
+            Arg::Memory(&memory.indices),
         ];
-        let groups = slot.rows.div_ceil(self.mesh.group());
+        let groups = memory.rows.div_ceil(self.mesh.group());
         // SAFETY: the arguments are those of `mesh_per_yarn`; a lane reads its part and what that names, and writes the
-        // part's vertices and indices, for which the slot has room. Lanes past the last part do nothing.
-        unsafe { self.mesh.run(opened, &args, groups, slot.ready.as_deref()) }
+        // part's vertices and indices, for which there is room. Lanes past the last part do nothing.
+        unsafe { self.mesh.run(opened, &args, groups, memory.ready.as_deref()) }
     }
 }

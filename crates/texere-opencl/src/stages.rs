@@ -8,10 +8,10 @@ use texere_core::{BackendError, Chunk, Params, Plan, Topology};
 use texere_kernels::{BLOCK_TURNS, CAPS, Entry, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS};
 
 use crate::backend::Opened;
+use crate::chunk_memory::ChunkMemory;
 use crate::handles::Handle;
 use crate::kernel::{Arg, Kernel};
-use crate::resident::Resident;
-use crate::slot::Slot;
+use crate::tables::Tables;
 
 /// The events of the launches that make a stage, in order.
 pub(crate) type Launches = Vec<Arc<Handle>>;
@@ -21,37 +21,53 @@ pub(crate) type Launches = Vec<Arc<Handle>>;
 pub(crate) struct Work<'a> {
     pub(crate) opened: &'a Opened,
     pub(crate) plan: &'a Plan,
-    pub(crate) resident: &'a Resident,
+    pub(crate) tables: &'a Tables,
 }
 
 impl<'a> Work<'a> {
     /// What the kernels that read a chunk's table begin with, in the order of the sources. Those that need no rolls leave
     /// out the last two, `block_turns` the last.
-    pub(crate) fn inputs(&self, params: &'a Params, window: &'a u64, slot: &'a Slot) -> [Arg<'a>; 7] {
+    pub(crate) fn inputs(
+        &self,
+        params: &'a Params,
+        window: &'a u64,
+        memory: &'a ChunkMemory,
+    ) -> [Arg<'a>; 7] {
         [
             Arg::Value(bytes_of(params)),
             Arg::Value(bytes_of(window)),
-            Arg::Memory(&self.resident.points),
-            Arg::Memory(&self.resident.yarns),
-            Arg::Memory(&slot.table),
-            Arg::Memory(&self.resident.rolls),
-            Arg::Memory(&self.resident.whole),
+            Arg::Memory(&self.tables.points),
+            Arg::Memory(&self.tables.yarns),
+            Arg::Memory(&memory.table),
+            Arg::Memory(&self.tables.rolls),
+            Arg::Memory(&self.tables.whole),
         ]
     }
 }
 
-/// A schedule: one way of doing the stages. A slot that is handed over has the chunk's tables, and room for what the
-/// stage writes.
+/// A schedule: one way of doing the stages. The memory that is handed over has the chunk's tables, and room for what
+/// the stage writes.
 pub(crate) trait Stages: Debug + Send {
-    /// Whether `mesh` reads the slot's rings rather than work them out itself.
+    /// Whether `mesh` reads the chunk's rings rather than work them out itself.
     fn mesh_reads_rings(&self) -> bool;
 
     /// The first half of the scan: what each block of the chunk turns by.
-    fn block_turns(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError>;
+    fn block_turns(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError>;
     /// The second half: rolls from the turns of all chunks.
     fn yarn_rolls(&mut self, work: Work<'_>) -> Result<Launches, BackendError>;
-    fn trajectory(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError>;
-    fn mesh(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError>;
+    fn trajectory(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError>;
+    fn mesh(&mut self, work: Work<'_>, chunk: &Chunk, memory: &ChunkMemory)
+    -> Result<Launches, BackendError>;
 }
 
 /// A workgroup a block.
@@ -84,57 +100,72 @@ impl Stages for PerRing {
         false
     }
 
-    fn block_turns(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
+    fn block_turns(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError> {
         let Work { opened, plan, .. } = work;
-        let (params, window) = (plan.params(chunk), chunk.window.start);
-        let args = &work.inputs(&params, &window, slot)[..6];
+        let (params, window) = (plan.params(chunk), chunk.window().start);
+        let args = &work.inputs(&params, &window, memory)[..6];
         // SAFETY: the arguments are those of `block_turns`; a group reads its row of the chunk's table and what that
         // names, and writes its block's roll: the plan counted all blocks. A repeated ring's is the next chunk's first.
-        unsafe { self.block_turns.run(opened, args, slot.rows, slot.ready.as_deref()) }
+        unsafe { self.block_turns.run(opened, args, memory.rows, memory.ready.as_deref()) }
     }
 
     fn yarn_rolls(&mut self, work: Work<'_>) -> Result<Launches, BackendError> {
-        let Work { opened, plan, resident } = work;
-        let args = [Arg::Memory(&resident.yarns), Arg::Memory(&resident.rolls), Arg::Memory(&resident.whole)];
+        let Work { opened, plan, tables } = work;
+        let args = [Arg::Memory(&tables.yarns), Arg::Memory(&tables.rolls), Arg::Memory(&tables.whole)];
         // SAFETY: the arguments are those of `yarn_rolls`; a group reads its yarn's row, reads and writes the yarn's
         // rolls, and writes its whole turn: the plan counted all of them.
         unsafe { self.yarn_rolls.run(opened, &args, plan.layout().yarns().len(), None) }
     }
 
-    fn trajectory(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
+    fn trajectory(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError> {
         let Work { opened, plan, .. } = work;
-        let (params, window) = (plan.params(chunk), chunk.window.start);
-        let args = [&work.inputs(&params, &window, slot)[..], &[Arg::Memory(&slot.rings)]].concat();
+        let (params, window) = (plan.params(chunk), chunk.window().start);
+        let args = [&work.inputs(&params, &window, memory)[..], &[Arg::Memory(&memory.rings)]].concat();
         // SAFETY: the arguments are those of `trajectory`; a group reads its row of the chunk's table and what that
-        // names, and writes its rings, for all of which the slot has room.
-        unsafe { self.trajectory.run(opened, &args, slot.rows, slot.ready.as_deref()) }
+        // names, and writes its rings, for all of which there is room.
+        unsafe { self.trajectory.run(opened, &args, memory.rows, memory.ready.as_deref()) }
     }
 
-    fn mesh(&mut self, work: Work<'_>, chunk: &Chunk, slot: &Slot) -> Result<Launches, BackendError> {
-        let Work { opened, plan, resident } = work;
-        let (params, window) = (plan.params(chunk), chunk.window.start);
+    fn mesh(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError> {
+        let Work { opened, plan, tables } = work;
+        let (params, window) = (plan.params(chunk), chunk.window().start);
         let outputs = [
-            Arg::Memory(&resident.outlines),
-            Arg::Memory(&resident.pattern),
-            Arg::Memory(&slot.vertices),
-            Arg::Memory(&slot.indices),
+            Arg::Memory(&tables.outlines),
+            Arg::Memory(&tables.pattern),
+            Arg::Memory(&memory.vertices),
+            Arg::Memory(&memory.indices),
         ];
-        let args = [&work.inputs(&params, &window, slot)[..], &outputs].concat();
+        let args = [&work.inputs(&params, &window, memory)[..], &outputs].concat();
         // SAFETY: the arguments are those of `mesh`; a group reads its row of the chunk's table and what that names, and
-        // writes the row's vertices and indices, for all of which the slot has room.
-        let tubes = unsafe { self.mesh.run(opened, &args, slot.rows, slot.ready.as_deref()) }?;
+        // writes the row's vertices and indices, for all of which there is room.
+        let tubes = unsafe { self.mesh.run(opened, &args, memory.rows, memory.ready.as_deref()) }?;
         let args = [
             Arg::Value(bytes_of(&params)),
             Arg::Value(bytes_of(&window)),
-            Arg::Memory(&resident.points),
-            Arg::Memory(&slot.caps),
-            Arg::Memory(&resident.cap_pattern),
-            Arg::Memory(&slot.vertices),
-            Arg::Memory(&slot.indices),
+            Arg::Memory(&tables.points),
+            Arg::Memory(&memory.caps),
+            Arg::Memory(&tables.cap_pattern),
+            Arg::Memory(&memory.vertices),
+            Arg::Memory(&memory.indices),
         ];
         let lanes = params.caps as usize * params.sides as usize;
         // SAFETY: the arguments are those of `caps`; a lane reads its cap's row and what that names, and writes a vertex
-        // and a triangle, for all of which the slot has room. Lanes past the last do nothing.
+        // and a triangle, for all of which there is room. Lanes past the last do nothing.
         let caps = unsafe { self.caps.run(opened, &args, lanes.div_ceil(self.caps.group()), None) }?;
         Ok([tubes, caps].concat())
     }

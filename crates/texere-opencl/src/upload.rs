@@ -10,7 +10,8 @@ use opencl3::memory::CL_MAP_WRITE;
 use texere_core::{BackendError, ControlPoint, PaddedUpload};
 
 use crate::backend::Opened;
-use crate::buffers::{Buffer, Meter, wait};
+use crate::buffers::{Buffer, wait};
+use crate::clock::{Clock, Stage};
 use crate::handles::Handle;
 use crate::pinned::Pinned;
 
@@ -44,14 +45,15 @@ pub(crate) struct Outbox {
 }
 
 impl Outbox {
-    /// Sends `upload` to `target` by the queue of the kernels. May return before it is there.
+    /// Sends `upload` to `target` by the queue of the kernels, and gives back the bytes of it. May return before it is there.
     pub(crate) fn send(
         &mut self,
         opened: &Arc<Opened>,
         target: &mut Buffer,
         upload: &PaddedUpload<'_>,
-        meter: &mut Meter<'_>,
-    ) -> Result<(), BackendError> {
+        clock: &mut Clock,
+    ) -> Result<u64, BackendError> {
+        let mut bytes = 0;
         for range in upload.ranges() {
             let count = range.end - range.start;
             let pinned = count > if self.used { FEW_POINTS } else { FIRST_POINTS };
@@ -64,10 +66,11 @@ impl Outbox {
                 sent.into_iter().collect()
             };
             if let (Some(first), Some(last)) = (events.first(), events.last()) {
-                meter.sent(first, last, count * POINT_BYTES);
+                clock.note_all(Stage::Upload, first, last);
             }
+            bytes += count * POINT_BYTES;
         }
-        Ok(())
+        Ok(bytes)
     }
 
     /// Gives back the commands in the order that they run in.

@@ -1,6 +1,6 @@
 //! What can go wrong between a fabric and its picture.
 
-use texere_core::{BackendError, PlanError};
+use texere_core::{BackendError, PlanError, SessionError};
 use thiserror::Error;
 
 /// Why there is no picture.
@@ -50,4 +50,17 @@ pub enum RenderError {
     /// The device failed.
     #[error(transparent)]
     Backend(#[from] BackendError),
+    /// A call of the session that a picture should not have made.
+    #[error("the session was misused")]
+    Session(#[source] SessionError),
+}
+
+impl From<SessionError> for RenderError {
+    fn from(error: SessionError) -> Self {
+        match error {
+            SessionError::Backend(error) => Self::Backend(error),
+            SessionError::Plan(error) => Self::Plan(error),
+            misuse => Self::Session(misuse),
+        }
+    }
 }

@@ -74,7 +74,7 @@ impl Renderer {
         // With caps, since the parallel one has them, too.
         let settings = Settings { topology: Topology::Indexed, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-        let mut session = serial.session(plan.clone())?;
+        let mut session = Session::new(serial, plan.clone())?;
         session.upload(0, yarns.points())?;
         session.scan()?;
         let (mut geometry, mut buffers) = (Duration::ZERO, Duration::ZERO);
@@ -84,19 +84,19 @@ impl Renderer {
             let _ = session.read_mesh(&chunk, &mut |_| ControlFlow::Continue(()))?;
             geometry += start.elapsed();
             let start = Instant::now();
-            self.send(&mut *session, &chunk)?;
+            self.send(&mut session, &chunk)?;
             buffers += start.elapsed();
         }
         Ok((geometry, buffers))
     }
 
     /// Makes buffers of a chunk's mesh, and waits until it is there.
-    fn send(&self, session: &mut dyn Session, chunk: &Chunk) -> Result<(), BackendError> {
+    fn send(&self, session: &mut Session, chunk: &Chunk) -> Result<(), RenderError> {
         let buffer = |usage, count: u32, each: usize| {
             self.buffer("serial mesh", u64::from(count) * each as u64, usage)
         };
-        let vertices = buffer(BufferUsages::VERTEX, chunk.vertices, size_of::<Vertex>())?;
-        let indices = buffer(BufferUsages::INDEX, chunk.indices, size_of::<u32>())?;
+        let vertices = buffer(BufferUsages::VERTEX, chunk.vertices(), size_of::<Vertex>())?;
+        let indices = buffer(BufferUsages::INDEX, chunk.indices(), size_of::<u32>())?;
         let mut outcome = Ok(());
         let _ = session.read_mesh(chunk, &mut |piece| {
             let (buffer, offset, bytes): (_, _, &[u8]) = match piece {
@@ -113,7 +113,7 @@ impl Renderer {
             if outcome.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         })?;
         outcome?;
-        self.idle()
+        Ok(self.idle()?)
     }
 
     /// Waits until the device has done all that it was given.

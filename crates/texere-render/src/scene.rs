@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use texere_core::{BackendError, Chunk, ControlPoint, Limits, Plan, Session, Settings, Topology, Yarns};
+use texere_core::{BackendError, Chunk, ControlPoint, Limits, Plan, Settings, Topology, Yarns};
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
 
@@ -81,7 +81,7 @@ impl Renderer {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let limits = chunk_limits(&plan).min(&self.info().limits);
-        let mut session = self.device.wgpu_session(plan.clone())?;
+        let mut session = self.device.lending_session(plan.clone())?;
         session.upload(0, yarns.points())?;
         session.scan()?;
         let buffer = |what, bytes: &[u8], usage| self.filled(what, bytes, usage);
@@ -247,7 +247,7 @@ impl Scene<'_> {
                 pass.dispatch_workgroups(columns, rows, 1);
             }
             if let Some(screen) = &self.screen {
-                let mut pass = screen.yarn_pass(&mut encoder, chunk.index == 0);
+                let mut pass = screen.yarn_pass(&mut encoder, chunk.index() == 0);
                 pass.set_pipeline(if camera.sees_inside() {
                     &renderer.all_sides
                 } else {

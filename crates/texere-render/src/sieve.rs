@@ -63,7 +63,7 @@ impl Sieve {
         ring_lengths: &[f32],
     ) -> Result<(), BackendError> {
         let mut runs: Vec<Run> = chunk
-            .blocks
+            .blocks()
             .iter()
             .filter(|block| block.quads > 0)
             .map(|block| Run {
@@ -76,7 +76,7 @@ impl Sieve {
             .collect();
         let gaps: u64 = runs.iter().map(|run| u64::from(run.gaps)).sum();
         let mut caps: Vec<Triangle> = Vec::new();
-        for cap in &chunk.caps {
+        for cap in chunk.caps() {
             let (run, vertex) = (runs.len() as u32 | CAP, cap.first_vertex);
             runs.push(Run { yarn: cap.yarn, first_ring: 0, gaps: 0, first_vertex: vertex, ring_length: 0.0 });
             let section = plan.layout().yarns()[cap.yarn as usize].section as usize;

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Limits, Plan, Session};
+use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Session};
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
 use crate::Schedule;
 use crate::clock::has_clock;
+use crate::engine::WgpuEngine;
 use crate::gpu::Gpu;
 use crate::session::WgpuSession;
 use crate::stages::Stages;
@@ -119,11 +120,12 @@ impl WgpuBackend {
         Self { info, ..self }
     }
 
-    /// Starts a session that lends its buffers.
+    /// Starts work on a plan in a session that lends its buffers.
     ///
-    /// **Errors**: those of [`Backend::session`].
-    pub fn wgpu_session(&self, plan: Arc<Plan>) -> Result<WgpuSession, BackendError> {
-        WgpuSession::new(self.opened.clone(), self.info.limits, plan)
+    /// **Errors**: those of [`Backend::engine`].
+    pub fn lending_session(&self, plan: Arc<Plan>) -> Result<WgpuSession, BackendError> {
+        let engine = WgpuEngine::new(self.opened.clone(), plan.clone())?;
+        Ok(WgpuSession(Session::with_engine(Box::new(engine), self.info.limits, plan)))
     }
 
     /// The device, for buffers and pipelines that work with a session's.
@@ -171,8 +173,8 @@ impl Backend for WgpuBackend {
         &self.info
     }
 
-    fn session(&self, plan: Arc<Plan>) -> Result<Box<dyn Session>, BackendError> {
-        Ok(Box::new(self.wgpu_session(plan)?))
+    fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
+        Ok(Box::new(WgpuEngine::new(self.opened.clone(), plan)?))
     }
 }
 

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! A viewer that has a wgpu device of its own gives it to [`WgpuBackend::from_device`], starts a
-//! [`WgpuSession`](WgpuBackend::wgpu_session) and draws from the very buffers that the mesh was written to.
+//! [`WgpuSession`](WgpuBackend::lending_session) and draws from the very buffers that the mesh was written to.
 //!
 //! What is worth knowing:
 //!
@@ -22,20 +22,24 @@
 //!   more than the memory, give stricter limits: [`WgpuBackend::with_limits`].
 //! - A software device such as llvmpipe silently ends a lane that loops for long. There [`Schedule::PerYarn`] gives a long
 //!   yarn to several lanes.
-//! - The shaders run without bounds checks. A chunk that does not belong to the session's plan is therefore refused
-//!   before it is launched.
+//! - The shaders run without bounds checks. What they index by comes from a plan and the chunks that it was cut into, and a
+//!   session takes no other plan's chunks.
 
-mod buffers;
+mod buffer;
+mod chunk_memory;
 mod clock;
 mod device;
+mod engine;
 mod gpu;
 mod mapped;
 mod per_yarn;
 mod readback;
 mod session;
 mod stages;
+mod tables;
 mod upload;
 
 pub use device::WgpuBackend;
+pub use engine::WgpuEngine;
 pub use session::WgpuSession;
 pub use texere_core::Schedule;

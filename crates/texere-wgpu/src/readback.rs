@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use texere_core::BackendError;
 use wgpu::{BufferUsages, MapMode};
 
-use crate::buffers::Room;
+use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::mapped::Mapped;
 
@@ -18,7 +18,7 @@ const PIECE_BYTES: u64 = 96 << 20;
 /// Where results are copied to, and what that has cost so far.
 #[derive(Debug)]
 pub(crate) struct Readback {
-    sides: [Room; 2],
+    sides: [Buffer; 2],
     /// Time spent waiting for copies.
     pub(crate) waited: Duration,
     /// Bytes copied.
@@ -35,7 +35,7 @@ struct Copy<'a> {
 
 impl Readback {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
-        let side = || Room::new(gpu, "readback", BufferUsages::MAP_READ | BufferUsages::COPY_DST);
+        let side = || Buffer::new(gpu, "readback", BufferUsages::MAP_READ | BufferUsages::COPY_DST);
         Ok(Self { sides: [side()?, side()?], waited: Duration::ZERO, bytes: 0 })
     }
 

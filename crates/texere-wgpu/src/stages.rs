@@ -168,11 +168,11 @@ fn trusted_module(gpu: &Gpu, shader: &Shader) -> wgpu::ShaderModule {
         source: wgpu::ShaderSource::Wgsl(shader.source.into()),
     };
     // SAFETY: the source is one of texere-shaders' own, and what it may do unchecked it does not do:
-    // - Indices into buffers come from the block and cap tables and from the plan's own tables. A session checks each
-    //   chunk against its plan (`Plan::holds`) before its tables are sent, binds the plan's tables whole, and makes
-    //   every output at least as long as the chunk says.
+    // - Indices into buffers come from the block and cap tables and from the plan's own tables. Nobody but the plan makes
+    //   chunks, and a session takes its own plan's alone; the plan's tables are bound whole, and every output is at least
+    //   as long as the chunk says.
     // - Indices into workgroup memory are below BLOCK_RINGS or the workgroup's size: a block has at most BLOCK_RINGS
-    //   rings, which is checked likewise.
+    //   rings.
     // - Loops run over the counts of a row or of `Params`, upwards in steps above zero, so they end.
     // - Divisors are `subdivisions + 1`, `sides`, at least 3, a lane's share `across`, at least 1 since a ring has at
     //   least 5 stores, and constants above zero; a yarn's `rings - 1` divides as a

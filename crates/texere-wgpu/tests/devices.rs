@@ -6,8 +6,8 @@ mod support;
 
 use texere_conformance::drive::Lent;
 use texere_conformance::{cases, check};
-use texere_core::{Backend, BackendError, Frame, Limits, Session, Settings, Yarn};
-use texere_wgpu::{Schedule, WgpuBackend};
+use texere_core::{Backend, BackendError, Frame, Limits, Session, SessionError, Settings, Yarn};
+use texere_wgpu::{Schedule, WgpuBackend, WgpuSession};
 
 use support::{INSTALL, backend, plan, waves};
 
@@ -64,7 +64,7 @@ fn a_callers_device_does_as_well() {
     let yarns = waves(3, 50, Yarn::default());
     let plan = plan(&yarns, Settings::default());
     let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
-    let mut session = backend.wgpu_session(plan.clone()).unwrap();
+    let mut session = backend.lending_session(plan.clone()).unwrap();
     assert!(!backend.info().timed_by_device);
     session.upload(0, yarns.points()).unwrap();
     session.mesh(&chunk).unwrap();
@@ -77,7 +77,7 @@ fn a_callers_device_does_as_well() {
     assert!(indices.usage().contains(wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_SRC));
     let own = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
-        size: u64::from(chunk.vertices) * 24,
+        size: u64::from(chunk.vertices()) * 24,
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });
@@ -101,7 +101,7 @@ fn a_callers_device_of_too_narrow_limits_is_refused_with_the_drivers_log() {
 }
 
 /// What every call says once the device is gone; none may panic, nor the drop at the end.
-fn assert_lost(mut session: impl Session, yarns: &texere_core::Yarns, chunk: &texere_core::Chunk) {
+fn assert_lost(mut session: WgpuSession, yarns: &texere_core::Yarns, chunk: &texere_core::Chunk) {
     let errors = [
         session.upload(0, yarns.points()),
         session.scan(),
@@ -109,16 +109,19 @@ fn assert_lost(mut session: impl Session, yarns: &texere_core::Yarns, chunk: &te
         session.mesh(chunk),
         session.read_mesh(chunk, &mut |_| std::ops::ControlFlow::Continue(())).map(|_| ()),
     ];
-    let lost = errors.iter().filter(|error| matches!(error, Err(BackendError::DeviceLost { .. }))).count();
+    let lost = errors
+        .iter()
+        .filter(|error| matches!(error, Err(SessionError::Backend(BackendError::DeviceLost { .. }))))
+        .count();
     assert!(lost > 0, "{errors:?}");
     for error in errors {
         assert!(
             matches!(
                 error,
                 Ok(())
-                    | Err(BackendError::DeviceLost { .. }
-                        | BackendError::OutOfOrder { .. }
-                        | BackendError::NotInFlight { .. })
+                    | Err(SessionError::Backend(BackendError::DeviceLost { .. })
+                        | SessionError::OutOfOrder { .. }
+                        | SessionError::NotInFlight { .. })
             ),
             "{error:?}"
         );
@@ -141,19 +144,19 @@ fn lose_a_device_with(yarns: &texere_core::Yarns) {
     let callers = WgpuBackend::from_device(device, queue, Schedule::PerRing).unwrap();
     let own = WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL);
     for backend in [own, callers] {
-        let mut session = backend.wgpu_session(plan.clone()).unwrap();
+        let mut session = backend.lending_session(plan.clone()).unwrap();
         session.upload(0, yarns.points()).unwrap();
         session.scan().unwrap();
         session.mesh(&chunk).unwrap();
         backend.device().destroy();
         assert_lost(session, yarns, &chunk);
-        assert!(backend.session(plan.clone()).is_err());
+        assert!(Session::new(&backend, plan.clone()).is_err());
     }
     // A new one works.
     let mut session =
-        WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL).wgpu_session(plan.clone()).unwrap();
+        WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL).lending_session(plan.clone()).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.scan().unwrap();
     session.mesh(&chunk).unwrap();
-    assert_eq!(Lent::read(&mut session, &chunk).unwrap().vertices.len(), chunk.vertices as usize);
+    assert_eq!(Lent::read(&mut session, &chunk).unwrap().vertices.len(), chunk.vertices() as usize);
 }

@@ -4,7 +4,7 @@
 
 mod support;
 
-use texere_core::{Backend, Frame, Limits, Session, Settings, Topology, Yarn};
+use texere_core::{Backend, Frame, Limits, Settings, Topology, Yarn};
 use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::{INSTALL, plan, waves};
@@ -28,7 +28,7 @@ fn buffers_are_those_of_the_plan() {
             let backend = backend.with_limits(Limits { blocks, ..Limits::NONE });
             let plan = plan(&yarns, Settings { frame, caps, topology, sides: 5, ..Settings::default() });
             let limits = backend.info().limits;
-            let mut session = backend.wgpu_session(plan.clone()).unwrap();
+            let mut session = backend.lending_session(plan.clone()).unwrap();
             session.upload(0, yarns.points()).unwrap();
             session.scan().unwrap();
             for chunk in plan.chunks(&limits).unwrap() {

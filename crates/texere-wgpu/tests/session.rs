@@ -1,4 +1,4 @@
-//! The contract of a session: order of calls, what is in flight, what is read, what is timed. The suite tries edits.
+//! Sessions on a device: what is read, what is timed, what is refused. The suite tries misuse and edits.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
@@ -35,76 +35,16 @@ fn whole(plan: &Plan) -> Chunk {
 }
 
 #[test]
-fn stages_before_a_scan_are_refused() {
-    let yarns = waves(2, 40, Yarn::default());
-    let plan = plan(&yarns, ROLLED);
-    let chunk = whole(&plan);
-    let mut session = backend().wgpu_session(plan).unwrap();
-    session.upload(0, yarns.points()).unwrap();
-    assert!(matches!(session.mesh(&chunk), Err(BackendError::OutOfOrder { call: "mesh", needed: "scan" })));
-    assert!(matches!(
-        session.trajectory(&chunk),
-        Err(BackendError::OutOfOrder { call: "trajectory", needed: "scan" })
-    ));
-    session.scan().unwrap();
-    session.mesh(&chunk).unwrap();
-    // New points want a new scan, and what was made of the old ones is gone.
-    session.upload(3, &yarns.points()[3..5]).unwrap();
-    assert!(matches!(session.mesh(&chunk), Err(BackendError::OutOfOrder { .. })));
-    assert!(matches!(
-        session.read_mesh(&chunk, &mut |_| ControlFlow::Continue(())),
-        Err(BackendError::NotInFlight { chunk: 0 })
-    ));
-}
-
-#[test]
-fn two_chunks_are_in_flight_and_the_third_takes_the_first_ones_place() {
-    let yarns = waves(2, 400, Yarn::default());
-    let plan = plan(&yarns, Settings::default());
-    let chunks: Vec<_> = plan.chunks(&Limits { blocks: 5, ..Limits::NONE }).unwrap().collect();
-    assert!(chunks.len() > 3);
-    let mut session = backend().wgpu_session(plan).unwrap();
-    session.upload(0, yarns.points()).unwrap();
-    assert!(matches!(session.vertex_buffer(&chunks[0]), Err(BackendError::NotInFlight { chunk: 0 })));
-    for chunk in &chunks[..3] {
-        session.mesh(chunk).unwrap();
-    }
-    let mut ignore = |_: MeshPiece<'_>| ControlFlow::Continue(());
-    assert!(matches!(
-        session.read_mesh(&chunks[0], &mut ignore),
-        Err(BackendError::NotInFlight { chunk: 0 })
-    ));
-    for chunk in &chunks[1..3] {
-        assert!(session.read_mesh(chunk, &mut ignore).unwrap().is_continue());
-    }
-    assert!(matches!(
-        session.read_trajectory(&chunks[3], &mut |_| ControlFlow::Continue(())),
-        Err(BackendError::NotInFlight { chunk: 3 })
-    ));
-}
-
-#[test]
-fn a_chunk_of_another_plan_is_refused() {
-    let (yarns, others) = (waves(2, 400, Yarn::default()), waves(3, 900, Yarn::default()));
-    let mut session = backend().wgpu_session(plan(&yarns, Settings::default())).unwrap();
-    session.upload(0, yarns.points()).unwrap();
-    let foreign = whole(&plan(&others, Settings::default()));
-    for error in [session.mesh(&foreign), session.trajectory(&foreign)] {
-        assert!(matches!(error, Err(BackendError::ForeignChunk { chunk: 0 })), "{error:?}");
-    }
-}
-
-#[test]
 fn reading_moves_the_results_and_no_more() {
     let yarns = waves(4, 100, Yarn::default());
     let plan = plan(&yarns, Settings::default());
     let chunk = whole(&plan);
-    let mut session = backend().wgpu_session(plan).unwrap();
+    let mut session = backend().lending_session(plan).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.mesh(&chunk).unwrap();
     assert_eq!(session.traffic().read, 0);
     Lent::read(&mut session, &chunk).unwrap();
-    let mesh = u64::from(chunk.vertices) * 24 + u64::from(chunk.indices) * 4;
+    let mesh = u64::from(chunk.vertices()) * 24 + u64::from(chunk.indices()) * 4;
     assert_eq!(session.traffic().read, mesh);
     let mut rings = 0;
     assert!(
@@ -116,7 +56,7 @@ fn reading_moves_the_results_and_no_more() {
             .unwrap()
             .is_continue()
     );
-    assert_eq!((rings, session.traffic().read), (chunk.rings, mesh + u64::from(chunk.rings) * 32));
+    assert_eq!((rings, session.traffic().read), (chunk.rings(), mesh + u64::from(chunk.rings()) * 32));
     let Traffic { uploaded, .. } = session.traffic();
     assert_eq!(uploaded, 4 * 102 * 16);
 }
@@ -127,7 +67,7 @@ fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
     let yarns = waves(45, 2_000, Yarn::default());
     let plan = plan(&yarns, Settings { subdivisions: 9, ..Settings::default() });
     let chunk = whole(&plan);
-    let mut session = backend().wgpu_session(plan.clone()).unwrap();
+    let mut session = backend().lending_session(plan.clone()).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.mesh(&chunk).unwrap();
 
@@ -139,17 +79,17 @@ fn a_large_mesh_comes_in_pieces_and_a_break_ends_it() {
         if pieces == 1 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert!(answer.unwrap().is_break());
-    assert!(vertices < chunk.vertices);
+    assert!(vertices < chunk.vertices());
 
     // The session goes on as if nothing had been.
     let mut vertices =
-        vec![Vertex { position: [f32::NAN; 3], normal: [f32::NAN; 3] }; chunk.vertices as usize];
-    let mut indices = vec![u32::MAX; chunk.indices as usize];
+        vec![Vertex { position: [f32::NAN; 3], normal: [f32::NAN; 3] }; chunk.vertices() as usize];
+    let mut indices = vec![u32::MAX; chunk.indices() as usize];
     session.mesh_into(&chunk, MeshMut { vertices: &mut vertices, indices: &mut indices }).unwrap();
-    let mut gold = SerialBackend::new().session(plan).unwrap();
+    let mut gold = Session::new(&SerialBackend::new(), plan).unwrap();
     gold.upload(0, yarns.points()).unwrap();
     gold.mesh(&chunk).unwrap();
-    let gold = Lent::read(&mut *gold, &chunk).unwrap();
+    let gold = Lent::read(&mut gold, &chunk).unwrap();
     assert_eq!(indices, gold.indices);
     for (ours, gold) in vertices.iter().zip(&gold.vertices) {
         for (ours, gold) in ours.position.iter().zip(gold.position) {
@@ -163,7 +103,7 @@ fn stages_are_timed_apart_however_often_they_run() {
     let yarns = waves(20, 500, Yarn { twist: 0.1, ..Yarn::default() });
     let plan = plan(&yarns, ROLLED);
     let chunk = whole(&plan);
-    let mut session = backend().wgpu_session(plan).unwrap();
+    let mut session = backend().lending_session(plan).unwrap();
     session.upload(0, yarns.points()).unwrap();
     let uploaded = session.timings();
     assert_eq!([uploaded.scan, uploaded.trajectory, uploaded.mesh, uploaded.readback], [Duration::ZERO; 4]);
@@ -186,26 +126,16 @@ fn more_points_than_a_buffer_holds_is_a_named_error() {
     let points = most / 16 + 1;
     let layout = Layout::new(vec![Yarn::default()], vec![0, points], vec![Section::Circle]).unwrap();
     let plan = Plan::new(layout.into(), Settings { subdivisions: 0, ..Settings::default() }).unwrap();
-    let Err(BackendError::OutOfMemory { what, bytes }) = backend().session(plan.into()) else {
+    let Err(BackendError::OutOfMemory { what, bytes }) = backend().engine(plan.into()) else {
         panic!("no error")
     };
     assert_eq!((what, bytes), ("control points", (points + 2) * 16));
 }
 
 #[test]
-fn an_upload_past_the_end_is_refused() {
-    let yarns = waves(1, 10, Yarn::default());
-    let mut session = backend().wgpu_session(plan(&yarns, Settings::default())).unwrap();
-    assert!(matches!(
-        session.upload(5, yarns.points()),
-        Err(BackendError::UploadRange { first: 5, end: 15, points: 10 })
-    ));
-}
-
-#[test]
 fn the_schedule_per_yarn_refuses_under_its_own_name() {
     let plan = plan(&waves(1, 5, Yarn::default()), Settings { caps: true, ..Settings::default() });
-    let refused = WgpuBackend::open(0, Schedule::PerYarn).expect(INSTALL).session(plan).map(|_| ());
+    let refused = WgpuBackend::open(0, Schedule::PerYarn).expect(INSTALL).engine(plan).map(|_| ());
     let Err(error @ BackendError::Unsupported { .. }) = refused else { panic!("{refused:?}") };
     assert_eq!(error.to_string(), "wgpu:0/per-yarn does not do caps");
 }

@@ -41,10 +41,10 @@ pub struct AssembledCap {
 pub fn assemble(oracle: &Oracle, output: &Output, report: &mut Report) -> Assembled {
     let mut whole = Assembly::new(oracle);
     for (chunk, mesh) in output.chunks.iter().zip(&output.meshes) {
-        for part in &chunk.parts {
+        for part in chunk.parts() {
             whole.take_part(part, mesh, report);
         }
-        for cap in &chunk.caps {
+        for cap in chunk.caps() {
             whole.take_cap(chunk, cap, mesh, report);
         }
     }
@@ -139,7 +139,7 @@ impl<'a> Assembly<'a> {
         let yarn = cap.yarn as usize;
         let ring = if cap.end == End::Start { 0 } else { self.oracle.yarns[yarn].rings.len() as u64 - 1 };
         let place = Place { yarn: yarn as u64, ring, point: None };
-        let tube_vertices = chunk.parts.iter().map(|part| part.rings as usize * self.sides).sum();
+        let tube_vertices = chunk.parts().iter().map(|part| part.rings as usize * self.sides).sum();
         let first = cap.first_vertex as usize;
         let vertices = mesh.vertices.get(first..first + self.sides).filter(|_| first >= tube_vertices);
         let Some(vertices) = vertices else {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{BLOCK_RINGS, Block, Limits, Plan};
+use super::{BLOCK_RINGS, Block, Limits, Plan, PlanId};
 use crate::{ControlPoint, End, PlanError, Ring, Topology, Vertex};
 
 /// A run of one yarn's rings in a chunk. All but `yarn` and `first_ring` count from the start of the chunk.
@@ -38,7 +38,8 @@ pub struct Cap {
 /// A range of blocks that is launched, read and drawn together.
 ///
 /// It holds all that a launch needs: the block table, the parts that it makes, and its place in the whole. Where it
-/// ends inside a yarn it repeats the next ring, so that its triangles stand on its own vertices.
+/// ends inside a yarn it repeats the next ring, so that its triangles stand on its own vertices. Only [`Plan::chunks`] makes
+/// chunks, and nobody can change one, so that a kernel need not check what its tables say.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
@@ -49,36 +50,105 @@ pub struct Cap {
 /// // 199 rings: three full blocks of 64 and one of 7. Two rows of the block table have room for one block and the ring
 /// // that it repeats, or for the last two blocks.
 /// let chunks: Vec<_> = plan.chunks(&Limits { blocks: 2, ..Limits::NONE })?.collect();
-/// let rings: Vec<_> = chunks.iter().map(|chunk| (chunk.parts[0].first_ring, chunk.rings)).collect();
+/// let rings: Vec<_> = chunks.iter().map(|chunk| (chunk.parts()[0].first_ring, chunk.rings())).collect();
 /// assert_eq!(rings, [(0, 65), (64, 65), (128, 71)]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Chunk {
-    /// Its number, from 0.
-    pub index: u64,
-    /// Its blocks among all blocks; the table has one row more where a ring is repeated.
-    pub block_range: Range<u64>,
+    plan: PlanId,
+    index: u64,
+    block_range: Range<u64>,
+    window: Range<u64>,
+    blocks: Vec<Block>,
+    parts: Vec<Part>,
+    caps: Vec<Cap>,
+    repeats_ring: bool,
+    rings: u32,
+    vertices: u32,
+    indices: u32,
+    first_vertex: u64,
+    first_index: u64,
+}
+
+impl Chunk {
+    /// The plan that it was cut from.
+    pub(crate) const fn plan(&self) -> PlanId {
+        self.plan
+    }
+
+    /// Its number among those it was cut with, from 0.
+    #[must_use]
+    pub const fn index(&self) -> u64 {
+        self.index
+    }
+
+    /// Its blocks among all blocks; the table has one row more where a ring is repeated. No other chunk of the plan has the
+    /// same, unless it is the same but for its place in the whole.
+    #[must_use]
+    pub const fn block_range(&self) -> Range<u64> {
+        self.block_range.start..self.block_range.end
+    }
+
     /// The padded control points that it reads, cut to multiples of [`WINDOW_POINTS`] at the start.
-    pub window: Range<u64>,
+    #[must_use]
+    pub const fn window(&self) -> Range<u64> {
+        self.window.start..self.window.end
+    }
+
     /// The block table.
-    pub blocks: Vec<Block>,
+    #[must_use]
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
     /// Its runs of rings.
-    pub parts: Vec<Part>,
+    #[must_use]
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
     /// Its caps.
-    pub caps: Vec<Cap>,
+    #[must_use]
+    pub fn caps(&self) -> &[Cap] {
+        &self.caps
+    }
+
     /// Whether the last ring is the first of the next chunk.
-    pub repeats_ring: bool,
+    #[must_use]
+    pub const fn repeats_ring(&self) -> bool {
+        self.repeats_ring
+    }
+
     /// Rings, the repeated one included.
-    pub rings: u32,
+    #[must_use]
+    pub const fn rings(&self) -> u32 {
+        self.rings
+    }
+
     /// Vertices, caps included.
-    pub vertices: u32,
+    #[must_use]
+    pub const fn vertices(&self) -> u32 {
+        self.vertices
+    }
+
     /// Indices that it holds; none but with [`Topology::Indexed`].
-    pub indices: u32,
+    #[must_use]
+    pub const fn indices(&self) -> u32 {
+        self.indices
+    }
+
     /// Vertices of all chunks before it.
-    pub first_vertex: u64,
+    #[must_use]
+    pub const fn first_vertex(&self) -> u64 {
+        self.first_vertex
+    }
+
     /// Indices of all chunks before it.
-    pub first_index: u64,
+    #[must_use]
+    pub const fn first_index(&self) -> u64 {
+        self.first_index
+    }
 }
 
 /// Windows start at multiples of this many control points: 256 bytes, which every device takes as a binding's offset.
@@ -254,6 +324,7 @@ impl Iterator for Chunks<'_> {
         let window = start / WINDOW_POINTS * WINDOW_POINTS;
         let (end_block, window_end) = self.cut(window);
         let mut chunk = Chunk {
+            plan: self.plan.id(),
             index: self.index,
             block_range: self.next_block..end_block,
             window: window..window_end,

@@ -45,11 +45,13 @@ impl Plan {
         let mut places = [[0; 4]; 2];
         // One by one: all tables at once would be what a caller asks about.
         for (number, chunk) in self.chunks(limits)?.enumerate() {
-            let tables =
-                [bytes(chunk.blocks.len(), size_of::<Block>()), bytes(chunk.caps.len(), size_of::<CapRow>())];
+            let tables = [
+                bytes(chunk.blocks().len(), size_of::<Block>()),
+                bytes(chunk.caps().len(), size_of::<CapRow>()),
+            ];
             let mesh = [
-                bytes(chunk.vertices as usize, size_of::<Vertex>()),
-                bytes(chunk.indices as usize, size_of::<u32>()),
+                bytes(chunk.vertices() as usize, size_of::<Vertex>()),
+                bytes(chunk.indices() as usize, size_of::<u32>()),
             ];
             if number < scanned {
                 grow(&mut places[number % 2][..2], tables);

@@ -1,7 +1,6 @@
 //! The plan: every count, offset and byte size, worked out on the host before anything is launched.
 
 mod block;
-mod bounds;
 mod chunk;
 mod limits;
 mod memory;
@@ -13,6 +12,7 @@ pub use limits::Limits;
 pub use tables::{CapRow, Params, YarnRow};
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::{
     Frame, Layout, PlanError, Ring, SIDES_MAX, SIDES_MIN, Sampling, Section, SectionPoint, Topology, Vertex,
@@ -94,6 +94,7 @@ impl Counts {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Plan {
+    id: PlanId,
     layout: Arc<Layout>,
     settings: Settings,
     sampling: Sampling,
@@ -125,6 +126,7 @@ impl Plan {
         let offsets = Offsets::new(&layout, &sampling)?;
         let outlines = layout.sections().iter().flat_map(|section| section.outline(settings.sides)).collect();
         let mut plan = Self {
+            id: PlanId::next(),
             layout,
             settings,
             sampling,
@@ -158,6 +160,11 @@ impl Plan {
                 Topology::None => 0,
             },
         }
+    }
+
+    /// What its chunks know it by.
+    pub(crate) const fn id(&self) -> PlanId {
+        self.id
     }
 
     /// Yarns and sections.
@@ -284,6 +291,17 @@ impl Plan {
     /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one block fits.
     pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
         Chunks::new(self, *limits)
+    }
+}
+
+/// Tells a plan from all others of the process. A plan never changes, so its clones are the same plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PlanId(u64);
+
+impl PlanId {
+    fn next() -> Self {
+        static PLANS: AtomicU64 = AtomicU64::new(0);
+        Self(PLANS.fetch_add(1, Ordering::Relaxed))
     }
 }
 

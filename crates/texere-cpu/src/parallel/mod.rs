@@ -24,9 +24,9 @@ use texere_core::{
 };
 
 use crate::caps::caps;
+use crate::engine::{ChunkRings, Stages, Work};
 use crate::pages;
 use crate::rolls::Rolls;
-use crate::session::{ChunkRings, Stages, Work};
 pub use fill::fill;
 use lines::{IndexLines, IndexTable, Lines, VertexLines};
 use path::Job;

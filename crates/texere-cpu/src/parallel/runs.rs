@@ -2,7 +2,7 @@
 
 use texere_core::{Block, Chunk, MeshMut, Ring, Vertex};
 
-use crate::session::ChunkRings;
+use crate::engine::ChunkRings;
 
 /// Blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. Enough to make the hand-over cheap, few enough
 /// that a fabric of a few thousand rings still feeds several cores.
@@ -28,8 +28,8 @@ pub(super) struct MeshRun<'a> {
 
 /// The runs of a chunk with the number of each one's first block.
 fn runs(chunk: &Chunk) -> impl Iterator<Item = (&[Block], u64)> {
-    let numbers = (chunk.block_range.start..).step_by(RUN_BLOCKS);
-    chunk.blocks.chunks(RUN_BLOCKS).zip(numbers)
+    let numbers = (chunk.block_range().start..).step_by(RUN_BLOCKS);
+    chunk.blocks().chunks(RUN_BLOCKS).zip(numbers)
 }
 
 pub(super) fn ring_runs<'a>(chunk: &'a Chunk, out: &'a mut ChunkRings) -> Vec<RingRun<'a>> {

@@ -10,8 +10,8 @@ use super::runs::take;
 use super::spline::Places;
 use super::turns::Steps;
 use super::vector::{LANES_MAX, Vector};
+use crate::engine::resize;
 use crate::rolls::Rolls;
-use crate::session::resize;
 
 /// Blocks that one rayon item goes along.
 const RUN_BLOCKS: u32 = 64;

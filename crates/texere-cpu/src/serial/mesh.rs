@@ -3,7 +3,7 @@
 use texere_core::{Chunk, MeshMut, Topology, index_pattern};
 
 use crate::caps::caps;
-use crate::session::{ChunkRings, Work};
+use crate::engine::{ChunkRings, Work};
 
 pub(super) fn mesh(work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>) {
     let plan = &work.plan;
@@ -11,7 +11,7 @@ pub(super) fn mesh(work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<
     let indexed = plan.settings().topology == Topology::Indexed;
     let pattern = index_pattern(plan.settings().sides);
 
-    for part in &chunk.parts {
+    for part in chunk.parts() {
         let outline = plan.outline(plan.yarn(part.yarn as usize).section as usize);
         let first_ring = part.first_vertex as usize / sides;
         for k in 0..part.rings as usize {

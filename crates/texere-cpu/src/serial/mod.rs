@@ -6,8 +6,8 @@ mod trajectory;
 
 use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan};
 
+use crate::engine::{ChunkRings, Stages, Work};
 use crate::rolls::Rolls;
-use crate::session::{ChunkRings, Stages, Work};
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Serial;

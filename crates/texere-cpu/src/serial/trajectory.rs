@@ -2,11 +2,11 @@
 
 use texere_core::{Chunk, Ring};
 
-use crate::session::{ChunkRings, Work};
+use crate::engine::{ChunkRings, Work};
 
 pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
     let plan = &work.plan;
-    for (block, number) in chunk.blocks.iter().zip(chunk.block_range.start..) {
+    for (block, number) in chunk.blocks().iter().zip(chunk.block_range().start..) {
         let yarn = block.yarn as usize;
         let (padded, rings, closed) =
             (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);

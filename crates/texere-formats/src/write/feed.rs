@@ -46,7 +46,7 @@ impl<'a, W: Write + Seek + Debug + 'a> Feed<'a, W> {
             }
         }
         let mut planned = 0;
-        let chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices));
+        let chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
         let writer: Box<dyn MeshWriter<W> + 'a> = match format {
             Format::Glb => Box::new(GlbWriter::start(target, plan, chunks, materials)?),
             Format::Ply => Box::new(PlyWriter::start(target, plan, chunks, materials)?),
@@ -67,7 +67,7 @@ impl<'a, W: Write + Seek + Debug + 'a> Feed<'a, W> {
         if vertices.is_empty() {
             return Ok(());
         }
-        if chunk.first_vertex + u64::from(first) != self.given {
+        if chunk.first_vertex() + u64::from(first) != self.given {
             return Err(WriteError::VertexCount { given: self.given, planned: self.planned });
         }
         let floats: &[f32] = bytemuck::cast_slice(vertices);
@@ -108,8 +108,8 @@ pub(super) fn yarn_runs(
     let tube = move |part: &Part| (part.yarn, part.first_vertex..part.first_vertex + part.rings * sides);
     let cap = move |cap: &Cap| (cap.yarn, cap.first_vertex..cap.first_vertex + sides);
     // A chunk may hold thousands of parts and be lent in as many pieces.
-    let tubes = &chunk.parts[chunk.parts.partition_point(|part| tube(part).1.end <= first)..];
-    let caps = &chunk.caps[chunk.caps.partition_point(|each| cap(each).1.end <= first)..];
+    let tubes = &chunk.parts()[chunk.parts().partition_point(|part| tube(part).1.end <= first)..];
+    let caps = &chunk.caps()[chunk.caps().partition_point(|each| cap(each).1.end <= first)..];
     let runs = tubes.iter().map(tube).chain(caps.iter().map(cap));
     runs.take_while(move |(_, run)| u64::from(run.start) < end).map(move |(yarn, run)| {
         let from = run.start.max(first) - first;

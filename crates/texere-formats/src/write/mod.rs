@@ -127,7 +127,7 @@ pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
     }
     let mut left = &mesh.vertices[..];
     for chunk in &mesh.chunks {
-        let (vertices, others) = left.split_at(chunk.vertices as usize);
+        let (vertices, others) = left.split_at(chunk.vertices() as usize);
         feed.vertices(chunk, 0, vertices)?;
         left = others;
     }

@@ -43,7 +43,7 @@ impl<'a, W: Write + Seek> PlyWriter<'a, W> {
     ) -> Result<Self, WriteError> {
         // Before chunks are gone through, of which there may be millions.
         check(plan.counts().vertices)?;
-        let vertices = chunks.map(|chunk| u64::from(chunk.borrow().vertices)).sum();
+        let vertices = chunks.map(|chunk| u64::from(chunk.borrow().vertices())).sum();
         check(vertices)?;
         let header = header(vertices, plan.counts().triangles);
         target.write(header.as_bytes())?;
@@ -79,7 +79,7 @@ impl<'a, W: Write + Seek> PlyWriter<'a, W> {
 
 impl<W: Write + Seek + std::fmt::Debug> MeshWriter<W> for PlyWriter<'_, W> {
     fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError> {
-        let number = chunk.first_vertex + u64::from(first);
+        let number = chunk.first_vertex() + u64::from(first);
         self.target.go_to(self.vertices_at + number * VERTEX_BYTES as u64)?;
         for (yarn, run) in yarn_runs(chunk, self.plan.settings().sides, first, vertices.len()) {
             let colour = self.materials[self.plan.yarn(yarn as usize).material as usize].srgb;
@@ -93,7 +93,7 @@ impl<W: Write + Seek + std::fmt::Debug> MeshWriter<W> for PlyWriter<'_, W> {
                 self.target.write(&bytes)?;
             }
         }
-        if first as usize + vertices.len() == chunk.vertices as usize {
+        if first as usize + vertices.len() == chunk.vertices() as usize {
             self.faces(chunk)?;
         }
         Ok(())

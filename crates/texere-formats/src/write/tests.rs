@@ -58,12 +58,12 @@ fn write(mesh: &Mesh, format: Format, piece: usize, out: Failing) -> Result<Fail
     let target = Target::over(out, "fabric".as_ref());
     let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials)?;
     for chunk in &mesh.chunks {
-        let own = &mesh.vertices[chunk.first_vertex as usize..][..chunk.vertices as usize];
+        let own = &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
         for (number, vertices) in own.chunks(piece).enumerate() {
             feed.vertices(chunk, (number * piece) as u32, vertices)?;
         }
         if piece < own.len() {
-            feed.vertices(chunk, chunk.vertices, &[])?;
+            feed.vertices(chunk, chunk.vertices(), &[])?;
         }
     }
     feed.finish()?.into_inner()

@@ -102,9 +102,9 @@ fn tiny_chunks_cut_where_it_hurts() {
     let yarns = fabric();
     let plan = pipeline(&yarns, true, (Topology::Shared, TINY)).plan().unwrap();
     let chunks: Vec<_> = plan.chunks(&TINY).unwrap().collect();
-    let parts = || chunks.iter().flat_map(|chunk| &chunk.parts);
-    assert!(chunks.iter().any(|chunk| chunk.repeats_ring), "a yarn goes on in the next chunk");
+    let parts = || chunks.iter().flat_map(|chunk| chunk.parts());
+    assert!(chunks.iter().any(|chunk| chunk.repeats_ring()), "a yarn goes on in the next chunk");
     assert!(parts().any(|part| part.rings == 1), "a lone ring, which no triangle has");
-    assert!(chunks.iter().any(|chunk| chunk.parts.len() > 1), "two yarns share a chunk");
-    assert!(chunks.iter().any(|chunk| chunk.caps.len() == 1), "one end of a yarn without the other");
+    assert!(chunks.iter().any(|chunk| chunk.parts().len() > 1), "two yarns share a chunk");
+    assert!(chunks.iter().any(|chunk| chunk.caps().len() == 1), "one end of a yarn without the other");
 }

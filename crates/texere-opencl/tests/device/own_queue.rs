@@ -13,7 +13,9 @@ use opencl3::context::Context;
 use opencl3::device::{CL_DEVICE_TYPE_ALL, Device};
 use opencl3::memory::{Buffer, ClMem};
 use opencl3::platform::get_platforms;
-use texere_core::{Backend, BackendError, DeviceInfo, Limits, Pipeline, Session, Settings, Vertex};
+use texere_core::{
+    Backend, BackendError, DeviceInfo, Limits, Pipeline, Session, SessionError, Settings, Vertex,
+};
 use texere_opencl::{OpenClBackend, Schedule};
 
 pub(crate) fn context() -> (Context, Device) {
@@ -46,7 +48,7 @@ fn a_session_on_a_callers_queue_outlives_the_callers_handles() {
         assert!(mesh.vertices == expected.vertices && mesh.indices == expected.indices);
 
         let plan = plan(&yarns, Settings::default());
-        let mut session = device.session(plan.clone()).unwrap();
+        let mut session = Session::new(&device, plan.clone()).unwrap();
         drop(device);
         session.upload(0, yarns.points()).unwrap();
         session.scan().unwrap();
@@ -63,9 +65,9 @@ fn a_mesh_is_lent_where_it_lies() {
     let device = unsafe { OpenClBackend::on_queue(queue.get(), Schedule::PerRing) }.unwrap();
     let plan = plan(&yarns, Settings::default());
     let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
-    let mut session = device.session_on_device(plan).unwrap();
+    let mut session = device.lending_session(plan).unwrap();
     let early = session.device_mesh(&chunk).map(|_| ());
-    assert!(matches!(early, Err(BackendError::NotInFlight { chunk: 0 })), "{early:?}");
+    assert!(matches!(early, Err(SessionError::NotInFlight { chunk: 0 })), "{early:?}");
     session.upload(0, yarns.points()).unwrap();
     session.scan().unwrap();
     session.mesh(&chunk).unwrap();
@@ -73,7 +75,7 @@ fn a_mesh_is_lent_where_it_lies() {
 
     let lent = session.device_mesh(&chunk).unwrap();
     let (mut vertices, mut indices) =
-        (vec![Vertex::default(); chunk.vertices as usize], vec![0u32; chunk.indices as usize]);
+        (vec![Vertex::default(); chunk.vertices() as usize], vec![0u32; chunk.indices() as usize]);
     unsafe {
         opencl3::memory::retain_mem_object(lent.vertices).unwrap();
         opencl3::memory::retain_mem_object(lent.indices).unwrap();
@@ -83,7 +85,7 @@ fn a_mesh_is_lent_where_it_lies() {
         queue.enqueue_read_buffer(&from_indices, 1, 0, &mut indices, &[lent.ready]).unwrap();
     }
     assert_eq!((vertices, indices), (expected.0, expected.1));
-    assert_eq!(session.traffic().read, u64::from(chunk.vertices) * 24 + u64::from(chunk.indices) * 4);
+    assert_eq!(session.traffic().read, u64::from(chunk.vertices()) * 24 + u64::from(chunk.indices()) * 4);
 }
 
 #[test]

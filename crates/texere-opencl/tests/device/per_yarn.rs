@@ -53,7 +53,7 @@ fn a_lane_cut_at_a_yarns_last_ring_takes_that_ring_alone() {
 #[test]
 fn it_refuses_under_its_own_name() {
     let plan = plan(&cases::winding(10, Yarn::default()), Settings { caps: true, ..Settings::default() });
-    let refused = device(Schedule::PerYarn).session(plan).map(|_| ());
+    let refused = device(Schedule::PerYarn).engine(plan).map(|_| ());
     let Err(error @ BackendError::Unsupported { .. }) = refused else { panic!("{refused:?}") };
     assert_eq!(error.to_string(), "opencl:0/per-yarn does not do caps");
 }

@@ -1,4 +1,4 @@
-//! Sessions on a device: order, chunks in flight, pieces, and what is refused. The suite tries edits and times.
+//! Sessions on a device: pieces, memory, and what is refused. The suite tries misuse, edits and times.
 
 use std::ops::ControlFlow;
 use std::process::Command;
@@ -30,49 +30,6 @@ fn chunks(plan: &texere_core::Plan, blocks: u64) -> Vec<Chunk> {
 }
 
 #[test]
-fn stages_wait_for_what_they_stand_on() {
-    let yarns = waves();
-    let plan = plan(&yarns, TURNING);
-    let chunk = &chunks(&plan, u64::MAX)[0];
-    let mut session = device(Schedule::PerRing).session(plan.clone()).unwrap();
-    session.upload(0, yarns.points()).unwrap();
-    let early = session.mesh(chunk);
-    assert!(matches!(early, Err(BackendError::OutOfOrder { call: "mesh", needed: "scan" })), "{early:?}");
-    session.scan().unwrap();
-    let unread = session.read_mesh(chunk, &mut |_| ControlFlow::Continue(()));
-    assert!(matches!(unread, Err(BackendError::NotInFlight { chunk: 0 })), "{unread:?}");
-    session.mesh(chunk).unwrap();
-    session.upload(0, &yarns.points()[..1]).unwrap();
-    let outdated = session.read_mesh(chunk, &mut |_| ControlFlow::Continue(()));
-    assert!(matches!(outdated, Err(BackendError::NotInFlight { chunk: 0 })), "{outdated:?}");
-    let late = session.trajectory(chunk);
-    assert!(matches!(late, Err(BackendError::OutOfOrder { call: "trajectory", .. })), "{late:?}");
-}
-
-#[test]
-fn two_chunks_are_in_flight_and_a_third_takes_the_oldest_place() {
-    let yarns = waves();
-    let plan = plan(&yarns, TURNING);
-    let chunks = chunks(&plan, 3);
-    let mut session = device(Schedule::PerRing).session(plan).unwrap();
-    session.upload(0, yarns.points()).unwrap();
-    session.scan().unwrap();
-    session.mesh(&chunks[0]).unwrap();
-    session.mesh(&chunks[1]).unwrap();
-    let first = read(&mut *session, &chunks[0]);
-    let second = read(&mut *session, &chunks[1]);
-    // Reading does not make a chunk younger, so it is the first that goes.
-    read(&mut *session, &chunks[0]);
-    session.mesh(&chunks[2]).unwrap();
-    assert_eq!(read(&mut *session, &chunks[1]), second);
-    let gone = session.read_mesh(&chunks[0], &mut |_| ControlFlow::Continue(()));
-    assert!(matches!(gone, Err(BackendError::NotInFlight { chunk: 0 })), "{gone:?}");
-    // Launched again, it is the same to the bit.
-    session.mesh(&chunks[0]).unwrap();
-    assert_eq!(read(&mut *session, &chunks[0]), first);
-}
-
-#[test]
 fn a_long_yarn_comes_in_pieces_and_equals_the_serial_backend() {
     // 100,001 rings, 14.4 MB of vertices and as much of indices: two pieces of both.
     let yarns = cases::winding(12_501, Yarn { twist: 0.3, ..Yarn::default() });
@@ -81,11 +38,11 @@ fn a_long_yarn_comes_in_pieces_and_equals_the_serial_backend() {
     assert_eq!(plan.counts().rings, 100_001);
     let device = device(Schedule::PerRing);
     let chunk = &chunks(&plan, u64::MAX)[0];
-    let mut session = device.session(plan.clone()).unwrap();
+    let mut session = Session::new(&device, plan.clone()).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.scan().unwrap();
     session.mesh(chunk).unwrap();
-    let (vertices, indices, pieces) = read(&mut *session, chunk);
+    let (vertices, indices, pieces) = read(&mut session, chunk);
     assert_eq!(pieces, 4);
 
     let nan = Vertex { position: [f32::NAN; 3], normal: [f32::NAN; 3] };
@@ -93,11 +50,11 @@ fn a_long_yarn_comes_in_pieces_and_equals_the_serial_backend() {
     session.mesh_into(chunk, MeshMut { vertices: &mut direct.0, indices: &mut direct.1 }).unwrap();
     assert_eq!(direct, (vertices.clone(), indices.clone()));
 
-    let mut gold = SerialBackend::new().session(plan.clone()).unwrap();
+    let mut gold = Session::new(&SerialBackend::new(), plan.clone()).unwrap();
     gold.upload(0, yarns.points()).unwrap();
     gold.scan().unwrap();
     gold.mesh(chunk).unwrap();
-    let (gold_vertices, gold_indices, _) = read(&mut *gold, chunk);
+    let (gold_vertices, gold_indices, _) = read(&mut gold, chunk);
     assert_eq!(indices, gold_indices);
     let worst = vertices.iter().zip(&gold_vertices).flat_map(|(a, b)| {
         a.position.into_iter().chain(a.normal).zip(b.position.into_iter().chain(b.normal))
@@ -116,12 +73,12 @@ fn more_rings_than_one_launch_takes_come_out_as_one() {
     let rings = plan.counts().rings as usize;
     assert!(rings > 1 << 24);
     let chunk = &chunks(&plan, u64::MAX)[0];
-    let mut session = device(Schedule::PerRing).session(plan.clone()).unwrap();
+    let mut session = Session::new(&device(Schedule::PerRing), plan.clone()).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.trajectory(chunk).unwrap();
 
     let mut padded = PaddedPoints::new(&plan).unwrap();
-    padded.upload(&plan, 0, yarns.points()).unwrap();
+    padded.upload(&plan, 0, yarns.points());
     let mut seen = 0;
     let _ = session
         .read_trajectory(chunk, &mut |piece| {
@@ -143,9 +100,9 @@ fn control_points_are_zero_until_they_are_uploaded() {
     let yarns = cases::winding(100, Yarn::default());
     let plan = plan(&yarns, Settings::default());
     let chunk = &chunks(&plan, u64::MAX)[0];
-    let mut session = device(Schedule::PerRing).session(plan).unwrap();
+    let mut session = Session::new(&device(Schedule::PerRing), plan).unwrap();
     session.mesh(chunk).unwrap();
-    let (vertices, ..) = read(&mut *session, chunk);
+    let (vertices, ..) = read(&mut session, chunk);
     assert!(vertices.iter().all(|vertex| vertex.position == [0.0; 3]));
 }
 
@@ -154,10 +111,10 @@ fn a_sink_may_break_off_at_any_piece() {
     let yarns = cases::winding(12_501, Yarn::default());
     let plan = plan(&yarns, Settings { subdivisions: 7, sides: 8, frame: Frame::Upright, ..TURNING });
     let chunk = &chunks(&plan, u64::MAX)[0];
-    let mut session = device(Schedule::PerRing).session(plan).unwrap();
+    let mut session = Session::new(&device(Schedule::PerRing), plan).unwrap();
     session.upload(0, yarns.points()).unwrap();
     session.mesh(chunk).unwrap();
-    let (vertices, indices, pieces) = read(&mut *session, chunk);
+    let (vertices, indices, pieces) = read(&mut session, chunk);
     for last in 1..=pieces {
         let mut seen = 0;
         let flow = session.read_mesh(chunk, &mut |_| {
@@ -173,53 +130,8 @@ fn a_sink_may_break_off_at_any_piece() {
     });
     assert!(flow.unwrap().is_break() && rings > 0);
     // What is read afterwards is whole.
-    let again = read(&mut *session, chunk);
+    let again = read(&mut session, chunk);
     assert_eq!((again.0, again.1), (vertices, indices));
-}
-
-#[test]
-fn chunks_of_another_plan_are_refused() {
-    let yarns = waves();
-    let device = device(Schedule::PerRing);
-    let own = plan(&yarns, Settings { frame: Frame::Upright, ..TURNING });
-    let other = plan(&yarns, Settings { sides: 7, frame: Frame::Upright, ..TURNING });
-    let yarns = cases::winding(100, Yarn::default());
-    let mut session = device.session(own.clone()).unwrap();
-    session.scan().unwrap();
-    let [first, second, third, ..] = &chunks(&own, 3)[..] else { panic!("too few chunks") };
-    session.mesh(first).unwrap();
-    session.mesh(second).unwrap();
-    let mut forged = first.clone();
-    forged.caps.extend_from_within(..);
-    for chunk in [&chunks(&other, 3)[0], chunks(&plan(&yarns, TURNING), 3).last().unwrap(), &forged] {
-        for refused in [session.mesh(chunk), session.trajectory(chunk), session.mesh(chunk)] {
-            assert!(matches!(refused, Err(BackendError::ForeignChunk { .. })), "{refused:?}");
-        }
-    }
-    // What is refused takes no place: the third chunk still takes the first one's.
-    session.mesh(third).unwrap();
-    read(&mut *session, second);
-    let gone = session.read_mesh(first, &mut |_| ControlFlow::Continue(()));
-    assert!(matches!(gone, Err(BackendError::NotInFlight { chunk: 0 })), "{gone:?}");
-}
-
-#[test]
-fn outputs_of_another_length_are_refused() {
-    let yarns = cases::winding(10, Yarn::default());
-    let plan = plan(&yarns, Settings::default());
-    let chunk = &chunks(&plan, u64::MAX)[0];
-    let mut session = device(Schedule::PerRing).session(plan).unwrap();
-    let (mut vertices, mut indices) = (vec![Vertex::default(); 1], vec![0; chunk.indices as usize]);
-    let refused = session.mesh_into(chunk, MeshMut { vertices: &mut vertices, indices: &mut indices });
-    assert!(
-        matches!(refused, Err(BackendError::OutputLength { what: "vertices", given: 1, .. })),
-        "{refused:?}"
-    );
-    let refused = session.upload(9, &yarns.points()[..2]);
-    assert!(
-        matches!(refused, Err(BackendError::UploadRange { first: 9, end: 11, points: 10 })),
-        "{refused:?}"
-    );
 }
 
 #[test]
@@ -229,7 +141,7 @@ fn control_points_beyond_one_buffer_are_refused() {
     let small = Limits { binding_bytes: plan.resident_bytes() - 1, ..Limits::NONE };
     let device = device(Schedule::PerRing).with_limits(small);
     assert_eq!(device.info().limits.binding_bytes, small.binding_bytes);
-    let refused = device.session(plan).map(|_| ());
+    let refused = device.engine(plan).map(|_| ());
     assert!(
         matches!(
             refused,
@@ -280,7 +192,7 @@ fn pieces_hold_vertices_first() {
     for topology in [Topology::Shared, Topology::None] {
         let plan = plan(&yarns, Settings { topology, ..Settings::default() });
         let chunk = &chunks(&plan, u64::MAX)[0];
-        let mut session = device(Schedule::PerRing).session(plan).unwrap();
+        let mut session = Session::new(&device(Schedule::PerRing), plan).unwrap();
         session.upload(0, yarns.points()).unwrap();
         session.mesh(chunk).unwrap();
         let _ = session
@@ -301,7 +213,7 @@ fn memory_is_what_the_plan_says() {
             let device = device(Schedule::PerRing).with_limits(limits);
             let limits = device.info().limits;
             let plan = plan(&yarns, Settings { frame, caps, topology, sides: 5, ..Settings::default() });
-            let mut session = device.session_on_device(plan.clone()).unwrap();
+            let mut session = device.lending_session(plan.clone()).unwrap();
             session.upload(0, yarns.points()).unwrap();
             session.scan().unwrap();
             for chunk in plan.chunks(&limits).unwrap() {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere_core::{Chunk, ControlPoint, MeshPiece, Plan, Session, Settings, Vertex, Yarn, Yarns};
+use texere_core::{Chunk, ControlPoint, Engine, MeshPiece, Plan, Session, Settings, Vertex, Yarn, Yarns};
 use texere_opencl::{OpenClBackend, Schedule};
 
 /// The first OpenCL device. It is not skipped: a missing one is a broken test bed.
@@ -17,7 +17,10 @@ pub(crate) fn plan(yarns: &Yarns, settings: Settings) -> Arc<Plan> {
 }
 
 /// A chunk's mesh, and the number of pieces that it came in.
-pub(crate) fn read(session: &mut dyn Session, chunk: &Chunk) -> (Vec<Vertex>, Vec<u32>, usize) {
+pub(crate) fn read<E: Engine + ?Sized>(
+    session: &mut Session<E>,
+    chunk: &Chunk,
+) -> (Vec<Vertex>, Vec<u32>, usize) {
     let (mut all_vertices, mut all_indices, mut pieces) = (Vec::new(), Vec::new(), 0);
     let flow = session.read_mesh(chunk, &mut |piece| {
         pieces += 1;

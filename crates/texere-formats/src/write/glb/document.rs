@@ -51,7 +51,7 @@ impl Document {
             .collect();
         let (mut all_draws, mut vertices) = (Vec::new(), 0);
         for chunk in chunks {
-            vertices += u64::from(chunk.borrow().vertices);
+            vertices += u64::from(chunk.borrow().vertices());
             all_draws.extend(plan.draws(chunk.borrow()));
         }
         let mut accessors: Vec<_> = all_draws.iter().flat_map(vertex_accessors).collect();

@@ -1,6 +1,5 @@
-//! A chunk in flight: its tables and its results on the device.
+//! Device memory of a chunk in flight: its tables and its results.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use texere_core::{BackendError, Chunk, Plan, Ring, Topology, Vertex};
@@ -10,42 +9,9 @@ use crate::backend::Opened;
 use crate::buffers::Buffer;
 use crate::handles::Handle;
 
-/// All of a chunk that a launch or a read takes from the host, once its tables are on the device. Its index is none of
-/// it: chunks of another cut have the same.
-#[derive(Debug, PartialEq, Eq)]
-struct Extent {
-    block_range: Range<u64>,
-    window: Range<u64>,
-    rows: usize,
-    parts: usize,
-    caps: usize,
-    rings: u32,
-    vertices: u32,
-    indices: u32,
-}
-
-impl Extent {
-    fn of(chunk: &Chunk) -> Self {
-        Self {
-            block_range: chunk.block_range.clone(),
-            window: chunk.window.clone(),
-            rows: chunk.blocks.len(),
-            parts: chunk.parts.len(),
-            caps: chunk.caps.len(),
-            rings: chunk.rings,
-            vertices: chunk.vertices,
-            indices: chunk.indices,
-        }
-    }
-}
-
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug, Default)]
-pub(crate) struct Slot {
-    /// The chunk whose tables are here.
-    held: Option<Extent>,
-    pub(crate) has_rings: bool,
-    pub(crate) has_mesh: bool,
+pub(crate) struct ChunkMemory {
     pub(crate) table: Buffer,
     /// Rows of `table`.
     pub(crate) rows: usize,
@@ -59,31 +25,20 @@ pub(crate) struct Slot {
     pub(crate) ready: Option<Arc<Handle>>,
 }
 
-impl Slot {
+impl ChunkMemory {
     /// Bytes of its tables and results.
     pub(crate) fn bytes(&self) -> u64 {
         let Self { table, caps, rings, slopes, vertices, indices, .. } = self;
         [table, caps, rings, slopes, vertices, indices].map(Buffer::bytes).iter().sum()
     }
 
-    pub(crate) fn holds(&self, chunk: &Chunk) -> bool {
-        self.held.as_ref() == Some(&Extent::of(chunk))
-    }
-
-    /// Lets go of rings and mesh; tables and memory stay.
-    pub(crate) fn forget_results(&mut self) {
-        (self.has_rings, self.has_mesh) = (false, false);
-    }
-
-    /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after this
-    /// slot's own.
-    pub(crate) fn take(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
-        self.held = None;
-        self.forget_results();
+    /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after those
+    /// that work here.
+    pub(crate) fn load(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         let used = self.ready.take();
         let parts;
         let rows = match opened.schedule {
-            Schedule::PerRing => &chunk.blocks,
+            Schedule::PerRing => chunk.blocks(),
             Schedule::PerYarn => {
                 parts = plan.part_rows(chunk, u32::MAX);
                 &parts
@@ -99,13 +54,12 @@ impl Slot {
         // In order, so the last stands for both.
         self.ready = sent.into_iter().flatten().last();
         self.rows = rows.len();
-        self.held = Some(Extent::of(chunk));
         Ok(())
     }
 
     /// Makes room for the rings of `chunk`.
     pub(crate) fn reserve_rings(&mut self, opened: &Opened, chunk: &Chunk) -> Result<(), BackendError> {
-        let rings = u64::from(chunk.rings);
+        let rings = u64::from(chunk.rings());
         self.rings.reserve(opened, "rings", rings * size_of::<Ring>() as u64)?;
         if opened.schedule == Schedule::PerYarn {
             self.slopes.reserve(opened, "slopes", rings * size_of::<f32>() as u64)?;
@@ -120,9 +74,13 @@ impl Slot {
         plan: &Plan,
         chunk: &Chunk,
     ) -> Result<(), BackendError> {
-        self.vertices.reserve(opened, "vertices", u64::from(chunk.vertices) * size_of::<Vertex>() as u64)?;
+        self.vertices.reserve(
+            opened,
+            "vertices",
+            u64::from(chunk.vertices()) * size_of::<Vertex>() as u64,
+        )?;
         if plan.settings().topology == Topology::Indexed {
-            self.indices.reserve(opened, "indices", u64::from(chunk.indices) * size_of::<u32>() as u64)?;
+            self.indices.reserve(opened, "indices", u64::from(chunk.indices()) * size_of::<u32>() as u64)?;
         }
         Ok(())
     }

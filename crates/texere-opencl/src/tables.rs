@@ -7,7 +7,7 @@ use crate::buffers::Buffer;
 
 /// What every stage reads.
 #[derive(Debug)]
-pub(crate) struct Resident {
+pub(crate) struct Tables {
     pub(crate) points: Buffer,
     pub(crate) yarns: Buffer,
     pub(crate) outlines: Buffer,
@@ -20,7 +20,7 @@ pub(crate) struct Resident {
     pub(crate) whole: Buffer,
 }
 
-impl Resident {
+impl Tables {
     /// **Errors**: [`BackendError::OutOfMemory`], also for control points beyond what one buffer holds.
     pub(crate) fn new(opened: &Opened, limits: &Limits, plan: &Plan) -> Result<Self, BackendError> {
         let (what, bytes) = ("control points, all in one buffer", plan.resident_bytes());

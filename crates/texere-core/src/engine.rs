@@ -1,0 +1,182 @@
+//! What a device does for a session. A session checks every call and keeps the books; an engine gets valid input alone.
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use crate::{BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, Ring};
+
+/// One of the two places that a session has on its device. A chunk in flight has a place: its tables, its rings and its mesh
+/// lie there until the next chunk but one needs the memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Slot {
+    /// The place of the first chunk, the third and so on.
+    #[default]
+    Even,
+    /// The place of the second chunk, the fourth and so on.
+    Odd,
+}
+
+impl Slot {
+    /// Both of them.
+    pub const BOTH: [Self; 2] = [Self::Even, Self::Odd];
+
+    /// The other one.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Even => Self::Odd,
+            Self::Odd => Self::Even,
+        }
+    }
+
+    /// 0 or 1: where its memory lies in an array of two.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// Time spent in each stage of a session, so far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct StageTimings {
+    /// Control points to the device.
+    pub upload: Duration,
+    /// Rolls.
+    pub scan: Duration,
+    /// Rings; part of `mesh` where the two are fused.
+    pub trajectory: Duration,
+    /// Vertices and indices.
+    pub mesh: Duration,
+    /// Results to the host.
+    pub readback: Duration,
+}
+
+/// Takes rings as they are lent.
+pub type RingSink<'a> = &'a mut dyn FnMut(&[Ring]) -> ControlFlow<()>;
+
+/// Takes vertices and indices as they are lent.
+pub type MeshSink<'a> = &'a mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>;
+
+/// The work on one plan on one device. It owns all memory that the work needs.
+///
+/// A [`Session`](crate::Session) calls it, and keeps these rules, so that no engine has to check them:
+///
+/// - Control points come within the plan's. What was scanned or made of those before is not asked for again.
+/// - Where the plan needs a scan, one comes before any stage, and again after each upload.
+/// - Every chunk is the plan's own. It is loaded into a slot before a stage is run for it there.
+/// - `mesh` of an engine that [reads rings](Engine::mesh_reads_rings) comes after `trajectory` in the same slot.
+/// - What is read has been made, and nothing has taken its slot since. Slices to write into are as long as the chunk says.
+///
+/// Every call may return before its work is done, but those that read.
+///
+/// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
+pub trait Engine: fmt::Debug + Send {
+    /// Takes control points, the first of which is number `first` of the fabric. Gives back the bytes sent for it, virtual ends
+    /// included.
+    fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError>;
+
+    /// Works out the roll at each block's start, and the whole turn of each closed yarn. `chunks` are all of the plan, each in
+    /// a slot, for an engine that needs their tables there.
+    fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError>;
+
+    /// Takes the tables of `chunk` into `slot`, where those of another chunk may lie.
+    fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
+
+    /// Whether `mesh` works from the rings that `trajectory` left rather than from control points.
+    fn mesh_reads_rings(&self) -> bool {
+        false
+    }
+
+    /// Stage 1, rings from control points, into `slot`.
+    fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
+
+    /// Stage 2, vertices and indices, into `slot`.
+    fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
+
+    /// Waits for the rings in `slot` and lends them piece by piece, in order. A sink that answers `Break` ends the reading,
+    /// and the answer comes back.
+    fn read_trajectory(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: RingSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError>;
+
+    /// Waits for the mesh in `slot` and lends it piece by piece from its own or from mapped memory: all vertices in order,
+    /// then all indices in order. A sink that answers `Break` ends the reading, and the answer comes back.
+    fn read_mesh(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: MeshSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError>;
+
+    /// Stage 2 straight into the caller's slices.
+    ///
+    /// Provided: mesh, read, copy. An engine that can write there directly does.
+    fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
+        self.mesh(slot, chunk)?;
+        let mut copy = |piece: MeshPiece<'_>| {
+            match piece {
+                MeshPiece::Vertices { first, vertices } => {
+                    out.vertices[first as usize..][..vertices.len()].copy_from_slice(vertices);
+                }
+                MeshPiece::Indices { first, indices } => {
+                    out.indices[first as usize..][..indices.len()].copy_from_slice(indices);
+                }
+            }
+            ControlFlow::Continue(())
+        };
+        self.read_mesh(slot, chunk, &mut copy).map(|_| ())
+    }
+
+    /// Whether results lie in the host's own memory, so that to read them moves no byte.
+    fn lends_its_own(&self) -> bool {
+        false
+    }
+
+    /// Time spent so far, by all that has been launched: waits for it.
+    fn timings(&mut self) -> StageTimings;
+}
+
+/// A chunk of a scan, in its slot.
+#[derive(Debug)]
+pub struct ScanChunk {
+    /// Where its tables belong.
+    pub slot: Slot,
+    /// The chunk.
+    pub chunk: Chunk,
+    /// Whether its tables lie there already; else the engine is to load them, as [`Engine::load`] does.
+    pub loaded: bool,
+}
+
+/// The chunks of a scan, in order, each in a slot. Whoever takes one has to see to its tables.
+pub struct ScanChunks<'a> {
+    chunks: &'a mut dyn Iterator<Item = ScanChunk>,
+}
+
+impl<'a> ScanChunks<'a> {
+    pub(crate) fn new(chunks: &'a mut dyn Iterator<Item = ScanChunk>) -> Self {
+        Self { chunks }
+    }
+}
+
+impl Iterator for ScanChunks<'_> {
+    type Item = ScanChunk;
+
+    fn next(&mut self) -> Option<ScanChunk> {
+        self.chunks.next()
+    }
+}
+
+impl fmt::Debug for ScanChunks<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ScanChunks").finish_non_exhaustive()
+    }
+}
+
+const _: () = {
+    const fn sends<T: Send + ?Sized>() {}
+    sends::<dyn Engine>();
+};

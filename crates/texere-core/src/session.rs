@@ -1,0 +1,330 @@
+//! One fabric on one device: the rules of its calls, and what is in flight.
+
+use std::ops::{ControlFlow, Range};
+use std::sync::Arc;
+
+use crate::engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
+use crate::{Backend, Chunk, ControlPoint, Limits, MeshMut, MeshPiece, Plan, Ring, SessionError, Vertex};
+
+/// Bytes that a session has moved between host and device, so far. A backend that works in the host's own memory lends
+/// its results where they lie, so it reads none back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Traffic {
+    /// Control points, their virtual ends included, sent by [`Session::upload`]. Tables are not counted: they are sent
+    /// once.
+    pub uploaded: u64,
+    /// Rings, vertices and indices that came back.
+    pub read: u64,
+}
+
+/// One fabric on one device: upload, scan, then the stages chunk by chunk.
+///
+/// Chunks come from [`Plan::chunks`] of the session's plan, with the device's limits or stricter ones. Two may be in flight;
+/// running a stage for a third may use the memory of the oldest again. [`Pipeline`](crate::Pipeline) does all this; by hand it
+/// reads
+///
+/// ```
+/// use std::{ops::ControlFlow, sync::Arc};
+/// use texere_core::{Backend, ControlPoint, MeshPiece, NullBackend, Plan, Session, Settings, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let yarns = yarns.build()?;
+/// let device = NullBackend::default(); // any backend
+/// let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
+/// let mut session = Session::new(&device, plan.clone())?;
+/// session.upload(0, yarns.points())?;
+/// session.scan()?;
+/// let mut triangles = 0;
+/// for chunk in plan.chunks(&device.info().limits)? {
+///     session.mesh(&chunk)?;
+///     let _ = session.read_mesh(&chunk, &mut |piece| {
+///         if let MeshPiece::Indices { indices, .. } = piece {
+///             triangles += indices.len() / 3;
+///         }
+///         ControlFlow::Continue(())
+///     })?;
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Session<E: Engine + ?Sized = dyn Engine> {
+    plan: Arc<Plan>,
+    /// What a scan cuts chunks to.
+    limits: Limits,
+    scanned: bool,
+    in_flight: [InFlight; 2],
+    /// The slot that the next new chunk takes.
+    next: Slot,
+    traffic: Traffic,
+    engine: Box<E>,
+}
+
+/// What lies in a slot.
+#[derive(Debug, Default)]
+struct InFlight {
+    /// The blocks of the chunk whose tables are there. Its number would not do: chunks of another cut have the same.
+    blocks: Option<Range<u64>>,
+    has_rings: bool,
+    has_mesh: bool,
+}
+
+impl InFlight {
+    fn forget_results(&mut self) {
+        (self.has_rings, self.has_mesh) = (false, false);
+    }
+}
+
+impl Session {
+    /// Starts work on a plan on `device`.
+    ///
+    /// **Errors**: [`SessionError::Backend`] where memory, the device or its schedule does not allow it.
+    pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
+        Ok(Self::with_engine(device.engine(plan.clone())?, device.info().limits, plan))
+    }
+}
+
+impl<E: Engine + ?Sized> Session<E> {
+    /// Starts work on `plan` with an engine that was opened for it, on a device of `limits`: for backends whose engines can
+    /// do more than [`Engine`] says.
+    #[must_use]
+    pub fn with_engine(engine: Box<E>, limits: Limits, plan: Arc<Plan>) -> Self {
+        Self {
+            plan,
+            limits,
+            scanned: false,
+            in_flight: Default::default(),
+            next: Slot::default(),
+            traffic: Traffic::default(),
+            engine,
+        }
+    }
+
+    /// The plan that it works on.
+    #[must_use]
+    pub const fn plan(&self) -> &Arc<Plan> {
+        &self.plan
+    }
+
+    /// The engine that does the work.
+    #[must_use]
+    pub const fn engine(&self) -> &E {
+        &self.engine
+    }
+
+    /// Takes control points, the first of which is number `first` of the fabric: any range, so that a generator can feed
+    /// block by block and an edit send one yarn. Points that never came are zeros.
+    ///
+    /// **Errors**: [`SessionError::UploadRange`] past the last control point, and what the device says.
+    pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
+        let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
+        if end > total {
+            return Err(SessionError::UploadRange { first, end, points: total });
+        }
+        // What was worked out before belongs to the old points.
+        self.scanned = false;
+        self.in_flight.iter_mut().for_each(InFlight::forget_results);
+        self.traffic.uploaded += self.engine.upload(first, points)?;
+        Ok(())
+    }
+
+    /// Works out the roll at each block's start, and the whole turn of each closed yarn: once after uploads. There is
+    /// nothing to do where [`Plan::needs_scan`] is false, or nothing was uploaded since.
+    ///
+    /// **Errors**: [`SessionError::Plan`] where the device's limits hold no block, and what the device says.
+    pub fn scan(&mut self) -> Result<(), SessionError> {
+        if self.plan.needs_scan() && !self.scanned {
+            let Self { plan, limits, in_flight, next, engine, .. } = self;
+            let mut in_slots = plan.chunks(limits)?.map(|chunk| {
+                let (slot, loaded) = claim(in_flight, next, &chunk);
+                in_flight[slot.index()].blocks = Some(chunk.block_range());
+                ScanChunk { slot, chunk, loaded }
+            });
+            let scanned = engine.scan(ScanChunks::new(&mut in_slots));
+            if scanned.is_err() {
+                // Nobody knows which tables have come.
+                self.in_flight = Default::default();
+            }
+            scanned?;
+        }
+        self.scanned = true;
+        Ok(())
+    }
+
+    /// Stage 1, rings from control points. May return before it is done.
+    ///
+    /// **Errors**: [`SessionError::OutOfOrder`] before a scan that is needed; [`SessionError::ForeignChunk`]; and what the
+    /// device says.
+    pub fn trajectory(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
+        let slot = self.start("trajectory", chunk)?;
+        self.ensure_rings(slot, chunk)
+    }
+
+    /// Stage 2, vertices and indices, with stage 1 in it where that has not run for this chunk. May return before it
+    /// is done.
+    ///
+    /// **Errors**: those of [`Session::trajectory`].
+    pub fn mesh(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
+        let slot = self.start_mesh(chunk)?;
+        self.engine.mesh(slot, chunk)?;
+        self.in_flight[slot.index()].has_mesh = true;
+        Ok(())
+    }
+
+    /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 where only a fused
+    /// [`Session::mesh`] has run. A sink that answers `Break` ends the reading, and the answer comes back.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the device says.
+    pub fn read_trajectory(
+        &mut self,
+        chunk: &Chunk,
+        sink: RingSink<'_>,
+    ) -> Result<ControlFlow<()>, SessionError> {
+        let slot = self.find(chunk, |here| here.has_rings || here.has_mesh)?;
+        self.ensure_rings(slot, chunk)?;
+        let mut bytes = 0;
+        let flow = self.engine.read_trajectory(slot, chunk, &mut |rings| {
+            bytes += size_of_val(rings) as u64;
+            sink(rings)
+        });
+        self.count_read(bytes);
+        Ok(flow?)
+    }
+
+    /// Waits for this chunk's mesh and lends it piece by piece: all vertices in order, then all indices in order. The
+    /// pieces lie in the engine's own or in mapped memory. A sink that answers `Break` ends the reading, and the answer
+    /// comes back.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the device says.
+    pub fn read_mesh(&mut self, chunk: &Chunk, sink: MeshSink<'_>) -> Result<ControlFlow<()>, SessionError> {
+        let slot = self.find(chunk, |here| here.has_mesh)?;
+        let mut bytes = 0;
+        let flow = self.engine.read_mesh(slot, chunk, &mut |piece| {
+            bytes += match piece {
+                MeshPiece::Vertices { vertices, .. } => size_of_val(vertices),
+                MeshPiece::Indices { indices, .. } => size_of_val(indices),
+            } as u64;
+            sink(piece)
+        });
+        self.count_read(bytes);
+        Ok(flow?)
+    }
+
+    /// Runs stage 2 into the caller's slices, which must be exactly as long as planned. The mesh is not in flight afterwards.
+    ///
+    /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and those of [`Session::mesh`].
+    pub fn mesh_into(&mut self, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), SessionError> {
+        let lengths = [
+            ("vertices", out.vertices.len() as u64, u64::from(chunk.vertices())),
+            ("indices", out.indices.len() as u64, u64::from(chunk.indices())),
+        ];
+        for (what, given, planned) in lengths {
+            if given != planned {
+                return Err(SessionError::OutputLength { what, given, planned });
+            }
+        }
+        let slot = self.start_mesh(chunk)?;
+        let bytes = size_of_val(out.vertices) + size_of_val(out.indices);
+        self.engine.mesh_into(slot, chunk, out)?;
+        self.count_read(bytes as u64);
+        Ok(())
+    }
+
+    /// Where the mesh of `chunk` lies on the device, for a backend that lends its memory.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::mesh`] has been called
+    /// for this chunk.
+    pub fn slot_of_mesh(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
+        self.find(chunk, |here| here.has_mesh)
+    }
+
+    /// Time spent so far, by all that has been launched: waits for it.
+    pub fn timings(&mut self) -> StageTimings {
+        self.engine.timings()
+    }
+
+    /// Bytes moved so far.
+    #[must_use]
+    pub const fn traffic(&self) -> Traffic {
+        self.traffic
+    }
+
+    fn count_read(&mut self, bytes: u64) {
+        if !self.engine.lends_its_own() {
+            self.traffic.read += bytes;
+        }
+    }
+
+    /// Whether `chunk` is of this session's plan: what its tables say is what the plan counted.
+    fn check_own(&self, chunk: &Chunk) -> Result<(), SessionError> {
+        if chunk.plan() == self.plan.id() {
+            Ok(())
+        } else {
+            Err(SessionError::ForeignChunk { chunk: chunk.index() })
+        }
+    }
+
+    /// The slot of `chunk`, with its tables, for a stage.
+    fn start(&mut self, call: &'static str, chunk: &Chunk) -> Result<Slot, SessionError> {
+        // Before any slot is given up: a chunk that is refused takes no place.
+        self.check_own(chunk)?;
+        if self.plan.needs_scan() && !self.scanned {
+            return Err(SessionError::OutOfOrder { call, needed: "scan" });
+        }
+        let (slot, loaded) = claim(&mut self.in_flight, &mut self.next, chunk);
+        if !loaded {
+            self.engine.load(slot, chunk)?;
+            self.in_flight[slot.index()].blocks = Some(chunk.block_range());
+        }
+        Ok(slot)
+    }
+
+    /// The same for stage 2, with the rings that it reads. An older mesh of the chunk is given up.
+    fn start_mesh(&mut self, chunk: &Chunk) -> Result<Slot, SessionError> {
+        let slot = self.start("mesh", chunk)?;
+        if self.engine.mesh_reads_rings() {
+            self.ensure_rings(slot, chunk)?;
+        }
+        self.in_flight[slot.index()].has_mesh = false;
+        Ok(slot)
+    }
+
+    /// Runs stage 1 for the chunk in `slot` unless it has run.
+    fn ensure_rings(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), SessionError> {
+        if !self.in_flight[slot.index()].has_rings {
+            self.engine.trajectory(slot, chunk)?;
+            self.in_flight[slot.index()].has_rings = true;
+        }
+        Ok(())
+    }
+
+    fn find(&self, chunk: &Chunk, wanted: fn(&InFlight) -> bool) -> Result<Slot, SessionError> {
+        self.check_own(chunk)?;
+        slot_of(&self.in_flight, chunk)
+            .filter(|slot| wanted(&self.in_flight[slot.index()]))
+            .ok_or(SessionError::NotInFlight { chunk: chunk.index() })
+    }
+}
+
+/// The slot that has the tables of `chunk`.
+fn slot_of(in_flight: &[InFlight; 2], chunk: &Chunk) -> Option<Slot> {
+    let holds = |slot: &Slot| in_flight[slot.index()].blocks.as_ref() == Some(&chunk.block_range());
+    Slot::BOTH.into_iter().find(holds)
+}
+
+/// The slot of `chunk`, and whether its tables are there; else that of the chunk that took one longest ago, emptied.
+fn claim(in_flight: &mut [InFlight; 2], next: &mut Slot, chunk: &Chunk) -> (Slot, bool) {
+    if let Some(slot) = slot_of(in_flight, chunk) {
+        return (slot, true);
+    }
+    let slot = *next;
+    *next = slot.other();
+    in_flight[slot.index()] = InFlight::default();
+    (slot, false)
+}
+
+const _: () = {
+    const fn sends<T: Send + ?Sized>() {}
+    sends::<Session>();
+    // What a session counts as read.
+    assert!(size_of::<Vertex>() == 24 && size_of::<Ring>() == 32);
+};

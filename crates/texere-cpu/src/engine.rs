@@ -1,0 +1,165 @@
+//! An engine on the CPU: memory and timings; the stages themselves come from [`Stages`].
+
+use std::fmt::Debug;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use texere_core::{
+    BackendError, Chunk, ControlPoint, Engine, MeshMut, MeshPiece, MeshSink, PaddedPoints, Plan, Ring,
+    RingSink, ScanChunks, Slot, StageTimings, Vertex, zeroed,
+};
+
+use crate::pages;
+use crate::rolls::Rolls;
+
+/// What the stages read.
+#[derive(Debug)]
+pub(crate) struct Work {
+    pub(crate) plan: Arc<Plan>,
+    pub(crate) points: PaddedPoints,
+    pub(crate) rolls: Rolls,
+}
+
+/// Rings of a chunk, and the growth of the radius at each, which a [`Ring`] has no room for.
+#[derive(Debug, Default)]
+pub(crate) struct ChunkRings {
+    pub(crate) rings: Vec<Ring>,
+    pub(crate) slopes: Vec<f32>,
+}
+
+/// The two stages and the scan, one way of doing them.
+pub(crate) trait Stages: Copy + Debug + Send + 'static {
+    /// Whether `mesh` works out its rings itself.
+    const FUSED: bool;
+    fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError>;
+    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings);
+    /// `rings` are those of `chunk`, unless fused.
+    fn mesh(self, work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>);
+}
+
+/// Memory of a chunk in flight, which serves the next chunk but one again.
+#[derive(Debug, Default)]
+struct Room {
+    rings: ChunkRings,
+    vertices: Vec<Vertex>,
+    indices: Vec<u32>,
+}
+
+#[derive(Debug)]
+pub(crate) struct CpuEngine<S> {
+    work: Work,
+    /// One for each [`Slot`].
+    rooms: [Room; 2],
+    timings: StageTimings,
+    stages: S,
+}
+
+impl<S: Stages> CpuEngine<S> {
+    pub(crate) fn new(stages: S, plan: Arc<Plan>) -> Result<Self, BackendError> {
+        let points = PaddedPoints::new(&plan)?;
+        pages::prefer_huge(points.points());
+        Ok(Self {
+            work: Work { plan, points, rolls: Rolls::default() },
+            rooms: Default::default(),
+            timings: StageTimings::default(),
+            stages,
+        })
+    }
+}
+
+/// Makes `buffer` `length` long; what it held is lost. Memory that is large enough is kept.
+pub(crate) fn resize<T: bytemuck::Zeroable>(
+    what: &'static str,
+    buffer: &mut Vec<T>,
+    length: u64,
+) -> Result<(), BackendError> {
+    if (buffer.capacity() as u64) < length {
+        *buffer = zeroed(what, length)?;
+    }
+    buffer.resize_with(length as usize, T::zeroed);
+    Ok(())
+}
+
+fn timed<T>(total: &mut Duration, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    *total += start.elapsed();
+    result
+}
+
+impl<S: Stages> Engine for CpuEngine<S> {
+    fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError> {
+        let Work { plan, points: padded, .. } = &mut self.work;
+        let sent = timed(&mut self.timings.upload, || padded.upload(plan, first, points));
+        Ok((sent.end - sent.start) * size_of::<ControlPoint>() as u64)
+    }
+
+    fn scan(&mut self, _chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        let Self { work: Work { plan, points, rolls }, timings, stages, .. } = self;
+        timed(&mut timings.scan, || stages.scan(plan, points, rolls))
+    }
+
+    /// A chunk's tables are read where they lie.
+    fn load(&mut self, _slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
+        Ok(())
+    }
+
+    fn mesh_reads_rings(&self) -> bool {
+        !S::FUSED
+    }
+
+    fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let rings = &mut self.rooms[slot.index()].rings;
+        resize("rings", &mut rings.rings, chunk.rings().into())?;
+        resize("slopes", &mut rings.slopes, chunk.rings().into())?;
+        timed(&mut self.timings.trajectory, || self.stages.trajectory(&self.work, chunk, rings));
+        Ok(())
+    }
+
+    fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let Room { rings, vertices, indices } = &mut self.rooms[slot.index()];
+        resize("vertices", vertices, chunk.vertices().into())?;
+        resize("indices", indices, chunk.indices().into())?;
+        let out = MeshMut { vertices, indices };
+        timed(&mut self.timings.mesh, || self.stages.mesh(&self.work, chunk, rings, out));
+        Ok(())
+    }
+
+    fn read_trajectory(
+        &mut self,
+        slot: Slot,
+        _chunk: &Chunk,
+        sink: RingSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        Ok(sink(&self.rooms[slot.index()].rings.rings))
+    }
+
+    fn read_mesh(
+        &mut self,
+        slot: Slot,
+        _chunk: &Chunk,
+        sink: MeshSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let Room { vertices, indices, .. } = &self.rooms[slot.index()];
+        let mut flow = sink(MeshPiece::Vertices { first: 0, vertices });
+        if flow.is_continue() && !indices.is_empty() {
+            flow = sink(MeshPiece::Indices { first: 0, indices });
+        }
+        Ok(flow)
+    }
+
+    fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
+        let rings = &self.rooms[slot.index()].rings;
+        timed(&mut self.timings.mesh, || self.stages.mesh(&self.work, chunk, rings, out));
+        Ok(())
+    }
+
+    fn lends_its_own(&self) -> bool {
+        true
+    }
+
+    fn timings(&mut self) -> StageTimings {
+        self.timings
+    }
+}

@@ -1,0 +1,194 @@
+//! The work on a plan on an OpenCL device: memory and timings; the stages themselves are the schedule's.
+
+use std::ops::ControlFlow;
+use std::ptr;
+use std::sync::Arc;
+use std::time::Instant;
+
+use opencl3::command_queue::{finish, flush};
+use texere_core::{
+    BackendError, Chunk, ControlPoint, Engine, Limits, MeshMut, MeshPiece, MeshSink, Plan, RingSink,
+    ScanChunk, ScanChunks, Slot, StageTimings, Vertex, YarnEnds,
+};
+
+use crate::Schedule;
+use crate::backend::Opened;
+use crate::buffers::Staging;
+use crate::chunk_memory::ChunkMemory;
+use crate::clock::{Clock, Stage};
+use crate::handles::Handle;
+use crate::per_yarn::PerYarn;
+use crate::session::DeviceMesh;
+use crate::stages::{Launches, PerRing, Stages, Work};
+use crate::tables::Tables;
+use crate::upload::Outbox;
+
+/// What an [`OpenClSession`](crate::OpenClSession) works with.
+#[derive(Debug)]
+pub struct OpenClEngine {
+    plan: Arc<Plan>,
+    ends: YarnEnds,
+    tables: Tables,
+    stages: Box<dyn Stages>,
+    /// One for each [`Slot`].
+    memory: [ChunkMemory; 2],
+    staging: Staging,
+    outbox: Outbox,
+    clock: Clock,
+    opened: Arc<Opened>,
+}
+
+impl OpenClEngine {
+    pub(crate) fn new(opened: Arc<Opened>, limits: &Limits, plan: Arc<Plan>) -> Result<Self, BackendError> {
+        let stages: Box<dyn Stages> = match opened.schedule {
+            Schedule::PerRing => Box::new(PerRing::new(&opened, &plan)?),
+            Schedule::PerYarn => Box::new(PerYarn::new(&opened, &plan)?),
+        };
+        Ok(Self {
+            ends: YarnEnds::new(&plan)?,
+            tables: Tables::new(&opened, limits, &plan)?,
+            plan,
+            stages,
+            memory: Default::default(),
+            staging: Staging::default(),
+            outbox: Outbox::default(),
+            clock: Clock::default(),
+            opened,
+        })
+    }
+
+    /// The mesh in `slot`, of a chunk of so many indices.
+    pub(crate) fn device_mesh(&self, slot: Slot, indices: u32) -> DeviceMesh<'_> {
+        let memory = &self.memory[slot.index()];
+        DeviceMesh::new(
+            memory.vertices.raw(),
+            if indices > 0 { memory.indices.raw() } else { ptr::null_mut() },
+            memory.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
+        )
+    }
+
+    /// Bytes of device memory that it holds.
+    pub(crate) fn device_bytes(&self) -> u64 {
+        self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
+    }
+
+    /// Starts the kernels of a stage, notes their time, and lets the memory of `slot` wait for them.
+    fn run(
+        &mut self,
+        stage: Stage,
+        slot: Option<Slot>,
+        start: impl FnOnce(&mut dyn Stages, Work<'_>, &[ChunkMemory; 2]) -> Result<Launches, BackendError>,
+    ) -> Result<(), BackendError> {
+        let started = Instant::now();
+        let work = Work { opened: &self.opened, plan: &self.plan, tables: &self.tables };
+        let launches = start(&mut *self.stages, work, &self.memory)?;
+        if self.opened.profiled {
+            launches.iter().for_each(|event| self.clock.note(stage, event));
+            flush(self.opened.queue.raw()).map_err(self.opened.failed("clFlush"))?;
+        } else {
+            finish(self.opened.queue.raw()).map_err(self.opened.failed("clFinish"))?;
+            self.clock.add(stage, started.elapsed());
+        }
+        if let (Some(slot), Some(last)) = (slot, launches.last()) {
+            self.memory[slot.index()].ready = Some(last.clone());
+        }
+        Ok(())
+    }
+}
+
+impl Engine for OpenClEngine {
+    fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError> {
+        let started = Instant::now();
+        let Self { opened, plan, ends, tables, outbox, clock, .. } = self;
+        let upload = ends.upload(plan, first, points);
+        let sent = outbox.send(opened, &mut tables.points, &upload, clock)?;
+        ends.keep(&upload);
+        if !opened.profiled {
+            finish(opened.queue.raw()).map_err(opened.failed("clFinish"))?;
+            clock.add(Stage::Upload, started.elapsed());
+        }
+        Ok(sent)
+    }
+
+    fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        for ScanChunk { slot, chunk, loaded } in chunks {
+            if !loaded {
+                self.load(slot, &chunk)?;
+            }
+            self.run(Stage::Scan, Some(slot), |stages, work, memory| {
+                stages.block_turns(work, &chunk, &memory[slot.index()])
+            })?;
+        }
+        self.run(Stage::Scan, None, |stages, work, _| stages.yarn_rolls(work))
+    }
+
+    fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory[slot.index()].load(&self.opened, &self.plan, chunk)
+    }
+
+    fn mesh_reads_rings(&self) -> bool {
+        self.stages.mesh_reads_rings()
+    }
+
+    fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory[slot.index()].reserve_rings(&self.opened, chunk)?;
+        self.run(Stage::Trajectory, Some(slot), |stages, work, memory| {
+            stages.trajectory(work, chunk, &memory[slot.index()])
+        })
+    }
+
+    fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory[slot.index()].reserve_mesh(&self.opened, &self.plan, chunk)?;
+        self.run(Stage::Mesh, Some(slot), |stages, work, memory| {
+            stages.mesh(work, chunk, &memory[slot.index()])
+        })
+    }
+
+    fn read_trajectory(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: RingSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let Self { opened, memory, staging, clock, .. } = self;
+        let ChunkMemory { rings, ready, .. } = &memory[slot.index()];
+        staging.read(opened, rings, chunk.rings(), ready.as_deref(), clock, &mut |_, rings| sink(rings))
+    }
+
+    fn read_mesh(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: MeshSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let Self { opened, memory, staging, clock, .. } = self;
+        let ChunkMemory { vertices, indices, ready, .. } = &memory[slot.index()];
+        let ready = ready.as_deref();
+        let flow = staging.read(
+            opened,
+            vertices,
+            chunk.vertices(),
+            ready,
+            clock,
+            &mut |first, vertices: &[Vertex]| sink(MeshPiece::Vertices { first, vertices }),
+        )?;
+        if flow.is_break() {
+            return Ok(flow);
+        }
+        staging.read(opened, indices, chunk.indices(), ready, clock, &mut |first, indices: &[u32]| {
+            sink(MeshPiece::Indices { first, indices })
+        })
+    }
+
+    fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
+        self.mesh(slot, chunk)?;
+        let Self { opened, memory, clock, .. } = self;
+        let ChunkMemory { vertices, indices, ready, .. } = &memory[slot.index()];
+        vertices.read_into(opened, out.vertices, ready.as_deref(), clock)?;
+        indices.read_into(opened, out.indices, ready.as_deref(), clock)
+    }
+
+    fn timings(&mut self) -> StageTimings {
+        self.clock.timings()
+    }
+}

@@ -1,0 +1,48 @@
+//! Device memory that grows.
+
+use texere_core::BackendError;
+use wgpu::BufferUsages;
+
+use crate::gpu::Gpu;
+
+/// Device memory that grows with what it has to hold.
+#[derive(Debug)]
+pub(crate) struct Buffer {
+    what: &'static str,
+    usage: BufferUsages,
+    buffer: wgpu::Buffer,
+    /// Whether anything was ever kept here: there is a `wgpu::Buffer` even before, since an empty one can't be bound.
+    used: bool,
+}
+
+impl Buffer {
+    pub(crate) fn new(gpu: &Gpu, what: &'static str, usage: BufferUsages) -> Result<Self, BackendError> {
+        Ok(Self { what, usage, buffer: gpu.buffer(what, 0, usage)?, used: false })
+    }
+
+    /// Makes it at least `bytes` long; where that takes a new buffer, what it held is lost.
+    pub(crate) fn reserve(&mut self, gpu: &Gpu, bytes: u64) -> Result<&wgpu::Buffer, BackendError> {
+        self.used |= bytes > 0;
+        if self.buffer.size() < bytes {
+            if self.usage.contains(BufferUsages::STORAGE)
+                && bytes > gpu.device.limits().max_storage_buffer_binding_size
+            {
+                return Err(BackendError::OutOfMemory { what: self.what, bytes });
+            }
+            self.buffer = gpu.buffer(self.what, bytes, self.usage)?;
+        }
+        Ok(&self.buffer)
+    }
+
+    pub(crate) fn write(&mut self, gpu: &Gpu, bytes: &[u8]) -> Result<(), BackendError> {
+        gpu.write(self.reserve(gpu, bytes.len() as u64)?, 0, bytes)
+    }
+
+    pub(crate) const fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        if self.used { self.buffer.size() } else { 0 }
+    }
+}

@@ -1,0 +1,119 @@
+//! Device memory of a chunk in flight: its tables and its results.
+
+use std::ops::Range;
+
+use texere_core::{BackendError, Block, Chunk, ControlPoint, Params, Plan, Ring, Vertex};
+use texere_shaders::Resource;
+use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
+
+use crate::buffer::Buffer;
+use crate::gpu::Gpu;
+use crate::tables::Tables;
+
+/// Memory of a chunk in flight, which serves the next chunk but one again.
+#[derive(Debug)]
+pub(crate) struct ChunkMemory {
+    window: Range<u64>,
+    /// Rows of the block table, one a workgroup or, per yarn, a lane.
+    pub(crate) rows: u32,
+    /// Vertices of all caps.
+    pub(crate) cap_vertices: u32,
+    params: Buffer,
+    blocks: Buffer,
+    cap_rows: Buffer,
+    pub(crate) rings: Buffer,
+    slopes: Buffer,
+    pub(crate) vertices: Buffer,
+    pub(crate) indices: Buffer,
+}
+
+impl ChunkMemory {
+    pub(crate) fn new(gpu: &Gpu) -> Result<Self, BackendError> {
+        let buffer = |what, usage| Buffer::new(gpu, what, usage);
+        let (input, output) =
+            (BufferUsages::STORAGE | BufferUsages::COPY_DST, BufferUsages::STORAGE | BufferUsages::COPY_SRC);
+        Ok(Self {
+            window: 0..0,
+            rows: 0,
+            cap_vertices: 0,
+            params: buffer("parameters", BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
+            blocks: buffer("the block table", input)?,
+            cap_rows: buffer("the cap table", input)?,
+            rings: buffer("rings", output)?,
+            slopes: buffer("slopes", BufferUsages::STORAGE)?,
+            vertices: buffer("vertices", output | BufferUsages::VERTEX)?,
+            indices: buffer("indices", output | BufferUsages::INDEX)?,
+        })
+    }
+
+    /// Bytes of its tables and results.
+    pub(crate) fn bytes(&self) -> u64 {
+        let Self { blocks, cap_rows, rings, slopes, vertices, indices, .. } = self;
+        [blocks, cap_rows, rings, slopes, vertices, indices].map(Buffer::bytes).iter().sum()
+    }
+
+    /// Sends the tables of another chunk.
+    pub(crate) fn load(
+        &mut self,
+        gpu: &Gpu,
+        plan: &Plan,
+        chunk: &Chunk,
+        rows: &[Block],
+    ) -> Result<(), BackendError> {
+        let params = Params { blocks: rows.len() as u32, ..plan.params(chunk) };
+        (self.rows, self.cap_vertices) = (params.blocks, params.caps * params.sides);
+        self.params.write(gpu, bytemuck::bytes_of(&params))?;
+        self.blocks.write(gpu, bytemuck::cast_slice(rows))?;
+        self.cap_rows.write(gpu, bytemuck::cast_slice(&plan.cap_rows(chunk)))?;
+        self.window = chunk.window();
+        Ok(())
+    }
+
+    /// Makes room for the rings of the chunk, and for their slopes where `slopes`.
+    pub(crate) fn reserve_rings(
+        &mut self,
+        gpu: &Gpu,
+        chunk: &Chunk,
+        slopes: bool,
+    ) -> Result<(), BackendError> {
+        self.rings.reserve(gpu, u64::from(chunk.rings()) * size_of::<Ring>() as u64)?;
+        if slopes {
+            self.slopes.reserve(gpu, u64::from(chunk.rings()) * size_of::<f32>() as u64)?;
+        }
+        Ok(())
+    }
+
+    /// Makes room for the vertices and indices of the chunk.
+    pub(crate) fn reserve_mesh(&mut self, gpu: &Gpu, chunk: &Chunk) -> Result<(), BackendError> {
+        self.vertices.reserve(gpu, u64::from(chunk.vertices()) * size_of::<Vertex>() as u64)?;
+        self.indices.reserve(gpu, u64::from(chunk.indices()) * size_of::<u32>() as u64)?;
+        Ok(())
+    }
+
+    /// What a shader that works on this chunk sees as `resource`.
+    pub(crate) fn resource<'a>(&'a self, tables: &'a Tables, resource: Resource) -> BindingResource<'a> {
+        let buffer = match resource {
+            Resource::Points => {
+                let point = size_of::<ControlPoint>() as u64;
+                return BindingResource::Buffer(BufferBinding {
+                    buffer: &tables.points,
+                    offset: self.window.start * point,
+                    size: BufferSize::new((self.window.end - self.window.start) * point),
+                });
+            }
+            Resource::Yarns => &tables.yarns,
+            Resource::Rolls => &tables.rolls,
+            Resource::Outlines => &tables.outlines,
+            Resource::Pattern => &tables.pattern,
+            Resource::CapPattern => &tables.cap_pattern,
+            Resource::Params => &self.params,
+            Resource::Blocks => &self.blocks,
+            Resource::CapRows => &self.cap_rows,
+            Resource::Rings => &self.rings,
+            Resource::Slopes => &self.slopes,
+            Resource::Vertices => &self.vertices,
+            Resource::Indices => &self.indices,
+        };
+        buffer.buffer().as_entire_binding()
+    }
+}

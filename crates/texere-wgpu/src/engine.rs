@@ -1,0 +1,193 @@
+//! The work on a plan on a wgpu device: memory, launches and reading.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use texere_core::{
+    BackendError, Chunk, ControlPoint, Engine, MeshPiece, MeshSink, Plan, RingSink, ScanChunk, ScanChunks,
+    Slot, StageTimings, YarnEnds,
+};
+
+use crate::Schedule;
+use crate::chunk_memory::ChunkMemory;
+use crate::clock::{Clock, Timed};
+use crate::device::Opened;
+use crate::per_yarn;
+use crate::readback::Readback;
+use crate::stages::{Stage, Stages};
+use crate::tables::Tables;
+use crate::upload::Outbox;
+
+/// What a [`WgpuSession`](crate::WgpuSession) works with.
+#[derive(Debug)]
+pub struct WgpuEngine {
+    opened: Arc<Opened>,
+    plan: Arc<Plan>,
+    ends: YarnEnds,
+    tables: Tables,
+    /// One for each [`Slot`].
+    memory: [ChunkMemory; 2],
+    outbox: Outbox,
+    readback: Readback,
+    clock: Clock,
+    upload_time: Duration,
+}
+
+impl WgpuEngine {
+    pub(crate) fn new(opened: Arc<Opened>, plan: Arc<Plan>) -> Result<Self, BackendError> {
+        let gpu = &opened.gpu;
+        if matches!(opened.stages, Stages::PerYarn(_)) {
+            Schedule::PerYarn.check(&plan, &gpu.name)?;
+        }
+        gpu.probe()?;
+        // Tables first: a device that can't hold the points says so before the host makes room for them.
+        let tables = Tables::new(gpu, &plan)?;
+        Ok(Self {
+            ends: YarnEnds::new(&plan)?,
+            tables,
+            memory: [ChunkMemory::new(gpu)?, ChunkMemory::new(gpu)?],
+            outbox: Outbox::default(),
+            readback: Readback::new(gpu)?,
+            clock: Clock::new(gpu)?,
+            upload_time: Duration::ZERO,
+            plan,
+            opened,
+        })
+    }
+
+    /// The memory of the chunk in `slot`.
+    pub(crate) fn memory(&self, slot: Slot) -> &ChunkMemory {
+        &self.memory[slot.index()]
+    }
+
+    /// Bytes of device memory that it holds.
+    pub(crate) fn device_bytes(&self) -> u64 {
+        self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
+    }
+
+    /// Runs stages one after the other on the chunk in `slot`, each with its workgroups.
+    fn run(&mut self, slot: Slot, timed: Timed, stages: &[(&Stage, u32)]) -> Result<(), BackendError> {
+        let (gpu, memory, tables) = (&self.opened.gpu, &self.memory[slot.index()], &self.tables);
+        self.clock.run(gpu, timed, |pass| {
+            for (stage, workgroups) in stages {
+                let bound = stage.bind(gpu, |resource| memory.resource(tables, resource));
+                stage.record(pass, &bound, *workgroups);
+            }
+        })?;
+        gpu.probe()
+    }
+}
+
+impl Engine for WgpuEngine {
+    fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError> {
+        let start = Instant::now();
+        let upload = self.ends.upload(&self.plan, first, points);
+        let gpu = &self.opened.gpu;
+        let sent = self.outbox.send(gpu, &self.tables.points, &upload)?;
+        // Hands a small copy over now, so that wgpu's own copy of the points does not wait until the first launch.
+        gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
+        gpu.probe()?;
+        self.ends.keep(&upload);
+        self.upload_time += start.elapsed();
+        Ok(sent)
+    }
+
+    fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        let opened = self.opened.clone();
+        // A plan with rolls is refused by the other schedule.
+        let Stages::PerRing(stages) = &opened.stages else { return Ok(()) };
+        let mut last = Slot::default();
+        for ScanChunk { slot, chunk, loaded } in chunks {
+            if !loaded {
+                self.load(slot, &chunk)?;
+            }
+            // A repeated ring has no step, and its block's turn is written by the next chunk, which comes after.
+            self.run(slot, Timed::Scan, &[(&stages.block_turns, self.memory(slot).rows)])?;
+            last = slot;
+        }
+        let yarns = self.plan.layout().yarns().len() as u32;
+        self.run(last, Timed::Scan, &[(&stages.yarn_rolls, yarns)])
+    }
+
+    fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let (gpu, memory) = (&self.opened.gpu, &mut self.memory[slot.index()]);
+        match &self.opened.stages {
+            Stages::PerRing(_) => memory.load(gpu, &self.plan, chunk, chunk.blocks()),
+            Stages::PerYarn(_) => {
+                let most_rings = per_yarn::lane_rings(gpu, self.plan.settings().sides);
+                memory.load(gpu, &self.plan, chunk, &self.plan.part_rows(chunk, most_rings))
+            }
+        }
+    }
+
+    fn mesh_reads_rings(&self) -> bool {
+        matches!(self.opened.stages, Stages::PerYarn(_))
+    }
+
+    fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let opened = self.opened.clone();
+        let slopes = self.mesh_reads_rings();
+        let memory = &mut self.memory[slot.index()];
+        let rows = memory.rows;
+        memory.reserve_rings(&opened.gpu, chunk, slopes)?;
+        let stage = match &opened.stages {
+            Stages::PerRing(stages) => (&stages.trajectory, rows),
+            Stages::PerYarn(stages) => (&stages.trajectory, stages.trajectory.workgroups(rows)),
+        };
+        self.run(slot, Timed::Trajectory, &[stage])
+    }
+
+    fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let opened = self.opened.clone();
+        let memory = &mut self.memory[slot.index()];
+        let (rows, cap_vertices) = (memory.rows, memory.cap_vertices);
+        memory.reserve_mesh(&opened.gpu, chunk)?;
+        match &opened.stages {
+            Stages::PerRing(stages) => {
+                let even = self.plan.settings().sides.is_multiple_of(2);
+                let tubes = if even { &stages.mesh } else { &stages.mesh_odd };
+                let caps = stages.caps.workgroups(cap_vertices);
+                self.run(slot, Timed::Mesh, &[(tubes, rows), (&stages.caps, caps)])
+            }
+            Stages::PerYarn(stages) => {
+                self.run(slot, Timed::Mesh, &[(&stages.mesh, stages.mesh.workgroups(rows))])
+            }
+        }
+    }
+
+    fn read_trajectory(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: RingSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let rings = self.memory[slot.index()].rings.buffer();
+        self.readback.lend(&self.opened.gpu, rings, chunk.rings(), &mut |_, rings| sink(rings))
+    }
+
+    fn read_mesh(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: MeshSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let (gpu, memory) = (&self.opened.gpu, &self.memory[slot.index()]);
+        let vertices = memory.vertices.buffer();
+        let flow = self.readback.lend(gpu, vertices, chunk.vertices(), &mut |first, vertices| {
+            sink(MeshPiece::Vertices { first, vertices })
+        })?;
+        if flow.is_break() {
+            return Ok(flow);
+        }
+        let indices = memory.indices.buffer();
+        self.readback.lend(gpu, indices, chunk.indices(), &mut |first, indices| {
+            sink(MeshPiece::Indices { first, indices })
+        })
+    }
+
+    fn timings(&mut self) -> StageTimings {
+        let on_device = self.clock.totals(&self.opened.gpu);
+        StageTimings { upload: self.upload_time, readback: self.readback.waited, ..on_device }
+    }
+}

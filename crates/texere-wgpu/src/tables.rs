@@ -1,0 +1,54 @@
+//! What stays on the device for as long as its engine: control points, the plan's tables and the rolls.
+
+use texere_core::{BackendError, Plan, index_pattern};
+use wgpu::BufferUsages;
+
+use crate::buffer::Buffer;
+use crate::gpu::Gpu;
+
+/// The plan's tables, which all chunks read, and the rolls.
+#[derive(Debug)]
+pub(crate) struct Tables {
+    /// All control points, padded. A chunk binds its window.
+    pub(crate) points: wgpu::Buffer,
+    pub(crate) yarns: Buffer,
+    pub(crate) rolls: Buffer,
+    pub(crate) outlines: Buffer,
+    pub(crate) pattern: Buffer,
+    pub(crate) cap_pattern: Buffer,
+}
+
+impl Tables {
+    /// Sends the plan's tables.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`].
+    pub(crate) fn new(gpu: &Gpu, plan: &Plan) -> Result<Self, BackendError> {
+        let input = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+        let table = |what, bytes: &[u8]| {
+            let mut table = Buffer::new(gpu, what, input)?;
+            table.write(gpu, bytes)?;
+            Ok::<_, BackendError>(table)
+        };
+        let cap_pattern = if plan.settings().caps { plan.cap_pattern() } else { Vec::new() };
+        let mut rolls = Buffer::new(gpu, "rolls", BufferUsages::STORAGE)?;
+        if plan.needs_scan() {
+            rolls.reserve(gpu, 4 * (plan.layout().yarns().len() as u64 + plan.block_count()))?;
+        }
+        Ok(Self {
+            points: gpu.buffer("control points", plan.resident_bytes(), input)?,
+            yarns: table("yarns", bytemuck::cast_slice(&plan.yarn_rows()))?,
+            rolls,
+            outlines: table("outlines", bytemuck::cast_slice(plan.outlines()))?,
+            pattern: table("the index pattern", bytemuck::cast_slice(&index_pattern(plan.settings().sides)))?,
+            cap_pattern: table("the cap pattern", bytemuck::cast_slice(&cap_pattern))?,
+        })
+    }
+}
+
+impl Tables {
+    /// Bytes of all of them.
+    pub(crate) fn bytes(&self) -> u64 {
+        let Self { points, yarns, rolls, outlines, pattern, cap_pattern } = self;
+        points.size() + [yarns, rolls, outlines, pattern, cap_pattern].map(Buffer::bytes).iter().sum::<u64>()
+    }
+}

@@ -264,7 +264,7 @@ fn roll(ring: &mut [Vertex]) {
 
 /// Exchanges the first two parts of a chunk that are equally long; `per_ring` values belong to each ring.
 fn swap_yarns<T>(chunk: &Chunk, per_ring: usize, values: &mut [T]) {
-    if let [first, second, ..] = &chunk.parts()[..]
+    if let [first, second, ..] = chunk.parts()
         && first.rings == second.rings
     {
         let (one, other) = values.split_at_mut(first.rings as usize * per_ring);

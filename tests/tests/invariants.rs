@@ -193,7 +193,7 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
         vertices
     };
     for device in [&SerialBackend::new() as &dyn Backend, &ParallelBackend::new()] {
-        let mut edited = Session::new(&*device, plan.clone()).unwrap();
+        let mut edited = Session::new(device, plan.clone()).unwrap();
         edited.upload(0, yarns.points()).unwrap();
         let before = run(&mut edited);
         for yarn in [0, 9, 20] {
@@ -205,7 +205,7 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
             yarns.set_points(yarn, &moved).unwrap();
             edited.upload(range.start as u64, &moved).unwrap();
         }
-        let mut fresh = Session::new(&*device, plan.clone()).unwrap();
+        let mut fresh = Session::new(device, plan.clone()).unwrap();
         fresh.upload(0, yarns.points()).unwrap();
         let (edited, fresh) = (run(&mut edited), run(&mut fresh));
         assert!(bytemuck::cast_slice::<Vertex, u8>(&edited) == bytemuck::cast_slice::<Vertex, u8>(&fresh));

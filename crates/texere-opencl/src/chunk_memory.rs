@@ -45,7 +45,7 @@ impl ChunkMemory {
             }
         };
         let caps = plan.cap_rows(chunk);
-        self.table.reserve(opened, "the block table", size_of_val(&rows[..]) as u64)?;
+        self.table.reserve(opened, "the block table", size_of_val(rows) as u64)?;
         self.caps.reserve(opened, "the cap table", size_of_val(&caps[..]) as u64)?;
         let sent = [
             self.table.write(opened, &opened.transfers, 0, rows, used.as_deref())?,

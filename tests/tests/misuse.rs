@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use texere_conformance::schedule::able_devices;
 use texere_core::{
-    Backend, Chunk, ControlPoint, Frame, Limits, MeshMut, NullBackend, Pipeline, Plan, Session, SessionError,
-    Settings, Vertex, Yarn, Yarns,
+    Backend, BackendError, Chunk, ControlPoint, Frame, Limits, MeshMut, NullBackend, Pipeline, Plan, Session,
+    SessionError, Settings, Slot, Vertex, Yarn, Yarns,
 };
 
 /// Control points a millimetre apart.
@@ -198,4 +198,40 @@ fn the_backend_that_does_nothing_streams_any_number_of_chunks() {
     assert!(ended.unwrap().is_continue());
     // One for the upload, one for each block but the last, which shares a chunk with the one before.
     assert_eq!(steps, 1 + 3999u32.div_ceil(64) - 1);
+}
+
+/// An engine that is called without a session, by safe code, keeps its kernels within their memory.
+#[test]
+fn an_engine_refuses_what_it_has_not_loaded() {
+    let mut yarns = Yarns::builder();
+    yarns.yarn(Yarn::default(), &straight(400));
+    let yarns = yarns.build().unwrap();
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default()).unwrap());
+    let other = Plan::new(yarns.layout().clone(), Settings { sides: 12, ..Settings::default() }).unwrap();
+    let first =
+        |plan: &Plan, blocks| plan.chunks(&Limits { blocks, ..Limits::NONE }).unwrap().next().unwrap();
+    let (small, large, foreign) = (first(&plan, 2), first(&plan, 8), first(&other, 2));
+    // The CPU's engines check their bounds, and the one that does nothing has none.
+    let gpus = |device: &Arc<dyn Backend>| device.info().timed_by_device;
+    for device in able_devices(&yarns, plan.settings()).filter(gpus) {
+        let name = &device.info().name;
+        let mut engine = device.engine(plan.clone()).unwrap();
+        let refused = |result: Result<(), BackendError>| {
+            assert!(matches!(result, Err(BackendError::NotLoaded { chunk: 0 })), "{name}: {result:?}");
+        };
+        refused(engine.mesh(Slot::Even, &small));
+        engine.load(Slot::Even, &large).unwrap();
+        refused(engine.mesh(Slot::Even, &small));
+        refused(engine.trajectory(Slot::Even, &small));
+        refused(engine.mesh(Slot::Odd, &large));
+        refused(engine.load(Slot::Even, &foreign));
+        // A chunk that is refused leaves none.
+        refused(engine.mesh(Slot::Even, &large));
+        let mut session = Session::with_engine(engine, Limits::NONE, Arc::new(other.clone()));
+        let result = session.mesh(&foreign);
+        assert!(
+            matches!(result, Err(SessionError::Backend(BackendError::NotLoaded { .. }))),
+            "{name}: {result:?}"
+        );
+    }
 }

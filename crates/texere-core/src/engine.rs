@@ -68,6 +68,10 @@ pub type MeshSink<'a> = &'a mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>;
 /// - `mesh` of an engine that [reads rings](Engine::mesh_reads_rings) comes after `trajectory` in the same slot.
 /// - What is read has been made, and nothing has taken its slot since. Slices to write into are as long as the chunk says.
 ///
+/// Whoever calls an engine without a session has to keep them. An engine whose kernels check no bounds makes sure of the two
+/// that memory depends on, that a chunk is its plan's ([`Plan::owns`](crate::Plan::owns)) and lies in its slot, and else gives
+/// back [`BackendError::NotLoaded`].
+///
 /// Every call may return before its work is done, but those that read.
 ///
 /// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.

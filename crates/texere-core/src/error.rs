@@ -316,6 +316,12 @@ pub enum BackendError {
         /// The driver's whole log.
         log: String,
     },
+    /// An engine was asked to work on a chunk that was not loaded, or is another plan's: whoever called it was no session.
+    #[error("chunk {chunk} is not loaded")]
+    NotLoaded {
+        /// The chunk's index.
+        chunk: u64,
+    },
     /// A driver call that failed.
     #[error("{call} failed")]
     Driver {

@@ -234,7 +234,7 @@ impl<'a> Pipeline<'a> {
     /// Plans, opens a session, uploads and scans.
     fn start(&mut self, device: &dyn Backend) -> Result<(Arc<Plan>, Session), PipelineError> {
         let plan = Arc::new(self.plan()?);
-        let mut session = Session::new(device, plan.clone())?;
+        let mut session = Session::new(device, plan.clone())?.with_limits(&self.limits);
         let mut first = 0;
         for points in self.yarns.points().chunks(UPLOAD_POINTS) {
             session.upload(first, points)?;

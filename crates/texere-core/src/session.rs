@@ -99,6 +99,14 @@ impl<E: Engine + ?Sized> Session<E> {
         }
     }
 
+    /// Cuts a scan's chunks to `limits` where the device's own are wider: as the caller cuts those of the stages, so that their
+    /// tables are sent once.
+    #[must_use]
+    pub fn with_limits(mut self, limits: &Limits) -> Self {
+        self.limits = self.limits.min(limits);
+        self
+    }
+
     /// The plan that it works on.
     #[must_use]
     pub const fn plan(&self) -> &Arc<Plan> {
@@ -133,18 +141,16 @@ impl<E: Engine + ?Sized> Session<E> {
     /// **Errors**: [`SessionError::Plan`] where the device's limits hold no block, and what the device says.
     pub fn scan(&mut self) -> Result<(), SessionError> {
         if self.plan.needs_scan() && !self.scanned {
-            let Self { plan, limits, in_flight, next, engine, .. } = self;
-            let mut in_slots = plan.chunks(limits)?.map(|chunk| {
-                let (slot, loaded) = claim(in_flight, next, &chunk);
+            let chunks = self.plan.chunks(&self.limits)?;
+            // Put back only if all goes well: else nobody knows which tables have come.
+            let mut in_flight = std::mem::take(&mut self.in_flight);
+            let mut in_slots = chunks.map(|chunk| {
+                let (slot, loaded) = claim(&mut in_flight, &mut self.next, &chunk);
                 in_flight[slot.index()].blocks = Some(chunk.block_range());
                 ScanChunk { slot, chunk, loaded }
             });
-            let scanned = engine.scan(ScanChunks::new(&mut in_slots));
-            if scanned.is_err() {
-                // Nobody knows which tables have come.
-                self.in_flight = Default::default();
-            }
-            scanned?;
+            self.engine.scan(ScanChunks::new(&mut in_slots))?;
+            self.in_flight = in_flight;
         }
         self.scanned = true;
         Ok(())
@@ -256,11 +262,7 @@ impl<E: Engine + ?Sized> Session<E> {
 
     /// Whether `chunk` is of this session's plan: what its tables say is what the plan counted.
     fn check_own(&self, chunk: &Chunk) -> Result<(), SessionError> {
-        if chunk.plan() == self.plan.id() {
-            Ok(())
-        } else {
-            Err(SessionError::ForeignChunk { chunk: chunk.index() })
-        }
+        if self.plan.owns(chunk) { Ok(()) } else { Err(SessionError::ForeignChunk { chunk: chunk.index() }) }
     }
 
     /// The slot of `chunk`, with its tables, for a stage.
@@ -316,7 +318,9 @@ fn claim(in_flight: &mut [InFlight; 2], next: &mut Slot, chunk: &Chunk) -> (Slot
     if let Some(slot) = slot_of(in_flight, chunk) {
         return (slot, true);
     }
-    let slot = *next;
+    // An empty slot first: a chunk that could not be loaded has left one.
+    let is_empty = |slot: Slot| in_flight[slot.index()].blocks.is_none();
+    let slot = if is_empty(next.other()) && !is_empty(*next) { next.other() } else { *next };
     *next = slot.other();
     in_flight[slot.index()] = InFlight::default();
     (slot, false)

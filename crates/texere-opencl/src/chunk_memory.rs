@@ -1,5 +1,6 @@
 //! Device memory of a chunk in flight: its tables and its results.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use texere_core::{BackendError, Chunk, Plan, Ring, Topology, Vertex};
@@ -12,6 +13,8 @@ use crate::handles::Handle;
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkMemory {
+    /// The blocks of the chunk whose tables are here.
+    loaded: Option<Range<u64>>,
     pub(crate) table: Buffer,
     /// Rows of `table`.
     pub(crate) rows: usize,
@@ -35,7 +38,12 @@ impl ChunkMemory {
     /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after those
     /// that work here.
     pub(crate) fn load(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
-        let used = self.ready.take();
+        self.loaded = None;
+        if !plan.owns(chunk) {
+            return Err(BackendError::NotLoaded { chunk: chunk.index() });
+        }
+        // Kept until the new tables are sent: commands that still use the old ones may be under way.
+        let used = self.ready.clone();
         let parts;
         let rows = match opened.schedule {
             Schedule::PerRing => chunk.blocks(),
@@ -53,8 +61,18 @@ impl ChunkMemory {
         ];
         // In order, so the last stands for both.
         self.ready = sent.into_iter().flatten().last();
+        self.loaded = Some(chunk.block_range());
         self.rows = rows.len();
         Ok(())
+    }
+
+    /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are here.
+    pub(crate) fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
+        if plan.owns(chunk) && self.loaded == Some(chunk.block_range()) {
+            Ok(())
+        } else {
+            Err(BackendError::NotLoaded { chunk: chunk.index() })
+        }
     }
 
     /// Makes room for the rings of `chunk`.

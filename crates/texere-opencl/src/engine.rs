@@ -81,7 +81,10 @@ impl OpenClEngine {
     ) -> Result<(), BackendError> {
         let started = Instant::now();
         let work = Work { opened: &self.opened, plan: &self.plan, tables: &self.tables };
-        let launches = start(&mut *self.stages, work, &self.memory)?;
+        let launches = start(&mut *self.stages, work, &self.memory).inspect_err(|_| {
+            // Some of them may be under way, and nobody would wait for those. What that says is no news.
+            let _ = finish(self.opened.queue.raw());
+        })?;
         if self.opened.profiled {
             launches.iter().for_each(|event| self.clock.note(stage, event));
             flush(self.opened.queue.raw()).map_err(self.opened.failed("clFlush"))?;
@@ -115,6 +118,7 @@ impl Engine for OpenClEngine {
             if !loaded {
                 self.load(slot, &chunk)?;
             }
+            self.memory[slot.index()].check(&self.plan, &chunk)?;
             self.run(Stage::Scan, Some(slot), |stages, work, memory| {
                 stages.block_turns(work, &chunk, &memory[slot.index()])
             })?;
@@ -131,6 +135,7 @@ impl Engine for OpenClEngine {
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory[slot.index()].check(&self.plan, chunk)?;
         self.memory[slot.index()].reserve_rings(&self.opened, chunk)?;
         self.run(Stage::Trajectory, Some(slot), |stages, work, memory| {
             stages.trajectory(work, chunk, &memory[slot.index()])
@@ -138,6 +143,7 @@ impl Engine for OpenClEngine {
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory[slot.index()].check(&self.plan, chunk)?;
         self.memory[slot.index()].reserve_mesh(&self.opened, &self.plan, chunk)?;
         self.run(Stage::Mesh, Some(slot), |stages, work, memory| {
             stages.mesh(work, chunk, &memory[slot.index()])

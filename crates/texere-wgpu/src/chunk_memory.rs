@@ -13,6 +13,8 @@ use crate::tables::Tables;
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug)]
 pub(crate) struct ChunkMemory {
+    /// The blocks of the chunk whose tables are here.
+    loaded: Option<Range<u64>>,
     window: Range<u64>,
     /// Rows of the block table, one a workgroup or, per yarn, a lane.
     pub(crate) rows: u32,
@@ -33,6 +35,7 @@ impl ChunkMemory {
         let (input, output) =
             (BufferUsages::STORAGE | BufferUsages::COPY_DST, BufferUsages::STORAGE | BufferUsages::COPY_SRC);
         Ok(Self {
+            loaded: None,
             window: 0..0,
             rows: 0,
             cap_vertices: 0,
@@ -60,13 +63,27 @@ impl ChunkMemory {
         chunk: &Chunk,
         rows: &[Block],
     ) -> Result<(), BackendError> {
+        self.loaded = None;
+        if !plan.owns(chunk) {
+            return Err(BackendError::NotLoaded { chunk: chunk.index() });
+        }
         let params = Params { blocks: rows.len() as u32, ..plan.params(chunk) };
         (self.rows, self.cap_vertices) = (params.blocks, params.caps * params.sides);
         self.params.write(gpu, bytemuck::bytes_of(&params))?;
         self.blocks.write(gpu, bytemuck::cast_slice(rows))?;
         self.cap_rows.write(gpu, bytemuck::cast_slice(&plan.cap_rows(chunk)))?;
         self.window = chunk.window();
+        self.loaded = Some(chunk.block_range());
         Ok(())
+    }
+
+    /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are here.
+    pub(crate) fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
+        if plan.owns(chunk) && self.loaded == Some(chunk.block_range()) {
+            Ok(())
+        } else {
+            Err(BackendError::NotLoaded { chunk: chunk.index() })
+        }
     }
 
     /// Makes room for the rings of the chunk, and for their slopes where `slopes`.

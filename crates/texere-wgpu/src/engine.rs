@@ -102,6 +102,7 @@ impl Engine for WgpuEngine {
             if !loaded {
                 self.load(slot, &chunk)?;
             }
+            self.memory(slot).check(&self.plan, &chunk)?;
             // A repeated ring has no step, and its block's turn is written by the next chunk, which comes after.
             self.run(slot, Timed::Scan, &[(&stages.block_turns, self.memory(slot).rows)])?;
             last = slot;
@@ -126,6 +127,7 @@ impl Engine for WgpuEngine {
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory(slot).check(&self.plan, chunk)?;
         let opened = self.opened.clone();
         let slopes = self.mesh_reads_rings();
         let memory = &mut self.memory[slot.index()];
@@ -139,6 +141,7 @@ impl Engine for WgpuEngine {
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory(slot).check(&self.plan, chunk)?;
         let opened = self.opened.clone();
         let memory = &mut self.memory[slot.index()];
         let (rows, cap_vertices) = (memory.rows, memory.cap_vertices);

@@ -162,6 +162,12 @@ impl Plan {
         }
     }
 
+    /// Whether `chunk` was cut from this plan, or a clone of it: then all that its tables say is what the plan counted.
+    #[must_use]
+    pub fn owns(&self, chunk: &Chunk) -> bool {
+        chunk.plan() == self.id
+    }
+
     /// What its chunks know it by.
     pub(crate) const fn id(&self) -> PlanId {
         self.id

@@ -25,7 +25,7 @@ const ASIDE_MAX: u64 = 1 << 25;
 /// The largest image file that is read: one that is not compressed.
 const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
 
-/// The most pixels that a byte of a file stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
+/// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
 /// one bit. So a short file takes no memory for pixels that it can't have.
 const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
@@ -158,7 +158,8 @@ impl Image {
         let file_bytes = file.metadata().map_err(io)?.len();
         let file = BufReader::new(file);
         let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
-        if reader.format() == Some(ImageFormat::Png) {
+        let format = reader.format();
+        if format == Some(ImageFormat::Png) {
             let mut file = reader.into_inner();
             if let Some(bytes) = broken_palette(&mut file).map_err(io)? {
                 let source =
@@ -179,7 +180,8 @@ impl Image {
             let file = path.into();
             return Err(ReadError::ImageTooLarge { file, width, height, side_limit, limit: PIXELS_MAX });
         }
-        if u64::from(width) * u64::from(height) > PIXELS_PER_BYTE * file_bytes {
+        let is_png = format == Some(ImageFormat::Png);
+        if is_png && u64::from(width) * u64::from(height) > PIXELS_PER_BYTE * file_bytes {
             let source = format!("its {file_bytes} bytes are too few for {width} × {height} pixels");
             return Err(ReadError::Image { file: path.into(), source: source.into() });
         }

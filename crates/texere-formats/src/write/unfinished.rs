@@ -16,9 +16,10 @@ use tempfile::NamedTempFile;
 use super::WriteError;
 use super::output::Place;
 
-/// Names are this, and [`RANDOM`] letters or digits.
+/// Names are this, [`RANDOM`] letters or digits, and an ending that nobody gives a file of their own.
 const PREFIX: &str = ".texere-";
-const RANDOM: usize = 6;
+const RANDOM: usize = 16;
+const ENDING: &str = ".unfinished";
 
 /// How often a new file may be taken for a left one, and swept, by others that start at the same moment.
 const ATTEMPTS: usize = 100;
@@ -146,7 +147,7 @@ impl Seek for Unfinished {
 /// An empty file with a name of ours.
 fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX).rand_bytes(RANDOM);
+    builder.prefix(PREFIX).rand_bytes(RANDOM).suffix(ENDING);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -180,7 +181,7 @@ fn sweep(folder: &Path, place: &Place) {
 }
 
 fn is_name(name: &str) -> bool {
-    let random = name.strip_prefix(PREFIX).unwrap_or_default();
+    let random = name.strip_prefix(PREFIX).and_then(|rest| rest.strip_suffix(ENDING)).unwrap_or_default();
     random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 

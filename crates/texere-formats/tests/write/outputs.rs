@@ -100,23 +100,41 @@ fn an_input_that_comes_to_lie_at_the_output_is_not_replaced() {
 fn what_a_dead_writer_left_is_removed_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let others = [".texere-abc.toml", ".texere-abcdefg", ".texere-ab-def", "texere-abcdef", ".texereabcdef"];
-    for name in others.iter().chain(&[".texere-dEad01", ".texere-aLive1", ".texere-motif1"]) {
+    let others = [
+        ".texere-config",
+        ".texere-0123456789abcdef",
+        ".texere-0123456789-abcde.unfinished",
+        ".texere-0123456789abcdefg.unfinished",
+        "texere-0123456789abcdef.unfinished",
+    ];
+    for name in others.iter().chain(&[
+        ".texere-dEad010123456789.unfinished",
+        ".texere-aLive10123456789.unfinished",
+        ".texere-motif10123456789.unfinished",
+    ]) {
         fs::write(at(name), name).unwrap();
     }
-    fs::create_dir(at(".texere-folder")).unwrap();
-    let alive = File::open(at(".texere-aLive1")).unwrap();
+    fs::create_dir(at(".texere-folder0123456789.unfinished")).unwrap();
+    let alive = File::open(at(".texere-aLive10123456789.unfinished")).unwrap();
     alive.try_lock().unwrap();
-    let output = || Output::to(at("out")).sparing([at(".texere-motif1")]);
+    let output = || Output::to(at("out")).sparing([at(".texere-motif10123456789.unfinished")]);
     write::file(b"new", output()).unwrap();
     let mut expected: Vec<_> = others.iter().map(ToString::to_string).collect();
-    expected.extend([".texere-aLive1", ".texere-folder", ".texere-motif1", "out"].map(String::from));
+    expected.extend(
+        [
+            ".texere-aLive10123456789.unfinished",
+            ".texere-folder0123456789.unfinished",
+            ".texere-motif10123456789.unfinished",
+            "out",
+        ]
+        .map(String::from),
+    );
     expected.sort_unstable();
     assert_eq!(names(&folder), expected);
     // Its writer dies.
     drop(alive);
     write::file(b"new", output()).unwrap();
-    assert!(!at(".texere-aLive1").exists());
+    assert!(!at(".texere-aLive10123456789.unfinished").exists());
 }
 
 /// Each sweeps while the others start and finish.

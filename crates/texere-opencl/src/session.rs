@@ -35,7 +35,7 @@ pub struct OpenClSession(pub(crate) Session<OpenClEngine>);
 /// A chunk's mesh in the device's memory. Valid as long as it is borrowed: until the session's next call.
 #[derive(Debug)]
 pub struct DeviceMesh<'a> {
-    /// A `cl_mem` with the chunk's [`Vertex`]es from its start.
+    /// A `cl_mem` with the chunk's [`Vertex`](texere_core::Vertex)es from its start.
     pub vertices: *mut c_void,
     /// A `cl_mem` with the chunk's `u32` indices from its start; null where it has none.
     pub indices: *mut c_void,

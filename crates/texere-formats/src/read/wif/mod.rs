@@ -142,7 +142,7 @@ fn treadled(
     Ok(Some(Shedding::TieUp { tie_up, treadling }))
 }
 
-/// How many shafts or treadles the loom has: as many as [WEAVING] says under `key`, or `highest`, the number that
+/// How many shafts or treadles the loom has: as many as `[WEAVING]` says under `key`, or `highest`, the number that
 /// `section` goes up to, where that is more. None where nothing is declared.
 fn on_loom(
     ini: &Ini<'_>,

@@ -2,11 +2,9 @@
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs, spline.rs, sampling.rs,
 // frame.rs, ring.rs), and common.wgsl is the twin of this file. OpenCL C 1.2, no extension.
+// Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before this file.
 
 #pragma OPENCL FP_CONTRACT OFF
-
-// Rings in a full block. Rust: BLOCK_RINGS.
-#define BLOCK_RINGS 64
 
 // Rust: texere_core::Block, 32 bytes.
 typedef struct {
@@ -20,7 +18,7 @@ typedef struct {
     uint first_index;
 } Block;
 
-// Rust: texere_core::YarnRow, 20 bytes.
+// Rust: texere_gpu::YarnRow, 20 bytes.
 typedef struct {
     uint rings;
     uint first_block;
@@ -29,7 +27,7 @@ typedef struct {
     float twist;
 } YarnRow;
 
-// Rust: texere_core::CapRow, 32 bytes.
+// Rust: texere_gpu::CapRow, 32 bytes.
 typedef struct {
     uint yarn;
     uint end;
@@ -41,7 +39,7 @@ typedef struct {
     uint padding;
 } CapRow;
 
-// Rust: texere_core::Params, 48 bytes.
+// Rust: texere_gpu::Params, 48 bytes.
 typedef struct {
     uint blocks;
     uint caps;
@@ -68,10 +66,6 @@ float dot3(float3 a, float3 b) {
 
 // ---- Turn: an angle as a u32 fraction of a full turn ----
 
-// Steps in a full turn, and radians in one step.
-#define TURN_STEPS 4294967296.0f
-#define RADIANS_PER_STEP 1.46291807927e-9f
-
 // `turns` full turns, reduced to one and rounded to the nearest step.
 uint turn_from_turns(float turns) {
     float wrapped = max(turns - floor(turns + 0.5f), -0.5f);
@@ -84,8 +78,8 @@ float2 turn_sin_cos(uint turn) {
     int rest = as_int(turn - (quarter << 30));
     float x = (float)rest * RADIANS_PER_STEP;
     float z = x * x;
-    float sine = ((-1.9515296e-4f * z + 8.332161e-3f) * z - 1.6666655e-1f) * z * x + x;
-    float cosine = ((2.4433157e-5f * z - 1.3887316e-3f) * z + 4.1666646e-2f) * z * z - 0.5f * z + 1.0f;
+    float sine = ((SINE_7 * z + SINE_5) * z + SINE_3) * z * x + x;
+    float cosine = ((COSINE_8 * z + COSINE_6) * z + COSINE_4) * z * z - 0.5f * z + 1.0f;
     switch (quarter & 3u) {
         case 0u: return (float2)(sine, cosine);
         case 1u: return (float2)(cosine, -sine);
@@ -99,9 +93,6 @@ uint turn_share(uint turn, uint part, uint whole) {
     float steps = (float)as_int(turn) * ((float)part / (float)whole);
     return as_uint(convert_int_sat(floor(steps + 0.5f)));
 }
-
-// tan(pi / 8), where the arctangent's range is cut in two.
-#define TAN_EIGHTH 0.41421357f
 
 // The angle of (x, y) from the x axis as a fraction of a turn; 0 for (0, 0).
 float atan2_turns(float y, float x) {
@@ -119,19 +110,14 @@ float atan2_turns(float y, float x) {
     float eighth = upper ? 0.125f : 0.0f;
     float q = numerator / denominator;
     float z = q * q;
-    float series = ((1.2817932e-2f * z - 2.2087018e-2f) * z + 3.179573e-2f) * z - 5.3051016e-2f;
-    float octant = eighth + (series * z * q + 0.15915494f * q);
+    float series = ((ARCTANGENT_9 * z + ARCTANGENT_7) * z + ARCTANGENT_5) * z + ARCTANGENT_3;
+    float octant = eighth + (series * z * q + ARCTANGENT_1 * q);
     float quadrant = steep ? 0.25f - octant : octant;
     float semicircle = x < 0.0f ? 0.5f - quadrant : quadrant;
     return y < 0.0f ? -semicircle : semicircle;
 }
 
 // ---- Segment: the spline between P[j] and P[j+1], relative to P[j] ----
-
-#define ZERO_VELOCITY 1e-12f
-#define NO_LENGTH 1e-30f
-#define SLOPE_LIMIT 1e4f
-#define RADIUS_FLOOR 0.5f
 
 typedef struct {
     float4 start;
@@ -254,10 +240,6 @@ float3 chord_to(const RingSample *here, float3 next_offset) {
 }
 
 // ---- Frame ----
-
-#define VERTICAL 1e-12f
-#define NO_MIRROR 1e-6f
-#define ROTATION_MINIMIZING 1u
 
 typedef struct {
     float3 side;

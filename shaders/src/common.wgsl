@@ -2,9 +2,7 @@
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs, spline.rs, sampling.rs,
 // frame.rs, ring.rs), and common.cl is the twin of this file. Core WGSL, no feature required.
-
-// Rings in a full block. Rust: BLOCK_RINGS.
-const BLOCK_RINGS = 64u;
+// Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before this file.
 
 // Rust: texere_core::Block, 32 bytes.
 struct Block {
@@ -18,7 +16,7 @@ struct Block {
     first_index: u32,
 }
 
-// Rust: texere_core::YarnRow, 20 bytes.
+// Rust: texere_gpu::YarnRow, 20 bytes.
 struct YarnRow {
     rings: u32,
     first_block: u32,
@@ -27,7 +25,7 @@ struct YarnRow {
     twist: f32,
 }
 
-// Rust: texere_core::CapRow, 32 bytes.
+// Rust: texere_gpu::CapRow, 32 bytes.
 struct CapRow {
     yarn: u32,
     end: u32,
@@ -39,7 +37,7 @@ struct CapRow {
     padding: u32,
 }
 
-// Rust: texere_core::Params, 48 bytes.
+// Rust: texere_gpu::Params, 48 bytes.
 struct Params {
     blocks: u32,
     caps: u32,
@@ -68,10 +66,6 @@ struct Params {
 
 // ---- Turn: an angle as a u32 fraction of a full turn ----
 
-// Steps in a full turn, and radians in one step.
-const TURN_STEPS = 4294967296.0;
-const RADIANS_PER_STEP = 1.46291807927e-9;
-
 // `turns` full turns, reduced to one and rounded to the nearest step.
 fn turn_from_turns(turns: f32) -> u32 {
     let wrapped = max(turns - floor(turns + 0.5), -0.5);
@@ -84,8 +78,8 @@ fn turn_sin_cos(turn: u32) -> vec2<f32> {
     let rest = bitcast<i32>(turn - (quarter << 30u));
     let x = f32(rest) * RADIANS_PER_STEP;
     let z = x * x;
-    let sine = ((-1.9515296e-4 * z + 8.332161e-3) * z - 1.6666655e-1) * z * x + x;
-    let cosine = ((2.4433157e-5 * z - 1.3887316e-3) * z + 4.1666646e-2) * z * z - 0.5 * z + 1.0;
+    let sine = ((SINE_7 * z + SINE_5) * z + SINE_3) * z * x + x;
+    let cosine = ((COSINE_8 * z + COSINE_6) * z + COSINE_4) * z * z - 0.5 * z + 1.0;
     switch quarter & 3u {
         case 0u: { return vec2(sine, cosine); }
         case 1u: { return vec2(cosine, -sine); }
@@ -99,9 +93,6 @@ fn turn_share(turn: u32, part: u32, whole: u32) -> u32 {
     let steps = f32(bitcast<i32>(turn)) * (f32(part) / f32(whole));
     return bitcast<u32>(i32(floor(steps + 0.5)));
 }
-
-// tan(pi / 8), where the arctangent's range is cut in two.
-const TAN_EIGHTH = 0.41421357;
 
 // The angle of (x, y) from the x axis as a fraction of a turn; 0 for (0, 0).
 fn atan2_turns(y: f32, x: f32) -> f32 {
@@ -119,19 +110,14 @@ fn atan2_turns(y: f32, x: f32) -> f32 {
     let eighth = select(0.0, 0.125, upper);
     let q = numerator / denominator;
     let z = q * q;
-    let series = ((1.2817932e-2 * z - 2.2087018e-2) * z + 3.179573e-2) * z - 5.3051016e-2;
-    let octant = eighth + (series * z * q + 0.15915494 * q);
+    let series = ((ARCTANGENT_9 * z + ARCTANGENT_7) * z + ARCTANGENT_5) * z + ARCTANGENT_3;
+    let octant = eighth + (series * z * q + ARCTANGENT_1 * q);
     let quadrant = select(octant, 0.25 - octant, steep);
     let semicircle = select(quadrant, 0.5 - quadrant, x < 0.0);
     return select(semicircle, -semicircle, y < 0.0);
 }
 
 // ---- Segment: the spline between P[j] and P[j+1], relative to P[j] ----
-
-const ZERO_VELOCITY = 1e-12;
-const NO_LENGTH = 1e-30;
-const SLOPE_LIMIT = 1e4;
-const RADIUS_FLOOR = 0.5;
 
 struct Segment {
     start: vec4<f32>,
@@ -253,10 +239,6 @@ fn chord_to(here: RingSample, next_offset: vec3<f32>) -> vec3<f32> {
 }
 
 // ---- Frame ----
-
-const VERTICAL = 1e-12;
-const NO_MIRROR = 1e-6;
-const ROTATION_MINIMIZING = 1u;
 
 struct Basis {
     side: vec3<f32>,

@@ -38,7 +38,7 @@ pub const fn grid(workgroups: u32) -> (u32, u32) {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Resource {
-    /// `Params` of `texere-core`.
+    /// `Params` of `texere-gpu`.
     Params = 0,
     /// Control points, from the start of the chunk's window.
     Points = 1,
@@ -60,7 +60,7 @@ pub enum Resource {
     Rings = 9,
     /// `CapRow`s of a chunk.
     CapRows = 10,
-    /// Cap indices, as `Plan::cap_pattern` has them.
+    /// Cap indices, as `texere_gpu::cap_pattern` has them.
     CapPattern = 11,
     /// The growth of the radius at each ring of a chunk: `f32`s.
     Slopes = 12,

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use texere_core::{
     Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits, MeshMut, MeshPiece,
-    MeshSink, Plan, Ring, RingSink, ScanChunks, Slot, StageTimings, Vertex,
+    MeshSink, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Vertex,
 };
 use texere_cpu::SerialBackend;
 
@@ -41,7 +41,7 @@ impl DeferredBackend {
         let serial = SerialBackend::new();
         let info = DeviceInfo {
             name: "deferred".into(),
-            schedule: "when read".into(),
+            schedule: Schedule::PerRing,
             kind: DeviceKind::Other,
             limits: LIMITS,
             ..serial.info().clone()

@@ -139,7 +139,7 @@ impl SabotagedBackend {
         let limits = Limits { blocks: 2, ..Limits::NONE };
         let mut info = DeviceInfo { name: format!("{sabotage:?}"), limits, ..serial.info().clone() };
         if matches!(sabotage, Sabotage::Eager | Sabotage::Lazy) {
-            info.schedule = Schedule::PerYarn.to_string();
+            info.schedule = Schedule::PerYarn;
         }
         Self { info, serial, sabotage }
     }

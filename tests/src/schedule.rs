@@ -11,7 +11,7 @@ use crate::suite::names;
 /// Whether `device` must refuse `yarns` under `settings`. Only [`Schedule::PerYarn`] leaves anything out.
 #[must_use]
 pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
-    device.schedule == Schedule::PerYarn.to_string()
+    device.schedule == Schedule::PerYarn
         && (settings.frame != Frame::Upright
             || settings.caps
             || yarns.layout().yarns().iter().any(|yarn| yarn.closed || yarn.twist != 0.0))

@@ -33,7 +33,7 @@ pub(crate) fn trials(device: &Arc<dyn Backend>) -> Vec<Trial> {
 
 /// All that a device can be asked for at once: a scan and caps too, unless its schedule does neither.
 fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
-    if device.info().schedule == Schedule::PerYarn.to_string() {
+    if device.info().schedule == Schedule::PerYarn {
         return (Settings::default(), Yarn::default());
     }
     let settings = Settings { frame: Frame::RotationMinimizing, caps: true, ..Settings::default() };

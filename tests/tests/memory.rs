@@ -58,7 +58,8 @@ fn a_mesh_peaks_within_five_per_cent_of_the_plan() {
             };
             let plan = pipeline().plan().unwrap();
             let on_cpu = name == "cpu";
-            let planned = if on_cpu { plan.host_bytes() } else { plan.host_bytes_beside_gpu() } as f64;
+            let planned =
+                if on_cpu { plan.host_bytes() } else { texere_gpu::host_bytes_beside_gpu(&plan) } as f64;
             // What is set up once, threads and pipelines, is there after the first.
             pipeline().mesh(&*device).unwrap();
             let peak = peak_of(|| pipeline().mesh(&*device).unwrap());

@@ -42,7 +42,40 @@ fn no_gpu_backend_needs_a_cpu_backend_or_the_other_gpu_backend() {
 
 #[test]
 fn what_needs_no_gpu_has_none() {
-    assert_without(&["texere-core", "texere-fabric", "texere-formats", "texere-cpu"], &GPU);
+    let shared = ["texere-gpu", "texere-kernels", "texere-shaders"];
+    let without = ["texere-core", "texere-fabric", "texere-formats", "texere-cpu"];
+    assert_without(&without, &[&GPU[..], &shared].concat());
+}
+
+/// What both GPU backends share knows neither of them, and both have it.
+#[test]
+fn what_gpu_backends_share_names_no_interface() {
+    let fabrics = ["texere-cpu", "texere-fabric", "texere-formats", "texere-kernels", "texere-shaders"];
+    assert_without(&["texere-gpu"], &[&GPU[..], &fabrics].concat());
+    for backend in ["texere-opencl", "texere-wgpu"] {
+        assert!(needs(backend, "--all-features").contains("texere-gpu"), "{backend}");
+    }
+}
+
+#[test]
+fn the_cores_sources_name_no_gpu_interface() {
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/texere-core")];
+    let mut read = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).unwrap().to_lowercase();
+            for name in ["opencl", "wgpu", "vulkan", "metal", "cuda", "direct3d"] {
+                assert!(!text.contains(name), "{} names {name}", path.display());
+            }
+            read += 1;
+        }
+    }
+    assert!(read > 10, "{read} files");
 }
 
 /// The facade takes a GPU backend in where its feature is on, and not otherwise.

@@ -1,6 +1,7 @@
 //! What the registry opens here.
 
 use texere_conformance::REGISTRY;
+use texere_core::Schedule;
 
 /// What no device here has, the suite does not try.
 #[test]
@@ -13,7 +14,7 @@ fn every_gpu_backend_has_a_device_with_a_clock_and_both_schedules() {
             continue;
         }
         assert!(devices.iter().any(|device| device.info().timed_by_device), "{devices:?}");
-        for schedule in ["per-ring", "per-yarn"] {
+        for schedule in [Schedule::PerRing, Schedule::PerYarn] {
             assert!(devices.iter().any(|device| device.info().schedule == schedule), "{devices:?}");
         }
     }

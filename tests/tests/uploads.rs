@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use texere_conformance::cases;
-use texere_core::{ControlPoint, Limits, PaddedPoints, Plan, Session, Settings, Yarn, YarnEnds, Yarns};
+use texere_core::{ControlPoint, Limits, PaddedPoints, Plan, Session, Settings, Yarn, Yarns};
+use texere_gpu::YarnEnds;
 
 /// Yarns as counts of points and whether they are closed.
 type Counts = Vec<(usize, bool)>;

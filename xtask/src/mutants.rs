@@ -1,6 +1,7 @@
-//! The faults that the suite has to catch: for each kernel one line that a slip of the hand might have left.
+//! The faults that the suite has to catch: in each kernel, and in what stands before all of them, a line that a slip of the
+//! hand might have left.
 
-/// One line of a kernel, broken.
+/// One line of a kernel or of the prelude, broken.
 #[derive(Debug)]
 pub(crate) struct Mutant {
     /// What `TEXERE_REQUIRE` and the names of the trials call the backend.
@@ -41,6 +42,20 @@ const fn wgpu(file: &'static str, kernel: &'static str, line: &'static str, brok
 
 /// All of them. Where the twins have the same line, each has a fault of its own.
 pub(crate) const MUTANTS: &[Mutant] = &[
+    // A number of the arctangent's is its neighbour's.
+    opencl(
+        "crates/texere-gpu/src/prelude.rs",
+        "prelude",
+        "float(\"ARCTANGENT_5\", ARCTANGENT[2]),",
+        "float(\"ARCTANGENT_5\", ARCTANGENT[3]),",
+    ),
+    // The radius of a thin place is held at another share of its neighbours than the core's.
+    wgpu(
+        "crates/texere-gpu/src/prelude.rs",
+        "prelude",
+        "float(\"RADIUS_FLOOR\", RADIUS_FLOOR),",
+        "float(\"RADIUS_FLOOR\", 0.9 * RADIUS_FLOOR),",
+    ),
     // The clamp at the yarn's last ring is forgotten: t = 0 of an interval that is not there.
     opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
     // The ring's own turn is counted in.

@@ -28,7 +28,7 @@ pub(super) fn report(
         for Column { info, .. } in columns {
             let clock = if info.timed_by_device { "the device" } else { "the host" };
             rows.push(
-                vec![&*info.name, &*info.device, &*info.driver, &*info.schedule, clock]
+                vec![&*info.name, &*info.device, &*info.driver, &info.schedule.to_string(), clock]
                     .into_iter()
                     .map(Into::into)
                     .collect(),

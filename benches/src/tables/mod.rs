@@ -134,7 +134,7 @@ fn run(bench: &mut Bench, info: &DeviceInfo, rounds: usize) -> Result<Run, Box<d
         let fused = bench.fused()?;
         whole.push(fused.trajectory + fused.mesh);
     }
-    let fuses = info.schedule == texere::Schedule::PerRing.to_string();
+    let fuses = info.schedule == texere::Schedule::PerRing;
     let staged = StageTimings {
         trajectory: median_time(&trajectory),
         mesh: median_time(&mesh),

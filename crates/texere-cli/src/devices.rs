@@ -21,7 +21,7 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
                 "device": device.device,
                 "kind": device.kind.to_string(),
                 "driver": device.driver,
-                "schedule": device.schedule,
+                "schedule": device.schedule.to_string(),
                 "memory_bytes": device.memory_bytes,
                 "binding_bytes": device.limits.binding_bytes,
             })

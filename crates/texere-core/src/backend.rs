@@ -30,6 +30,34 @@ impl fmt::Display for DeviceKind {
     }
 }
 
+/// How a backend maps the work onto its device.
+///
+/// ```
+/// use texere_core::{Backend, NullBackend, Schedule};
+/// assert_eq!(NullBackend::default().info().schedule, Schedule::Serial);
+/// assert_eq!(Schedule::PerRing.to_string(), "per-ring");
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Schedule {
+    /// One ring after the other on one thread: the paper's algorithms 1 and 3.
+    Serial,
+    /// A lane a ring: of a GPU's workgroup, or of a processor's vector.
+    #[default]
+    PerRing,
+    /// A lane a yarn: the paper's algorithms 2 and 4, to measure against. Upright, untwisted, open yarns without caps only.
+    PerYarn,
+}
+
+impl fmt::Display for Schedule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Serial => "serial",
+            Self::PerRing => "per-ring",
+            Self::PerYarn => "per-yarn",
+        })
+    }
+}
+
 /// Who does the work, and within which limits.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DeviceInfo {
@@ -40,7 +68,7 @@ pub struct DeviceInfo {
     /// Driver or implementation, with its version.
     pub driver: String,
     /// How the work is mapped onto the device, fixed when the backend was opened.
-    pub schedule: String,
+    pub schedule: Schedule,
     /// What kind of machine it is.
     pub kind: DeviceKind,
     /// Bytes of memory that the device has, where it tells.

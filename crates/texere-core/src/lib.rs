@@ -24,37 +24,33 @@ mod material;
 mod mesh;
 mod null;
 mod padded;
-mod padded_upload;
 mod pipeline;
 mod plan;
 mod point;
 mod ring;
 mod sampling;
-mod schedule;
 mod section;
 mod session;
 mod spline;
 mod turn;
 mod yarns;
 
-pub use backend::{Backend, DeviceInfo, DeviceKind};
+pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
 pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
 pub use error::{BackendError, PipelineError, PlanError, SectionError, SessionError, YarnError};
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;
 pub use mesh::{Draw, End, Mesh, MeshMut, MeshPiece, SHARED_GAPS, Topology, Vertex, index_pattern};
 pub use null::NullBackend;
-pub use padded::{PaddedPoints, zeroed};
-pub use padded_upload::{PaddedUpload, YarnEnds};
+pub use padded::{PaddedPoints, renew_virtual_ends, zeroed};
 pub use pipeline::{Pipeline, Progress};
 pub use plan::{
-    BLOCK_RINGS, Block, Cap, CapRow, Chunk, Chunks, Counts, Limits, Params, Part, Plan, RINGS_MAX, Settings,
-    WINDOW_POINTS, YARN_RINGS_MAX, YarnRow,
+    BLOCK_RINGS, Block, Cap, Chunk, Chunks, Counts, Limits, Part, Plan, RINGS_MAX, Settings, WINDOW_POINTS,
+    YARN_RINGS_MAX,
 };
 pub use point::{COORDINATE_LIMIT, ControlPoint, RADIUS_MAX, RADIUS_MIN};
 pub use ring::{Ring, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
-pub use schedule::Schedule;
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
 pub use session::{Session, Traffic};
 pub use spline::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};

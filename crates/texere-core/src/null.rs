@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::{
     Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits, MeshSink, Plan,
-    RingSink, ScanChunks, Slot, StageTimings,
+    RingSink, ScanChunks, Schedule, Slot, StageTimings,
 };
 
 /// A backend that writes nothing: outputs stay as they were.
@@ -28,7 +28,7 @@ impl NullBackend {
                 name: "null".into(),
                 device: "none".into(),
                 driver: concat!("texere ", env!("CARGO_PKG_VERSION")).into(),
-                schedule: "none".into(),
+                schedule: Schedule::Serial,
                 kind: DeviceKind::Other,
                 memory_bytes: None,
                 limits,

@@ -36,12 +36,13 @@ impl PaddedPoints {
     ///
     /// Gives back the range of padded points that may have changed.
     pub fn upload(&mut self, plan: &Plan, first: u64, points: &[ControlPoint]) -> Range<u64> {
-        let yarns = touched(plan, first, points.len());
+        let (layout, sent) = (plan.layout(), first..first.saturating_add(points.len() as u64));
+        let yarns = layout.yarns_of(sent.clone());
         for yarn in yarns.clone() {
-            let (own, sent) = overlap(plan, yarn, first, points.len());
+            let [own, sent] = layout.points_of(yarn, &sent);
             let padded = &mut self.points[yarn_range(plan, yarn)];
             padded[1 + own.start..1 + own.end].copy_from_slice(&points[sent]);
-            renew_ends(padded, plan.yarn(yarn).closed);
+            renew_virtual_ends(padded, plan.yarn(yarn).closed);
         }
         plan.padded_offsets()[yarns.start]..plan.padded_offsets()[yarns.end]
     }
@@ -65,26 +66,19 @@ fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
     plan.padded_offsets()[yarn] as usize..plan.padded_offsets()[yarn + 1] as usize
 }
 
-/// The yarns that `count` points from number `first` on belong to.
-pub(crate) fn touched(plan: &Plan, first: u64, count: usize) -> Range<usize> {
-    let offsets = plan.layout().offsets();
-    let end = first.saturating_add(count as u64).min(plan.layout().point_count());
-    if first >= end {
-        return 0..0;
-    }
-    let yarn_before = |end: u64| offsets.partition_point(|&start| start < end);
-    yarn_before(first + 1) - 1..yarn_before(end)
-}
-
-/// Which of a yarn's own points are among `count` points from number `first` on, and which of those they are.
-pub(crate) fn overlap(plan: &Plan, yarn: usize, first: u64, count: usize) -> (Range<usize>, Range<usize>) {
-    let (start, end) = (plan.layout().offsets()[yarn], plan.layout().offsets()[yarn + 1]);
-    let (from, to) = (start.max(first), end.min(first + count as u64));
-    ((from - start) as usize..(to - start) as usize, (from - first) as usize..(to - first) as usize)
-}
-
-/// Virtual ends of an open yarn (the paper's equations 3 and 4), wrapped neighbours of a closed one.
-pub(crate) fn renew_ends(padded: &mut [ControlPoint], closed: bool) {
+/// Works out the virtual ends of one padded yarn from the control points between them: equations 3 and 4 of the paper for
+/// an open yarn, wrapped neighbours for a closed one.
+///
+/// `padded` lies as [`Plan::padded_offsets`] says: one place before the yarn's own points, and one (open) or three (closed)
+/// behind them. **Panics** for fewer than two points of its own (three when closed).
+///
+/// ```
+/// use texere_core::{ControlPoint, renew_virtual_ends};
+/// let mut padded = [0.0, 1.0, 2.0, 0.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1));
+/// renew_virtual_ends(&mut padded, false);
+/// assert_eq!(padded.map(|point| point.x), [0.0, 1.0, 2.0, 3.0]);
+/// ```
+pub fn renew_virtual_ends(padded: &mut [ControlPoint], closed: bool) {
     let count = padded.len();
     if closed {
         padded[0] = padded[count - 4];

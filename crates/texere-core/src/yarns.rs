@@ -117,6 +117,28 @@ impl Layout {
         &self.offsets
     }
 
+    /// The yarns that a range of control points belongs to. Points past the last are left out.
+    #[must_use]
+    pub fn yarns_of(&self, points: Range<u64>) -> Range<usize> {
+        let end = points.end.min(self.point_count());
+        if points.start >= end {
+            return 0..0;
+        }
+        let yarns_before = |end: u64| self.offsets.partition_point(|&start| start < end);
+        yarns_before(points.start + 1) - 1..yarns_before(end)
+    }
+
+    /// Where a range of control points meets one of [its yarns](Layout::yarns_of): counted from the yarn's first point, and
+    /// from the range's first.
+    ///
+    /// **Panics** past the last yarn, and for a yarn that the range does not touch.
+    #[must_use]
+    pub fn points_of(&self, yarn: usize, points: &Range<u64>) -> [Range<usize>; 2] {
+        let (start, end) = (self.offsets[yarn], self.offsets[yarn + 1]);
+        let (from, to) = (start.max(points.start), end.min(points.end));
+        [start, points.start].map(|first| (from - first) as usize..(to - first) as usize)
+    }
+
     /// The yarns.
     #[must_use]
     pub fn yarns(&self) -> &[Yarn] {

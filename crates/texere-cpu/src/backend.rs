@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan};
+use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule};
 
 use crate::engine::CpuEngine;
 use crate::parallel::{Parallel, Path};
@@ -21,7 +21,7 @@ pub struct ParallelBackend {
     path: Path,
 }
 
-fn info(name: &str, schedule: &str, threads: usize) -> DeviceInfo {
+fn info(name: &str, schedule: Schedule, threads: usize) -> DeviceInfo {
     DeviceInfo {
         name: name.into(),
         device: format!(
@@ -30,7 +30,7 @@ fn info(name: &str, schedule: &str, threads: usize) -> DeviceInfo {
             if threads == 1 { "" } else { "s" }
         ),
         driver: concat!("texere ", env!("CARGO_PKG_VERSION")).into(),
-        schedule: schedule.into(),
+        schedule,
         kind: DeviceKind::Cpu,
         memory_bytes: None,
         limits: Limits::NONE,
@@ -42,7 +42,7 @@ impl SerialBackend {
     /// Opens the serial backend.
     #[must_use]
     pub fn new() -> Self {
-        Self { info: info("cpu-serial", "yarn by yarn", 1) }
+        Self { info: info("cpu-serial", Schedule::Serial, 1) }
     }
 }
 
@@ -69,7 +69,7 @@ impl ParallelBackend {
     }
 
     fn with(name: &str, path: Path) -> Self {
-        Self { info: info(name, "equal ranges of rings", rayon::current_num_threads()), path }
+        Self { info: info(name, Schedule::PerRing, rayon::current_num_threads()), path }
     }
 }
 

@@ -16,6 +16,7 @@ use opencl3::program::{
     CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
 };
 use texere_core::{Backend, BackendError, DeviceInfo, Engine, Limits, Plan, Session};
+use texere_gpu::{Language, prelude};
 use texere_kernels::{PER_RING, PER_YARN, Program};
 
 use crate::device::{self, listed};
@@ -23,11 +24,14 @@ use crate::faults::failed;
 use crate::handles::Handle;
 use crate::{OpenClEngine, OpenClSession, Schedule};
 
-/// The kernels of a schedule.
-fn program(schedule: Schedule) -> Program {
+/// The kernels of `schedule`. `name` is the device's, for the error.
+fn program(schedule: Schedule, name: &str) -> Result<Program, BackendError> {
     match schedule {
-        Schedule::PerRing => PER_RING,
-        Schedule::PerYarn => PER_YARN,
+        Schedule::PerRing => Ok(PER_RING),
+        Schedule::PerYarn => Ok(PER_YARN),
+        Schedule::Serial => {
+            Err(BackendError::Unsupported { schedule: name.into(), what: "the schedule serial".into() })
+        }
     }
 }
 
@@ -88,7 +92,7 @@ impl OpenClBackend {
     ///
     /// **Errors**: those of [`OpenClBackend::devices`]; [`BackendError::NoDevice`] past the last;
     /// [`BackendError::Compile`] with the driver's log; [`BackendError::Unsupported`] for a device without workgroups of
-    /// 256.
+    /// 256, and for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let mut devices = listed(schedule)?;
         if index >= devices.len() {
@@ -175,7 +179,7 @@ impl OpenClBackend {
         // SAFETY: the context is of this device.
         let transfers = unsafe { create_command_queue(context.raw(), device, CL_QUEUE_PROFILING_ENABLE) };
         let transfers = Handle::queue(transfers).map_err(failed("clCreateCommandQueue"))?;
-        let program = build(device, &context, &info.name, program(schedule))?;
+        let program = build(device, &context, &info.name, program(schedule, &info.name)?)?;
         let opened = Arc::new(Opened {
             name: info.name.clone(),
             schedule,
@@ -223,7 +227,7 @@ fn build(
     program: Program,
 ) -> Result<Handle, BackendError> {
     // One string: cl3 0.13 hands over several as if slices were pointers.
-    let source = program.sources.concat();
+    let source = prelude(Language::OpenClC) + &program.sources.concat();
     let built = Handle::program(create_program_with_source(context.raw(), &[&source]))
         .map_err(failed(name, "clCreateProgramWithSource"))?;
     let options = CString::from(c"-cl-std=CL1.2");

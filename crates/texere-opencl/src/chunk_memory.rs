@@ -1,11 +1,10 @@
 //! Device memory of a chunk in flight: its tables and its results.
 
-use std::ops::Range;
 use std::sync::Arc;
 
-use texere_core::{BackendError, Chunk, Plan, Ring, Topology, Vertex};
+use texere_core::{BackendError, Chunk, Plan, Ring, Schedule, Topology, Vertex};
+use texere_gpu::{CapRow, LoadedChunk, part_rows};
 
-use crate::Schedule;
 use crate::backend::Opened;
 use crate::buffers::Buffer;
 use crate::handles::Handle;
@@ -13,8 +12,7 @@ use crate::handles::Handle;
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkMemory {
-    /// The blocks of the chunk whose tables are here.
-    loaded: Option<Range<u64>>,
+    pub(crate) loaded: LoadedChunk,
     pub(crate) table: Buffer,
     /// Rows of `table`.
     pub(crate) rows: usize,
@@ -38,41 +36,30 @@ impl ChunkMemory {
     /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after those
     /// that work here.
     pub(crate) fn load(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
-        self.loaded = None;
-        if !plan.owns(chunk) {
-            return Err(BackendError::NotLoaded { chunk: chunk.index() });
-        }
-        // Kept until the new tables are sent: commands that still use the old ones may be under way.
-        let used = self.ready.clone();
-        let parts;
-        let rows = match opened.schedule {
-            Schedule::PerRing => chunk.blocks(),
-            Schedule::PerYarn => {
-                parts = plan.part_rows(chunk, u32::MAX);
-                &parts
-            }
-        };
-        let caps = plan.cap_rows(chunk);
-        self.table.reserve(opened, "the block table", size_of_val(rows) as u64)?;
-        self.caps.reserve(opened, "the cap table", size_of_val(&caps[..]) as u64)?;
-        let sent = [
-            self.table.write(opened, &opened.transfers, 0, rows, used.as_deref())?,
-            self.caps.write(opened, &opened.transfers, 0, &caps, used.as_deref())?,
-        ];
-        // In order, so the last stands for both.
-        self.ready = sent.into_iter().flatten().last();
-        self.loaded = Some(chunk.block_range());
-        self.rows = rows.len();
+        let Self { loaded, table, caps, ready, .. } = self;
+        self.rows = loaded.load(plan, chunk, || {
+            // Kept until the new tables are sent: commands that still use the old ones may be under way.
+            let used = ready.clone();
+            let parts;
+            let rows = match opened.schedule {
+                Schedule::PerYarn => {
+                    parts = part_rows(plan, chunk, u32::MAX);
+                    &parts
+                }
+                _ => chunk.blocks(),
+            };
+            let cap_rows = CapRow::all(plan, chunk);
+            table.reserve(opened, "the block table", size_of_val(rows) as u64)?;
+            caps.reserve(opened, "the cap table", size_of_val(&cap_rows[..]) as u64)?;
+            let sent = [
+                table.write(opened, &opened.transfers, 0, rows, used.as_deref())?,
+                caps.write(opened, &opened.transfers, 0, &cap_rows, used.as_deref())?,
+            ];
+            // In order, so the last stands for both.
+            *ready = sent.into_iter().flatten().last();
+            Ok(rows.len())
+        })?;
         Ok(())
-    }
-
-    /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are here.
-    pub(crate) fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
-        if plan.owns(chunk) && self.loaded == Some(chunk.block_range()) {
-            Ok(())
-        } else {
-            Err(BackendError::NotLoaded { chunk: chunk.index() })
-        }
     }
 
     /// Makes room for the rings of `chunk`.

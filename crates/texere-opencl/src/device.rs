@@ -50,10 +50,8 @@ fn platforms() -> Result<Vec<Platform>, i32> {
 /// `opencl:0`, `opencl:0/per-yarn`.
 pub(crate) fn name(index: Option<usize>, schedule: Schedule) -> String {
     let index = index.map_or_else(String::new, |index| format!(":{index}"));
-    match schedule {
-        Schedule::PerRing => format!("opencl{index}"),
-        Schedule::PerYarn => format!("opencl{index}/per-yarn"),
-    }
+    let of_schedule = if schedule == Schedule::PerYarn { "/per-yarn" } else { "" };
+    format!("opencl{index}{of_schedule}")
 }
 
 /// What `device`, opened by `name`, says of itself.
@@ -86,7 +84,7 @@ pub(crate) fn info(
             device.driver_version().map_err(ask("clGetDeviceInfo"))?,
             device.version().map_err(ask("clGetDeviceInfo"))?.trim_end(),
         ),
-        schedule: schedule.to_string(),
+        schedule,
         kind,
         memory_bytes: Some(memory),
         limits: Limits {

@@ -1,4 +1,4 @@
-//! The work on a plan on an OpenCL device: memory and timings; the stages themselves are the schedule's.
+//! The work on a plan on an OpenCL device: memory and timings; the kernels are the schedule's.
 
 use std::ops::ControlFlow;
 use std::ptr;
@@ -8,8 +8,9 @@ use std::time::Instant;
 use opencl3::command_queue::{finish, flush};
 use texere_core::{
     BackendError, Chunk, ControlPoint, Engine, Limits, MeshMut, MeshPiece, MeshSink, Plan, RingSink,
-    ScanChunk, ScanChunks, Slot, StageTimings, Vertex, YarnEnds,
+    ScanChunk, ScanChunks, Slot, StageTimings, Vertex,
 };
+use texere_gpu::{YarnEnds, check_schedule};
 
 use crate::Schedule;
 use crate::backend::Opened;
@@ -17,9 +18,9 @@ use crate::buffers::Staging;
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Stage};
 use crate::handles::Handle;
+use crate::kernels::{Kernels, Launches, PerRing, Work};
 use crate::per_yarn::PerYarn;
 use crate::session::DeviceMesh;
-use crate::stages::{Launches, PerRing, Stages, Work};
 use crate::tables::Tables;
 use crate::upload::Outbox;
 
@@ -29,7 +30,7 @@ pub struct OpenClEngine {
     plan: Arc<Plan>,
     ends: YarnEnds,
     tables: Tables,
-    stages: Box<dyn Stages>,
+    kernels: Box<dyn Kernels>,
     /// One for each [`Slot`].
     memory: [ChunkMemory; 2],
     staging: Staging,
@@ -40,15 +41,16 @@ pub struct OpenClEngine {
 
 impl OpenClEngine {
     pub(crate) fn new(opened: Arc<Opened>, limits: &Limits, plan: Arc<Plan>) -> Result<Self, BackendError> {
-        let stages: Box<dyn Stages> = match opened.schedule {
-            Schedule::PerRing => Box::new(PerRing::new(&opened, &plan)?),
-            Schedule::PerYarn => Box::new(PerYarn::new(&opened, &plan)?),
+        check_schedule(opened.schedule, &plan, &opened.name)?;
+        let kernels: Box<dyn Kernels> = match opened.schedule {
+            Schedule::PerYarn => Box::new(PerYarn::new(&opened)?),
+            _ => Box::new(PerRing::new(&opened, &plan)?),
         };
         Ok(Self {
             ends: YarnEnds::new(&plan)?,
             tables: Tables::new(&opened, limits, &plan)?,
             plan,
-            stages,
+            kernels,
             memory: Default::default(),
             staging: Staging::default(),
             outbox: Outbox::default(),
@@ -77,11 +79,11 @@ impl OpenClEngine {
         &mut self,
         stage: Stage,
         slot: Option<Slot>,
-        start: impl FnOnce(&mut dyn Stages, Work<'_>, &[ChunkMemory; 2]) -> Result<Launches, BackendError>,
+        start: impl FnOnce(&mut dyn Kernels, Work<'_>, &[ChunkMemory; 2]) -> Result<Launches, BackendError>,
     ) -> Result<(), BackendError> {
         let started = Instant::now();
         let work = Work { opened: &self.opened, plan: &self.plan, tables: &self.tables };
-        let launches = start(&mut *self.stages, work, &self.memory).inspect_err(|_| {
+        let launches = start(&mut *self.kernels, work, &self.memory).inspect_err(|_| {
             // Some of them may be under way, and nobody would wait for those. What that says is no news.
             let _ = finish(self.opened.queue.raw());
         })?;
@@ -118,12 +120,12 @@ impl Engine for OpenClEngine {
             if !loaded {
                 self.load(slot, &chunk)?;
             }
-            self.memory[slot.index()].check(&self.plan, &chunk)?;
-            self.run(Stage::Scan, Some(slot), |stages, work, memory| {
-                stages.block_turns(work, &chunk, &memory[slot.index()])
+            self.memory[slot.index()].loaded.check(&self.plan, &chunk)?;
+            self.run(Stage::Scan, Some(slot), |kernels, work, memory| {
+                kernels.block_turns(work, &chunk, &memory[slot.index()])
             })?;
         }
-        self.run(Stage::Scan, None, |stages, work, _| stages.yarn_rolls(work))
+        self.run(Stage::Scan, None, |kernels, work, _| kernels.yarn_rolls(work))
     }
 
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
@@ -131,22 +133,22 @@ impl Engine for OpenClEngine {
     }
 
     fn mesh_reads_rings(&self) -> bool {
-        self.stages.mesh_reads_rings()
+        self.kernels.mesh_reads_rings()
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        self.memory[slot.index()].check(&self.plan, chunk)?;
+        self.memory[slot.index()].loaded.check(&self.plan, chunk)?;
         self.memory[slot.index()].reserve_rings(&self.opened, chunk)?;
-        self.run(Stage::Trajectory, Some(slot), |stages, work, memory| {
-            stages.trajectory(work, chunk, &memory[slot.index()])
+        self.run(Stage::Trajectory, Some(slot), |kernels, work, memory| {
+            kernels.trajectory(work, chunk, &memory[slot.index()])
         })
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        self.memory[slot.index()].check(&self.plan, chunk)?;
+        self.memory[slot.index()].loaded.check(&self.plan, chunk)?;
         self.memory[slot.index()].reserve_mesh(&self.opened, &self.plan, chunk)?;
-        self.run(Stage::Mesh, Some(slot), |stages, work, memory| {
-            stages.mesh(work, chunk, &memory[slot.index()])
+        self.run(Stage::Mesh, Some(slot), |kernels, work, memory| {
+            kernels.mesh(work, chunk, &memory[slot.index()])
         })
     }
 

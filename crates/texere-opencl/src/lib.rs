@@ -23,10 +23,10 @@ mod engine;
 mod faults;
 mod handles;
 mod kernel;
+mod kernels;
 mod per_yarn;
 mod pinned;
 mod session;
-mod stages;
 mod tables;
 mod upload;
 

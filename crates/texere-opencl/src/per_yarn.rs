@@ -1,14 +1,14 @@
 //! The schedule per-yarn: the paper's algorithms 2 and 4.
 
 use bytemuck::bytes_of;
-use texere_core::{BackendError, Chunk, Params, Plan};
+use texere_core::{BackendError, Chunk, Plan};
+use texere_gpu::Params;
 use texere_kernels::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 
-use crate::Schedule;
 use crate::backend::Opened;
 use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel};
-use crate::stages::{Launches, Stages, Work};
+use crate::kernels::{Kernels, Launches, Work};
 
 /// A lane a part.
 #[derive(Debug)]
@@ -18,9 +18,7 @@ pub(crate) struct PerYarn {
 }
 
 impl PerYarn {
-    /// **Errors**: [`BackendError::Unsupported`] for a plan that asks for more than the paper does.
-    pub(crate) fn new(opened: &Opened, plan: &Plan) -> Result<Self, BackendError> {
-        Schedule::PerYarn.check(plan, &opened.name)?;
+    pub(crate) fn new(opened: &Opened) -> Result<Self, BackendError> {
         Ok(Self {
             trajectory: Kernel::new(opened, TRAJECTORY_PER_YARN)?,
             mesh: Kernel::new(opened, MESH_PER_YARN)?,
@@ -30,10 +28,10 @@ impl PerYarn {
 
 /// The parameters of a launch whose table has one row a part.
 fn part_params(plan: &Plan, chunk: &Chunk, memory: &ChunkMemory) -> Params {
-    Params { blocks: memory.rows as u32, ..plan.params(chunk) }
+    Params { blocks: memory.rows as u32, ..Params::new(plan, chunk) }
 }
 
-impl Stages for PerYarn {
+impl Kernels for PerYarn {
     fn mesh_reads_rings(&self) -> bool {
         true
     }

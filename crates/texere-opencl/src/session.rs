@@ -61,7 +61,7 @@ impl OpenClSession {
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of
-    /// [`Plan::device_buffers`](texere_core::Plan::device_buffers), and the rings where [`Session::trajectory`] was called.
+    /// [`device_buffers`](texere_gpu::device_buffers), and the rings where [`Session::trajectory`] was called.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()

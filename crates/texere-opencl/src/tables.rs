@@ -1,6 +1,7 @@
 //! What stays on the device for a session's whole life.
 
 use texere_core::{BackendError, Limits, Plan, Turn, index_pattern};
+use texere_gpu::{YarnRow, cap_pattern};
 
 use crate::backend::Opened;
 use crate::buffers::Buffer;
@@ -17,7 +18,7 @@ pub(crate) struct Tables {
     /// The roll at each block's start. Empty where no yarn turns.
     pub(crate) rolls: Buffer,
     /// The whole turn of each yarn. Empty where no yarn turns.
-    pub(crate) whole: Buffer,
+    pub(crate) yarn_turns: Buffer,
 }
 
 impl Tables {
@@ -29,24 +30,23 @@ impl Tables {
         if bytes > limits.binding_bytes || points > u64::from(u32::MAX) {
             return Err(BackendError::OutOfMemory { what, bytes });
         }
-        let cap_pattern = if plan.settings().caps { plan.cap_pattern() } else { Vec::new() };
         let (blocks, yarns) =
             if plan.needs_scan() { (plan.block_count(), plan.counts().yarns) } else { (0, 0) };
         Ok(Self {
             // Zeros, as on every backend, until they are uploaded.
             points: Buffer::zeroed(opened, what, bytes)?,
-            yarns: Buffer::holding(opened, "the yarn table", &plan.yarn_rows())?,
+            yarns: Buffer::holding(opened, "the yarn table", &YarnRow::all(plan))?,
             outlines: Buffer::holding(opened, "outlines", plan.outlines())?,
             pattern: Buffer::holding(opened, "the index pattern", &index_pattern(plan.settings().sides))?,
-            cap_pattern: Buffer::holding(opened, "the caps' index pattern", &cap_pattern)?,
+            cap_pattern: Buffer::holding(opened, "the caps' index pattern", &cap_pattern(plan))?,
             rolls: Buffer::new(opened, "rolls", blocks * size_of::<Turn>() as u64)?,
-            whole: Buffer::new(opened, "whole turns", yarns * size_of::<Turn>() as u64)?,
+            yarn_turns: Buffer::new(opened, "whole turns", yarns * size_of::<Turn>() as u64)?,
         })
     }
 
     /// Bytes of all of it.
     pub(crate) fn bytes(&self) -> u64 {
-        let Self { points, yarns, outlines, pattern, cap_pattern, rolls, whole } = self;
-        [points, yarns, outlines, pattern, cap_pattern, rolls, whole].map(Buffer::bytes).iter().sum()
+        let Self { points, yarns, outlines, pattern, cap_pattern, rolls, yarn_turns } = self;
+        [points, yarns, outlines, pattern, cap_pattern, rolls, yarn_turns].map(Buffer::bytes).iter().sum()
     }
 }

@@ -7,7 +7,8 @@ use std::thread;
 
 use opencl3::command_queue::{CL_NON_BLOCKING, flush};
 use opencl3::memory::CL_MAP_WRITE;
-use texere_core::{BackendError, ControlPoint, PaddedUpload};
+use texere_core::{BackendError, ControlPoint};
+use texere_gpu::PaddedUpload;
 
 use crate::backend::Opened;
 use crate::buffers::{Buffer, wait};

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use texere_core::{BackendError, Block, Chunk, ControlPoint, Params, Plan, Ring, Vertex};
+use texere_core::{BackendError, Block, Chunk, ControlPoint, Plan, Ring, Vertex};
+use texere_gpu::{CapRow, LoadedChunk, Params};
 use texere_shaders::Resource;
 use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
 
@@ -13,8 +14,7 @@ use crate::tables::Tables;
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug)]
 pub(crate) struct ChunkMemory {
-    /// The blocks of the chunk whose tables are here.
-    loaded: Option<Range<u64>>,
+    pub(crate) loaded: LoadedChunk,
     window: Range<u64>,
     /// Rows of the block table, one a workgroup or, per yarn, a lane.
     pub(crate) rows: u32,
@@ -35,7 +35,7 @@ impl ChunkMemory {
         let (input, output) =
             (BufferUsages::STORAGE | BufferUsages::COPY_DST, BufferUsages::STORAGE | BufferUsages::COPY_SRC);
         Ok(Self {
-            loaded: None,
+            loaded: LoadedChunk::default(),
             window: 0..0,
             rows: 0,
             cap_vertices: 0,
@@ -63,27 +63,17 @@ impl ChunkMemory {
         chunk: &Chunk,
         rows: &[Block],
     ) -> Result<(), BackendError> {
-        self.loaded = None;
-        if !plan.owns(chunk) {
-            return Err(BackendError::NotLoaded { chunk: chunk.index() });
-        }
-        let params = Params { blocks: rows.len() as u32, ..plan.params(chunk) };
-        (self.rows, self.cap_vertices) = (params.blocks, params.caps * params.sides);
-        self.params.write(gpu, bytemuck::bytes_of(&params))?;
-        self.blocks.write(gpu, bytemuck::cast_slice(rows))?;
-        self.cap_rows.write(gpu, bytemuck::cast_slice(&plan.cap_rows(chunk)))?;
+        let Self { loaded, params, blocks, cap_rows, .. } = self;
+        let sent = loaded.load(plan, chunk, || {
+            let sent = Params { blocks: rows.len() as u32, ..Params::new(plan, chunk) };
+            params.write(gpu, bytemuck::bytes_of(&sent))?;
+            blocks.write(gpu, bytemuck::cast_slice(rows))?;
+            cap_rows.write(gpu, bytemuck::cast_slice(&CapRow::all(plan, chunk)))?;
+            Ok(sent)
+        })?;
+        (self.rows, self.cap_vertices) = (sent.blocks, sent.caps * sent.sides);
         self.window = chunk.window();
-        self.loaded = Some(chunk.block_range());
         Ok(())
-    }
-
-    /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are here.
-    pub(crate) fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
-        if plan.owns(chunk) && self.loaded == Some(chunk.block_range()) {
-            Ok(())
-        } else {
-            Err(BackendError::NotLoaded { chunk: chunk.index() })
-        }
     }
 
     /// Makes room for the rings of the chunk, and for their slopes where `slopes`.

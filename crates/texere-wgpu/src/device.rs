@@ -9,8 +9,8 @@ use crate::Schedule;
 use crate::clock::has_clock;
 use crate::engine::WgpuEngine;
 use crate::gpu::Gpu;
+use crate::kernels::Kernels;
 use crate::session::WgpuSession;
-use crate::stages::Stages;
 
 /// Most blocks of a launch: some 16 million rings, so that none takes long enough for a watchdog to end it, even on a
 /// software device.
@@ -20,7 +20,8 @@ const LAUNCH_BLOCKS: u64 = 1 << 18;
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) gpu: Gpu,
-    pub(crate) stages: Stages,
+    pub(crate) schedule: Schedule,
+    pub(crate) kernels: Kernels,
 }
 
 /// A wgpu device that is open and can start sessions.
@@ -61,7 +62,7 @@ impl WgpuBackend {
     /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries if it has them.
     ///
     /// **Errors**: [`BackendError::NoDevice`], which lists those there are; [`BackendError::Driver`] where the device
-    /// can't be opened; [`BackendError::Compile`].
+    /// can't be opened; [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let adapters = adapters();
         let adapter = adapters.get(index).ok_or_else(|| none(name(index, schedule), &adapters))?;
@@ -98,18 +99,15 @@ impl WgpuBackend {
         queue: wgpu::Queue,
         schedule: Schedule,
     ) -> Result<Self, BackendError> {
-        let name = match schedule {
-            Schedule::PerRing => "wgpu".into(),
-            Schedule::PerYarn => "wgpu/per-yarn".into(),
-        };
-        Self::new(Gpu::borrowed(name, device, queue), schedule)
+        let name = if schedule == Schedule::PerYarn { "wgpu/per-yarn" } else { "wgpu" };
+        Self::new(Gpu::borrowed(name.into(), device, queue), schedule)
     }
 
     fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
         let (adapter, timed) = (gpu.device.adapter_info(), has_clock(gpu.device.features()));
         let info = describe(gpu.name.clone(), &adapter, &gpu.device.limits(), timed, schedule);
-        let stages = Stages::new(&gpu, schedule)?;
-        Ok(Self { info, opened: Arc::new(Opened { gpu, stages }) })
+        let kernels = Kernels::new(&gpu, schedule)?;
+        Ok(Self { info, opened: Arc::new(Opened { gpu, schedule, kernels }) })
     }
 
     /// Cuts chunks to `limits` where the device's own are wider: for a device with less memory than its bindings could
@@ -195,10 +193,8 @@ fn adapters() -> Vec<wgpu::Adapter> {
 }
 
 fn name(index: usize, schedule: Schedule) -> String {
-    match schedule {
-        Schedule::PerRing => format!("wgpu:{index}"),
-        Schedule::PerYarn => format!("wgpu:{index}/per-yarn"),
-    }
+    let of_schedule = if schedule == Schedule::PerYarn { "/per-yarn" } else { "" };
+    format!("wgpu:{index}{of_schedule}")
 }
 
 fn none(wanted: String, adapters: &[wgpu::Adapter]) -> BackendError {
@@ -219,7 +215,7 @@ fn describe(
         name,
         device: adapter.name.clone(),
         driver: format!("{} {} ({})", adapter.driver, adapter.driver_info, adapter.backend),
-        schedule: schedule.to_string(),
+        schedule,
         kind: match adapter.device_type {
             DeviceType::DiscreteGpu => DeviceKind::DiscreteGpu,
             DeviceType::IntegratedGpu => DeviceKind::IntegratedGpu,

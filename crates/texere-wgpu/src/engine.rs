@@ -6,16 +6,16 @@ use std::time::{Duration, Instant};
 
 use texere_core::{
     BackendError, Chunk, ControlPoint, Engine, MeshPiece, MeshSink, Plan, RingSink, ScanChunk, ScanChunks,
-    Slot, StageTimings, YarnEnds,
+    Slot, StageTimings,
 };
+use texere_gpu::{YarnEnds, check_schedule, part_rows};
 
-use crate::Schedule;
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Timed};
 use crate::device::Opened;
+use crate::kernels::{Kernel, Kernels};
 use crate::per_yarn;
 use crate::readback::Readback;
-use crate::stages::{Stage, Stages};
 use crate::tables::Tables;
 use crate::upload::Outbox;
 
@@ -37,9 +37,7 @@ pub struct WgpuEngine {
 impl WgpuEngine {
     pub(crate) fn new(opened: Arc<Opened>, plan: Arc<Plan>) -> Result<Self, BackendError> {
         let gpu = &opened.gpu;
-        if matches!(opened.stages, Stages::PerYarn(_)) {
-            Schedule::PerYarn.check(&plan, &gpu.name)?;
-        }
+        check_schedule(opened.schedule, &plan, &gpu.name)?;
         gpu.probe()?;
         // Tables first: a device that can't hold the points says so before the host makes room for them.
         let tables = Tables::new(gpu, &plan)?;
@@ -66,13 +64,13 @@ impl WgpuEngine {
         self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
-    /// Runs stages one after the other on the chunk in `slot`, each with its workgroups.
-    fn run(&mut self, slot: Slot, timed: Timed, stages: &[(&Stage, u32)]) -> Result<(), BackendError> {
+    /// Runs kernels one after the other on the chunk in `slot`, each with its workgroups.
+    fn run(&mut self, slot: Slot, timed: Timed, kernels: &[(&Kernel, u32)]) -> Result<(), BackendError> {
         let (gpu, memory, tables) = (&self.opened.gpu, &self.memory[slot.index()], &self.tables);
         self.clock.run(gpu, timed, |pass| {
-            for (stage, workgroups) in stages {
-                let bound = stage.bind(gpu, |resource| memory.resource(tables, resource));
-                stage.record(pass, &bound, *workgroups);
+            for (kernel, workgroups) in kernels {
+                let bound = kernel.bind(gpu, |resource| memory.resource(tables, resource));
+                kernel.record(pass, &bound, *workgroups);
             }
         })?;
         gpu.probe()
@@ -96,65 +94,65 @@ impl Engine for WgpuEngine {
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let opened = self.opened.clone();
         // A plan with rolls is refused by the other schedule.
-        let Stages::PerRing(stages) = &opened.stages else { return Ok(()) };
+        let Kernels::PerRing(kernels) = &opened.kernels else { return Ok(()) };
         let mut last = Slot::default();
         for ScanChunk { slot, chunk, loaded } in chunks {
             if !loaded {
                 self.load(slot, &chunk)?;
             }
-            self.memory(slot).check(&self.plan, &chunk)?;
+            self.memory(slot).loaded.check(&self.plan, &chunk)?;
             // A repeated ring has no step, and its block's turn is written by the next chunk, which comes after.
-            self.run(slot, Timed::Scan, &[(&stages.block_turns, self.memory(slot).rows)])?;
+            self.run(slot, Timed::Scan, &[(&kernels.block_turns, self.memory(slot).rows)])?;
             last = slot;
         }
         let yarns = self.plan.layout().yarns().len() as u32;
-        self.run(last, Timed::Scan, &[(&stages.yarn_rolls, yarns)])
+        self.run(last, Timed::Scan, &[(&kernels.yarn_rolls, yarns)])
     }
 
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let (gpu, memory) = (&self.opened.gpu, &mut self.memory[slot.index()]);
-        match &self.opened.stages {
-            Stages::PerRing(_) => memory.load(gpu, &self.plan, chunk, chunk.blocks()),
-            Stages::PerYarn(_) => {
+        match &self.opened.kernels {
+            Kernels::PerRing(_) => memory.load(gpu, &self.plan, chunk, chunk.blocks()),
+            Kernels::PerYarn(_) => {
                 let most_rings = per_yarn::lane_rings(gpu, self.plan.settings().sides);
-                memory.load(gpu, &self.plan, chunk, &self.plan.part_rows(chunk, most_rings))
+                memory.load(gpu, &self.plan, chunk, &part_rows(&self.plan, chunk, most_rings))
             }
         }
     }
 
     fn mesh_reads_rings(&self) -> bool {
-        matches!(self.opened.stages, Stages::PerYarn(_))
+        matches!(self.opened.kernels, Kernels::PerYarn(_))
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        self.memory(slot).check(&self.plan, chunk)?;
+        self.memory(slot).loaded.check(&self.plan, chunk)?;
         let opened = self.opened.clone();
         let slopes = self.mesh_reads_rings();
         let memory = &mut self.memory[slot.index()];
         let rows = memory.rows;
         memory.reserve_rings(&opened.gpu, chunk, slopes)?;
-        let stage = match &opened.stages {
-            Stages::PerRing(stages) => (&stages.trajectory, rows),
-            Stages::PerYarn(stages) => (&stages.trajectory, stages.trajectory.workgroups(rows)),
+        let kernel = match &opened.kernels {
+            Kernels::PerRing(kernels) => (&kernels.trajectory, rows),
+            Kernels::PerYarn(kernels) => (&kernels.trajectory, kernels.trajectory.workgroups(rows)),
         };
-        self.run(slot, Timed::Trajectory, &[stage])
+        self.run(slot, Timed::Trajectory, &[kernel])
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        self.memory(slot).check(&self.plan, chunk)?;
+        self.memory(slot).loaded.check(&self.plan, chunk)?;
         let opened = self.opened.clone();
         let memory = &mut self.memory[slot.index()];
         let (rows, cap_vertices) = (memory.rows, memory.cap_vertices);
         memory.reserve_mesh(&opened.gpu, chunk)?;
-        match &opened.stages {
-            Stages::PerRing(stages) => {
+        match &opened.kernels {
+            Kernels::PerRing(kernels) => {
                 let even = self.plan.settings().sides.is_multiple_of(2);
-                let tubes = if even { &stages.mesh } else { &stages.mesh_odd };
-                let caps = stages.caps.workgroups(cap_vertices);
-                self.run(slot, Timed::Mesh, &[(tubes, rows), (&stages.caps, caps)])
+                let tubes = if even { &kernels.mesh } else { &kernels.mesh_odd };
+                let caps = kernels.caps.workgroups(cap_vertices);
+                self.run(slot, Timed::Mesh, &[(tubes, rows), (&kernels.caps, caps)])
             }
-            Stages::PerYarn(stages) => {
-                self.run(slot, Timed::Mesh, &[(&stages.mesh, stages.mesh.workgroups(rows))])
+            Kernels::PerYarn(kernels) => {
+                self.run(slot, Timed::Mesh, &[(&kernels.mesh, kernels.mesh.workgroups(rows))])
             }
         }
     }

@@ -31,11 +31,11 @@ mod clock;
 mod device;
 mod engine;
 mod gpu;
+mod kernels;
 mod mapped;
 mod per_yarn;
 mod readback;
 mod session;
-mod stages;
 mod tables;
 mod upload;
 

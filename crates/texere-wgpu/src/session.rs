@@ -52,7 +52,7 @@ impl WgpuSession {
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of
-    /// [`Plan::device_buffers`](texere_core::Plan::device_buffers), each a multiple of 16 bytes, and the rings where
+    /// [`device_buffers`](texere_gpu::device_buffers), each a multiple of 16 bytes, and the rings where
     /// [`Session::trajectory`] was called. Not what wgpu maps to send and read through.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {

@@ -1,6 +1,7 @@
 //! What stays on the device for as long as its engine: control points, the plan's tables and the rolls.
 
 use texere_core::{BackendError, Plan, index_pattern};
+use texere_gpu::{YarnRow, cap_pattern};
 use wgpu::BufferUsages;
 
 use crate::buffer::Buffer;
@@ -29,18 +30,17 @@ impl Tables {
             table.write(gpu, bytes)?;
             Ok::<_, BackendError>(table)
         };
-        let cap_pattern = if plan.settings().caps { plan.cap_pattern() } else { Vec::new() };
         let mut rolls = Buffer::new(gpu, "rolls", BufferUsages::STORAGE)?;
         if plan.needs_scan() {
             rolls.reserve(gpu, 4 * (plan.layout().yarns().len() as u64 + plan.block_count()))?;
         }
         Ok(Self {
             points: gpu.buffer("control points", plan.resident_bytes(), input)?,
-            yarns: table("yarns", bytemuck::cast_slice(&plan.yarn_rows()))?,
+            yarns: table("yarns", bytemuck::cast_slice(&YarnRow::all(plan)))?,
             rolls,
             outlines: table("outlines", bytemuck::cast_slice(plan.outlines()))?,
             pattern: table("the index pattern", bytemuck::cast_slice(&index_pattern(plan.settings().sides)))?,
-            cap_pattern: table("the cap pattern", bytemuck::cast_slice(&cap_pattern))?,
+            cap_pattern: table("the cap pattern", bytemuck::cast_slice(&cap_pattern(plan)))?,
         })
     }
 }

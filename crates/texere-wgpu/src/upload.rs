@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{BackendError, ControlPoint, PaddedUpload};
+use texere_core::{BackendError, ControlPoint};
+use texere_gpu::PaddedUpload;
 use wgpu::{BufferUsages, BufferViewMut, MapMode, WriteOnly};
 
 use crate::gpu::Gpu;

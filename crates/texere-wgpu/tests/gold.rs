@@ -83,8 +83,8 @@ fn limits_of_a_few_kilobytes() {
 fn the_schedule_per_yarn_does_what_the_paper_does() {
     let backend = WgpuBackend::open(0, Schedule::PerYarn).expect(INSTALL);
     assert_eq!(
-        (backend.info().name.as_str(), backend.info().schedule.as_str()),
-        ("wgpu:0/per-yarn", "per-yarn")
+        (backend.info().name.as_str(), backend.info().schedule),
+        ("wgpu:0/per-yarn", Schedule::PerYarn)
     );
     for (sides, topology) in [(6, Topology::Indexed), (5, Topology::Indexed), (8, Topology::Shared)] {
         for subdivisions in [0, 1, 4] {

@@ -39,7 +39,7 @@ fn buffers_are_those_of_the_plan() {
             for _ in 0..2 {
                 backend.device().poll(wgpu::PollType::wait_indefinitely()).unwrap();
             }
-            let buffers = plan.device_buffers(&limits).unwrap();
+            let buffers = texere_gpu::device_buffers(&plan, &limits).unwrap();
             let planned: u64 = buffers.iter().map(|(_, bytes)| bytes.next_multiple_of(STEP)).sum();
             assert_eq!(session.device_bytes(), planned);
             let Some(report) = backend.device().generate_allocator_report() else { continue };

@@ -3,20 +3,17 @@
 mod block;
 mod chunk;
 mod limits;
-mod memory;
-mod tables;
 
 pub use block::{BLOCK_RINGS, Block};
 pub use chunk::{Cap, Chunk, Chunks, Part, WINDOW_POINTS};
 pub use limits::Limits;
-pub use tables::{CapRow, Params, YarnRow};
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::{
-    Frame, Layout, PlanError, Ring, SIDES_MAX, SIDES_MIN, Sampling, Section, SectionPoint, Topology, Vertex,
-    Yarn, triangulate,
+    Frame, Layout, PlanError, Ring, SIDES_MAX, SIDES_MIN, Sampling, Section, SectionPoint, Topology, Turn,
+    Vertex, Yarn, triangulate,
 };
 
 /// What a caller chooses about a mesh.
@@ -283,6 +280,15 @@ impl Plan {
     #[must_use]
     pub fn resident_bytes(&self) -> u64 {
         self.offsets.padded.last().copied().unwrap_or(0) * size_of::<crate::ControlPoint>() as u64
+    }
+
+    /// Bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes on a CPU at its peak: the mesh, the padded
+    /// control points, the block table and, where any yarn turns, the rolls. The yarns, which the caller has, are not in it.
+    #[must_use]
+    pub fn host_bytes(&self) -> u64 {
+        let rolls = if self.needs_scan() { self.counts.rings * size_of::<Turn>() as u64 } else { 0 };
+        let blocks = self.block_count() * size_of::<Block>() as u64;
+        self.counts.bytes() + blocks + self.resident_bytes() + rolls
     }
 
     /// Bytes of all rings.

@@ -13,7 +13,8 @@ use opencl3::memory::{Buffer, CL_MEM_READ_WRITE};
 use opencl3::program::Program;
 use std::mem::offset_of;
 use std::ptr;
-use texere_core::{Block, CapRow, ControlPoint, Params, Ring, SectionPoint, Vertex, YarnRow};
+use texere_core::{Block, ControlPoint, Ring, SectionPoint, Vertex};
+use texere_gpu::{CapRow, Language, Params, YarnRow, prelude};
 use texere_kernels::PER_RING;
 
 /// A table as kernels see it, and where in Rust's type of `bytes` each of their names lies.
@@ -133,7 +134,7 @@ fn probe(
     let reads = names.iter().enumerate().map(|(at, name)| format!("found[{at}] = as_uint({name});\n"));
     let body: String = reads.collect();
     let probe = format!("__kernel void probe({parameter} values, __global uint *found) {{\n{body}}}\n");
-    let source = PER_RING.sources.concat() + &probe;
+    let source = prelude(Language::OpenClC) + &PER_RING.sources.concat() + &probe;
     let program = Program::create_and_build_from_source(context, &source, "-cl-std=CL1.2").unwrap();
     let kernel = Kernel::create(&program, "probe").unwrap();
     let mut found = vec![0; names.len()];

@@ -29,8 +29,8 @@ fn open_yarns() -> Yarns {
 fn what_it_does_agrees_with_the_oracle() {
     let device = device(Schedule::PerYarn);
     assert_eq!(
-        (device.info().name.as_str(), device.info().schedule.as_str()),
-        ("opencl:0/per-yarn", "per-yarn")
+        (device.info().name.as_str(), device.info().schedule),
+        ("opencl:0/per-yarn", Schedule::PerYarn)
     );
     for (subdivisions, sides) in [(0, 3), (1, 6), (2, 7), (3, 16), (8, 5)] {
         for topology in [Topology::Indexed, Topology::Shared, Topology::None] {

@@ -219,7 +219,8 @@ fn memory_is_what_the_plan_says() {
             for chunk in plan.chunks(&limits).unwrap() {
                 session.mesh(&chunk).unwrap();
             }
-            let planned: u64 = plan.device_buffers(&limits).unwrap().iter().map(|(_, bytes)| bytes).sum();
+            let planned: u64 =
+                texere_gpu::device_buffers(&plan, &limits).unwrap().iter().map(|(_, bytes)| bytes).sum();
             assert_eq!(session.device_bytes(), planned);
         }
     }

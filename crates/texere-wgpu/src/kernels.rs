@@ -1,17 +1,17 @@
-//! The compiled shaders, and how they are launched.
+//! The compiled shaders of a schedule, and how they are launched.
 
-use texere_core::BackendError;
+use texere_core::{BackendError, Schedule};
+use texere_gpu::{Language, prelude};
 use texere_shaders::{Access, Resource, Shader, grid};
 use wgpu::{
     BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ShaderStages,
 };
 
-use crate::Schedule;
 use crate::gpu::Gpu;
 
 /// A shader, ready to run.
 #[derive(Debug)]
-pub(crate) struct Stage {
+pub(crate) struct Kernel {
     shader: &'static Shader,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
@@ -19,7 +19,7 @@ pub(crate) struct Stage {
 
 /// The shaders of a schedule.
 #[derive(Debug)]
-pub(crate) enum Stages {
+pub(crate) enum Kernels {
     /// A lane a ring; our own.
     PerRing(Box<PerRing>),
     /// A lane a yarn; the paper's.
@@ -28,43 +28,47 @@ pub(crate) enum Stages {
 
 #[derive(Debug)]
 pub(crate) struct PerRing {
-    pub(crate) block_turns: Stage,
-    pub(crate) yarn_rolls: Stage,
-    pub(crate) trajectory: Stage,
+    pub(crate) block_turns: Kernel,
+    pub(crate) yarn_rolls: Kernel,
+    pub(crate) trajectory: Kernel,
     /// For an even number of sides.
-    pub(crate) mesh: Stage,
-    pub(crate) mesh_odd: Stage,
-    pub(crate) caps: Stage,
+    pub(crate) mesh: Kernel,
+    pub(crate) mesh_odd: Kernel,
+    pub(crate) caps: Kernel,
 }
 
 #[derive(Debug)]
 pub(crate) struct PerYarn {
-    pub(crate) trajectory: Stage,
-    pub(crate) mesh: Stage,
+    pub(crate) trajectory: Kernel,
+    pub(crate) mesh: Kernel,
 }
 
-impl Stages {
-    /// **Errors**: [`BackendError::Compile`].
+impl Kernels {
+    /// **Errors**: [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub(crate) fn new(gpu: &Gpu, schedule: Schedule) -> Result<Self, BackendError> {
-        let stage = |shader| Stage::new(gpu, shader);
+        let kernel = |shader| Kernel::new(gpu, shader);
         Ok(match schedule {
             Schedule::PerRing => Self::PerRing(Box::new(PerRing {
-                block_turns: stage(&texere_shaders::BLOCK_TURNS)?,
-                yarn_rolls: stage(&texere_shaders::YARN_ROLLS)?,
-                trajectory: stage(&texere_shaders::TRAJECTORY)?,
-                mesh: stage(&texere_shaders::MESH)?,
-                mesh_odd: stage(&texere_shaders::MESH_ODD)?,
-                caps: stage(&texere_shaders::CAPS)?,
+                block_turns: kernel(&texere_shaders::BLOCK_TURNS)?,
+                yarn_rolls: kernel(&texere_shaders::YARN_ROLLS)?,
+                trajectory: kernel(&texere_shaders::TRAJECTORY)?,
+                mesh: kernel(&texere_shaders::MESH)?,
+                mesh_odd: kernel(&texere_shaders::MESH_ODD)?,
+                caps: kernel(&texere_shaders::CAPS)?,
             })),
             Schedule::PerYarn => Self::PerYarn(Box::new(PerYarn {
-                trajectory: stage(&texere_shaders::TRAJECTORY_PER_YARN)?,
-                mesh: stage(&texere_shaders::MESH_PER_YARN)?,
+                trajectory: kernel(&texere_shaders::TRAJECTORY_PER_YARN)?,
+                mesh: kernel(&texere_shaders::MESH_PER_YARN)?,
             })),
+            Schedule::Serial => {
+                let what = "the schedule serial".into();
+                return Err(BackendError::Unsupported { schedule: gpu.name.clone(), what });
+            }
         })
     }
 }
 
-impl Stage {
+impl Kernel {
     fn new(gpu: &Gpu, shader: &'static Shader) -> Result<Self, BackendError> {
         gpu.check_alive()?;
         let compiled = gpu.caught(|| {
@@ -163,9 +167,10 @@ fn pipeline(gpu: &Gpu, shader: &Shader, layout: &wgpu::BindGroupLayout) -> wgpu:
 /// Without run-time checks, which would cost a comparison an access in stages that do little else than access memory.
 #[allow(unsafe_code, reason = "trusted shaders are the one thing that this crate needs it for")]
 fn trusted_module(gpu: &Gpu, shader: &Shader) -> wgpu::ShaderModule {
+    let source = prelude(Language::Wgsl) + shader.source;
     let descriptor = wgpu::ShaderModuleDescriptor {
         label: Some(shader.entry_point),
-        source: wgpu::ShaderSource::Wgsl(shader.source.into()),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
     };
     // SAFETY: the source is one of texere-shaders' own, and what it may do unchecked it does not do:
     // - Indices into buffers come from the block and cap tables and from the plan's own tables. Nobody but the plan makes

@@ -1,10 +1,11 @@
-//! The stages, and how the schedule per-ring does them.
+//! The kernels of a schedule, and those of the schedule per-ring.
 
 use std::fmt::Debug;
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
-use texere_core::{BackendError, Chunk, Params, Plan, Topology};
+use texere_core::{BackendError, Chunk, Plan, Topology};
+use texere_gpu::Params;
 use texere_kernels::{BLOCK_TURNS, CAPS, Entry, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS};
 
 use crate::backend::Opened;
@@ -40,14 +41,14 @@ impl<'a> Work<'a> {
             Arg::Memory(&self.tables.yarns),
             Arg::Memory(&memory.table),
             Arg::Memory(&self.tables.rolls),
-            Arg::Memory(&self.tables.whole),
+            Arg::Memory(&self.tables.yarn_turns),
         ]
     }
 }
 
-/// A schedule: one way of doing the stages. The memory that is handed over has the chunk's tables, and room for what
+/// The kernels of a schedule: one way of doing the stages. The memory that is handed over has the chunk's tables, and room for what
 /// the stage writes.
-pub(crate) trait Stages: Debug + Send {
+pub(crate) trait Kernels: Debug + Send {
     /// Whether `mesh` reads the chunk's rings rather than work them out itself.
     fn mesh_reads_rings(&self) -> bool;
 
@@ -95,7 +96,7 @@ impl PerRing {
     }
 }
 
-impl Stages for PerRing {
+impl Kernels for PerRing {
     fn mesh_reads_rings(&self) -> bool {
         false
     }
@@ -107,7 +108,7 @@ impl Stages for PerRing {
         memory: &ChunkMemory,
     ) -> Result<Launches, BackendError> {
         let Work { opened, plan, .. } = work;
-        let (params, window) = (plan.params(chunk), chunk.window().start);
+        let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let args = &work.inputs(&params, &window, memory)[..6];
         // SAFETY: the arguments are those of `block_turns`; a group reads its row of the chunk's table and what that
         // names, and writes its block's roll: the plan counted all blocks. A repeated ring's is the next chunk's first.
@@ -116,7 +117,7 @@ impl Stages for PerRing {
 
     fn yarn_rolls(&mut self, work: Work<'_>) -> Result<Launches, BackendError> {
         let Work { opened, plan, tables } = work;
-        let args = [Arg::Memory(&tables.yarns), Arg::Memory(&tables.rolls), Arg::Memory(&tables.whole)];
+        let args = [Arg::Memory(&tables.yarns), Arg::Memory(&tables.rolls), Arg::Memory(&tables.yarn_turns)];
         // SAFETY: the arguments are those of `yarn_rolls`; a group reads its yarn's row, reads and writes the yarn's
         // rolls, and writes its whole turn: the plan counted all of them.
         unsafe { self.yarn_rolls.run(opened, &args, plan.layout().yarns().len(), None) }
@@ -129,7 +130,7 @@ impl Stages for PerRing {
         memory: &ChunkMemory,
     ) -> Result<Launches, BackendError> {
         let Work { opened, plan, .. } = work;
-        let (params, window) = (plan.params(chunk), chunk.window().start);
+        let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let args = [&work.inputs(&params, &window, memory)[..], &[Arg::Memory(&memory.rings)]].concat();
         // SAFETY: the arguments are those of `trajectory`; a group reads its row of the chunk's table and what that
         // names, and writes its rings, for all of which there is room.
@@ -143,7 +144,7 @@ impl Stages for PerRing {
         memory: &ChunkMemory,
     ) -> Result<Launches, BackendError> {
         let Work { opened, plan, tables } = work;
-        let (params, window) = (plan.params(chunk), chunk.window().start);
+        let (params, window) = (Params::new(plan, chunk), chunk.window().start);
         let outputs = [
             Arg::Memory(&tables.outlines),
             Arg::Memory(&tables.pattern),

@@ -1,9 +1,8 @@
-//! Tables that cross to a device as they are: what kernels read beside control points and blocks.
+//! Tables that kernels read beside control points and blocks. They go to a device as they are.
 
 use bytemuck::{Pod, Zeroable};
 
-use super::{BLOCK_RINGS, Block, Chunk, Plan};
-use crate::{Cap, End, Frame, Topology};
+use texere_core::{BLOCK_RINGS, Block, Cap, Chunk, End, Plan, RINGS_MAX, Topology};
 
 /// A yarn as kernels see it.
 ///
@@ -43,7 +42,7 @@ pub struct CapRow {
     pub first_vertex: u32,
     /// The cap's own first index, where the topology has any.
     pub first_index: u32,
-    /// Where the section's cap triangles start in [`Plan::cap_pattern`].
+    /// Where the section's cap triangles start in [`cap_pattern`].
     pub first_corner: u32,
     /// Unused, 0: keeps the row a multiple of 16 bytes.
     pub padding: u32,
@@ -85,104 +84,109 @@ pub struct Params {
 
 const _: () = assert!(size_of::<Params>() == 48 && std::mem::offset_of!(Params, padding) == 44);
 
-impl Plan {
-    /// The yarns as kernels see them.
+impl YarnRow {
+    /// All yarns of `plan`.
     #[must_use]
-    pub fn yarn_rows(&self) -> Vec<YarnRow> {
-        (0..self.layout().yarns().len())
-            .map(|yarn| YarnRow {
-                rings: self.rings(yarn),
-                first_block: self.block_offsets()[yarn] as u32,
-                section: self.yarn(yarn).section,
-                closed: self.yarn(yarn).closed.into(),
-                twist: self.twist_turns(yarn),
+    pub fn all(plan: &Plan) -> Vec<Self> {
+        (0..plan.layout().yarns().len())
+            .map(|yarn| Self {
+                rings: plan.rings(yarn),
+                first_block: plan.block_offsets()[yarn] as u32,
+                section: plan.yarn(yarn).section,
+                closed: plan.yarn(yarn).closed.into(),
+                twist: plan.twist_turns(yarn),
             })
             .collect()
     }
+}
 
-    /// The block table of `chunk` for a schedule with a lane a part: one row a part, or a few where it has more than
-    /// `most_rings`. Such a row is consecutive rings of a yarn, from any ring on and of any number.
+impl CapRow {
+    /// All caps of `chunk`, one of `plan`'s.
     #[must_use]
-    pub fn part_rows(&self, chunk: &Chunk, most_rings: u32) -> Vec<Block> {
-        self.joined_rows(chunk.blocks(), most_rings)
-    }
-
-    fn joined_rows(&self, blocks: &[Block], most_rings: u32) -> Vec<Block> {
-        let settings = self.settings();
-        let (per_interval, most_rings) = (settings.subdivisions + 1, most_rings.max(1));
-        let ring_indices = if settings.topology == Topology::Indexed { 6 * settings.sides } else { 0 };
-        let mut rows = Vec::new();
-        for part in blocks.chunk_by(|block, next| block.yarn == next.yarn) {
-            let (first, [rings, quads]) = (part[0], totals(part));
-            for done in (0..rings).step_by(most_rings as usize) {
-                let first_ring = first.first_ring + done;
-                rows.push(Block {
-                    first_ring,
-                    rings: (rings - done).min(most_rings),
-                    quads: (quads - done).min(most_rings),
-                    first_point: first.first_point + first_ring / per_interval
-                        - first.first_ring / per_interval,
-                    chunk_ring: first.chunk_ring + done,
-                    first_vertex: first.first_vertex + done * settings.sides,
-                    first_index: first.first_index + done * ring_indices,
-                    ..first
-                });
-            }
-        }
-        rows
-    }
-
-    /// The caps of `chunk` as kernels see them.
-    #[must_use]
-    pub fn cap_rows(&self, chunk: &Chunk) -> Vec<CapRow> {
+    pub fn all(plan: &Plan, chunk: &Chunk) -> Vec<Self> {
+        let settings = plan.settings();
         let row = |cap: &Cap| {
             let yarn = cap.yarn as usize;
-            let intervals = (u64::from(self.rings(yarn)) - 1) / (u64::from(self.settings().subdivisions) + 1);
+            let intervals = (u64::from(plan.rings(yarn)) - 1) / (u64::from(settings.subdivisions) + 1);
             let interval = if cap.end == End::Start { 0 } else { intervals - 1 };
-            let corners = 3 * (self.settings().sides - 2);
-            CapRow {
+            let corners = 3 * (settings.sides - 2);
+            Self {
                 yarn: cap.yarn,
                 end: (cap.end == End::Finish).into(),
-                first_point: (self.padded_offsets()[yarn] + interval - chunk.window().start) as u32,
-                ring_vertex: cap.chunk_ring * self.settings().sides,
+                first_point: (plan.padded_offsets()[yarn] + interval - chunk.window().start) as u32,
+                ring_vertex: cap.chunk_ring * settings.sides,
                 first_vertex: cap.first_vertex,
                 first_index: cap.first_index,
-                first_corner: (2 * self.yarn(yarn).section + u32::from(cap.end == End::Finish)) * corners,
+                first_corner: (2 * plan.yarn(yarn).section + u32::from(cap.end == End::Finish)) * corners,
                 padding: 0,
             }
         };
         chunk.caps().iter().map(row).collect()
     }
+}
 
-    /// Cap indices numbered from the cap's first vertex: for each section those of its start cap, `3 (sides - 2)` values,
-    /// and as many of its finish cap.
+impl Params {
+    /// For all launches on `chunk`, one of `plan`'s, with its own block table.
     #[must_use]
-    pub fn cap_pattern(&self) -> Vec<u32> {
-        (0..self.layout().sections().len())
-            .flat_map(|section| [End::Start, End::Finish].map(|end| (section, end)))
-            .flat_map(|(section, end)| self.cap_indices(section, end))
-            .collect()
-    }
-
-    /// What is the same for all launches on `chunk`.
-    #[must_use]
-    pub fn params(&self, chunk: &Chunk) -> Params {
-        let settings = self.settings();
-        Params {
+    pub fn new(plan: &Plan, chunk: &Chunk) -> Self {
+        let settings = plan.settings();
+        Self {
             blocks: chunk.blocks().len() as u32,
             caps: chunk.caps().len() as u32,
             first_block: chunk.block_range().start as u32,
-            yarns: self.layout().yarns().len() as u32,
+            yarns: plan.layout().yarns().len() as u32,
             sides: settings.sides,
             subdivisions: settings.subdivisions,
-            frame: (settings.frame == Frame::RotationMinimizing).into(),
+            frame: settings.frame as u32,
             indexed: (settings.topology == Topology::Indexed).into(),
-            rolled: self.needs_scan().into(),
-            s: self.sampling().s(),
-            step: self.sampling().step(),
+            rolled: plan.needs_scan().into(),
+            s: plan.sampling().s(),
+            step: plan.sampling().step(),
             padding: 0,
         }
     }
+}
+
+/// The block table of `chunk`, one of `plan`'s, for a schedule with a lane a part: one row a part, or a few where it has
+/// more than `most_rings`. Such a row is consecutive rings of a yarn, from any ring on and of any number.
+#[must_use]
+pub fn part_rows(plan: &Plan, chunk: &Chunk, most_rings: u32) -> Vec<Block> {
+    joined_rows(plan, chunk.blocks(), most_rings)
+}
+
+fn joined_rows(plan: &Plan, blocks: &[Block], most_rings: u32) -> Vec<Block> {
+    let settings = plan.settings();
+    let (per_interval, most_rings) = (settings.subdivisions + 1, most_rings.max(1));
+    let ring_indices = if settings.topology == Topology::Indexed { 6 * settings.sides } else { 0 };
+    let mut rows = Vec::new();
+    for part in blocks.chunk_by(|block, next| block.yarn == next.yarn) {
+        let (first, [rings, quads]) = (part[0], totals(part));
+        for done in (0..rings).step_by(most_rings as usize) {
+            let first_ring = first.first_ring + done;
+            rows.push(Block {
+                first_ring,
+                rings: (rings - done).min(most_rings),
+                quads: (quads - done).min(most_rings),
+                first_point: first.first_point + first_ring / per_interval - first.first_ring / per_interval,
+                chunk_ring: first.chunk_ring + done,
+                first_vertex: first.first_vertex + done * settings.sides,
+                first_index: first.first_index + done * ring_indices,
+                ..first
+            });
+        }
+    }
+    rows
+}
+
+/// Cap indices numbered from the cap's first vertex: for each section of `plan` those of its start cap,
+/// `3 (sides - 2)` values, and as many of its finish cap. Empty where there are no caps.
+#[must_use]
+pub fn cap_pattern(plan: &Plan) -> Vec<u32> {
+    let sections = if plan.settings().caps { plan.layout().sections().len() } else { 0 };
+    (0..sections)
+        .flat_map(|section| [End::Start, End::Finish].map(|end| (section, end)))
+        .flat_map(|(section, end)| plan.cap_indices(section, end))
+        .collect()
 }
 
 /// Rings and quads of all of `blocks`.
@@ -191,12 +195,13 @@ fn totals(blocks: &[Block]) -> [u32; 2] {
 }
 
 // A block's number fits the `u32` of these tables.
-const _: () = assert!(super::RINGS_MAX / (BLOCK_RINGS as u64) <= u32::MAX as u64);
+const _: () = assert!(RINGS_MAX / (BLOCK_RINGS as u64) <= u32::MAX as u64);
 
 #[cfg(test)]
 mod tests {
+    use texere_core::{ControlPoint, Limits, Settings, Yarn, Yarns};
+
     use super::*;
-    use crate::{ControlPoint, Limits, Settings, Yarn, Yarns};
 
     /// Chunks of plans of short and long yarns, cut in many places.
     fn chunks(check: impl Fn(&Plan, &Chunk)) {
@@ -222,15 +227,15 @@ mod tests {
     #[test]
     fn a_part_is_one_row_unless_it_is_too_long() {
         chunks(|plan, chunk| {
-            let rows = plan.part_rows(chunk, u32::MAX);
-            let told = rows
+            let rows = part_rows(plan, chunk, u32::MAX);
+            let made = rows
                 .iter()
                 .map(|row| [row.yarn, row.first_ring, row.rings, row.first_vertex, row.first_index]);
             let parts = chunk
                 .parts()
                 .iter()
                 .map(|part| [part.yarn, part.first_ring, part.rings, part.first_vertex, part.first_index]);
-            assert!(told.eq(parts), "{rows:?} for {chunk:?}");
+            assert!(made.eq(parts), "{rows:?} for {chunk:?}");
             assert!(rows.iter().all(|row| row.quads + 1 == row.rings), "{rows:?}");
         });
     }
@@ -240,16 +245,16 @@ mod tests {
     #[test]
     fn rows_of_any_length_say_what_the_blocks_say() {
         chunks(|plan, chunk| {
-            assert_eq!(plan.part_rows(chunk, BLOCK_RINGS), chunk.blocks());
+            assert_eq!(part_rows(plan, chunk, BLOCK_RINGS), chunk.blocks());
             for most in [0, 1, 5, 21, 63, 65, 100] {
-                let rows = plan.part_rows(chunk, most);
+                let rows = part_rows(plan, chunk, most);
                 assert!(rows.iter().all(|row| (1..=most.max(1)).contains(&row.rings)), "{most}: {rows:?}");
                 for row in &rows {
                     let interval = row.first_ring / (plan.settings().subdivisions + 1);
                     let point = plan.padded_offsets()[row.yarn as usize] + u64::from(interval);
                     assert_eq!(u64::from(row.first_point) + chunk.window().start, point, "{row:?}");
                 }
-                assert_eq!(plan.joined_rows(&rows, BLOCK_RINGS), chunk.blocks(), "{most}");
+                assert_eq!(joined_rows(plan, &rows, BLOCK_RINGS), chunk.blocks(), "{most}");
             }
         });
     }

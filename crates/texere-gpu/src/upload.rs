@@ -2,19 +2,19 @@
 
 use std::ops::Range;
 
-use crate::padded::{overlap, renew_ends, touched};
-use crate::{BackendError, ControlPoint, Plan, zeroed};
+use texere_core::{BackendError, ControlPoint, Plan, renew_virtual_ends, zeroed};
 
 /// A yarn's first three and last two points: those that virtual ends come from. Of a short yarn some are the same.
 pub(crate) type Ends = [ControlPoint; 5];
 
 /// The ends of all yarns as last uploaded, so that virtual ends are right also after an upload of the other end alone.
 ///
-/// Together with the padded points themselves, which start as zeros, this does what [`PaddedPoints`](crate::PaddedPoints)
+/// Together with the padded points themselves, which start as zeros, this does what [`PaddedPoints`](texere_core::PaddedPoints)
 /// does.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Plan, Settings, Yarn, YarnEnds, Yarns};
+/// use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
+/// use texere_gpu::YarnEnds;
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// # let yarns = yarns.build()?;
@@ -45,7 +45,7 @@ impl YarnEnds {
     /// **Panics** for another plan that has more yarns.
     #[must_use]
     pub fn upload<'a>(&self, plan: &'a Plan, first: u64, points: &'a [ControlPoint]) -> PaddedUpload<'a> {
-        let yarns = touched(plan, first, points.len());
+        let yarns = plan.layout().yarns_of(first..first.saturating_add(points.len() as u64));
         let mut upload = PaddedUpload { plan, first, points, yarns, cut: Default::default() };
         if let Some(last) = upload.yarns.clone().last() {
             upload.cut = [upload.yarns.start, last].map(|yarn| upload.renewed(yarn, self.ends[yarn]));
@@ -81,8 +81,8 @@ impl PaddedUpload<'_> {
     #[must_use]
     pub fn ranges(&self) -> [Range<u64>; 3] {
         let Some(last) = self.yarns.clone().last() else { return [0..0, 0..0, 0..0] };
-        let ([front, inner, _], (from, _)) = (self.places(self.yarns.start), self.overlap(self.yarns.start));
-        let ([_, last_inner, back], (to, _)) = (self.places(last), self.overlap(last));
+        let ([front, inner, _], [from, _]) = (self.places(self.yarns.start), self.overlap(self.yarns.start));
+        let ([_, last_inner, back], [to, _]) = (self.places(last), self.overlap(last));
         let (start, end) = (inner.start + from.start as u64, last_inner.start + to.end as u64);
         let ([of_front, _], [_, of_back]) = (self.origins(self.yarns.start), self.origins(last));
         // With the first of a yarn's points goes what lies before it, with the last what lies behind.
@@ -104,7 +104,7 @@ impl PaddedUpload<'_> {
         let before = offsets.partition_point(|&start| start <= range.start).saturating_sub(1);
         let yarns = before.max(self.yarns.start)..self.yarns.end;
         for yarn in yarns.take_while(|&yarn| offsets[yarn] < range.end) {
-            let ([front, inner, back], (own, sent)) = (self.places(yarn), self.overlap(yarn));
+            let ([front, inner, back], [own, sent]) = (self.places(yarn), self.overlap(yarn));
             let short = self.short(yarn);
             let virtual_end = 1 + self.cut[0].len();
             let runs = [
@@ -147,13 +147,13 @@ impl PaddedUpload<'_> {
         (offsets[yarn + 1] - offsets[yarn]) as usize
     }
 
-    fn overlap(&self, yarn: usize) -> (Range<usize>, Range<usize>) {
-        overlap(self.plan, yarn, self.first, self.points.len())
+    fn overlap(&self, yarn: usize) -> [Range<usize>; 2] {
+        self.plan.layout().points_of(yarn, &(self.first..self.first + self.points.len() as u64))
     }
 
     /// The ends of a yarn of which `ends` are those before.
     fn renewed(&self, yarn: usize, mut ends: Ends) -> Ends {
-        let ((own, sent), count) = (self.overlap(yarn), self.count(yarn));
+        let ([own, sent], count) = (self.overlap(yarn), self.count(yarn));
         for (end, at) in ends.iter_mut().zip([0, 1, 2, count - 2, count - 1]) {
             if own.contains(&at) {
                 *end = self.points[sent.start + at - own.start];
@@ -173,7 +173,7 @@ impl PaddedUpload<'_> {
         let mut padded = [ControlPoint::default(); 9];
         padded[1..=ends.len()].copy_from_slice(&ends);
         let closed = self.plan.yarn(yarn).closed;
-        renew_ends(if closed { &mut padded } else { &mut padded[..7] }, closed);
+        renew_virtual_ends(if closed { &mut padded } else { &mut padded[..7] }, closed);
         padded
     }
 }

@@ -1,0 +1,37 @@
+//! What the GPU backends of texere share and the core has no need of. No GPU interface is used here.
+//!
+//! | what a GPU backend needs | here |
+//! |---|---|
+//! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
+//! | control points with virtual ends, written straight to the memory that is sent | [`YarnEnds`], [`PaddedUpload`] |
+//! | the constants that kernels and shaders share with the core | [`prelude`] |
+//! | which chunk's tables lie in a slot, so that no kernel has to check a bound | [`LoadedChunk`] |
+//! | what the paper's schedule leaves out | [`check_schedule`] |
+//! | the memory that a plan's work takes | [`device_buffers`], [`host_bytes_beside_gpu`] |
+//!
+//! ```
+//! use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+//! use texere_gpu::{Params, YarnRow};
+//! let mut yarns = Yarns::builder();
+//! yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+//! let plan = Plan::new(yarns.build()?.layout().clone(), Settings::default())?;
+//! assert_eq!(YarnRow::all(&plan)[0].rings, 5);
+//! for chunk in plan.chunks(&Limits::NONE)? {
+//!     assert_eq!(Params::new(&plan, &chunk).sides, 6);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod loaded;
+mod memory;
+mod prelude;
+mod schedule;
+mod tables;
+mod upload;
+
+pub use loaded::LoadedChunk;
+pub use memory::{device_buffers, host_bytes_beside_gpu};
+pub use prelude::{CONSTANTS, Constant, Language, Value, prelude};
+pub use schedule::check_schedule;
+pub use tables::{CapRow, Params, YarnRow, cap_pattern, part_rows};
+pub use upload::{PaddedUpload, YarnEnds};

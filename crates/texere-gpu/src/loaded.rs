@@ -1,0 +1,59 @@
+//! Which chunk's tables an engine holds.
+
+use std::ops::Range;
+
+use texere_core::{BackendError, Chunk, Plan};
+
+/// The chunk whose tables lie in a slot of an engine.
+///
+/// Kernels check no bounds: their tables come from chunks, and what a chunk says is what its plan counted. So an engine
+/// makes sure that it runs them on a chunk of its own plan, and on the one that it has loaded, whoever calls it.
+///
+/// ```
+/// use texere_core::{BackendError, ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+/// use texere_gpu::LoadedChunk;
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let yarns = yarns.build()?;
+/// let plan = Plan::new(yarns.layout().clone(), Settings::default())?;
+/// let chunk = plan.chunks(&Limits::NONE)?.next().ok_or("no chunk")?;
+/// let mut loaded = LoadedChunk::default();
+/// assert!(matches!(loaded.check(&plan, &chunk), Err(BackendError::NotLoaded { .. })));
+/// loaded.load(&plan, &chunk, || Ok(()))?; // the tables are sent
+/// loaded.check(&plan, &chunk)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct LoadedChunk {
+    /// Its blocks, which no other chunk of the plan has.
+    blocks: Option<Range<u64>>,
+}
+
+impl LoadedChunk {
+    /// Takes the place of what was loaded: `send` sends the tables of `chunk`. Nothing is loaded if it fails.
+    ///
+    /// **Errors**: [`BackendError::NotLoaded`] for a chunk of another plan, and what `send` says.
+    pub fn load<T>(
+        &mut self,
+        plan: &Plan,
+        chunk: &Chunk,
+        send: impl FnOnce() -> Result<T, BackendError>,
+    ) -> Result<T, BackendError> {
+        self.blocks = None;
+        if !plan.owns(chunk) {
+            return Err(BackendError::NotLoaded { chunk: chunk.index() });
+        }
+        let sent = send()?;
+        self.blocks = Some(chunk.block_range());
+        Ok(sent)
+    }
+
+    /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are here.
+    pub fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
+        if plan.owns(chunk) && self.blocks == Some(chunk.block_range()) {
+            Ok(())
+        } else {
+            Err(BackendError::NotLoaded { chunk: chunk.index() })
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! How much memory a plan's work takes.
+
+use texere_core::{Block, Limits, Plan, PlanError, SectionPoint, Turn, Vertex};
+
+use crate::tables::{CapRow, YarnRow, cap_pattern};
+use crate::upload::Ends;
+
+/// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the mesh of all chunks of `plan` cut to
+/// `limits`, the device's own: what each holds, and its bytes. Those of the two chunks in flight come last. Where a caller
+/// cuts chunks smaller, tables are as large as a scan needs them, which goes by the device's limits.
+///
+/// A backend may round each up to what its kernels read at a time, and adds parameters and time stamps, some hundred
+/// bytes. The 16 MiB that wgpu maps to upload through come on top where a driver takes them from the device's memory.
+/// Rings, 32 bytes each, come on top where [`Session::trajectory`](texere_core::Session::trajectory) is called.
+///
+/// ```
+/// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let plan = Plan::new(yarns.build()?.layout().clone(), Settings::default())?;
+/// let buffers = texere_gpu::device_buffers(&plan, &Limits::NONE)?;
+/// // Three points and two virtual ends; 30 vertices.
+/// assert!(buffers.contains(&("control points", 80)) && buffers.contains(&("vertices", 720)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// **Errors**: those of [`Plan::chunks`].
+pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str, u64)>, PlanError> {
+    let bytes = |count: usize, each: usize| (count * each) as u64;
+    let (settings, yarns) = (plan.settings(), plan.layout().yarns().len());
+    let turns = if plan.needs_scan() { plan.block_count() + yarns as u64 } else { 0 };
+    let caps = cap_pattern(plan).len();
+    let mut buffers = vec![
+        ("control points", plan.resident_bytes()),
+        ("yarns", bytes(yarns, size_of::<YarnRow>())),
+        ("outlines", bytes(plan.outlines().len(), size_of::<SectionPoint>())),
+        ("the index pattern", bytes(6 * settings.sides as usize, size_of::<u32>())),
+        ("the cap pattern", bytes(caps, size_of::<u32>())),
+        ("rolls", turns * size_of::<Turn>() as u64),
+    ];
+    // Chunks take the two slots in turn, and a slot's memory grows to the largest chunk that it had. A scan goes through
+    // the chunks first, for their tables alone; where there are more than two, that shifts which chunk takes which slot.
+    let scanned = if plan.needs_scan() { plan.chunks(limits)?.count() } else { 0 };
+    let shift = if scanned > 2 { scanned } else { 0 };
+    let mut places = [[0; 4]; 2];
+    // One by one: all tables at once would take as much memory as the device.
+    for (number, chunk) in plan.chunks(limits)?.enumerate() {
+        let tables =
+            [bytes(chunk.blocks().len(), size_of::<Block>()), bytes(chunk.caps().len(), size_of::<CapRow>())];
+        let mesh = [
+            bytes(chunk.vertices() as usize, size_of::<Vertex>()),
+            bytes(chunk.indices() as usize, size_of::<u32>()),
+        ];
+        if number < scanned {
+            grow(&mut places[number % 2][..2], tables);
+        }
+        let place = &mut places[(number + shift) % 2];
+        grow(&mut place[..2], tables);
+        grow(&mut place[2..], mesh);
+    }
+    let names = ["the block table", "the cap table", "vertices", "indices"];
+    buffers.extend(places.into_iter().flat_map(|place| names.into_iter().zip(place)));
+    buffers.retain(|(_, bytes)| *bytes > 0);
+    Ok(buffers)
+}
+
+/// Bytes of host memory that [`Pipeline::mesh`](texere_core::Pipeline::mesh) takes at its peak beside a GPU, which keeps
+/// control points and rolls itself: the mesh, the block table, and the ends of all yarns. What a driver takes is not in it,
+/// nor the memory that it gives to send and read through, nor a copy of up to 16 MiB of the control points, which is gone
+/// before there is a mesh. [`Plan::host_bytes`] says the same of a CPU.
+#[must_use]
+pub fn host_bytes_beside_gpu(plan: &Plan) -> u64 {
+    let blocks = plan.block_count() * size_of::<Block>() as u64;
+    plan.counts().bytes() + blocks + plan.counts().yarns * size_of::<Ends>() as u64
+}
+
+fn grow(held: &mut [u64], wanted: [u64; 2]) {
+    for (held, wanted) in held.iter_mut().zip(wanted) {
+        *held = wanted.max(*held);
+    }
+}

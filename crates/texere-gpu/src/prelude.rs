@@ -1,0 +1,147 @@
+//! The constants of kernels and shaders, from the core's own.
+
+use std::fmt::Write;
+
+use texere_core::{
+    ARCTANGENT, BLOCK_RINGS, COSINE, Frame, NO_LENGTH, NO_MIRROR, RADIUS_FLOOR, SINE, SLOPE_LIMIT,
+    TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY,
+};
+
+/// A language of device code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Language {
+    /// OpenCL C, of texere-kernels.
+    OpenClC,
+    /// WGSL, of texere-shaders.
+    Wgsl,
+}
+
+/// What a [`Constant`] is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// An `f32`.
+    Float(f32),
+    /// A `u32`.
+    Integer(u32),
+}
+
+/// A constant that kernels and shaders know by the same name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constant {
+    /// Its name in both languages.
+    pub name: &'static str,
+    /// What it is.
+    pub value: Value,
+}
+
+const fn float(name: &'static str, value: f32) -> Constant {
+    Constant { name, value: Value::Float(value) }
+}
+
+const fn integer(name: &'static str, value: u32) -> Constant {
+    Constant { name, value: Value::Integer(value) }
+}
+
+/// All of them, each the core's of the same name. The numbers behind `SINE`, `COSINE` and `ARCTANGENT` are powers.
+pub const CONSTANTS: [Constant; 22] = [
+    integer("BLOCK_RINGS", BLOCK_RINGS),
+    float("TURN_STEPS", Turn::STEPS),
+    float("RADIANS_PER_STEP", Turn::RADIANS_PER_STEP),
+    float("SINE_3", SINE[0]),
+    float("SINE_5", SINE[1]),
+    float("SINE_7", SINE[2]),
+    float("COSINE_4", COSINE[0]),
+    float("COSINE_6", COSINE[1]),
+    float("COSINE_8", COSINE[2]),
+    float("TAN_EIGHTH", TAN_EIGHTH),
+    float("ARCTANGENT_1", ARCTANGENT[0]),
+    float("ARCTANGENT_3", ARCTANGENT[1]),
+    float("ARCTANGENT_5", ARCTANGENT[2]),
+    float("ARCTANGENT_7", ARCTANGENT[3]),
+    float("ARCTANGENT_9", ARCTANGENT[4]),
+    float("ZERO_VELOCITY", ZERO_VELOCITY),
+    float("NO_LENGTH", NO_LENGTH),
+    float("SLOPE_LIMIT", SLOPE_LIMIT),
+    float("RADIUS_FLOOR", RADIUS_FLOOR),
+    float("VERTICAL", VERTICAL),
+    float("NO_MIRROR", NO_MIRROR),
+    integer("ROTATION_MINIMIZING", Frame::RotationMinimizing as u32),
+];
+
+/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`]. Decimals are as short as
+/// give the same bits again.
+///
+/// ```
+/// use texere_gpu::{Language, prelude};
+/// assert!(prelude(Language::OpenClC).contains("#define RADIUS_FLOOR 5e-1f\n"));
+/// assert!(prelude(Language::Wgsl).contains("const RADIUS_FLOOR: f32 = 5e-1f;\n"));
+/// ```
+#[must_use]
+pub fn prelude(language: Language) -> String {
+    let mut text = String::new();
+    for Constant { name, value } in CONSTANTS {
+        // Writing to a string does not fail.
+        let _ = match (language, value) {
+            (Language::OpenClC, Value::Float(value)) if value < 0.0 => {
+                writeln!(text, "#define {name} ({value:e}f)")
+            }
+            (Language::OpenClC, Value::Float(value)) => writeln!(text, "#define {name} {value:e}f"),
+            (Language::OpenClC, Value::Integer(value)) => writeln!(text, "#define {name} {value}u"),
+            (Language::Wgsl, Value::Float(value)) => writeln!(text, "const {name}: f32 = {value:e}f;"),
+            (Language::Wgsl, Value::Integer(value)) => writeln!(text, "const {name} = {value}u;"),
+        };
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The core's values, each written here once more: a number in place of a name above is found.
+    const OF_THE_CORE: [(&str, &[f32]); 13] = [
+        ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
+        ("TURN_STEPS", &[Turn::STEPS]),
+        ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
+        ("SINE", &SINE),
+        ("COSINE", &COSINE),
+        ("TAN_EIGHTH", &[TAN_EIGHTH]),
+        ("ARCTANGENT", &ARCTANGENT),
+        ("ZERO_VELOCITY", &[ZERO_VELOCITY]),
+        ("NO_LENGTH", &[NO_LENGTH]),
+        ("SLOPE_LIMIT", &[SLOPE_LIMIT]),
+        ("RADIUS_FLOOR", &[RADIUS_FLOOR]),
+        ("VERTICAL", &[VERTICAL]),
+        ("NO_MIRROR", &[NO_MIRROR]),
+    ];
+
+    /// The texts are read again as their compilers do, and must have the core's bits.
+    #[test]
+    fn a_constant_of_the_core_is_the_same_in_both_languages() {
+        for (language, define, assign) in
+            [(Language::OpenClC, "#define ", " "), (Language::Wgsl, "const ", "= ")]
+        {
+            let text = prelude(language);
+            let read: Vec<(&str, f32)> = text
+                .lines()
+                .map(|line| {
+                    let rest = line.strip_prefix(define).unwrap();
+                    let name = rest.split([' ', ':']).next().unwrap();
+                    let literal = rest.rsplit_once(assign).unwrap().1;
+                    let digits = literal.trim_matches(['(', ')', ';', 'f', 'u']);
+                    (name, digits.parse().unwrap())
+                })
+                .collect();
+            for (name, values) in OF_THE_CORE {
+                let found: Vec<f32> = read
+                    .iter()
+                    .filter(|(read, _)| {
+                        read.trim_end_matches(|last: char| last == '_' || last.is_ascii_digit()) == name
+                    })
+                    .map(|(_, value)| *value)
+                    .collect();
+                assert_eq!(found, values, "{name} in {language:?}");
+            }
+        }
+    }
+}

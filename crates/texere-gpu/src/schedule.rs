@@ -1,0 +1,83 @@
+//! What the paper's schedule leaves out.
+
+use texere_core::{BackendError, Frame, Plan, Schedule};
+
+/// Makes sure that a GPU has `schedule`, and that it does all that `plan` asks for: [`Schedule::PerYarn`] does upright,
+/// untwisted, open yarns without caps. `name` is the device's, for the error.
+///
+/// ```
+/// use texere_core::{ControlPoint, Plan, Schedule, Settings, Yarn, Yarns};
+/// use texere_gpu::check_schedule;
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let yarns = yarns.build()?;
+/// let plan = Plan::new(yarns.layout().clone(), Settings { caps: true, ..Settings::default() })?;
+/// check_schedule(Schedule::PerRing, &plan, "mine:0")?;
+/// let refused = check_schedule(Schedule::PerYarn, &plan, "mine:0/per-yarn").unwrap_err();
+/// assert_eq!(refused.to_string(), "mine:0/per-yarn does not do caps");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// **Errors**: [`BackendError::Unsupported`] with the first thing that it leaves out.
+pub fn check_schedule(schedule: Schedule, plan: &Plan, name: &str) -> Result<(), BackendError> {
+    match left_out(schedule, plan) {
+        Some(what) => Err(BackendError::Unsupported { schedule: name.into(), what }),
+        None => Ok(()),
+    }
+}
+
+fn left_out(schedule: Schedule, plan: &Plan) -> Option<String> {
+    if schedule == Schedule::PerRing {
+        return None;
+    }
+    if plan.settings().frame != Frame::Upright {
+        return Some("rotation-minimising frames".into());
+    }
+    if plan.settings().caps {
+        return Some("caps".into());
+    }
+    plan.layout().yarns().iter().enumerate().find_map(|(number, yarn)| match yarn {
+        _ if yarn.closed => Some(format!("closed yarns, such as yarn {number}")),
+        _ if yarn.twist != 0.0 => Some(format!("twist, such as that of yarn {number}")),
+        _ => None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use texere_core::{ControlPoint, Settings, Yarn, Yarns};
+
+    use super::*;
+
+    /// What `schedule` says to a plain yarn and after it `yarn`.
+    fn asked(schedule: Schedule, yarn: Yarn, settings: Settings) -> Option<String> {
+        let mut yarns = Yarns::builder();
+        for yarn in [Yarn::default(), yarn] {
+            yarns.yarn(yarn, &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, x * x, 0.0, 0.1)));
+        }
+        let plan = Plan::new(yarns.build().unwrap().layout().clone(), settings).unwrap();
+        match check_schedule(schedule, &plan, "mine:0") {
+            Ok(()) => None,
+            Err(BackendError::Unsupported { schedule, what }) if schedule == "mine:0" => Some(what),
+            Err(other) => panic!("{other}"),
+        }
+    }
+
+    #[test]
+    fn per_yarn_does_what_the_paper_does_and_names_the_rest() {
+        let (plain, usual) = (Yarn::default(), Settings::default());
+        let turning = Settings { frame: Frame::RotationMinimizing, ..usual };
+        let capped = Settings { caps: true, ..usual };
+        let (closed, twisted) = (Yarn { closed: true, ..plain }, Yarn { twist: -1.0, ..plain });
+        for (yarn, settings, left_out) in [
+            (plain, usual, None),
+            (plain, turning, Some("rotation-minimising frames")),
+            (plain, capped, Some("caps")),
+            (closed, usual, Some("closed yarns, such as yarn 1")),
+            (twisted, usual, Some("twist, such as that of yarn 1")),
+        ] {
+            assert_eq!(asked(Schedule::PerYarn, yarn, settings).as_deref(), left_out);
+            assert_eq!(asked(Schedule::PerRing, yarn, settings), None);
+        }
+    }
+}

@@ -1,6 +1,6 @@
-//! The backend: a device with its context, its queues and its compiled kernels.
+//! The backend: how a device is opened.
 
-use std::ffi::{CString, c_void};
+use std::ffi::c_void;
 use std::ptr;
 use std::sync::Arc;
 
@@ -10,52 +10,15 @@ use opencl3::command_queue::{
 };
 use opencl3::context::context::{create_context, retain_context};
 use opencl3::device::Device;
-use opencl3::error_codes::{CL_BUILD_PROGRAM_FAILURE, ClError};
+use opencl3::error_codes::ClError;
 use opencl3::platform::Platform;
-use opencl3::program::{
-    CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
-};
 use texere_core::{Backend, BackendError, DeviceInfo, Engine, Limits, Plan, Session};
-use texere_gpu::{Language, prelude};
-use texere_kernels::{PER_RING, PER_YARN, Program};
 
 use crate::device::{self, listed};
 use crate::faults::failed;
 use crate::handles::Handle;
+use crate::opened::{Opened, build, program};
 use crate::{OpenClEngine, OpenClSession, Schedule};
-
-/// The kernels of `schedule`. `name` is the device's, for the error.
-fn program(schedule: Schedule, name: &str) -> Result<Program, BackendError> {
-    match schedule {
-        Schedule::PerRing => Ok(PER_RING),
-        Schedule::PerYarn => Ok(PER_YARN),
-        Schedule::Serial => {
-            Err(BackendError::Unsupported { schedule: name.into(), what: "the schedule serial".into() })
-        }
-    }
-}
-
-/// What all sessions of a backend share.
-#[derive(Debug)]
-pub(crate) struct Opened {
-    pub(crate) name: String,
-    pub(crate) schedule: Schedule,
-    pub(crate) context: Handle,
-    /// Kernels, and control points, in the order of the calls.
-    pub(crate) queue: Handle,
-    /// Whether the queue takes the time of its commands.
-    pub(crate) profiled: bool,
-    /// Tables to the device and results to the host, beside the kernels of another chunk.
-    pub(crate) transfers: Handle,
-    pub(crate) program: Handle,
-}
-
-impl Opened {
-    /// The error that `call` ended in.
-    pub(crate) fn failed(&self, call: &'static str) -> impl Fn(i32) -> BackendError {
-        failed(&self.name, call)
-    }
-}
 
 /// An OpenCL device, ready to start sessions.
 ///
@@ -216,48 +179,5 @@ impl Backend for OpenClBackend {
 
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
         Ok(Box::new(OpenClEngine::new(self.opened.clone(), &self.info.limits, plan)?))
-    }
-}
-
-/// Compiles `program` for `device`.
-fn build(
-    device: *mut c_void,
-    context: &Handle,
-    name: &str,
-    program: Program,
-) -> Result<Handle, BackendError> {
-    // One string: cl3 0.13 hands over several as if slices were pointers.
-    let source = prelude(Language::OpenClC) + &program.sources.concat();
-    let built = Handle::program(create_program_with_source(context.raw(), &[&source]))
-        .map_err(failed(name, "clCreateProgramWithSource"))?;
-    let options = CString::from(c"-cl-std=CL1.2");
-    match build_program(built.raw(), &[device], &options, None, ptr::null_mut()) {
-        Ok(()) => Ok(built),
-        Err(CL_BUILD_PROGRAM_FAILURE) => Err(BackendError::Compile {
-            kernel: program.name,
-            log: get_program_build_info(built.raw(), device, CL_PROGRAM_BUILD_LOG)
-                .map_or_else(|code| ClError(code).to_string(), |log| log.to_string()),
-        }),
-        Err(code) => Err(failed(name, "clBuildProgram")(code)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_kernel_that_does_not_compile_comes_with_the_drivers_log() {
-        let chosen = listed(Schedule::PerRing).unwrap().swap_remove(0);
-        let context = create_context(&[chosen.id], ptr::null(), None, ptr::null_mut());
-        let context = Handle::context(context).unwrap();
-        let broken =
-            Program { name: "broken", sources: &["__kernel void broken() { undeclared(); }"], entries: &[] };
-        match build(chosen.id, &context, &chosen.info.name, broken) {
-            Err(BackendError::Compile { kernel: "broken", log }) => {
-                assert!(log.contains("undeclared"), "{log}")
-            }
-            other => panic!("{other:?}"),
-        }
     }
 }

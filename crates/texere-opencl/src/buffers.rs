@@ -13,10 +13,10 @@ use opencl3::event::wait_for_events;
 use opencl3::memory::{CL_MAP_READ, CL_MEM_READ_WRITE, create_buffer};
 use texere_core::BackendError;
 
-use crate::backend::Opened;
 use crate::clock::{Clock, Stage};
 use crate::faults::not_allocated;
 use crate::handles::Handle;
+use crate::opened::Opened;
 use crate::pinned::Pinned;
 
 /// Device memory, which may be none.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use texere_core::{BackendError, Chunk, Plan, Ring, Schedule, Topology, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, part_rows};
 
-use crate::backend::Opened;
 use crate::buffers::Buffer;
 use crate::handles::Handle;
+use crate::opened::Opened;
 
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug, Default)]

@@ -1,7 +1,6 @@
 //! The work on a plan on an OpenCL device: memory and timings; the kernels are the schedule's.
 
 use std::ops::ControlFlow;
-use std::ptr;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -13,14 +12,12 @@ use texere_core::{
 use texere_gpu::{YarnEnds, check_schedule};
 
 use crate::Schedule;
-use crate::backend::Opened;
 use crate::buffers::Staging;
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Stage};
-use crate::handles::Handle;
 use crate::kernels::{Kernels, Launches, PerRing, Work};
+use crate::opened::Opened;
 use crate::per_yarn::PerYarn;
-use crate::session::DeviceMesh;
 use crate::tables::Tables;
 use crate::upload::Outbox;
 
@@ -59,14 +56,9 @@ impl OpenClEngine {
         })
     }
 
-    /// The mesh in `slot`, of a chunk of so many indices.
-    pub(crate) fn device_mesh(&self, slot: Slot, indices: u32) -> DeviceMesh<'_> {
-        let memory = &self.memory[slot.index()];
-        DeviceMesh::new(
-            memory.vertices.raw(),
-            if indices > 0 { memory.indices.raw() } else { ptr::null_mut() },
-            memory.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
-        )
+    /// The memory of the chunk in `slot`.
+    pub(crate) fn memory(&self, slot: Slot) -> &ChunkMemory {
+        &self.memory[slot.index()]
     }
 
     /// Bytes of device memory that it holds.

@@ -10,9 +10,9 @@ use opencl3::kernel::{create_kernel, set_kernel_arg};
 use texere_core::BackendError;
 use texere_kernels::Entry;
 
-use crate::backend::Opened;
 use crate::buffers::Buffer;
 use crate::handles::Handle;
+use crate::opened::Opened;
 
 /// An entry point of the program. It carries its arguments, so each session has kernels of its own.
 #[derive(Debug)]

@@ -8,10 +8,10 @@ use texere_core::{BackendError, Chunk, Plan, Topology};
 use texere_gpu::Params;
 use texere_kernels::{BLOCK_TURNS, CAPS, Entry, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS};
 
-use crate::backend::Opened;
 use crate::chunk_memory::ChunkMemory;
 use crate::handles::Handle;
 use crate::kernel::{Arg, Kernel};
+use crate::opened::Opened;
 use crate::tables::Tables;
 
 /// The events of the launches that make a stage, in order.

@@ -24,6 +24,7 @@ mod faults;
 mod handles;
 mod kernel;
 mod kernels;
+mod opened;
 mod per_yarn;
 mod pinned;
 mod session;

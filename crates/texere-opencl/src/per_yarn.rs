@@ -5,10 +5,10 @@ use texere_core::{BackendError, Chunk, Plan};
 use texere_gpu::Params;
 use texere_kernels::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 
-use crate::backend::Opened;
 use crate::chunk_memory::ChunkMemory;
 use crate::kernel::{Arg, Kernel};
 use crate::kernels::{Kernels, Launches, Work};
+use crate::opened::Opened;
 
 /// A lane a part.
 #[derive(Debug)]

@@ -11,9 +11,9 @@ use opencl3::types::cl_map_flags;
 use texere_core::BackendError;
 
 use crate::OpenClError;
-use crate::backend::Opened;
 use crate::faults::not_allocated;
 use crate::handles::Handle;
+use crate::opened::Opened;
 
 /// Host memory that the device reads and writes at full speed, mapped for good.
 #[derive(Debug)]

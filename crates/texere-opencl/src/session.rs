@@ -3,10 +3,12 @@
 use std::ffi::c_void;
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut};
+use std::ptr;
 
 use texere_core::{Chunk, Session, SessionError};
 
 use crate::engine::OpenClEngine;
+use crate::handles::Handle;
 
 /// A [`Session`] that lends a chunk's mesh where it lies.
 ///
@@ -44,12 +46,6 @@ pub struct DeviceMesh<'a> {
     session: PhantomData<&'a OpenClSession>,
 }
 
-impl DeviceMesh<'_> {
-    pub(crate) const fn new(vertices: *mut c_void, indices: *mut c_void, ready: *mut c_void) -> Self {
-        Self { vertices, indices, ready, session: PhantomData }
-    }
-}
-
 impl OpenClSession {
     /// The mesh of `chunk` where it lies on the device, for a caller who draws it or works on with it there.
     ///
@@ -57,7 +53,13 @@ impl OpenClSession {
     /// for this chunk.
     pub fn device_mesh(&self, chunk: &Chunk) -> Result<DeviceMesh<'_>, SessionError> {
         let slot = self.0.slot_of_mesh(chunk)?;
-        Ok(self.0.engine().device_mesh(slot, chunk.indices()))
+        let memory = self.0.engine().memory(slot);
+        Ok(DeviceMesh {
+            vertices: memory.vertices.raw(),
+            indices: if chunk.indices() > 0 { memory.indices.raw() } else { ptr::null_mut() },
+            ready: memory.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
+            session: PhantomData,
+        })
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of

@@ -3,8 +3,8 @@
 use texere_core::{BackendError, Limits, Plan, Turn, index_pattern};
 use texere_gpu::{YarnRow, cap_pattern};
 
-use crate::backend::Opened;
 use crate::buffers::Buffer;
+use crate::opened::Opened;
 
 /// What every stage reads.
 #[derive(Debug)]

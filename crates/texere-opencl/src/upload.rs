@@ -10,10 +10,10 @@ use opencl3::memory::CL_MAP_WRITE;
 use texere_core::{BackendError, ControlPoint};
 use texere_gpu::PaddedUpload;
 
-use crate::backend::Opened;
 use crate::buffers::{Buffer, wait};
 use crate::clock::{Clock, Stage};
 use crate::handles::Handle;
+use crate::opened::Opened;
 use crate::pinned::Pinned;
 
 const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;

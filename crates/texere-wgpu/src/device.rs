@@ -9,20 +9,12 @@ use crate::Schedule;
 use crate::clock::has_clock;
 use crate::engine::WgpuEngine;
 use crate::gpu::Gpu;
-use crate::kernels::Kernels;
+use crate::kernels::{Kernels, Opened};
 use crate::session::WgpuSession;
 
 /// Most blocks of a launch: some 16 million rings, so that none takes long enough for a watchdog to end it, even on a
 /// software device.
 const LAUNCH_BLOCKS: u64 = 1 << 18;
-
-/// An open device with its shaders: what a backend and its sessions share.
-#[derive(Debug)]
-pub(crate) struct Opened {
-    pub(crate) gpu: Gpu,
-    pub(crate) schedule: Schedule,
-    pub(crate) kernels: Kernels,
-}
 
 /// A wgpu device that is open and can start sessions.
 ///

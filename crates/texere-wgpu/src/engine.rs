@@ -12,8 +12,7 @@ use texere_gpu::{YarnEnds, check_schedule, part_rows};
 
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Timed};
-use crate::device::Opened;
-use crate::kernels::{Kernel, Kernels};
+use crate::kernels::{Kernel, Kernels, Opened};
 use crate::per_yarn;
 use crate::readback::Readback;
 use crate::tables::Tables;

@@ -17,6 +17,14 @@ pub(crate) struct Kernel {
     pipeline: wgpu::ComputePipeline,
 }
 
+/// An open device with its shaders: what a backend and its sessions share.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    pub(crate) gpu: Gpu,
+    pub(crate) schedule: Schedule,
+    pub(crate) kernels: Kernels,
+}
+
 /// The shaders of a schedule.
 #[derive(Debug)]
 pub(crate) enum Kernels {

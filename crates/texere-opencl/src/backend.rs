@@ -78,7 +78,7 @@ impl OpenClBackend {
     /// Queue and context are retained for as long as the backend or a session of it lives. Kernels and uploads go to
     /// this queue in the order of the calls; results are read through a queue of our own.
     ///
-    /// A queue without profiling takes no times of its commands: each stage is then waited for, and timed by the host's
+    /// A queue without profiling does not time its commands: each stage is then waited for, and timed by the host's
     /// clock.
     ///
     /// **Errors**: [`BackendError::Unsupported`] for a queue that runs out of order, and those of
@@ -110,7 +110,7 @@ impl OpenClBackend {
         let known = listed(schedule)?.into_iter().find(|device| device.id == id);
         let info = match known {
             Some(device) => DeviceInfo { name, ..device.info },
-            // A part of a device is in no list.
+            // A sub-device is in no list.
             None => {
                 let part = Device::new(id);
                 let platform =

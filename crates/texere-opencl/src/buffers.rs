@@ -38,7 +38,7 @@ impl Buffer {
         let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
         let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
         let mut buffer = Self { memory: Some(memory), bytes };
-        // Drivers put memory off until its first use; used now, they say now that there is none. Not by
+        // Drivers may allocate at the first use only: a write makes them report now that there is no memory. Not
         // clEnqueueMigrateMemObjects: NVIDIA's driver (580) dies where two threads call that on one queue.
         // SAFETY: a blocking write.
         let claimed = unsafe { buffer.enqueue_write(&opened.transfers, CL_BLOCKING, 0, &[0u32], None) };
@@ -131,7 +131,7 @@ impl Buffer {
     ) -> Result<Handle, i32> {
         let after = after.map(Handle::raw);
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
-        // SAFETY: the pointer is to as many bytes as told, and this function's contract keeps them as they are. A range
+        // SAFETY: the pointer is to `bytes` bytes, and this function's contract keeps them as they are. A range
         // past the buffer's end comes back as an error.
         Handle::event(unsafe {
             enqueue_write_buffer(
@@ -158,7 +158,7 @@ impl Buffer {
         if out.is_empty() {
             return Ok(());
         }
-        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as long as told.
+        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as long as `bytes` says.
         let event = unsafe {
             self.enqueue_read(opened, CL_BLOCKING, 0, size_of_val(out), out.as_mut_ptr().cast(), after)
         }?;
@@ -207,7 +207,7 @@ pub(crate) struct Staging {
     pieces: [Option<Pinned>; 2],
 }
 
-/// Takes values, the first of which has the number given.
+/// Takes values; the number is that of the first.
 pub(crate) type Sink<'a, T> = &'a mut dyn FnMut(u32, &[T]) -> ControlFlow<()>;
 
 impl Staging {

@@ -9,7 +9,7 @@ use crate::buffers::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// Memory of a chunk in flight, which serves the next chunk but one again.
+/// Memory of a chunk in flight. The next chunk but one uses it again.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,

@@ -19,7 +19,7 @@ pub(crate) struct Listed {
 
 /// All devices of all platforms, platform by platform.
 pub(crate) fn listed(schedule: Schedule) -> Result<Vec<Listed>, BackendError> {
-    // Loader and drivers set themselves up on the first call of each kind, and some mind a second thread that calls
+    // Loader and drivers set themselves up on the first call of each kind, and some fail if a second thread calls
     // meanwhile: ocl-icd then answers that there is no platform, PoCL reads a device that is half made.
     static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
     let _alone = ONE_AT_A_TIME.lock();

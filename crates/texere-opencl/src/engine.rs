@@ -21,7 +21,7 @@ use crate::per_yarn::PerYarn;
 use crate::tables::Tables;
 use crate::upload::Outbox;
 
-/// What an [`OpenClSession`](crate::OpenClSession) works with.
+/// The engine of an [`OpenClSession`](crate::OpenClSession).
 #[derive(Debug)]
 pub struct OpenClEngine {
     plan: Arc<Plan>,
@@ -76,7 +76,7 @@ impl OpenClEngine {
         let started = Instant::now();
         let work = Work { opened: &self.opened, plan: &self.plan, tables: &self.tables };
         let launches = start(&mut *self.kernels, work, &self.memory).inspect_err(|_| {
-            // Some of them may be under way, and nobody would wait for those. What that says is no news.
+            // Some kernels may be running, and nobody else would wait for them. An error of this wait adds nothing.
             let _ = finish(self.opened.queue.raw());
         })?;
         if self.opened.profiled {

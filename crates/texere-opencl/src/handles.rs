@@ -1,7 +1,7 @@
 //! Owned OpenCL objects.
 //!
 //! opencl3's own types expect every release to succeed, so they panic after a lost device, perhaps while unwinding.
-//! Here a release that fails is let go: there is nothing left to do about it.
+//! Here a release that fails is ignored: there is nothing left to do about it.
 
 use std::ffi::c_void;
 

@@ -178,7 +178,7 @@ impl Flight<'_> {
                 return;
             }
             if let Err(error) = self.take(first) {
-                // Of several errors the first is told.
+                // Of several errors the first is reported.
                 let _ = self.failed.set(error);
             }
         }
@@ -250,7 +250,7 @@ impl Flight<'_> {
     }
 }
 
-/// Writes the padded points of `part`; past the caches where told and the processor can.
+/// Writes the padded points of `part`; past the caches with `past_caches`, where the processor can.
 fn pad(upload: &PaddedUpload<'_>, part: Range<u64>, padded: &mut [ControlPoint], past_caches: bool) {
     let mut rest = padded;
     upload.runs(part, |run| {

@@ -11,7 +11,7 @@ use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::tables::Tables;
 
-/// Memory of a chunk in flight, which serves the next chunk but one again.
+/// Memory of a chunk in flight. The next chunk but one uses it again.
 #[derive(Debug)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,

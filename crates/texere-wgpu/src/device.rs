@@ -214,7 +214,7 @@ fn describe(
             DeviceType::Cpu => DeviceKind::Cpu,
             _ => DeviceKind::Other,
         },
-        // wgpu does not tell.
+        // wgpu does not say.
         memory_bytes: None,
         limits: Limits {
             // Buffers are rounded up to multiples of 16 bytes, which must not take them past the limit.

@@ -18,7 +18,7 @@ use crate::readback::Readback;
 use crate::tables::Tables;
 use crate::upload::Outbox;
 
-/// What a [`WgpuSession`](crate::WgpuSession) works with.
+/// The engine of a [`WgpuSession`](crate::WgpuSession).
 #[derive(Debug)]
 pub struct WgpuEngine {
     opened: Arc<Opened>,

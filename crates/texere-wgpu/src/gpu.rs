@@ -53,8 +53,8 @@ impl Gpu {
         }
     }
 
-    /// Asks the device whether it is still there. wgpu lets a lost device take any call and says nothing, but the memory
-    /// of a buffer on it is not to be had.
+    /// Asks the device whether it is still there. wgpu lets a lost device take any call and says nothing, but it
+    /// can't make a buffer.
     ///
     /// **Errors**: [`BackendError::DeviceLost`].
     pub(crate) fn probe(&self) -> Result<(), BackendError> {
@@ -69,7 +69,7 @@ impl Gpu {
         self.check_alive()?;
         match answer {
             Ok(Err(source)) => Err(self.lost(source)),
-            // A device that is short of memory is a device.
+            // A device that is short of memory is still there.
             Ok(Ok(())) | Err(_) => Ok(()),
         }
     }
@@ -96,7 +96,7 @@ impl Gpu {
         let result = self.caught(work);
         self.check_alive()?;
         result.map_err(|source| match self.probe() {
-            // A lost device makes other errors in its wake.
+            // A lost device causes other errors as well.
             Err(lost) => lost,
             Ok(()) => BackendError::Driver { call, source: source.into() },
         })

@@ -18,7 +18,7 @@
 //!
 //! - A fresh buffer is cleared by wgpu before its first use, so the first chunk of a session takes longer than those
 //!   after it, which use its memory again.
-//! - wgpu does not tell how much memory a device has, so chunks are cut to what one binding may hold. Where that is
+//! - wgpu does not say how much memory a device has, so chunks are cut to what one binding may hold. Where that is
 //!   more than the memory, give stricter limits: [`WgpuBackend::with_limits`].
 //! - A software device such as llvmpipe silently ends a lane that loops for long. There [`Schedule::PerYarn`] gives a long
 //!   yarn to several lanes.

@@ -172,15 +172,17 @@ pub enum YarnError {
         /// The furthest taken, mm.
         limit: f32,
     },
-    /// A radius that is zero, negative, or no yarn's.
-    #[error("radius of point {point} of yarn {yarn} is {radius} mm, outside {low} to {high} mm")]
-    Radius {
+    /// A half width or half height that is zero, negative, or no yarn's.
+    #[error("{field} of point {point} of yarn {yarn} is {size} mm, outside {low} to {high} mm")]
+    Size {
         /// The yarn.
         yarn: usize,
         /// The point.
         point: usize,
-        /// Its radius, mm.
-        radius: f32,
+        /// Which of the two.
+        field: &'static str,
+        /// What it is, mm; infinite for more than a half float holds.
+        size: f32,
         /// Thinnest taken, mm.
         low: f32,
         /// Thickest taken, mm.

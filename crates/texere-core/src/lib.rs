@@ -49,7 +49,7 @@ pub use plan::{
     YARN_RINGS_MAX,
 };
 pub use point::{COORDINATE_LIMIT, ControlPoint, RADIUS_MAX, RADIUS_MIN};
-pub use ring::{Ring, Trajectory};
+pub use ring::{Ring, Stance, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
 pub use session::{Session, Traffic};

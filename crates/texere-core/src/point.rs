@@ -1,19 +1,30 @@
 //! The control point: the one thing a structure has to produce.
 
-use bytemuck::{Pod, Zeroable};
+use std::fmt;
 
-/// A point that a yarn's centreline passes through, with the yarn's radius there.
+use bytemuck::{Pod, Zeroable};
+use half::f16;
+
+/// A point that a yarn's centreline passes through, with the yarn's half width and half height there.
 ///
-/// **Shape**: four `f32`, 16 bytes, 16-byte stride. **Units**: millimetres. The spline interpolates all four
-/// components, so a slub (a thick place) or a thick-and-thin yarn is made by the radius alone.
+/// The half width lies level in the cloth, the half height out of it, both at right angles to the yarn, whatever its
+/// twist: yarns flatten where they cross and spread where they float, while their fibres turn inside. Of a round yarn both
+/// are the radius.
+///
+/// **Shape**: three `f32` and two half floats (IEEE 754 binary16), 16 bytes, 16-byte stride. **Units**: millimetres. The
+/// spline interpolates all five components, so slubs (thick places) and flat places are made by these two alone. A half float
+/// has 11 bits: sizes are rounded to the nearest of them, by at most 1 in 2048.
 ///
 /// ```
 /// use texere_core::ControlPoint;
-/// let point = ControlPoint::new(1.0, 2.0, 0.25, 0.1);
-/// assert_eq!(bytemuck::bytes_of(&point).len(), 16);
+/// let round = ControlPoint::new(1.0, 2.0, 0.25, 0.125);
+/// assert_eq!((round.half_width(), round.half_height()), (0.125, 0.125));
+/// let flat = round.flattened(0.1875, 0.0625);
+/// assert_eq!((flat.half_width(), flat.half_height()), (0.1875, 0.0625));
+/// assert_eq!(bytemuck::bytes_of(&flat).len(), 16);
 /// ```
 #[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+#[derive(Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ControlPoint {
     /// Along the weft or the course, mm.
     pub x: f32,
@@ -21,46 +32,91 @@ pub struct ControlPoint {
     pub y: f32,
     /// Out of the technical face, mm.
     pub z: f32,
-    /// Radius of the yarn, mm.
-    pub radius: f32,
+    /// The bits of a half float: half the yarn's width, mm.
+    half_width: u16,
+    /// Half the yarn's height, likewise.
+    half_height: u16,
 }
 
-const _: () = assert!(size_of::<ControlPoint>() == 16 && align_of::<ControlPoint>() == 4);
+const _: () = assert!(
+    size_of::<ControlPoint>() == 16
+        && align_of::<ControlPoint>() == 4
+        && std::mem::offset_of!(ControlPoint, half_width) == 12
+        && std::mem::offset_of!(ControlPoint, half_height) == 14
+);
 
 /// The furthest that a coordinate may lie from the origin, mm (a thousand kilometres).
 ///
 /// Beyond it the squares and cubes that the spline forms could leave the range of `f32`.
 pub const COORDINATE_LIMIT: f32 = 1e9;
 
-/// The thinnest radius that is taken for a yarn, mm: a nanometre, a thousandth of the thinnest spun fibre.
-pub const RADIUS_MIN: f32 = 1e-6;
+/// The least half width and half height that are taken for a yarn's, mm: a tenth of a micrometre. The smallest number that a
+/// half float holds with all its bits is 6.1e-5.
+pub const RADIUS_MIN: f32 = 1e-4;
 
-/// The thickest radius that is taken for a yarn, mm: a kilometre.
-pub const RADIUS_MAX: f32 = 1e6;
+/// The most half width and half height that are taken for a yarn's, mm: thirty metres. A half float ends at 65,504, and a
+/// virtual end may be twice as large as its neighbour.
+pub const RADIUS_MAX: f32 = 3e4;
 
 impl ControlPoint {
-    /// A control point at (`x`, `y`, `z`) with `radius`, all in mm.
+    /// A control point of a round yarn at (`x`, `y`, `z`) with `radius`, all in mm. The radius is rounded to the nearest
+    /// half float, to the even one of two.
     #[must_use]
-    pub const fn new(x: f32, y: f32, z: f32, radius: f32) -> Self {
-        Self { x, y, z, radius }
+    #[inline]
+    pub fn new(x: f32, y: f32, z: f32, radius: f32) -> Self {
+        Self { x, y, z, half_width: 0, half_height: 0 }.flattened(radius, radius)
     }
 
-    /// The position without the radius, mm.
+    /// The same point of a yarn that is flattened there, mm: rounded as [`ControlPoint::new`] does.
     #[must_use]
+    #[inline]
+    pub fn flattened(self, half_width: f32, half_height: f32) -> Self {
+        let [half_width, half_height] = [half_width, half_height].map(|half| f16::from_f32(half).to_bits());
+        Self { half_width, half_height, ..self }
+    }
+
+    /// The position alone, mm.
+    #[must_use]
+    #[inline]
     pub const fn position(&self) -> glam::Vec3 {
         glam::Vec3::new(self.x, self.y, self.z)
     }
 
-    /// `2 self - other` in all four components: the paper's virtual ends (equations 3 and 4).
+    /// Half the yarn's width, level in the cloth, mm.
+    #[must_use]
+    #[inline]
+    pub fn half_width(&self) -> f32 {
+        f16::from_bits(self.half_width).to_f32()
+    }
+
+    /// Half the yarn's height, out of the cloth, mm.
+    #[must_use]
+    #[inline]
+    pub fn half_height(&self) -> f32 {
+        f16::from_bits(self.half_height).to_f32()
+    }
+
+    /// `2 self - other` in all five components: the paper's virtual ends (equations 3 and 4). Sizes are worked out in `f32`
+    /// and rounded to half floats.
     ///
-    /// The radius of a virtual end may be negative; it only steers the spline's slope.
+    /// The sizes of a virtual end may be negative; they only steer the spline's slope.
     #[must_use]
     pub fn reflected(&self, other: &Self) -> Self {
-        Self {
-            x: 2.0 * self.x - other.x,
-            y: 2.0 * self.y - other.y,
-            z: 2.0 * self.z - other.z,
-            radius: 2.0 * self.radius - other.radius,
-        }
+        let far = |here: f32, there: f32| 2.0 * here - there;
+        let (half_width, half_height) =
+            (far(self.half_width(), other.half_width()), far(self.half_height(), other.half_height()));
+        Self { x: far(self.x, other.x), y: far(self.y, other.y), z: far(self.z, other.z), ..*self }
+            .flattened(half_width, half_height)
+    }
+}
+
+impl fmt::Debug for ControlPoint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { x, y, z, .. } = self;
+        let (half_width, half_height) = (self.half_width(), self.half_height());
+        write!(
+            f,
+            "ControlPoint {{ x: {x}, y: {y}, z: {z}, half_width: {half_width}, half_height: {half_height} }}"
+        )
     }
 }

@@ -5,32 +5,42 @@ use glam::Vec3;
 
 use crate::{Basis, Sample, SectionPoint, Turn, Vertex};
 
-/// One place along a yarn: everything of it that a section needs to stand there, but for the slope of the radius.
+/// One place along a yarn: everything of it that a section needs to stand there.
 ///
-/// **Shape**: eight 4-byte values, 32 bytes. **Units**: mm; `roll` in 2⁻³² turns.
+/// **Shape**: twelve 4-byte values, 48 bytes. **Units**: mm; growths in mm per mm; `roll` in 2⁻³² turns.
 ///
 /// ```
 /// use texere_core::Ring;
-/// assert_eq!(size_of::<Ring>(), 32);
+/// assert_eq!(size_of::<Ring>(), 48);
 /// ```
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct Ring {
     /// Centre, mm.
     pub centre: [f32; 3],
-    /// Radius, mm.
-    pub radius: f32,
+    /// Half the yarn's width, along the side of the upright frame, mm.
+    pub half_width: f32,
     /// Unit tangent, the spline's own derivative.
     pub tangent: [f32; 3],
     /// Turn of the section about the tangent, against the upright frame.
     pub roll: Turn,
+    /// Half the yarn's height, along the up of the upright frame, mm.
+    pub half_height: f32,
+    /// Growth of the half width along the yarn.
+    pub width_growth: f32,
+    /// Growth of the half height along the yarn.
+    pub height_growth: f32,
+    /// Unused, 0: keeps the ring a multiple of 16 bytes.
+    pub padding: u32,
 }
 
 const _: () = assert!(
-    size_of::<Ring>() == 32
-        && std::mem::offset_of!(Ring, radius) == 12
+    size_of::<Ring>() == 48
+        && std::mem::offset_of!(Ring, half_width) == 12
         && std::mem::offset_of!(Ring, tangent) == 16
         && std::mem::offset_of!(Ring, roll) == 28
+        && std::mem::offset_of!(Ring, half_height) == 32
+        && std::mem::offset_of!(Ring, padding) == 44
 );
 
 impl Ring {
@@ -40,38 +50,91 @@ impl Ring {
     pub fn new(sample: &Sample, roll: Turn) -> Self {
         Self {
             centre: sample.centre.to_array(),
-            radius: sample.radius,
+            half_width: sample.half_width,
             tangent: sample.tangent.to_array(),
             roll,
+            half_height: sample.half_height,
+            width_growth: sample.width_growth,
+            height_growth: sample.height_growth,
+            padding: 0,
         }
     }
 
-    /// Side and up of the section here.
+    /// Whether the yarn is round here and stays so: width and height are the same and grow alike.
     #[must_use]
     #[inline]
-    pub fn basis(&self) -> Basis {
-        let upright = Basis::upright(Vec3::from_array(self.tangent));
-        if self.roll == Turn::ZERO { upright } else { upright.rolled(self.roll) }
+    pub fn is_round(&self) -> bool {
+        self.half_width == self.half_height && self.width_growth == self.height_growth
     }
 
-    /// The vertex at `point` of the section that stands here with `basis`, where the radius grows by `slope` (dr/ds).
-    ///
-    /// The normal of a section that grows by r' along the axis leans back by r' times the section point's reach: it is
-    /// at right angles both to the outline and to the line along the surface.
+    /// How a section stands here.
     #[must_use]
     #[inline]
-    pub fn vertex(&self, basis: &Basis, slope: f32, point: &SectionPoint) -> Vertex {
-        let outward = basis.side * point.x + basis.up * point.y;
-        let position = Vec3::from_array(self.centre) + outward * self.radius;
-        let across = basis.side * point.normal_x + basis.up * point.normal_y;
-        let normal = if slope == 0.0 {
-            across
+    pub fn stance(&self) -> Stance {
+        let upright = Basis::upright(Vec3::from_array(self.tangent));
+        if self.is_round() {
+            let basis = if self.roll == Turn::ZERO { upright } else { upright.rolled(self.roll) };
+            Stance::Round { basis }
         } else {
-            let lean = slope * point.reach();
-            (across - Vec3::from_array(self.tangent) * lean) * (1.0 / (1.0 + lean * lean).sqrt())
+            let (sin, cos) = self.roll.sin_cos();
+            Stance::Flattened { upright, sin, cos }
+        }
+    }
+
+    /// The vertex at `point` of the section that stands here as `stance` says.
+    ///
+    /// The section is turned by the roll, then stretched to the half width along the side and to the half height along the up
+    /// of the upright frame. Its normal is stretched by the inverse transpose. The normal of a section that grows leans back:
+    /// it is at right angles both to the outline and to the line along the surface.
+    #[must_use]
+    #[inline]
+    pub fn vertex(&self, stance: &Stance, point: &SectionPoint) -> Vertex {
+        let (centre, tangent) = (Vec3::from_array(self.centre), Vec3::from_array(self.tangent));
+        let (position, normal) = match stance {
+            Stance::Round { basis } => {
+                let outward = basis.side * point.x + basis.up * point.y;
+                let across = basis.side * point.normal_x + basis.up * point.normal_y;
+                let normal = if self.width_growth == 0.0 {
+                    across
+                } else {
+                    let lean = self.width_growth * point.reach();
+                    (across - tangent * lean) * (1.0 / (1.0 + lean * lean).sqrt())
+                };
+                (centre + outward * self.half_width, normal)
+            }
+            Stance::Flattened { upright, sin, cos } => {
+                let (x, y) = (cos * point.x - sin * point.y, sin * point.x + cos * point.y);
+                // Each times the other's half: the inverse transpose, times the product of both halves.
+                let across_x = (cos * point.normal_x - sin * point.normal_y) * self.half_height;
+                let across_y = (sin * point.normal_x + cos * point.normal_y) * self.half_width;
+                let lean = self.width_growth * x * across_x + self.height_growth * y * across_y;
+                let across = upright.side * across_x + upright.up * across_y;
+                let length_squared = across_x * across_x + across_y * across_y + lean * lean;
+                let outward = upright.side * (x * self.half_width) + upright.up * (y * self.half_height);
+                (centre + outward, (across - tangent * lean) * (1.0 / length_squared.sqrt()))
+            }
         };
         Vertex { position: position.to_array(), normal: normal.to_array() }
     }
+}
+
+/// How a section stands on a [`Ring`]: the same for all its vertices.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stance {
+    /// Of a yarn that is round there. Flattening does nothing, so the frame may turn with the section.
+    Round {
+        /// The frame, turned by the roll.
+        basis: Basis,
+    },
+    /// Of a flattened yarn: the section turns inside an outline that does not.
+    Flattened {
+        /// The upright frame.
+        upright: Basis,
+        /// The sine of the roll.
+        sin: f32,
+        /// The cosine of the roll.
+        cos: f32,
+    },
 }
 
 /// The centrelines of a fabric: rings of all yarns one after the other.

@@ -330,5 +330,5 @@ const _: () = {
     const fn sends<T: Send + ?Sized>() {}
     sends::<Session>();
     // What a session counts as read.
-    assert!(size_of::<Vertex>() == 24 && size_of::<Ring>() == 32);
+    assert!(size_of::<Vertex>() == 24 && size_of::<Ring>() == 48);
 };

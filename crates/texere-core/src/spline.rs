@@ -24,9 +24,8 @@ pub struct Segment {
     span: Vec3,
     /// Coefficients of t, t², t³.
     position: [Vec3; 3],
-    radius: f32,
-    radius_terms: [f32; 3],
-    radius_floor: f32,
+    half_width: Size,
+    half_height: Size,
     /// A squared velocity that counts as none.
     at_rest: f32,
 }
@@ -38,12 +37,16 @@ pub struct Sample {
     pub offset: Vec3,
     /// Centre, mm.
     pub centre: Vec3,
-    /// Radius, mm; always positive.
-    pub radius: f32,
+    /// Half the width, mm; always positive.
+    pub half_width: f32,
+    /// Half the height, mm; always positive.
+    pub half_height: f32,
     /// Unit tangent.
     pub tangent: Vec3,
-    /// dr/ds, the growth of the radius along the yarn (mm per mm), within ±[`SLOPE_LIMIT`].
-    pub slope: f32,
+    /// The growth of the half width along the yarn (mm per mm), within ±[`SLOPE_LIMIT`].
+    pub width_growth: f32,
+    /// The growth of the half height, likewise.
+    pub height_growth: f32,
 }
 
 /// A velocity whose square is below this share of the segment's squared size counts as none.
@@ -56,11 +59,11 @@ pub const ZERO_VELOCITY: f32 = 1e-12;
 /// shorter ones leave the normal range of `f32`, and some devices flush them to zero.
 pub const NO_LENGTH: f32 = 1e-30;
 
-/// The steepest dr/ds that tilts a normal. At 1e4 the normal is within 1e-4 rad of the axis, and the square of
+/// The steepest growth of a half width or half height that tilts a normal. At 1e4 the normal is within 1e-4 rad of the axis, and the square of
 /// anything steeper would start to leave the range of `f32`.
 pub const SLOPE_LIMIT: f32 = 1e4;
 
-/// The radius between two control points never falls below this share of the thinner one.
+/// Half width and half height between two control points never fall below this share of the smaller one.
 ///
 /// A spline overshoots: between a slub and a thin place it can dip below zero, where there is no tube.
 pub const RADIUS_FLOOR: f32 = 0.5;
@@ -73,19 +76,13 @@ impl Segment {
         let [before, start, end, after] = points;
         let origin = start.position();
         let (a, b, c) = (before.position() - origin, end.position() - origin, after.position() - origin);
-        let (ra, rb, rc) =
-            (before.radius - start.radius, end.radius - start.radius, after.radius - start.radius);
+        let size = |half: fn(&ControlPoint) -> f32| Size::new([before, start, end, after].map(half), s);
         Self {
             start: origin,
             span: b,
             position: [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)],
-            radius: start.radius,
-            radius_terms: [
-                (rb - ra) * s,
-                ra * (2.0 * s) + rb * (3.0 - 2.0 * s) - rc * s,
-                (rc - ra) * s + rb * (s - 2.0),
-            ],
-            radius_floor: start.radius.min(end.radius) * RADIUS_FLOOR,
+            half_width: size(ControlPoint::half_width),
+            half_height: size(ControlPoint::half_height),
             at_rest: (ZERO_VELOCITY * (a.length_squared() + b.length_squared() + c.length_squared()))
                 .max(NO_LENGTH),
         }
@@ -106,26 +103,26 @@ impl Segment {
     #[inline]
     pub fn sample(&self, t: f32) -> Sample {
         let [c1, c2, c3] = self.position;
-        let [r1, r2, r3] = self.radius_terms;
         let offset = (c1 + (c2 + c3 * t) * t) * t;
         let velocity = c1 + (c2 * 2.0 + c3 * (3.0 * t)) * t;
-        let radius = self.radius + (r1 + (r2 + r3 * t) * t) * t;
-        let growth = r1 + (r2 * 2.0 + r3 * (3.0 * t)) * t;
-
         let speed_squared = velocity.length_squared();
-        let (tangent, slope) = if speed_squared > self.at_rest {
+        let (tangent, inverse) = if speed_squared > self.at_rest {
             let inverse = 1.0 / speed_squared.sqrt();
-            (velocity * inverse, (growth * inverse).clamp(-SLOPE_LIMIT, SLOPE_LIMIT))
+            (velocity * inverse, inverse)
         } else {
+            // Where the yarn does not move nothing grows along it.
             (self.direction_at_rest(t), 0.0)
         };
-        let held = radius < self.radius_floor;
+        let (half_width, width_growth) = self.half_width.sample(t, inverse);
+        let (half_height, height_growth) = self.half_height.sample(t, inverse);
         Sample {
             offset,
             centre: self.start + offset,
-            radius: if held { self.radius_floor } else { radius },
+            half_width,
+            half_height,
             tangent,
-            slope: if held { 0.0 } else { slope },
+            width_growth,
+            height_growth,
         }
     }
 
@@ -142,5 +139,35 @@ impl Segment {
         } else {
             Vec3::X
         }
+    }
+}
+
+/// A half width or half height between two control points, as a polynomial of t.
+#[derive(Debug, Clone, Copy)]
+struct Size {
+    start: f32,
+    /// Coefficients of t, t², t³.
+    terms: [f32; 3],
+    floor: f32,
+}
+
+impl Size {
+    #[inline]
+    fn new([before, start, end, after]: [f32; 4], s: f32) -> Self {
+        let (a, b, c) = (before - start, end - start, after - start);
+        Self {
+            start,
+            terms: [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)],
+            floor: start.min(end) * RADIUS_FLOOR,
+        }
+    }
+
+    /// The size at `t` and its growth along the yarn, where `inverse` is one over the spline's speed.
+    #[inline]
+    fn sample(&self, t: f32, inverse: f32) -> (f32, f32) {
+        let [r1, r2, r3] = self.terms;
+        let size = self.start + (r1 + (r2 + r3 * t) * t) * t;
+        let growth = (r1 + (r2 * 2.0 + r3 * (3.0 * t)) * t) * inverse;
+        if size < self.floor { (self.floor, 0.0) } else { (size, growth.clamp(-SLOPE_LIMIT, SLOPE_LIMIT)) }
     }
 }

@@ -189,7 +189,7 @@ impl Yarns {
     /// Checks and joins a layout, its materials and its control points (as many as the layout says, yarn after yarn).
     ///
     /// **Errors**: [`YarnError`] for a wrong number of points or materials, and for the first control point that is not
-    /// finite, lies beyond [`COORDINATE_LIMIT`], or whose radius is outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\].
+    /// finite, lies beyond [`COORDINATE_LIMIT`], or whose half width or half height is outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\].
     pub fn new(
         layout: Layout,
         materials: Vec<Material>,
@@ -291,37 +291,34 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
     Ok(())
 }
 
-/// What a control point's components may be, mm.
-const BOUNDS: [(&str, f32, f32); 4] = [
-    ("x", -COORDINATE_LIMIT, COORDINATE_LIMIT),
-    ("y", -COORDINATE_LIMIT, COORDINATE_LIMIT),
-    ("z", -COORDINATE_LIMIT, COORDINATE_LIMIT),
-    ("radius", RADIUS_MIN, RADIUS_MAX),
-];
-
 fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
-    // All of them in vectors; which one is at fault is asked only where one is.
-    let mut sound = [true; 4];
-    for each in bytemuck::cast_slice::<_, [f32; 4]>(points) {
-        for ((sound, value), (_, low, high)) in sound.iter_mut().zip(each).zip(BOUNDS) {
-            *sound &= (*value >= low) & (*value <= high);
-        }
-    }
-    if sound == [true; 4] {
+    // All of them without a branch; which one is at fault is asked only where one is.
+    let within = |value: f32, low: f32, high: f32| (value >= low) & (value <= high);
+    let sound = points.iter().fold(true, |sound, point| {
+        let placed = [point.x, point.y, point.z].map(|at| within(at, -COORDINATE_LIMIT, COORDINATE_LIMIT));
+        let sized =
+            [point.half_width(), point.half_height()].map(|half| within(half, RADIUS_MIN, RADIUS_MAX));
+        sound & placed[0] & placed[1] & placed[2] & sized[0] & sized[1]
+    });
+    if sound {
         return Ok(());
     }
     for (point, each) in points.iter().enumerate() {
-        let values: [f32; 4] = bytemuck::cast(*each);
-        for (value, (field, low, high)) in values.into_iter().zip(BOUNDS) {
+        for (field, value) in [("x", each.x), ("y", each.y), ("z", each.z)] {
             if !value.is_finite() {
                 return Err(YarnError::NotFinite { yarn, point, field, value });
             }
-            if !(low..=high).contains(&value) {
-                return Err(if field == "radius" {
-                    YarnError::Radius { yarn, point, radius: value, low, high }
-                } else {
-                    YarnError::TooFar { yarn, point, field, value, limit: high }
-                });
+            if value.abs() > COORDINATE_LIMIT {
+                return Err(YarnError::TooFar { yarn, point, field, value, limit: COORDINATE_LIMIT });
+            }
+        }
+        for (field, size) in [("half width", each.half_width()), ("half height", each.half_height())] {
+            if size.is_nan() {
+                return Err(YarnError::NotFinite { yarn, point, field, value: size });
+            }
+            let (low, high) = (RADIUS_MIN, RADIUS_MAX);
+            if !(low..=high).contains(&size) {
+                return Err(YarnError::Size { yarn, point, field, size, low, high });
             }
         }
     }

@@ -1,11 +1,11 @@
 //! Algorithm 3 of the paper: for each yarn, for each ring, nc vertices; and the triangles between.
 
-use texere_core::{Chunk, MeshMut, Topology, index_pattern};
+use texere_core::{Chunk, MeshMut, Ring, Topology, index_pattern};
 
 use crate::caps::caps;
-use crate::engine::{ChunkRings, Work};
+use crate::engine::Work;
 
-pub(super) fn mesh(work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>) {
+pub(super) fn mesh(work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>) {
     let plan = &work.plan;
     let sides = plan.settings().sides as usize;
     let indexed = plan.settings().topology == Topology::Indexed;
@@ -15,11 +15,11 @@ pub(super) fn mesh(work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<
         let outline = plan.outline(plan.yarn(part.yarn as usize).section as usize);
         let first_ring = part.first_vertex as usize / sides;
         for k in 0..part.rings as usize {
-            let (ring, slope) = (&rings.rings[first_ring + k], rings.slopes[first_ring + k]);
+            let ring = &rings[first_ring + k];
             let first_vertex = part.first_vertex as usize + k * sides;
-            let basis = ring.basis();
+            let stance = ring.stance();
             for (vertex, point) in out.vertices[first_vertex..][..sides].iter_mut().zip(outline) {
-                *vertex = ring.vertex(&basis, slope, point);
+                *vertex = ring.vertex(&stance, point);
             }
             if indexed && k + 1 < part.rings as usize {
                 let first_index = part.first_index as usize + k * pattern.len();

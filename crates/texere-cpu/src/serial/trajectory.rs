@@ -2,9 +2,9 @@
 
 use texere_core::{Chunk, Ring};
 
-use crate::engine::{ChunkRings, Work};
+use crate::engine::Work;
 
-pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
+pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut [Ring]) {
     let plan = &work.plan;
     for (block, number) in chunk.blocks().iter().zip(chunk.block_range().start..) {
         let yarn = block.yarn as usize;
@@ -19,8 +19,7 @@ pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
         for k in 0..block.rings {
             let ring = block.first_ring + k;
             let place = (block.chunk_ring + k) as usize;
-            out.rings[place] = Ring::new(&here.sample, work.rolls.closed_up(plan, yarn, ring, roll));
-            out.slopes[place] = here.sample.slope;
+            out[place] = Ring::new(&here.sample, work.rolls.closed_up(plan, yarn, ring, roll));
             if k + 1 < block.rings {
                 let next = at(ring + 1);
                 if !level {

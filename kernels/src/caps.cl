@@ -7,7 +7,7 @@
 // A lane a cap vertex: the end ring's position again, with the end's own normal; and, of the cap's sides - 2
 // triangles, one a lane.
 __kernel __attribute__((reqd_work_group_size(CAPS_GROUP, 1, 1)))
-void caps(const Params params, const ulong window, __global const float4 *points, __global const CapRow *rows,
+void caps(const Params params, const ulong window, __global const uint4 *points, __global const CapRow *rows,
           __global const uint *cap_pattern, __global float *vertices, __global uint *indices) {
     size_t number = get_global_id(0);
     if (number >= (size_t)params.caps * params.sides) {
@@ -17,8 +17,7 @@ void caps(const Params params, const ulong window, __global const float4 *points
     uint corner = number % params.sides;
 
     // The start is t = 0 of the first interval, the finish t = 1 of the last.
-    __global const float4 *end = points + window + cap.first_point;
-    Segment segment = segment_new(end[0], end[1], end[2], end[3], params.s);
+    Segment segment = segment_new(points + window + cap.first_point, params.s);
     Sample sample = segment_sample(&segment, cap.end == 0u ? 0.0f : 1.0f);
     float3 normal = sample.tangent * (cap.end == 0u ? -1.0f : 1.0f);
 

@@ -55,9 +55,10 @@ typedef struct {
     uint padding;
 } Params;
 
-// A control point (Rust: ControlPoint) is a float4 of x, y, z, radius.
+// A control point (Rust: ControlPoint) is a uint4: the bits of x, y, z, and two half floats, half width and half height.
 // A section point (Rust: SectionPoint) is a float4 of x, y, normal x, normal y.
-// A ring (Rust: Ring) is two uint4: the bits of centre and radius, the bits of the tangent and the roll.
+// A ring (Rust: Ring) is three uint4: the bits of centre and half width, of the tangent and the roll, of half height and both
+// growths.
 // A vertex (Rust: Vertex) is six floats: x y z nx ny nz.
 
 float dot3(float3 a, float3 b) {
@@ -120,6 +121,7 @@ float atan2_turns(float y, float x) {
 // ---- Segment: the spline between P[j] and P[j+1], relative to P[j] ----
 
 typedef struct {
+    // Position and half width of P[j].
     float4 start;
     // P[j+1] - P[j].
     float4 span;
@@ -127,7 +129,12 @@ typedef struct {
     float4 c1;
     float4 c2;
     float4 c3;
-    float radius_floor;
+    // Half height of P[j], and its coefficients.
+    float4 height;
+    // Whether all four control points are round: the height is the width then.
+    bool is_round;
+    // The least half width and half height.
+    float2 floors;
     // A squared velocity that counts as none.
     float at_rest;
 } Segment;
@@ -136,26 +143,66 @@ typedef struct {
     // Centre relative to the segment's first control point.
     float3 offset;
     float3 centre;
-    float radius;
+    float half_width;
+    float half_height;
     float3 tangent;
-    // dr/ds, the growth of the radius along the yarn.
-    float slope;
+    // How both grow along the yarn.
+    float width_growth;
+    float height_growth;
 } Sample;
 
-Segment segment_new(float4 before, float4 start, float4 end, float4 after, float s) {
-    float4 a = before - start;
-    float4 b = end - start;
-    float4 c = after - start;
+// Position and half width of a control point.
+float4 point_wide(uint4 point) {
+    uint halves = point.w;
+    return (float4)(as_float(point.x), as_float(point.y), as_float(point.z), vload_half(0, (const half *)&halves));
+}
+
+// Its half height.
+float point_height(uint4 point) {
+    uint halves = point.w;
+    return vload_half(1, (const half *)&halves);
+}
+
+bool point_is_round(uint4 point) {
+    return (point.w & 0xffffu) == point.w >> 16;
+}
+
+// Coefficients of t (x), t^2 (y) and t^3 (z) for a size with these differences from its start.
+float3 size_terms(float a, float b, float c, float s) {
+    return (float3)((b - a) * s, a * (2.0f * s) + b * (3.0f - 2.0f * s) - c * s, (c - a) * s + b * (s - 2.0f));
+}
+
+// From the four control points before, at and after both ends.
+Segment segment_new(__global const uint4 *points, float s) {
+    uint4 before = points[0];
+    uint4 here = points[1];
+    uint4 next = points[2];
+    uint4 after = points[3];
     Segment segment;
-    segment.start = start;
+    segment.start = point_wide(here);
+    float4 a = point_wide(before) - segment.start;
+    float4 b = point_wide(next) - segment.start;
+    float4 c = point_wide(after) - segment.start;
     segment.span = b;
     segment.c1 = (b - a) * s;
     segment.c2 = a * (2.0f * s) + b * (3.0f - 2.0f * s) - c * s;
     segment.c3 = (c - a) * s + b * (s - 2.0f);
-    segment.radius_floor = min(start.w, end.w) * RADIUS_FLOOR;
+    float start = point_height(here);
+    float end = point_height(next);
+    segment.height = (float4)(start, size_terms(point_height(before) - start, end - start, point_height(after) - start, s));
+    segment.is_round =
+        point_is_round(before) && point_is_round(here) && point_is_round(next) && point_is_round(after);
+    segment.floors = (float2)(min(segment.start.w, point_wide(next).w), min(start, end)) * RADIUS_FLOOR;
     segment.at_rest =
         max(ZERO_VELOCITY * (dot3(a.xyz, a.xyz) + dot3(b.xyz, b.xyz) + dot3(c.xyz, c.xyz)), NO_LENGTH);
     return segment;
+}
+
+// A size at t (x), and its growth along the yarn (y), where `inverse` is one over the spline's speed.
+float2 size_sample(float start, float3 terms, float least, float t, float inverse) {
+    float size = start + (terms.x + (terms.y + terms.z * t) * t) * t;
+    float growth = (terms.x + (terms.y * 2.0f + terms.z * (3.0f * t)) * t) * inverse;
+    return size < least ? (float2)(least, 0.0f) : (float2)(size, clamp(growth, -SLOPE_LIMIT, SLOPE_LIMIT));
 }
 
 // The tangent where the velocity vanishes: the limit from the right, or from the left at t = 1.
@@ -175,24 +222,30 @@ float3 direction_at_rest(const Segment *segment, float t) {
 }
 
 Sample segment_sample(const Segment *segment, float t) {
-    float4 offset = (segment->c1 + (segment->c2 + segment->c3 * t) * t) * t;
-    float4 velocity = segment->c1 + (segment->c2 * 2.0f + segment->c3 * (3.0f * t)) * t;
-    float radius = segment->start.w + offset.w;
-    float speed_squared = dot3(velocity.xyz, velocity.xyz);
+    float3 offset = (segment->c1.xyz + (segment->c2.xyz + segment->c3.xyz * t) * t) * t;
+    float3 velocity = segment->c1.xyz + (segment->c2.xyz * 2.0f + segment->c3.xyz * (3.0f * t)) * t;
+    float speed_squared = dot3(velocity, velocity);
+    // Where the yarn does not move nothing grows along it.
+    float inverse = 0.0f;
     Sample sample;
     if (speed_squared > segment->at_rest) {
-        float inverse = 1.0f / sqrt(speed_squared);
-        sample.tangent = velocity.xyz * inverse;
-        sample.slope = clamp(velocity.w * inverse, -SLOPE_LIMIT, SLOPE_LIMIT);
+        inverse = 1.0f / sqrt(speed_squared);
+        sample.tangent = velocity * inverse;
     } else {
         sample.tangent = direction_at_rest(segment, t);
-        sample.slope = 0.0f;
     }
-    bool held = radius < segment->radius_floor;
-    sample.offset = offset.xyz;
-    sample.centre = segment->start.xyz + offset.xyz;
-    sample.radius = held ? segment->radius_floor : radius;
-    sample.slope = held ? 0.0f : sample.slope;
+    float3 width_terms = (float3)(segment->c1.w, segment->c2.w, segment->c3.w);
+    float2 width = size_sample(segment->start.w, width_terms, segment->floors.x, t, inverse);
+    float2 height = width;
+    if (!segment->is_round) {
+        height = size_sample(segment->height.x, segment->height.yzw, segment->floors.y, t, inverse);
+    }
+    sample.offset = offset;
+    sample.centre = segment->start.xyz + offset;
+    sample.half_width = width.x;
+    sample.half_height = height.x;
+    sample.width_growth = width.y;
+    sample.height_growth = height.y;
     return sample;
 }
 
@@ -213,7 +266,7 @@ typedef struct {
 } RingSample;
 
 // Ring `k` from the block's first on; also the one after the block's last. `points` start at the window.
-RingSample ring_sample(__global const float4 *points, const Params *params, const YarnRow *yarn, const Block *block,
+RingSample ring_sample(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
                        uint k) {
     uint per_interval = params->subdivisions + 1u;
     uint place = block->first_ring % per_interval + k;
@@ -226,7 +279,7 @@ RingSample ring_sample(__global const float4 *points, const Params *params, cons
         point -= 1u;
         t = 1.0f;
     }
-    Segment segment = segment_new(points[point], points[point + 1u], points[point + 2u], points[point + 3u], params->s);
+    Segment segment = segment_new(points + point, params->s);
     RingSample ring;
     ring.sample = segment_sample(&segment, t);
     ring.span = segment.span.xyz;
@@ -321,19 +374,79 @@ uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
 
 // ---- Vertex ----
 
-// Where the vertex at `point` of a section lies: `centre` with the radius.
-float3 position_at(float4 centre, float3 side, float3 up, float4 point) {
-    float3 outward = side * point.x + up * point.y;
-    return centre.xyz + outward * centre.w;
+// How a section stands on a ring: the same for all its vertices.
+typedef struct {
+    // Centre, half width.
+    float4 centre;
+    // Unit tangent, growth of the half width.
+    float4 tangent;
+    // Half height, and its growth; the half height is below zero where the yarn is round, and the same as the width.
+    float half_height;
+    float height_growth;
+    // Of a round yarn the frame turned by the roll, else the upright frame.
+    float3 side;
+    float3 up;
+    // Sine and cosine of the roll, for a flattened yarn.
+    float2 sin_cos;
+} Stance;
+
+// What says that a yarn is round, in the place of its half height.
+#define IS_ROUND -1.0f
+
+// `side` is as `side_of` gives it.
+Stance stance_new(float4 centre, float4 tangent, float4 side, float height_growth, uint roll) {
+    Stance stance;
+    stance.centre = centre;
+    stance.tangent = tangent;
+    stance.half_height = side.w;
+    stance.height_growth = height_growth;
+    stance.side = side.xyz;
+    stance.up = up_of(tangent.xyz, side.xyz);
+    stance.sin_cos = (float2)(0.0f, 1.0f);
+    if (side.w >= 0.0f) {
+        stance.sin_cos = turn_sin_cos(roll);
+    }
+    return stance;
 }
 
-// Its normal: `tangent` with the slope.
-float3 normal_at(float4 tangent, float3 side, float3 up, float4 point) {
-    float3 across = side * point.z + up * point.w;
-    // Most yarns are as thick here as there, and need no square root.
-    if (tangent.w == 0.0f) {
-        return across;
+// The side that a stance takes, and the half height, or that the yarn is round.
+float4 side_of(const Sample *sample, uint roll) {
+    if (sample->half_width == sample->half_height && sample->width_growth == sample->height_growth) {
+        return (float4)(side_standing(sample->tangent, roll), IS_ROUND);
     }
-    float lean = tangent.w * (point.x * point.z + point.y * point.w);
-    return (across - tangent.xyz * lean) * (1.0f / sqrt(1.0f + lean * lean));
+    return (float4)(basis_upright(sample->tangent).side, sample->half_height);
+}
+
+// Where the vertex at `point` of a section lies.
+float3 position_at(const Stance *stance, float4 point) {
+    if (stance->half_height < 0.0f) {
+        float3 outward = stance->side * point.x + stance->up * point.y;
+        return stance->centre.xyz + outward * stance->centre.w;
+    }
+    float x = stance->sin_cos.y * point.x - stance->sin_cos.x * point.y;
+    float y = stance->sin_cos.x * point.x + stance->sin_cos.y * point.y;
+    return stance->centre.xyz + (stance->side * (x * stance->centre.w) + stance->up * (y * stance->half_height));
+}
+
+// Its normal.
+float3 normal_at(const Stance *stance, float4 point) {
+    float4 tangent = stance->tangent;
+    if (stance->half_height < 0.0f) {
+        float3 across = stance->side * point.z + stance->up * point.w;
+        // Most yarns are as thick here as there, and need no square root.
+        if (tangent.w == 0.0f) {
+            return across;
+        }
+        float lean = tangent.w * (point.x * point.z + point.y * point.w);
+        return (across - tangent.xyz * lean) * (1.0f / sqrt(1.0f + lean * lean));
+    }
+    float x = stance->sin_cos.y * point.x - stance->sin_cos.x * point.y;
+    float y = stance->sin_cos.x * point.x + stance->sin_cos.y * point.y;
+    // Each times the other's half: the inverse transpose, times the product of both halves.
+    float across_x = (stance->sin_cos.y * point.z - stance->sin_cos.x * point.w) * stance->half_height;
+    float across_y = (stance->sin_cos.x * point.z + stance->sin_cos.y * point.w) * stance->centre.w;
+    float lean = tangent.w * x * across_x + stance->height_growth * y * across_y;
+    float3 across = stance->side * across_x + stance->up * across_y;
+    float length_squared = across_x * across_x + across_y * across_y + lean * lean;
+    return (across - tangent.xyz * lean) * (1.0f / sqrt(length_squared));
 }

@@ -27,11 +27,9 @@ Share share_of(uint lane, uint stores) {
 // Four floats of ring `ring`'s vertices, the first of which is number `first` of its vertex, an even one: so they hold
 // no more than one normal, or the end of one, and one position, or the start of one.
 float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float4 normal_point, float4 position_point) {
-    float4 tangent = rings->tangent[ring];
-    float3 side = rings->side[ring].xyz;
-    float3 up = up_of(tangent.xyz, side);
-    float3 normal = normal_at(tangent, side, up, normal_point);
-    float3 position = position_at(rings->centre[ring], side, up, position_point);
+    Stance stance = stance_of(rings, ring);
+    float3 normal = normal_at(&stance, normal_point);
+    float3 position = position_at(&stance, position_point);
     if (first == 0u) {
         return (float4)(position, normal.x);
     }
@@ -40,11 +38,9 @@ float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float
 
 // Two floats likewise.
 float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4 point) {
-    float4 tangent = rings->tangent[ring];
-    float3 side = rings->side[ring].xyz;
-    float3 up = up_of(tangent.xyz, side);
-    float3 normal = normal_at(tangent, side, up, point);
-    float3 position = position_at(rings->centre[ring], side, up, point);
+    Stance stance = stance_of(rings, ring);
+    float3 normal = normal_at(&stance, point);
+    float3 position = position_at(&stance, point);
     if (first == 0u) {
         return position.xy;
     }
@@ -53,7 +49,7 @@ float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4
 
 // A workgroup, of BLOCK_RINGS lanes or more, a row of the chunk's block table. For an even number of sides, so that
 // every block starts at a multiple of 16 bytes.
-__kernel void mesh(const Params params, const ulong window, __global const float4 *points,
+__kernel void mesh(const Params params, const ulong window, __global const uint4 *points,
                    __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
                    __global const uint *whole, __global const float4 *outlines, __global const uint4 *pattern,
                    __global float4 *vertices, __global uint4 *indices) {
@@ -88,7 +84,7 @@ __kernel void mesh(const Params params, const ulong window, __global const float
 }
 
 // The same for an odd number of sides, 8 bytes at a time.
-__kernel void mesh_odd(const Params params, const ulong window, __global const float4 *points,
+__kernel void mesh_odd(const Params params, const ulong window, __global const uint4 *points,
                        __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
                        __global const uint *whole, __global const float4 *outlines, __global const uint2 *pattern,
                        __global float2 *vertices, __global uint2 *indices) {

@@ -7,12 +7,10 @@
 
 #define PER_YARN_GROUP 64
 
-// Algorithm 2: for each control interval, K + 1 rings. The growth of the radius, for which a ring has no room, goes to
-// `slopes`.
+// Algorithm 2: for each control interval, K + 1 rings.
 __kernel __attribute__((reqd_work_group_size(PER_YARN_GROUP, 1, 1)))
-void trajectory_per_yarn(const Params params, const ulong window, __global const float4 *points,
-                         __global const YarnRow *yarns, __global const Block *blocks, __global uint4 *rings,
-                         __global float *slopes) {
+void trajectory_per_yarn(const Params params, const ulong window, __global const uint4 *points,
+                         __global const YarnRow *yarns, __global const Block *blocks, __global uint4 *rings) {
     size_t number = get_global_id(0);
     if (number >= params.blocks) {
         return;
@@ -22,7 +20,7 @@ void trajectory_per_yarn(const Params params, const ulong window, __global const
     uint intervals = (yarns[part.yarn].rings - 1u) / per_interval;
     uint interval = part.first_ring / per_interval;
     uint place = part.first_ring % per_interval;
-    __global const float4 *point = points + window + part.first_point;
+    __global const uint4 *point = points + window + part.first_point;
     // The yarn's last ring is t = 1 of the last interval.
     if (interval == intervals) {
         interval -= 1u;
@@ -30,25 +28,39 @@ void trajectory_per_yarn(const Params params, const ulong window, __global const
         place = per_interval;
     }
     for (uint ring = 0u; ring < part.rings; interval++, point++) {
-        Segment segment = segment_new(point[0], point[1], point[2], point[3], params.s);
+        Segment segment = segment_new(point, params.s);
         uint end = interval + 1u == intervals ? per_interval + 1u : per_interval;
         for (; place < end && ring < part.rings; place++, ring++) {
             float t = place == per_interval ? 1.0f : (float)place * params.step;
             Sample sample = segment_sample(&segment, t);
-            size_t at = (size_t)part.chunk_ring + ring;
-            rings[2 * at] = as_uint4((float4)(sample.centre, sample.radius));
-            rings[2 * at + 1] = as_uint4((float4)(sample.tangent, 0.0f));
-            slopes[at] = sample.slope;
+            __global uint4 *out = rings + 3 * ((size_t)part.chunk_ring + ring);
+            out[0] = as_uint4((float4)(sample.centre, sample.half_width));
+            out[1] = as_uint4((float4)(sample.tangent, 0.0f));
+            out[2] = as_uint4((float4)(sample.half_height, sample.width_growth, sample.height_growth, 0.0f));
         }
         place = 0u;
     }
 }
 
+// How an untwisted section stands on a ring of algorithm 2.
+Stance stance_at(__global const uint4 *ring) {
+    float4 centre = as_float4(ring[0]);
+    float4 tangent = as_float4(ring[1]);
+    float4 size = as_float4(ring[2]);
+    Sample sample;
+    sample.tangent = tangent.xyz;
+    sample.half_width = centre.w;
+    sample.half_height = size.x;
+    sample.width_growth = size.y;
+    sample.height_growth = size.z;
+    return stance_new(centre, (float4)(tangent.xyz, size.y), side_of(&sample, 0u), size.z, 0u);
+}
+
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.
 __kernel __attribute__((reqd_work_group_size(PER_YARN_GROUP, 1, 1)))
 void mesh_per_yarn(const Params params, __global const YarnRow *yarns, __global const Block *blocks,
-                   __global const uint4 *rings, __global const float *slopes, __global const float4 *outlines,
-                   __global const uint *pattern, __global float *vertices, __global uint *indices) {
+                   __global const uint4 *rings, __global const float4 *outlines, __global const uint *pattern,
+                   __global float *vertices, __global uint *indices) {
     size_t number = get_global_id(0);
     if (number >= params.blocks) {
         return;
@@ -57,16 +69,12 @@ void mesh_per_yarn(const Params params, __global const YarnRow *yarns, __global 
     uint sides = params.sides;
     __global const float4 *outline = outlines + yarns[part.yarn].section * sides;
     for (uint ring = 0u; ring < part.rings; ring++) {
-        size_t at = (size_t)part.chunk_ring + ring;
-        float4 centre = as_float4(rings[2 * at]);
-        float4 tangent = as_float4(rings[2 * at + 1]);
-        tangent.w = slopes[at];
-        Basis basis = basis_upright(tangent.xyz);
+        Stance stance = stance_at(rings + 3 * ((size_t)part.chunk_ring + ring));
         uint first_vertex = part.first_vertex + ring * sides;
         for (uint k = 0u; k < sides; k++) {
             __global float *out = vertices + 6 * (size_t)(first_vertex + k);
-            vstore3(position_at(centre, basis.side, basis.up, outline[k]), 0, out);
-            vstore3(normal_at(tangent, basis.side, basis.up, outline[k]), 0, out + 3);
+            vstore3(position_at(&stance, outline[k]), 0, out);
+            vstore3(normal_at(&stance, outline[k]), 0, out + 3);
         }
         if (params.indexed != 0u && ring < part.quads) {
             uint first_index = part.first_index + ring * 6u * sides;

@@ -5,11 +5,13 @@
 // The rings of a block, each with its side and its roll; `up_of` makes the rest of the basis, sooner than memory for it
 // would: the less a workgroup has, the more of them run.
 typedef struct {
-    // Centre, radius.
+    // Centre, half width.
     float4 centre[BLOCK_RINGS];
-    // Unit tangent, slope.
+    // Unit tangent, growth of the half width.
     float4 tangent[BLOCK_RINGS];
+    // As `side_of` gives it.
     float4 side[BLOCK_RINGS];
+    float height_growth[BLOCK_RINGS];
     uint roll[BLOCK_RINGS];
     // The turns of each eight rings.
     uint eights[BLOCK_RINGS / 8];
@@ -17,14 +19,14 @@ typedef struct {
 
 // Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the workgroup, which has
 // at least BLOCK_RINGS, must come here.
-void block_rings(__global const float4 *points, const Params *params, const YarnRow *yarn, const Block *block,
+void block_rings(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
                  __global const uint *rolls, __global const uint *whole, size_t row, uint lane,
                  __local BlockRings *rings) {
     RingSample here;
     uint roll = 0u;
     if (lane < block->rings) {
         here = ring_sample(points, params, yarn, block, lane);
-        rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.slope);
+        rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.width_growth);
         // The step from the ring before wants the offset; the side takes its place afterwards.
         rings->side[lane] = (float4)(here.sample.offset, 0.0f);
     }
@@ -59,9 +61,16 @@ void block_rings(__global const float4 *points, const Params *params, const Yarn
         }
     }
     if (lane < block->rings) {
-        rings->centre[lane] = (float4)(here.sample.centre, here.sample.radius);
-        rings->side[lane] = (float4)(side_standing(here.sample.tangent, roll), 0.0f);
+        rings->centre[lane] = (float4)(here.sample.centre, here.sample.half_width);
+        rings->side[lane] = side_of(&here.sample, roll);
+        rings->height_growth[lane] = here.sample.height_growth;
         rings->roll[lane] = roll;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+// How a section stands on ring `ring`.
+Stance stance_of(__local const BlockRings *rings, uint ring) {
+    return stance_new(rings->centre[ring], rings->tangent[ring], rings->side[ring], rings->height_growth[ring],
+                      rings->roll[ring]);
 }

@@ -6,7 +6,7 @@
 
 // A workgroup of TRAJECTORY_GROUP a row of the chunk's block table.
 __kernel __attribute__((reqd_work_group_size(TRAJECTORY_GROUP, 1, 1)))
-void trajectory(const Params params, const ulong window, __global const float4 *points,
+void trajectory(const Params params, const ulong window, __global const uint4 *points,
                 __global const YarnRow *yarns, __global const Block *blocks, __global const uint *rolls,
                 __global const uint *whole, __global uint4 *rings) {
     __local BlockRings standing;
@@ -16,15 +16,20 @@ void trajectory(const Params params, const ulong window, __global const float4 *
     YarnRow yarn = yarns[block.yarn];
     block_rings(points + window, &params, &yarn, &block, rolls, whole, row, lane, &standing);
 
-    // Two stores of 16 bytes a ring, contiguous across lanes.
-    __global uint4 *out = rings + 2 * (size_t)block.chunk_ring;
-    for (uint piece = lane; piece < 2u * block.rings; piece += TRAJECTORY_GROUP) {
-        uint ring = piece / 2u;
-        if (piece % 2u == 0u) {
-            out[piece] = as_uint4(standing.centre[ring]);
-        } else {
-            float4 tangent = standing.tangent[ring];
+    // Three stores of 16 bytes a ring, contiguous across lanes.
+    __global uint4 *out = rings + 3 * (size_t)block.chunk_ring;
+    for (uint piece = lane; piece < 3u * block.rings; piece += TRAJECTORY_GROUP) {
+        uint ring = piece / 3u;
+        float4 centre = standing.centre[ring];
+        float4 tangent = standing.tangent[ring];
+        if (piece % 3u == 0u) {
+            out[piece] = as_uint4(centre);
+        } else if (piece % 3u == 1u) {
             out[piece] = (uint4)(as_uint(tangent.x), as_uint(tangent.y), as_uint(tangent.z), standing.roll[ring]);
+        } else {
+            float half_height = standing.side[ring].w;
+            half_height = half_height < 0.0f ? centre.w : half_height;
+            out[piece] = (uint4)(as_uint(half_height), as_uint(tangent.w), as_uint(standing.height_growth[ring]), 0u);
         }
     }
 }

@@ -22,8 +22,7 @@ fn caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     let corner = number % params.sides;
 
     // The start is t = 0 of the first interval, the finish t = 1 of the last.
-    let end = cap.first_point;
-    let segment = segment_new(points[end], points[end + 1u], points[end + 2u], points[end + 3u], params.s);
+    let segment = segment_new(cap.first_point, params.s);
     let sample = segment_sample(segment, select(1.0, 0.0, cap.end == 0u));
     let normal = sample.tangent * select(1.0, -1.0, cap.end == 0u);
 

@@ -53,14 +53,15 @@ struct Params {
     padding: u32,
 }
 
-// A control point (Rust: ControlPoint) is a vec4 of x, y, z, radius.
+// A control point (Rust: ControlPoint) is a vec4<u32>: the bits of x, y, z, and two half floats, half width and half height.
 // A section point (Rust: SectionPoint) is a vec4 of x, y, normal x, normal y.
-// A ring (Rust: Ring) is two vec4<u32>: the bits of centre and radius, the bits of the tangent and the roll.
+// A ring (Rust: Ring) is three vec4<u32>: the bits of centre and half width, of the tangent and the roll, of half height and
+// both growths.
 // A vertex (Rust: Vertex) is six floats: x y z nx ny nz.
 
 // Points are bound from the start of the chunk's window.
 @group(0) @binding(0) var<uniform> params: Params;
-@group(0) @binding(1) var<storage, read> points: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> points: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read> yarns: array<YarnRow>;
 @group(0) @binding(3) var<storage, read> blocks: array<Block>;
 
@@ -120,6 +121,7 @@ fn atan2_turns(y: f32, x: f32) -> f32 {
 // ---- Segment: the spline between P[j] and P[j+1], relative to P[j] ----
 
 struct Segment {
+    // Position and half width of P[j].
     start: vec4<f32>,
     // P[j+1] - P[j].
     span: vec4<f32>,
@@ -127,7 +129,12 @@ struct Segment {
     c1: vec4<f32>,
     c2: vec4<f32>,
     c3: vec4<f32>,
-    radius_floor: f32,
+    // Half height of P[j], and its coefficients.
+    height: vec4<f32>,
+    // Whether all four control points are round: the height is the width then.
+    is_round: bool,
+    // The least half width and half height.
+    floors: vec2<f32>,
     // A squared velocity that counts as none.
     at_rest: f32,
 }
@@ -136,26 +143,64 @@ struct Sample {
     // Centre relative to the segment's first control point.
     offset: vec3<f32>,
     centre: vec3<f32>,
-    radius: f32,
+    half_width: f32,
+    half_height: f32,
     tangent: vec3<f32>,
-    // dr/ds, the growth of the radius along the yarn.
-    slope: f32,
+    // How both grow along the yarn.
+    width_growth: f32,
+    height_growth: f32,
 }
 
-fn segment_new(before: vec4<f32>, start: vec4<f32>, end: vec4<f32>, after: vec4<f32>, s: f32) -> Segment {
-    let a = before - start;
-    let b = end - start;
-    let c = after - start;
+// Position and half width of a control point.
+fn point_wide(point: vec4<u32>) -> vec4<f32> {
+    return vec4(bitcast<vec3<f32>>(point.xyz), unpack2x16float(point.w).x);
+}
+
+// Its half height.
+fn point_height(point: vec4<u32>) -> f32 {
+    return unpack2x16float(point.w).y;
+}
+
+fn point_is_round(point: vec4<u32>) -> bool {
+    return (point.w & 0xffffu) == point.w >> 16u;
+}
+
+// Coefficients of t (x), t^2 (y) and t^3 (z) for a size with these differences from its start.
+fn size_terms(a: f32, b: f32, c: f32, s: f32) -> vec3<f32> {
+    return vec3((b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0));
+}
+
+// From four control points, the first of which is number `first`.
+fn segment_new(first: u32, s: f32) -> Segment {
+    let before = points[first];
+    let here = points[first + 1u];
+    let next = points[first + 2u];
+    let after = points[first + 3u];
     var segment: Segment;
-    segment.start = start;
+    segment.start = point_wide(here);
+    let a = point_wide(before) - segment.start;
+    let b = point_wide(next) - segment.start;
+    let c = point_wide(after) - segment.start;
     segment.span = b;
     segment.c1 = (b - a) * s;
     segment.c2 = a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s;
     segment.c3 = (c - a) * s + b * (s - 2.0);
-    segment.radius_floor = min(start.w, end.w) * RADIUS_FLOOR;
+    let start = point_height(here);
+    let end = point_height(next);
+    segment.height = vec4(start, size_terms(point_height(before) - start, end - start, point_height(after) - start, s));
+    segment.is_round =
+        point_is_round(before) && point_is_round(here) && point_is_round(next) && point_is_round(after);
+    segment.floors = vec2(min(segment.start.w, point_wide(next).w), min(start, end)) * RADIUS_FLOOR;
     segment.at_rest =
         max(ZERO_VELOCITY * (dot(a.xyz, a.xyz) + dot(b.xyz, b.xyz) + dot(c.xyz, c.xyz)), NO_LENGTH);
     return segment;
+}
+
+// A size at t (x), and its growth along the yarn (y), where `inverse` is one over the spline's speed.
+fn size_sample(start: f32, terms: vec3<f32>, least: f32, t: f32, inverse: f32) -> vec2<f32> {
+    let size = start + (terms.x + (terms.y + terms.z * t) * t) * t;
+    let growth = (terms.x + (terms.y * 2.0 + terms.z * (3.0 * t)) * t) * inverse;
+    return select(vec2(size, clamp(growth, -SLOPE_LIMIT, SLOPE_LIMIT)), vec2(least, 0.0), size < least);
 }
 
 // The tangent where the velocity vanishes: the limit from the right, or from the left at t = 1.
@@ -175,24 +220,30 @@ fn direction_at_rest(segment: Segment, t: f32) -> vec3<f32> {
 }
 
 fn segment_sample(segment: Segment, t: f32) -> Sample {
-    let offset = (segment.c1 + (segment.c2 + segment.c3 * t) * t) * t;
-    let velocity = segment.c1 + (segment.c2 * 2.0 + segment.c3 * (3.0 * t)) * t;
-    let radius = segment.start.w + offset.w;
-    let speed_squared = dot(velocity.xyz, velocity.xyz);
+    let offset = (segment.c1.xyz + (segment.c2.xyz + segment.c3.xyz * t) * t) * t;
+    let velocity = segment.c1.xyz + (segment.c2.xyz * 2.0 + segment.c3.xyz * (3.0 * t)) * t;
+    let speed_squared = dot(velocity, velocity);
+    // Where the yarn does not move nothing grows along it.
+    var inverse = 0.0;
     var sample: Sample;
     if speed_squared > segment.at_rest {
-        let inverse = 1.0 / sqrt(speed_squared);
-        sample.tangent = velocity.xyz * inverse;
-        sample.slope = clamp(velocity.w * inverse, -SLOPE_LIMIT, SLOPE_LIMIT);
+        inverse = 1.0 / sqrt(speed_squared);
+        sample.tangent = velocity * inverse;
     } else {
         sample.tangent = direction_at_rest(segment, t);
-        sample.slope = 0.0;
     }
-    let held = radius < segment.radius_floor;
-    sample.offset = offset.xyz;
-    sample.centre = segment.start.xyz + offset.xyz;
-    sample.radius = select(radius, segment.radius_floor, held);
-    sample.slope = select(sample.slope, 0.0, held);
+    let width_terms = vec3(segment.c1.w, segment.c2.w, segment.c3.w);
+    let width = size_sample(segment.start.w, width_terms, segment.floors.x, t, inverse);
+    var height = width;
+    if !segment.is_round {
+        height = size_sample(segment.height.x, segment.height.yzw, segment.floors.y, t, inverse);
+    }
+    sample.offset = offset;
+    sample.centre = segment.start.xyz + offset;
+    sample.half_width = width.x;
+    sample.half_height = height.x;
+    sample.width_growth = width.y;
+    sample.height_growth = height.y;
     return sample;
 }
 
@@ -225,7 +276,7 @@ fn ring_sample(yarn: YarnRow, block: Block, k: u32) -> RingSample {
         point -= 1u;
         t = 1.0;
     }
-    let segment = segment_new(points[point], points[point + 1u], points[point + 2u], points[point + 3u], params.s);
+    let segment = segment_new(point, params.s);
     var ring: RingSample;
     ring.sample = segment_sample(segment, t);
     ring.span = segment.span.xyz;
@@ -322,19 +373,79 @@ fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
 
 // ---- Vertex ----
 
-// Where the vertex at `point` of a section lies: `centre` with the radius.
-fn position_at(centre: vec4<f32>, side: vec3<f32>, up: vec3<f32>, point: vec4<f32>) -> vec3<f32> {
-    let outward = side * point.x + up * point.y;
-    return centre.xyz + outward * centre.w;
+// How a section stands on a ring: the same for all its vertices.
+struct Stance {
+    // Centre, half width.
+    centre: vec4<f32>,
+    // Unit tangent, growth of the half width.
+    tangent: vec4<f32>,
+    // Half height, and its growth; the half height is below zero where the yarn is round, and the same as the width.
+    half_height: f32,
+    height_growth: f32,
+    // Of a round yarn the frame turned by the roll, else the upright frame.
+    side: vec3<f32>,
+    up: vec3<f32>,
+    // Sine and cosine of the roll, for a flattened yarn.
+    sin_cos: vec2<f32>,
 }
 
-// Its normal: `tangent` with the slope.
-fn normal_at(tangent: vec4<f32>, side: vec3<f32>, up: vec3<f32>, point: vec4<f32>) -> vec3<f32> {
-    let across = side * point.z + up * point.w;
-    // Most yarns are as thick here as there, and need no square root.
-    if tangent.w == 0.0 {
-        return across;
+// What says that a yarn is round, in the place of its half height.
+const IS_ROUND = -1.0;
+
+// `side` is as `side_of` gives it.
+fn stance_new(centre: vec4<f32>, tangent: vec4<f32>, side: vec4<f32>, height_growth: f32, roll: u32) -> Stance {
+    var stance: Stance;
+    stance.centre = centre;
+    stance.tangent = tangent;
+    stance.half_height = side.w;
+    stance.height_growth = height_growth;
+    stance.side = side.xyz;
+    stance.up = up_of(tangent.xyz, side.xyz);
+    stance.sin_cos = vec2(0.0, 1.0);
+    if side.w >= 0.0 {
+        stance.sin_cos = turn_sin_cos(roll);
     }
-    let lean = tangent.w * (point.x * point.z + point.y * point.w);
-    return (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
+    return stance;
+}
+
+// The side that a stance takes, and the half height, or that the yarn is round.
+fn side_of(sample: Sample, roll: u32) -> vec4<f32> {
+    if sample.half_width == sample.half_height && sample.width_growth == sample.height_growth {
+        return vec4(side_standing(sample.tangent, roll), IS_ROUND);
+    }
+    return vec4(basis_upright(sample.tangent).side, sample.half_height);
+}
+
+// Where the vertex at `point` of a section lies.
+fn position_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
+    if stance.half_height < 0.0 {
+        let outward = stance.side * point.x + stance.up * point.y;
+        return stance.centre.xyz + outward * stance.centre.w;
+    }
+    let x = stance.sin_cos.y * point.x - stance.sin_cos.x * point.y;
+    let y = stance.sin_cos.x * point.x + stance.sin_cos.y * point.y;
+    return stance.centre.xyz + (stance.side * (x * stance.centre.w) + stance.up * (y * stance.half_height));
+}
+
+// Its normal.
+fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
+    let tangent = stance.tangent;
+    if stance.half_height < 0.0 {
+        let across = stance.side * point.z + stance.up * point.w;
+        // Most yarns are as thick here as there, and need no square root.
+        if tangent.w == 0.0 {
+            return across;
+        }
+        let lean = tangent.w * (point.x * point.z + point.y * point.w);
+        return (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
+    }
+    let x = stance.sin_cos.y * point.x - stance.sin_cos.x * point.y;
+    let y = stance.sin_cos.x * point.x + stance.sin_cos.y * point.y;
+    // Each times the other's half: the inverse transpose, times the product of both halves.
+    let across_x = (stance.sin_cos.y * point.z - stance.sin_cos.x * point.w) * stance.half_height;
+    let across_y = (stance.sin_cos.x * point.z + stance.sin_cos.y * point.w) * stance.centre.w;
+    let lean = tangent.w * x * across_x + stance.height_growth * y * across_y;
+    let across = stance.side * across_x + stance.up * across_y;
+    let length_squared = across_x * across_x + across_y * across_y + lean * lean;
+    return (across - tangent.xyz * lean) * (1.0 / sqrt(length_squared));
 }

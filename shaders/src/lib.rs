@@ -62,8 +62,6 @@ pub enum Resource {
     CapRows = 10,
     /// Cap indices, as `texere_gpu::cap_pattern` has them.
     CapPattern = 11,
-    /// The growth of the radius at each ring of a chunk: `f32`s.
-    Slopes = 12,
 }
 
 /// How a shader uses a resource.
@@ -198,7 +196,6 @@ pub const TRAJECTORY_PER_YARN: Shader = Shader {
         read(Resource::Yarns),
         read(Resource::Blocks),
         write(Resource::Rings),
-        write(Resource::Slopes),
     ],
 };
 
@@ -216,7 +213,6 @@ pub const MESH_PER_YARN: Shader = Shader {
         write(Resource::Vertices),
         write(Resource::Indices),
         write(Resource::Rings),
-        write(Resource::Slopes),
     ],
 };
 

@@ -36,22 +36,18 @@ fn share_of(lane: u32, stores: u32) -> Share {
 // Four floats of ring `ring`'s vertices, the first of which is number `first` of its vertex, an even one: so they hold
 // no more than one normal, or the end of one, and one position, or the start of one.
 fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: vec4<f32>) -> vec4<f32> {
-    let tangent = standing.tangent[ring];
-    let side = standing.side[ring];
-    let up = up_of(tangent.xyz, side);
-    let normal = normal_at(tangent, side, up, normal_point);
-    let position = position_at(standing.centre[ring], side, up, position_point);
+    let stance = stance_of(ring);
+    let normal = normal_at(stance, normal_point);
+    let position = position_at(stance, position_point);
     let later = select(vec4(normal.yz, position.xy), vec4(position.z, normal), first == 2u);
     return select(later, vec4(position, normal.x), first == 0u);
 }
 
 // Two floats likewise.
 fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
-    let tangent = standing.tangent[ring];
-    let side = standing.side[ring];
-    let up = up_of(tangent.xyz, side);
-    let normal = normal_at(tangent, side, up, point);
-    let position = position_at(standing.centre[ring], side, up, point);
+    let stance = stance_of(ring);
+    let normal = normal_at(stance, point);
+    let position = position_at(stance, point);
     return select(select(normal.yz, vec2(position.z, normal.x), first == 2u), position.xy, first == 0u);
 }
 

@@ -12,8 +12,6 @@ const PER_YARN_GROUP = 64u;
 @group(0) @binding(7) var<storage, read_write> vertices: array<f32>;
 @group(0) @binding(8) var<storage, read_write> indices: array<u32>;
 @group(0) @binding(9) var<storage, read_write> rings: array<vec4<u32>>;
-// The growth of the radius, for which a ring has no room.
-@group(0) @binding(12) var<storage, read_write> slopes: array<f32>;
 
 // Algorithm 2: for each control interval, K + 1 rings.
 @compute @workgroup_size(PER_YARN_GROUP)
@@ -37,15 +35,16 @@ fn trajectory_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_wor
     }
     var ring = 0u;
     while ring < part.rings {
-        let segment = segment_new(points[point], points[point + 1u], points[point + 2u], points[point + 3u], params.s);
+        let segment = segment_new(point, params.s);
         let end = select(per_interval, per_interval + 1u, interval + 1u == intervals);
         while place < end && ring < part.rings {
             let t = select(f32(place) * params.step, 1.0, place == per_interval);
             let sample = segment_sample(segment, t);
-            let at = part.chunk_ring + ring;
-            rings[2u * at] = bitcast<vec4<u32>>(vec4(sample.centre, sample.radius));
-            rings[2u * at + 1u] = bitcast<vec4<u32>>(vec4(sample.tangent, 0.0));
-            slopes[at] = sample.slope;
+            let out = 3u * (part.chunk_ring + ring);
+            rings[out] = bitcast<vec4<u32>>(vec4(sample.centre, sample.half_width));
+            rings[out + 1u] = bitcast<vec4<u32>>(vec4(sample.tangent, 0.0));
+            rings[out + 2u] =
+                bitcast<vec4<u32>>(vec4(sample.half_height, sample.width_growth, sample.height_growth, 0.0));
             place++;
             ring++;
         }
@@ -53,6 +52,19 @@ fn trajectory_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_wor
         interval++;
         point++;
     }
+}
+
+// How an untwisted section stands on the ring of algorithm 2 that starts at `at`.
+fn stance_at(at: u32) -> Stance {
+    let centre = bitcast<vec4<f32>>(rings[at]);
+    let size = bitcast<vec3<f32>>(rings[at + 2u].xyz);
+    var sample: Sample;
+    sample.tangent = bitcast<vec3<f32>>(rings[at + 1u].xyz);
+    sample.half_width = centre.w;
+    sample.half_height = size.x;
+    sample.width_growth = size.y;
+    sample.height_growth = size.z;
+    return stance_new(centre, vec4(sample.tangent, size.y), side_of(sample, 0u), size.z, 0u);
 }
 
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.
@@ -67,14 +79,11 @@ fn mesh_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroup
     let sides = params.sides;
     let outline = yarns[part.yarn].section * sides;
     for (var ring = 0u; ring < part.rings; ring++) {
-        let at = part.chunk_ring + ring;
-        let centre = bitcast<vec4<f32>>(rings[2u * at]);
-        let tangent = vec4(bitcast<vec3<f32>>(rings[2u * at + 1u].xyz), slopes[at]);
-        let basis = basis_upright(tangent.xyz);
+        let stance = stance_at(3u * (part.chunk_ring + ring));
         let first_vertex = part.first_vertex + ring * sides;
         for (var k = 0u; k < sides; k++) {
-            let position = position_at(centre, basis.side, basis.up, outlines[outline + k]);
-            let normal = normal_at(tangent, basis.side, basis.up, outlines[outline + k]);
+            let position = position_at(stance, outlines[outline + k]);
+            let normal = normal_at(stance, outlines[outline + k]);
             let out = 6u * (first_vertex + k);
             for (var c = 0u; c < 3u; c++) {
                 vertices[out + c] = position[c];

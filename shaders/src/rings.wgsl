@@ -8,11 +8,13 @@
 // The rings of a block, each with its side and its roll; `up_of` makes the rest of the basis, sooner than memory for it
 // would: the less a workgroup has, the more of them run.
 struct BlockRings {
-    // Centre, radius.
+    // Centre, half width.
     centre: array<vec4<f32>, BLOCK_RINGS>,
-    // Unit tangent, slope.
+    // Unit tangent, growth of the half width.
     tangent: array<vec4<f32>, BLOCK_RINGS>,
-    side: array<vec3<f32>, BLOCK_RINGS>,
+    // As `side_of` gives it.
+    side: array<vec4<f32>, BLOCK_RINGS>,
+    height_growth: array<f32, BLOCK_RINGS>,
     roll: array<u32, BLOCK_RINGS>,
     // The turns of each eight rings.
     eights: array<u32, BLOCK_RINGS / 8u>,
@@ -27,15 +29,15 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
     var roll = 0u;
     if lane < block.rings {
         here = ring_sample(yarn, block, lane);
-        standing.tangent[lane] = vec4(here.sample.tangent, here.sample.slope);
+        standing.tangent[lane] = vec4(here.sample.tangent, here.sample.width_growth);
         // The step from the ring before wants the offset; the side takes its place afterwards.
-        standing.side[lane] = here.sample.offset;
+        standing.side[lane] = vec4(here.sample.offset, 0.0);
     }
     if params.rolled != 0u {
         workgroupBarrier();
         var turn = 0u;
         if lane + 1u < block.rings {
-            let chord = chord_to(here, standing.side[lane + 1u]);
+            let chord = chord_to(here, standing.side[lane + 1u].xyz);
             turn = frame_step(params.frame, here.sample.tangent, standing.tangent[lane + 1u].xyz, chord, yarn.twist);
         }
         if lane < BLOCK_RINGS {
@@ -62,9 +64,16 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
         }
     }
     if lane < block.rings {
-        standing.centre[lane] = vec4(here.sample.centre, here.sample.radius);
-        standing.side[lane] = side_standing(here.sample.tangent, roll);
+        standing.centre[lane] = vec4(here.sample.centre, here.sample.half_width);
+        standing.side[lane] = side_of(here.sample, roll);
+        standing.height_growth[lane] = here.sample.height_growth;
         standing.roll[lane] = roll;
     }
     workgroupBarrier();
+}
+
+// How a section stands on ring `ring`.
+fn stance_of(ring: u32) -> Stance {
+    return stance_new(standing.centre[ring], standing.tangent[ring], standing.side[ring], standing.height_growth[ring],
+                      standing.roll[ring]);
 }

@@ -18,14 +18,20 @@ fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     let yarn = yarns[block.yarn];
     block_rings(yarn, block, row, lane);
 
-    // Two stores of 16 bytes a ring, contiguous across lanes.
-    let out = 2u * block.chunk_ring;
-    for (var piece = lane; piece < 2u * block.rings; piece += TRAJECTORY_GROUP) {
-        let ring = piece / 2u;
-        if piece % 2u == 0u {
-            rings[out + piece] = bitcast<vec4<u32>>(standing.centre[ring]);
+    // Three stores of 16 bytes a ring, contiguous across lanes.
+    let out = 3u * block.chunk_ring;
+    for (var piece = lane; piece < 3u * block.rings; piece += TRAJECTORY_GROUP) {
+        let ring = piece / 3u;
+        let centre = standing.centre[ring];
+        let tangent = standing.tangent[ring];
+        if piece % 3u == 0u {
+            rings[out + piece] = bitcast<vec4<u32>>(centre);
+        } else if piece % 3u == 1u {
+            rings[out + piece] = vec4(bitcast<vec3<u32>>(tangent.xyz), standing.roll[ring]);
         } else {
-            rings[out + piece] = vec4(bitcast<vec3<u32>>(standing.tangent[ring].xyz), standing.roll[ring]);
+            let half_height = standing.side[ring].w;
+            let sizes = vec3(select(half_height, centre.w, half_height < 0.0), tangent.w, standing.height_growth[ring]);
+            rings[out + piece] = vec4(bitcast<vec3<u32>>(sizes), 0u);
         }
     }
 }

@@ -18,8 +18,6 @@ pub(crate) struct ChunkMemory {
     pub(crate) rows: usize,
     pub(crate) caps: Buffer,
     pub(crate) rings: Buffer,
-    /// The growth of the radius at each ring; the schedule per-yarn only.
-    pub(crate) slopes: Buffer,
     pub(crate) vertices: Buffer,
     pub(crate) indices: Buffer,
     /// The last command that writes here.
@@ -29,8 +27,8 @@ pub(crate) struct ChunkMemory {
 impl ChunkMemory {
     /// Bytes of its tables and results.
     pub(crate) fn bytes(&self) -> u64 {
-        let Self { table, caps, rings, slopes, vertices, indices, .. } = self;
-        [table, caps, rings, slopes, vertices, indices].map(Buffer::bytes).iter().sum()
+        let Self { table, caps, rings, vertices, indices, .. } = self;
+        [table, caps, rings, vertices, indices].map(Buffer::bytes).iter().sum()
     }
 
     /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after those
@@ -64,12 +62,7 @@ impl ChunkMemory {
 
     /// Makes room for the rings of `chunk`.
     pub(crate) fn reserve_rings(&mut self, opened: &Opened, chunk: &Chunk) -> Result<(), BackendError> {
-        let rings = u64::from(chunk.rings());
-        self.rings.reserve(opened, "rings", rings * size_of::<Ring>() as u64)?;
-        if opened.schedule == Schedule::PerYarn {
-            self.slopes.reserve(opened, "slopes", rings * size_of::<f32>() as u64)?;
-        }
-        Ok(())
+        self.rings.reserve(opened, "rings", u64::from(chunk.rings()) * size_of::<Ring>() as u64)
     }
 
     /// Makes room for the vertices and indices of `chunk`.

@@ -53,11 +53,10 @@ impl Kernels for PerYarn {
     ) -> Result<Launches, BackendError> {
         let Work { opened, plan, .. } = work;
         let (params, window) = (part_params(plan, chunk, memory), chunk.window().start);
-        let outputs = [Arg::Memory(&memory.rings), Arg::Memory(&memory.slopes)];
-        let args = [&work.inputs(&params, &window, memory)[..5], &outputs].concat();
+        let args = [&work.inputs(&params, &window, memory)[..5], &[Arg::Memory(&memory.rings)]].concat();
         let groups = memory.rows.div_ceil(self.trajectory.group());
         // SAFETY: the arguments are those of `trajectory_per_yarn`; a lane reads its part and what that names, and writes
-        // the part's rings and slopes, for which there is room. Lanes past the last part do nothing.
+        // the part's rings, for which there is room. Lanes past the last part do nothing.
         unsafe { self.trajectory.run(opened, &args, groups, memory.ready.as_deref()) }
     }
 
@@ -74,7 +73,6 @@ impl Kernels for PerYarn {
             Arg::Memory(&tables.yarns),
             Arg::Memory(&memory.table),
             Arg::Memory(&memory.rings),
-            Arg::Memory(&memory.slopes),
             Arg::Memory(&tables.outlines),
             Arg::Memory(&tables.pattern),
             Arg::Memory(&memory.vertices),

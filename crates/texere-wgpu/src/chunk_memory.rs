@@ -24,7 +24,6 @@ pub(crate) struct ChunkMemory {
     blocks: Buffer,
     cap_rows: Buffer,
     pub(crate) rings: Buffer,
-    slopes: Buffer,
     pub(crate) vertices: Buffer,
     pub(crate) indices: Buffer,
 }
@@ -43,7 +42,6 @@ impl ChunkMemory {
             blocks: buffer("the block table", input)?,
             cap_rows: buffer("the cap table", input)?,
             rings: buffer("rings", output)?,
-            slopes: buffer("slopes", BufferUsages::STORAGE)?,
             vertices: buffer("vertices", output | BufferUsages::VERTEX)?,
             indices: buffer("indices", output | BufferUsages::INDEX)?,
         })
@@ -51,8 +49,8 @@ impl ChunkMemory {
 
     /// Bytes of its tables and results.
     pub(crate) fn bytes(&self) -> u64 {
-        let Self { blocks, cap_rows, rings, slopes, vertices, indices, .. } = self;
-        [blocks, cap_rows, rings, slopes, vertices, indices].map(Buffer::bytes).iter().sum()
+        let Self { blocks, cap_rows, rings, vertices, indices, .. } = self;
+        [blocks, cap_rows, rings, vertices, indices].map(Buffer::bytes).iter().sum()
     }
 
     /// Sends the tables of another chunk.
@@ -76,17 +74,9 @@ impl ChunkMemory {
         Ok(())
     }
 
-    /// Makes room for the rings of the chunk, and for their slopes where `slopes`.
-    pub(crate) fn reserve_rings(
-        &mut self,
-        gpu: &Gpu,
-        chunk: &Chunk,
-        slopes: bool,
-    ) -> Result<(), BackendError> {
+    /// Makes room for the rings of the chunk.
+    pub(crate) fn reserve_rings(&mut self, gpu: &Gpu, chunk: &Chunk) -> Result<(), BackendError> {
         self.rings.reserve(gpu, u64::from(chunk.rings()) * size_of::<Ring>() as u64)?;
-        if slopes {
-            self.slopes.reserve(gpu, u64::from(chunk.rings()) * size_of::<f32>() as u64)?;
-        }
         Ok(())
     }
 
@@ -117,7 +107,6 @@ impl ChunkMemory {
             Resource::Blocks => &self.blocks,
             Resource::CapRows => &self.cap_rows,
             Resource::Rings => &self.rings,
-            Resource::Slopes => &self.slopes,
             Resource::Vertices => &self.vertices,
             Resource::Indices => &self.indices,
         };

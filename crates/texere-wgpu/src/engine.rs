@@ -126,10 +126,9 @@ impl Engine for WgpuEngine {
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         self.memory(slot).loaded.check(&self.plan, chunk)?;
         let opened = self.opened.clone();
-        let slopes = self.mesh_reads_rings();
         let memory = &mut self.memory[slot.index()];
         let rows = memory.rows;
-        memory.reserve_rings(&opened.gpu, chunk, slopes)?;
+        memory.reserve_rings(&opened.gpu, chunk)?;
         let kernel = match &opened.kernels {
             Kernels::PerRing(kernels) => (&kernels.trajectory, rows),
             Kernels::PerYarn(kernels) => (&kernels.trajectory, kernels.trajectory.workgroups(rows)),

@@ -85,11 +85,12 @@ fn tables() -> Vec<Table> {
             step,
             padding
         }),
-        vectors!("float4", ControlPoint {
+        vectors!("uint4", ControlPoint {
             "values[1].x" = x,
             "values[1].y" = y,
             "values[1].z" = z,
-            "values[1].w" = radius
+            // Both half floats.
+            "values[1].w" = z + 1
         }),
         vectors!("float4", SectionPoint {
             "values[1].x" = x,
@@ -98,14 +99,18 @@ fn tables() -> Vec<Table> {
             "values[1].w" = normal_y
         }),
         vectors!("uint4", Ring {
-            "values[2].x" = centre,
-            "values[2].y" = centre + 1,
-            "values[2].z" = centre + 2,
-            "values[2].w" = radius,
-            "values[3].x" = tangent,
-            "values[3].y" = tangent + 1,
-            "values[3].z" = tangent + 2,
-            "values[3].w" = roll
+            "values[3].x" = centre,
+            "values[3].y" = centre + 1,
+            "values[3].z" = centre + 2,
+            "values[3].w" = half_width,
+            "values[4].x" = tangent,
+            "values[4].y" = tangent + 1,
+            "values[4].z" = tangent + 2,
+            "values[4].w" = roll,
+            "values[5].x" = half_height,
+            "values[5].y" = width_growth,
+            "values[5].z" = height_growth,
+            "values[5].w" = padding
         }),
         vectors!("float", Vertex {
             "values[6]" = position,

@@ -55,7 +55,7 @@ impl Worst {
 }
 
 fn compare(yarns: &Yarns, device: &dyn Backend) -> Worst {
-    let radius = yarns.points().iter().map(|point| point.radius).fold(f32::MAX, f32::min);
+    let radius = yarns.points().iter().map(|point| point.half_height()).fold(f32::MAX, f32::min);
     let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default()).unwrap());
     let mut gold = Session::new(&*texere::open("cpu").unwrap(), plan.clone()).unwrap();
     gold.upload(0, yarns.points()).unwrap();

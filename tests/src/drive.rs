@@ -31,7 +31,16 @@ pub(crate) const POISONED_VERTEX: Vertex = Vertex { position: [POISON; 3], norma
 
 /// A ring that was never written.
 pub(crate) const POISONED_RING: Ring =
-    Ring { centre: [POISON; 3], radius: POISON, tangent: [POISON; 3], roll: Turn(0x7fc0_bad1) };
+    Ring {
+        centre: [POISON; 3],
+        half_width: POISON,
+        tangent: [POISON; 3],
+        roll: Turn(0x7fc0_bad1),
+        half_height: POISON,
+        width_growth: POISON,
+        height_growth: POISON,
+        padding: 0x7fc0_bad1,
+    };
 
 /// An index that was never written; no chunk has so many vertices.
 pub(crate) const POISONED_INDEX: u32 = u32::MAX;

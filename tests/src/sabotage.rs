@@ -41,8 +41,8 @@ pub enum Sabotage {
     RolledSection,
     /// Two yarns of the same length have changed places, in the first chunk.
     SwappedYarns,
-    /// One ring is a thousandth too thick.
-    ThickRing,
+    /// One ring is a thousandth too wide.
+    WideRing,
     /// One tangent points backward.
     ReversedTangent,
     /// One normal points inward.
@@ -82,7 +82,7 @@ impl Sabotage {
         Self::MisplacedPiece,
         Self::RolledSection,
         Self::SwappedYarns,
-        Self::ThickRing,
+        Self::WideRing,
         Self::ReversedTangent,
         Self::InwardNormal,
         Self::LooseSeam,
@@ -106,7 +106,7 @@ impl Sabotage {
             Self::SwappedIndices | Self::OpenCap => &[Fault::Index],
             // Bits, since the rings that it shares with the chunks beside it differ.
             Self::Zeros => {
-                &[Fault::Position, Fault::Normal, Fault::Radius, Fault::Tangent, Fault::Index, Fault::Bits]
+                &[Fault::Position, Fault::Normal, Fault::Size, Fault::Tangent, Fault::Index, Fault::Bits]
             }
             Self::NotANumber | Self::Infinity => &[Fault::NotFinite],
             Self::MissingChunk => &[Fault::Missing, Fault::Bits],
@@ -115,7 +115,7 @@ impl Sabotage {
             Self::MisplacedPiece => &[Fault::Count, Fault::Missing, Fault::Bits],
             Self::RolledSection => &[Fault::Position, Fault::Normal, Fault::Roll],
             Self::SwappedYarns => &[Fault::Position],
-            Self::ThickRing => &[Fault::Radius],
+            Self::WideRing => &[Fault::Size],
             Self::ReversedTangent => &[Fault::Tangent],
             Self::InwardNormal => &[Fault::Normal],
             Self::LooseSeam | Self::LooseEnd => &[Fault::Bits],
@@ -181,7 +181,7 @@ impl SabotagedEngine {
             Sabotage::RolledSection if victim => {
                 rings[10].roll = rings[10].roll + Turn::from_turns((0.01 / TAU) as f32);
             }
-            Sabotage::ThickRing if victim => rings[10].radius *= 1.001,
+            Sabotage::WideRing if victim => rings[10].half_width *= 1.001,
             Sabotage::ReversedTangent if victim => {
                 rings[10].tangent = (-Vec3::from(rings[10].tangent)).into();
             }

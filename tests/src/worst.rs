@@ -20,7 +20,15 @@ impl Table {
     pub(crate) fn print(&self) {
         let mut rows = self.0.lock().unwrap();
         rows.sort_by(|(a, _), (b, _)| a.cmp(b));
-        let titles = ["centre, radii", "radius", "tangent, rad", "roll, rad", "vertex, radii", "normal, rad"];
+        let titles = [
+            "centre, radii",
+            "half, relative",
+            "growth",
+            "tangent, rad",
+            "roll, rad",
+            "vertex, radii",
+            "normal, rad",
+        ];
         let line = |name: &str, cells: [String; Quantity::ALL.len()]| {
             println!("{name:<100} {}", cells.map(|cell| format!("{cell:>18}")).join(""));
         };

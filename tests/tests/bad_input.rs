@@ -75,7 +75,7 @@ fn control_points_out_of_range() {
     }
     for radius in [0.0, -0.0, -0.1, 1e-7, f32::MIN_POSITIVE, 1.1e6] {
         let error = with_point(ControlPoint::new(2.0, 0.0, 0.0, radius));
-        assert!(matches!(error, YarnError::Radius { yarn: 1, point: 2, .. }), "{radius}: {error:?}");
+        assert!(matches!(error, YarnError::Size { yarn: 1, point: 2, .. }), "{radius}: {error:?}");
     }
 }
 

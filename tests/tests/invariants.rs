@@ -200,7 +200,7 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
             let range = yarns.range(yarn).unwrap();
             let moved: Vec<_> = yarns.points()[range.clone()]
                 .iter()
-                .map(|point| ControlPoint { z: point.z * 1.5 + 0.25, radius: point.radius * 0.75, ..*point })
+                .map(|point| ControlPoint { z: point.z * 1.5 + 0.25, ..*point }.flattened(point.half_width() * 0.75, point.half_height() * 0.75))
                 .collect();
             yarns.set_points(yarn, &moved).unwrap();
             edited.upload(range.start as u64, &moved).unwrap();

@@ -66,15 +66,16 @@ pub(super) fn standing() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A yarn of more than a block and one of less, thick and thin, both like `yarn` but of `section`.
-pub(super) fn couple(yarn: Yarn, section: Section) -> Yarns {
+/// A yarn of more than a block and one of less, thick and thin, both like `yarn` but of `section`. Of each control point, by its
+/// number, `flatten` gives width over height.
+pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Yarns {
     let mut yarns = Yarns::builder();
     let yarn = Yarn { section: yarns.section(section), ..yarn };
     for (points, beside) in [(66, 0.0), (9, 40.0)] {
-        let slubbed = |(k, point): (u8, &ControlPoint)| ControlPoint {
-            x: point.x + beside,
-            radius: 0.25 + 0.1 * (f32::from(k) * 1.1).sin(),
-            ..*point
+        let slubbed = |(k, point): (u8, &ControlPoint)| {
+            let radius = 0.25 + 0.1 * (f32::from(k) * 1.1).sin();
+            let flatness = flatten(k).sqrt();
+            ControlPoint { x: point.x + beside, ..*point }.flattened(radius * flatness, radius / flatness)
         };
         let points: Vec<_> =
             (0..).zip(winding(points, Yarn { section: 0, ..yarn }).points()).map(slubbed).collect();
@@ -164,11 +165,9 @@ pub(super) fn winding(points: u32, yarn: Yarn) -> Yarns {
 
 /// The same design with every length multiplied by `scale`.
 pub(super) fn scaled(yarns: &Yarns, scale: f32) -> Yarns {
-    let grow = |point: &ControlPoint| ControlPoint {
-        x: point.x * scale,
-        y: point.y * scale,
-        z: point.z * scale,
-        radius: point.radius * scale,
+    let grow = |point: &ControlPoint| {
+        ControlPoint { x: point.x * scale, y: point.y * scale, z: point.z * scale, ..*point }
+            .flattened(point.half_width() * scale, point.half_height() * scale)
     };
     let points = yarns.points().iter().map(grow).collect();
     Yarns::new(yarns.layout().as_ref().clone(), yarns.materials().to_vec(), points).unwrap()

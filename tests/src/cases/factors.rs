@@ -27,6 +27,12 @@ const TOPOLOGIES: [(&str, Topology); 3] =
 
 const TWISTS: [(&str, f32); 3] = [("untwisted", 0.0), ("twist-z", 0.6), ("twist-s", -3.0)];
 
+/// Width over height of each control point, by its number.
+type Flattened = (&'static str, fn(u8) -> f32);
+
+const FLATTENINGS: [Flattened; 3] =
+    [("round", |_| 1.0), ("flat", |_| 1.8), ("flat-here-and-there", |k| 1.6 + (f32::from(k) * 0.8).sin())];
+
 const LIMITS: [(&str, Tight); 4] = [
     ("unlimited", Tight::Nothing),
     ("few-blocks", Tight::Blocks),
@@ -51,7 +57,7 @@ impl Counts {
     }
 
     /// How many values each factor has.
-    fn sizes(&self) -> [usize; 9] {
+    fn sizes(&self) -> [usize; 10] {
         [
             self.subdivisions.len(),
             self.sides.len(),
@@ -62,12 +68,13 @@ impl Counts {
             TOPOLOGIES.len(),
             TWISTS.len(),
             LIMITS.len(),
+            FLATTENINGS.len(),
         ]
     }
 
     /// The case of one value a factor, by number; its name has them all.
     fn case(&self, set: &str, row: &[usize]) -> Case {
-        let &[subdivisions, sides, frame, section, end, caps, topology, twist, limit] = row else {
+        let &[subdivisions, sides, frame, section, end, caps, topology, twist, limit, flattening] = row else {
             panic!("{row:?} is not a value for each factor");
         };
         let (subdivisions, sides) = (self.subdivisions[subdivisions], self.sides[sides]);
@@ -78,18 +85,19 @@ impl Counts {
         let (topology_name, topology) = TOPOLOGIES[topology];
         let (twist_name, twist) = TWISTS[twist];
         let (limit_name, tight) = LIMITS[limit];
+        let (flattening_name, flatten) = FLATTENINGS[flattening];
         let settings = Settings { tension: 0.0, subdivisions, sides, frame, topology, caps };
         let name = format!(
             "{set}::k{subdivisions}-n{sides}-{section_name}-{end_name}-{caps_name}-{topology_name}-{twist_name}-\
-             {limit_name}::{frame_name}"
+             {limit_name}-{flattening_name}::{frame_name}"
         );
-        let build = move || fabrics::couple(Yarn { closed, twist, ..Yarn::default() }, section(sides));
+        let build = move || fabrics::couple(Yarn { closed, twist, ..Yarn::default() }, section(sides), flatten);
         Case { tight, ..Case::new(name, settings, build) }
     }
 }
 
 /// Cases in which every pair of values meets: of subdivisions 0 to 8, sides 3 to 64, both frames, six kinds of section,
-/// open and closed yarns, caps, topologies, twist, and limits.
+/// open and closed yarns, caps, topologies, twist, limits, and flattening.
 #[must_use]
 pub fn pairwise() -> Vec<Case> {
     let counts = Counts::all();
@@ -97,7 +105,7 @@ pub fn pairwise() -> Vec<Case> {
 }
 
 /// Every combination of the values of [`pairwise`], but of subdivisions only 0, 1, 2, 4 and 8, and of sides only 3 to 8,
-/// 16, 33 and 64: 77,760 cases.
+/// 16, 33 and 64: 233,280 cases.
 #[must_use]
 pub fn product() -> Vec<Case> {
     let counts = Counts::thinned();
@@ -134,17 +142,21 @@ mod tests {
             5 => caps.to_string(),
             6 => format!("{topology:?}"),
             7 => yarn.twist.to_string(),
-            _ => format!("{:?}", case.tight),
+            8 => format!("{:?}", case.tight),
+            _ => {
+                let flatness = |k: usize| yarns.points()[k].half_width() / yarns.points()[k].half_height();
+                format!("{:.2} {:.2}", flatness(0), flatness(1))
+            }
         }
     }
 
     #[test]
     fn every_pair_of_values_meets() {
-        let counts = [9, 62, 2, 6, 2, 2, 3, 3, 4];
-        let values: Vec<[String; 9]> =
+        let counts = [9, 62, 2, 6, 2, 2, 3, 3, 4, 3];
+        let values: Vec<[String; 10]> =
             pairwise().iter().map(|case| std::array::from_fn(|which| value(case, which))).collect();
-        for one in 0..9 {
-            for other in one + 1..9 {
+        for one in 0..10 {
+            for other in one + 1..10 {
                 let met: BTreeSet<_> = values.iter().map(|values| (&values[one], &values[other])).collect();
                 assert_eq!(met.len(), counts[one] * counts[other], "factors {one} and {other}");
             }
@@ -154,6 +166,6 @@ mod tests {
     #[test]
     fn the_product_has_every_combination_once() {
         let names: BTreeSet<_> = product().into_iter().map(|case| case.name).collect();
-        assert_eq!(names.len(), 77_760);
+        assert_eq!(names.len(), 233_280);
     }
 }

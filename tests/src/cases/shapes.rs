@@ -51,6 +51,15 @@ fn thick_and_thin(name: &'static str, radii: &[f64]) -> Shape {
     open(name, points.collect())
 }
 
+/// Half widths and half heights of a winding yarn's points.
+fn flattened(name: &'static str, halves: &[[f32; 2]]) -> Shape {
+    let points = halves.iter().enumerate().map(|(k, &[half_width, half_height])| {
+        let k = k as f64;
+        point([k, (k * 0.7).sin(), (k * 0.9).cos()], RADIUS).flattened(half_width, half_height)
+    });
+    open(name, points.collect())
+}
+
 fn helix(k: f64, per_turn: f64, radius: f64, rise: f64) -> [f64; 3] {
     let (sin, cos) = (TAU * k / per_turn).sin_cos();
     [radius * cos, radius * sin, rise * k]
@@ -94,6 +103,7 @@ pub(super) fn all() -> Vec<Shape> {
     shapes.extend(standing_still());
     shapes.extend(far());
     shapes.extend(uneven());
+    shapes.extend(flat());
     shapes
 }
 
@@ -201,5 +211,31 @@ fn uneven() -> Vec<Shape> {
         twisted(open("twist-up", along(5, |k| [0.5, 0.25, k])), 2.0),
         twisted(open("twist-hairpin", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3]])), 1.0),
         twisted(open("twist-repeated", listed(&[[1.0; 3], [1.0; 3], [1.0; 3]])), 5.0),
+    ]
+}
+
+fn flat() -> Vec<Shape> {
+    let ribbon = |name| flattened(name, &[[0.5, 0.125]; 8]);
+    // Flat where it crosses, nearly round where it floats, and for a moment as high as wide.
+    let changing =
+        [[0.3, 0.2], [0.35, 0.15], [0.25, 0.25], [0.2, 0.3], [0.5, 0.1], [0.25, 0.25], [0.25, 0.25], [0.4, 0.2]];
+    let flat_knot = |name| {
+        let at = |k: f64| point(torus_knot(k, 48.0), RADIUS).flattened(0.3 + 0.1 * (k * 0.4).cos() as f32, 0.2);
+        closed(name, (0..48).map(|k| at(f64::from(k))).collect())
+    };
+    vec![
+        ribbon("flat"),
+        flattened("flat-standing", &[[0.125, 0.5]; 6]),
+        flattened("flat-changing", &changing),
+        // The spline of the height dips below zero, that of the width does not.
+        flattened("flat-overshooting", &[[0.25, 1.0], [0.25, 0.0625], [0.25, 0.0625], [0.25, 1.0]]),
+        flattened("flat-round-at-last", &[[0.4, 0.2], [0.25, 0.25], [0.25, 0.25], [0.25, 0.25], [0.25, 0.25]]),
+        twisted(ribbon("flat-twisted"), 2.0),
+        twisted(flattened("flat-changing-twisted", &changing), -1.5),
+        flat_knot("flat-closed"),
+        twisted(flat_knot("flat-closed-twisted"), 0.7),
+        // Along z, where the upright side is +y.
+        open("flat-up", (0..5).map(|k| point([0.5, 0.25, f64::from(k)], RADIUS).flattened(0.4, 0.2)).collect()),
+        open("flat-repeated", [0.0, 1.0, 1.0, 2.0].map(|x| point([x, 0.5 * x, 0.0], RADIUS).flattened(0.4, 0.2)).into()),
     ]
 }

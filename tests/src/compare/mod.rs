@@ -21,7 +21,8 @@ pub const POSITION: f64 = 1e-4;
 /// from: far from the origin f32 has no more to give.
 pub const COORDINATE_ULPS: f64 = 4.0;
 
-/// How far a unit vector may lie from its direction, rad; and, relative to it, a radius from its length.
+/// How far a unit vector may lie from its direction, rad; relative to it, a half width or half height from its size; and,
+/// beside 1, its growth.
 pub const DIRECTION: f64 = 1e-4;
 
 /// How far roll may drift with each ring, and with each radian of twist, from the yarn's start, rad.
@@ -54,7 +55,7 @@ impl Allowance {
     fn new(ring: &OracleRing, number: usize) -> Self {
         let tilt = ring.tangent.x.hypot(ring.tangent.y);
         Self {
-            position: POSITION * ring.radius + COORDINATE_ULPS * ulp(ring.extent),
+            position: POSITION * ring.thinnest() + COORDINATE_ULPS * ulp(ring.extent),
             roll: ROLL_FLOOR
                 + ROLL_DRIFT * (number as f64 + ring.twist)
                 + INTERVAL_TWIST * ring.interval_twist,
@@ -109,7 +110,7 @@ impl Expected for Oracle {
     }
 }
 
-/// Another backend's output; what an output does not tell (slope, twist so far) comes from the oracle.
+/// Another backend's output; what an output does not say (twist so far) comes from the oracle.
 struct Gold<'a> {
     oracle: &'a Oracle,
     output: &'a Assembled,
@@ -122,7 +123,8 @@ impl Expected for Gold<'_> {
         let side = side(tangent, roll);
         OracleRing {
             centre: wide(gold.centre),
-            radius: gold.radius.into(),
+            halves: [gold.half_width, gold.half_height].map(f64::from),
+            growths: [gold.width_growth, gold.height_growth].map(f64::from),
             tangent,
             roll,
             side,
@@ -195,14 +197,22 @@ fn compare_ring(
 ) {
     let [x, y, z] = actual.centre;
     let [tx, ty, tz] = actual.tangent;
-    if !is_finite(&[x, y, z, actual.radius, tx, ty, tz], place, report) {
+    let Ring { half_width, half_height, width_growth, height_growth, .. } = *actual;
+    let sizes = [half_width, half_height, width_growth, height_growth];
+    if !is_finite(&[x, y, z, tx, ty, tz], place, report) || !is_finite(&sizes, place, report) {
         return;
     }
-    let (centre, radius, tangent) = (wide(actual.centre), f64::from(actual.radius), wide(actual.tangent));
-    let error = [(centre - expected.centre).length(), allowed.position, expected.radius];
+    let (centre, tangent) = (wide(actual.centre), wide(actual.tangent));
+    let error = [(centre - expected.centre).length(), allowed.position, expected.thinnest()];
     report.check(Quantity::Centre, place, error, (expected.centre, centre));
-    let error = [(radius - expected.radius).abs(), DIRECTION * expected.radius, expected.radius];
-    report.check(Quantity::Radius, place, error, (expected.radius, radius));
+    for (half, expected) in [half_width, half_height].map(f64::from).into_iter().zip(expected.halves) {
+        let error = [(half - expected).abs(), DIRECTION * expected, expected];
+        report.check(Quantity::Half, place, error, (expected, half));
+    }
+    for (growth, expected) in [width_growth, height_growth].map(f64::from).into_iter().zip(expected.growths) {
+        let room = 1.0 + expected.abs();
+        report.check(Quantity::Growth, place, [(growth - expected).abs(), DIRECTION * room, room], (expected, growth));
+    }
     let error = [(tangent - expected.tangent).length(), DIRECTION, 1.0];
     if !report.check(Quantity::Tangent, place, error, (expected.tangent, tangent)) {
         // A roll about another tangent says nothing.
@@ -253,15 +263,23 @@ fn compare_vertex(
     let room = allowed.position;
     if allowed.framed {
         let error = (actual_position - position).length();
-        let room = [error, room + arm.length() * allowed.roll, ring.radius];
+        let room = [error, room + arm.length() * ring.flatness() * allowed.roll, ring.thinnest()];
         report.check(Quantity::Vertex, place, room, (position, actual_position));
-        let error = [(actual_normal - normal).length(), DIRECTION + allowed.roll, 1.0];
+        let room = DIRECTION + ring.flatness() * allowed.roll;
+        let error = [(actual_normal - normal).length(), room, 1.0];
+        report.check(Quantity::Normal, place, error, (normal, actual_normal));
+    } else if !ring.is_round() {
+        // Which way the frame stands decides how far a vertex lies out: in the ring's plane, and its normal of length 1.
+        let off_plane = actual_arm.dot(ring.tangent).abs();
+        let error = [off_plane, room + arm.length() * ring.flatness() * DIRECTION, ring.thinnest()];
+        report.check(Quantity::Vertex, place, error, (position, actual_position));
+        let error = [(actual_normal.length() - 1.0).abs(), DIRECTION, 1.0];
         report.check(Quantity::Normal, place, error, (normal, actual_normal));
     } else {
         // In the ring's plane, as far from its centre as it should, its normal leaning as far out and along.
         let off_plane = actual_arm.dot(ring.tangent).abs();
         let off_distance = (actual_arm.length() - arm.length()).abs();
-        let error = [off_plane.max(off_distance), room + arm.length() * DIRECTION, ring.radius];
+        let error = [off_plane.max(off_distance), room + arm.length() * DIRECTION, ring.thinnest()];
         report.check(Quantity::Vertex, place, error, (position, actual_position));
         let lean = |normal: DVec3, arm: DVec3| {
             [normal.dot(ring.tangent), normal.dot(arm.normalize()), normal.length()]

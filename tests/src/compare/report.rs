@@ -19,8 +19,8 @@ pub enum Fault {
     Position,
     /// A vertex normal off its direction.
     Normal,
-    /// A ring's radius.
-    Radius,
+    /// A ring's half width, half height, or the growth of either.
+    Size,
     /// A ring's tangent off its direction.
     Tangent,
     /// A ring's turn about the tangent.
@@ -75,8 +75,10 @@ impl fmt::Display for Mismatch {
 pub enum Quantity {
     /// Ring centres, in radii of the yarn.
     Centre,
-    /// Radii, relative.
-    Radius,
+    /// Half widths and half heights, relative.
+    Half,
+    /// Their growth, relative beside 1.
+    Growth,
     /// Tangents, rad.
     Tangent,
     /// Turn about the tangent, rad.
@@ -89,14 +91,21 @@ pub enum Quantity {
 
 impl Quantity {
     /// All of them, in the order of the table.
-    pub const ALL: [Self; 6] =
-        [Self::Centre, Self::Radius, Self::Tangent, Self::Roll, Self::Vertex, Self::Normal];
+    pub const ALL: [Self; 7] = [
+        Self::Centre,
+        Self::Half,
+        Self::Growth,
+        Self::Tangent,
+        Self::Roll,
+        Self::Vertex,
+        Self::Normal,
+    ];
 
     /// What is allowed in the quantity's unit where neither digits nor drift ask for more; no such bound for roll.
     const fn bound(self) -> f64 {
         match self {
             Self::Centre | Self::Vertex => POSITION,
-            Self::Radius | Self::Tangent | Self::Normal => DIRECTION,
+            Self::Half | Self::Growth | Self::Tangent | Self::Normal => DIRECTION,
             Self::Roll => f64::INFINITY,
         }
     }
@@ -104,7 +113,7 @@ impl Quantity {
     const fn fault(self) -> Fault {
         match self {
             Self::Centre | Self::Vertex => Fault::Position,
-            Self::Radius => Fault::Radius,
+            Self::Half | Self::Growth => Fault::Size,
             Self::Tangent => Fault::Tangent,
             Self::Roll => Fault::Roll,
             Self::Normal => Fault::Normal,

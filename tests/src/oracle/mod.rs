@@ -26,12 +26,12 @@ use spline::Curve;
 pub struct OracleRing {
     /// Centre, mm.
     pub centre: DVec3,
-    /// Radius, mm.
-    pub radius: f64,
+    /// Half width and half height, along the upright frame's side and up, mm.
+    pub halves: [f64; 2],
     /// Unit tangent.
     pub tangent: DVec3,
-    /// dr/ds, mm per mm.
-    pub slope: f64,
+    /// How both grow along the yarn, mm per mm.
+    pub growths: [f64; 2],
     /// Turn against the upright frame, in turns; what twist adds to it is not reduced to one turn.
     pub roll: f64,
     /// Twist from the yarn's start up to here, rad, without regard to sign: what the allowed drift grows with.
@@ -41,10 +41,32 @@ pub struct OracleRing {
     /// The largest coordinate, without regard to sign, of the four control points that it comes from, mm: what f32 has
     /// to share its digits with.
     pub extent: f64,
-    /// Where the section's x axis points.
+    /// Side and up of the upright frame, along which flattening works.
+    pub upright: [DVec3; 2],
+    /// Where the section's x axis points before it is flattened.
     pub side: DVec3,
-    /// Where the section's y axis points.
+    /// Where the section's y axis points before it is flattened.
     pub up: DVec3,
+}
+
+impl OracleRing {
+    /// Whether the section is as wide as high here, so that it does not matter which way the upright frame stands.
+    #[must_use]
+    pub fn is_round(&self) -> bool {
+        self.halves[0] == self.halves[1] && self.growths[0] == self.growths[1]
+    }
+
+    /// The smaller of the two halves, mm: what a position's tolerance is a share of.
+    #[must_use]
+    pub fn thinnest(&self) -> f64 {
+        self.halves[0].min(self.halves[1])
+    }
+
+    /// How many times the larger half is as large as the smaller: by so much flattening may turn a normal more than the roll.
+    #[must_use]
+    pub fn flatness(&self) -> f64 {
+        self.halves[0].max(self.halves[1]) / self.thinnest()
+    }
 }
 
 /// One yarn as it should be.
@@ -147,10 +169,15 @@ impl Oracle {
     pub fn vertex(&self, yarn: usize, ring: usize, point: usize) -> (DVec3, DVec3) {
         let OracleYarn { rings, section, .. } = &self.yarns[yarn];
         let (ring, at) = (&rings[ring], &self.outlines[*section][point]);
-        let position = ring.centre + (ring.side * at.x + ring.up * at.y) * ring.radius;
-        // Where the yarn grows thicker the surface leans back by the slope times how far out along its normal it lies.
-        let lean = ring.slope * (at.x * at.normal_x + at.y * at.normal_y);
-        (position, (ring.side * at.normal_x + ring.up * at.normal_y - ring.tangent * lean).normalize())
+        let [level, rising] = ring.upright;
+        let [a, b] = ring.halves;
+        let flatten = |v: DVec3, a: f64, b: f64| level * (v.dot(level) * a) + rising * (v.dot(rising) * b);
+        let arm = ring.side * at.x + ring.up * at.y;
+        // The surface's normal is at right angles to the outline, which is flattened as its points are, and to the way in which
+        // a point moves when one goes along the yarn. (What bends and twist add to that way is left out.)
+        let along_outline = flatten(ring.up * at.normal_x - ring.side * at.normal_y, a, b);
+        let along_yarn = ring.tangent + flatten(arm, ring.growths[0], ring.growths[1]);
+        (ring.centre + flatten(arm, a, b), along_outline.cross(along_yarn).normalize())
     }
 }
 
@@ -168,13 +195,14 @@ fn follow(yarn: &Yarn, points: &[ControlPoint], settings: &Settings) -> OracleYa
         };
         rings.push(OracleRing {
             centre: place.centre,
-            radius: place.radius,
+            halves: place.halves,
             tangent: place.tangent,
-            slope: place.slope,
+            growths: place.growths,
             roll: own + turned,
             twist: twisted,
             interval_twist: 0.0,
             extent: place.extent,
+            upright: [side, up],
             side,
             up,
         });

@@ -16,12 +16,12 @@ pub(super) struct Curve<'a> {
 pub(super) struct Place {
     /// Centre, mm.
     pub(super) centre: DVec3,
-    /// Radius, mm.
-    pub(super) radius: f64,
+    /// Half width and half height, mm.
+    pub(super) halves: [f64; 2],
     /// Unit tangent.
     pub(super) tangent: DVec3,
-    /// dr/ds.
-    pub(super) slope: f64,
+    /// How both grow along the yarn.
+    pub(super) growths: [f64; 2],
     /// Largest coordinate of the four control points, mm.
     pub(super) extent: f64,
 }
@@ -30,7 +30,8 @@ pub(super) struct Place {
 struct Interval {
     /// Relative to the interval's first point, which keeps coinciding points exactly coinciding.
     positions: [DVec3; 4],
-    radii: [f64; 4],
+    /// Half widths, then half heights.
+    halves: [[f64; 4]; 2],
     start: DVec3,
 }
 
@@ -65,8 +66,22 @@ impl Interval {
         self.positions.iter().zip(weights).map(|(point, weight)| *point * weight).sum()
     }
 
-    fn radius(&self, weights: [f64; 4]) -> f64 {
-        self.radii.iter().zip(weights).map(|(radius, weight)| radius * weight).sum()
+    fn half(&self, which: usize, weights: [f64; 4]) -> f64 {
+        self.halves[which].iter().zip(weights).map(|(half, weight)| half * weight).sum()
+    }
+
+    /// A half width or half height and its growth along the yarn: never less than half the smaller of the two places that the
+    /// interval joins, and not growing where it is held there or where the yarn stands still.
+    fn size(&self, which: usize, orders: [[f64; 4]; 4]) -> (f64, f64) {
+        let (half, velocity) = (self.half(which, orders[0]), self.position(orders[1]));
+        let least = 0.5 * self.halves[which][1].min(self.halves[which][2]);
+        if half < least {
+            (least, 0.0)
+        } else if velocity.length_squared() > self.at_rest() {
+            (half, (self.half(which, orders[1]) / velocity.length()).clamp(-1e4, 1e4))
+        } else {
+            (half, 0.0)
+        }
     }
 
     /// The square under which a derivative counts as none, mm²: a millionth of the interval's size, and never less than
@@ -94,16 +109,6 @@ impl Interval {
         }
         DVec3::X
     }
-
-    /// dr/ds, none where the yarn stands still.
-    fn slope(&self, orders: [[f64; 4]; 4]) -> f64 {
-        let velocity = self.position(orders[1]);
-        if velocity.length_squared() > self.at_rest() {
-            (self.radius(orders[1]) / velocity.length()).clamp(-1e4, 1e4)
-        } else {
-            0.0
-        }
-    }
 }
 
 impl<'a> Curve<'a> {
@@ -118,16 +123,19 @@ impl<'a> Curve<'a> {
         intervals * self.per_interval + 1
     }
 
-    /// Control point `index`, which may be the virtual one before the first or after the last.
-    fn point(&self, index: i64) -> (DVec3, f64) {
+    /// Position and halves of control point `index`, which may be the virtual one before the first or after the last. The
+    /// halves of a virtual one are half floats as those of all others.
+    fn point(&self, index: i64) -> (DVec3, [f64; 2]) {
         let count = self.points.len() as i64;
         let exact = |at: i64| {
             let point = &self.points[at as usize];
-            (DVec3::new(point.x.into(), point.y.into(), point.z.into()), f64::from(point.radius))
+            let halves = [point.half_width(), point.half_height()].map(f64::from);
+            (DVec3::new(point.x.into(), point.y.into(), point.z.into()), halves)
         };
         let reflect = |end: i64, inner: i64| {
-            let ((end, end_radius), (inner, inner_radius)) = (exact(end), exact(inner));
-            (end * 2.0 - inner, end_radius * 2.0 - inner_radius)
+            let ((end, end_halves), (inner, inner_halves)) = (exact(end), exact(inner));
+            let far = |which: usize| 2.0 * end_halves[which] - inner_halves[which];
+            (end * 2.0 - inner, [far(0), far(1)].map(|half| half::f16::from_f64(half).to_f64()))
         };
         match index {
             _ if self.closed => exact(index.rem_euclid(count)),
@@ -140,7 +148,8 @@ impl<'a> Curve<'a> {
     fn interval(&self, number: u64) -> Interval {
         let points = [-1, 0, 1, 2].map(|step| self.point(number as i64 + step));
         let start = points[1].0;
-        Interval { positions: points.map(|point| point.0 - start), radii: points.map(|point| point.1), start }
+        let halves = [0, 1].map(|which| points.map(|point| point.1[which]));
+        Interval { positions: points.map(|point| point.0 - start), halves, start }
     }
 
     /// The interval that a ring is evaluated in, and t: an open yarn ends at t = 1 of its last interval.
@@ -156,14 +165,13 @@ impl<'a> Curve<'a> {
     pub(super) fn at(&self, ring: u64) -> Place {
         let (number, t) = self.locate(ring);
         let (interval, orders) = (self.interval(number), weights(self.s, t));
-        let radius = interval.radius(orders[0]);
-        // The tube never gets thinner than half the thinner of the two places that it joins.
-        let least = 0.5 * interval.radii[1].min(interval.radii[2]);
+        let [(half_width, width_growth), (half_height, height_growth)] =
+            [0, 1].map(|which| interval.size(which, orders));
         Place {
             centre: interval.start + interval.position(orders[0]),
-            radius: radius.max(least),
+            halves: [half_width, half_height],
             tangent: interval.tangent(orders, t),
-            slope: if radius < least { 0.0 } else { interval.slope(orders) },
+            growths: [width_growth, height_growth],
             extent: interval.extent(),
         }
     }

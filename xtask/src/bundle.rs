@@ -37,8 +37,8 @@ pub(crate) fn run(steps: &mut Steps) {
         return;
     }
     // Built by now: cargo only names the program's path.
-    let told = steps.output("cargo", &[&built[..], &suite].concat(), &[]).unwrap_or_default();
-    let Some(suite) = told.rsplit_once('(').and_then(|(_, path)| path.split(')').next()) else {
+    let output = steps.output("cargo", &[&built[..], &suite].concat(), &[]).unwrap_or_default();
+    let Some(suite) = output.rsplit_once('(').and_then(|(_, path)| path.split(')').next()) else {
         return steps.fail("cargo does not say where the conformance suite is".into());
     };
     if let Err(error) = collect(steps, suite) {

@@ -312,8 +312,8 @@ fn sizes_that_no_texture_has_and_views_of_nothing_are_refused() {
     let limit = renderer.side_limit();
     for (size, given, most) in [([10, 10], 0, limit / 10), ([limit, 1], 2, 1), ([1, limit / 2], 3, 2)] {
         match scene.picture(&Camera::face(&extent, size), Quality { supersampling: given }) {
-            Err(RenderError::Supersampling { supersampling, most: told, .. }) => {
-                assert_eq!((supersampling, told), (given, most), "{size:?}");
+            Err(RenderError::Supersampling { supersampling, most: allowed, .. }) => {
+                assert_eq!((supersampling, allowed), (given, most), "{size:?}");
             }
             other => panic!("{size:?}: {other:?}"),
         }

@@ -29,8 +29,9 @@ pub(crate) fn install(steps: &mut Steps) {
 }
 
 fn has_driver() -> bool {
-    let told = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"].iter().any(|name| std::env::var_os(name).is_some());
+    let configured =
+        ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"].iter().any(|name| std::env::var_os(name).is_some());
     let holds_any =
         |folder: &&str| fs::read_dir(folder).is_ok_and(|mut entries| entries.any(|entry| entry.is_ok()));
-    told || DRIVER_FOLDERS.iter().any(holds_any)
+    configured || DRIVER_FOLDERS.iter().any(holds_any)
 }

@@ -128,7 +128,7 @@ typedef struct {
     float4 c2;
     float4 c3;
     float radius_floor;
-    // A squared velocity that counts as none.
+    // A squared velocity up to this counts as zero.
     float at_rest;
 } Segment;
 
@@ -196,8 +196,7 @@ Sample segment_sample(const Segment *segment, float t) {
     return sample;
 }
 
-// `part` / `whole`, exactly: neither is so large that half of one for safety would not do, and it takes a fraction of the
-// time of a division of integers.
+// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an integer division.
 uint quotient(uint part, uint whole) {
     return (uint)(((float)part + 0.5f) * (1.0f / (float)whole));
 }
@@ -292,7 +291,7 @@ float transport_turns(float3 tangent, float3 next_tangent, float3 chord) {
     float mirror_squared = apart ? length_squared : 1.0f;
     side = mirrored(side, mirror, mirror_squared);
     float3 reflected_tangent = mirrored(tangent, mirror, mirror_squared);
-    // A hairpin leaves nothing for the second reflection to do.
+    // At a hairpin the second reflection is the identity.
     mirror = next_tangent - reflected_tangent;
     mirror_squared = dot3(mirror, mirror);
     if (mirror_squared > NO_MIRROR) {
@@ -315,22 +314,22 @@ uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
     if (yarn->closed == 0u) {
         return sum;
     }
-    // Not `?:`, which PoCL 3.1 leaves out: there the last ring kept what rounding the share leaves.
+    // Not `?:`, which PoCL 3.1 miscompiles: the last ring kept the rounding error of its share.
     return select(sum - turn_share(whole, ring, steps), 0u, ring == steps);
 }
 
 // ---- Vertex ----
 
-// Where the vertex at `point` of a section lies: `centre` with the radius.
+// The position of the vertex at `point` of a section; `centre` has the radius as its fourth component.
 float3 position_at(float4 centre, float3 side, float3 up, float4 point) {
     float3 outward = side * point.x + up * point.y;
     return centre.xyz + outward * centre.w;
 }
 
-// Its normal: `tangent` with the slope.
+// The vertex's normal; `tangent` has the slope of the radius as its fourth component.
 float3 normal_at(float4 tangent, float3 side, float3 up, float4 point) {
     float3 across = side * point.z + up * point.w;
-    // Most yarns are as thick here as there, and need no square root.
+    // Most yarns have a constant radius, and need no square root.
     if (tangent.w == 0.0f) {
         return across;
     }

@@ -2,8 +2,8 @@
 //
 // rings.wgsl is the twin of this file.
 
-// The rings of a block, each with its side and its roll; `up_of` makes the rest of the basis, sooner than memory for it
-// would: the less a workgroup has, the more of them run.
+// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis instead of storing it: the
+// less memory a workgroup takes, the more of them run at a time.
 typedef struct {
     // Centre, radius.
     float4 centre[BLOCK_RINGS];
@@ -25,7 +25,7 @@ void block_rings(__global const float4 *points, const Params *params, const Yarn
     if (lane < block->rings) {
         here = ring_sample(points, params, yarn, block, lane);
         rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.slope);
-        // The step from the ring before wants the offset; the side takes its place afterwards.
+        // The step from the ring before needs the offset; the side takes its place afterwards.
         rings->side[lane] = (float4)(here.sample.offset, 0.0f);
     }
     if (params->rolled != 0u) {

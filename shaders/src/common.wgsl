@@ -128,7 +128,7 @@ struct Segment {
     c2: vec4<f32>,
     c3: vec4<f32>,
     radius_floor: f32,
-    // A squared velocity that counts as none.
+    // A squared velocity up to this counts as zero.
     at_rest: f32,
 }
 
@@ -196,8 +196,7 @@ fn segment_sample(segment: Segment, t: f32) -> Sample {
     return sample;
 }
 
-// `part` / `whole`, exactly: neither is so large that half of one for safety would not do, and it takes a fraction of the
-// time of a division of integers.
+// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an integer division.
 fn quotient(part: u32, whole: u32) -> u32 {
     return u32((f32(part) + 0.5) * (1.0 / f32(whole)));
 }
@@ -291,7 +290,7 @@ fn transport_turns(tangent: vec3<f32>, next_tangent: vec3<f32>, chord: vec3<f32>
     var mirror_squared = select(1.0, length_squared, apart);
     side = mirrored(side, mirror, mirror_squared);
     let reflected_tangent = mirrored(tangent, mirror, mirror_squared);
-    // A hairpin leaves nothing for the second reflection to do.
+    // At a hairpin the second reflection is the identity.
     mirror = next_tangent - reflected_tangent;
     mirror_squared = dot(mirror, mirror);
     if mirror_squared > NO_MIRROR {
@@ -322,16 +321,16 @@ fn closed_up(yarn: YarnRow, ring: u32, sum: u32, whole: u32) -> u32 {
 
 // ---- Vertex ----
 
-// Where the vertex at `point` of a section lies: `centre` with the radius.
+// The position of the vertex at `point` of a section; `centre` has the radius as its fourth component.
 fn position_at(centre: vec4<f32>, side: vec3<f32>, up: vec3<f32>, point: vec4<f32>) -> vec3<f32> {
     let outward = side * point.x + up * point.y;
     return centre.xyz + outward * centre.w;
 }
 
-// Its normal: `tangent` with the slope.
+// The vertex's normal; `tangent` has the slope of the radius as its fourth component.
 fn normal_at(tangent: vec4<f32>, side: vec3<f32>, up: vec3<f32>, point: vec4<f32>) -> vec3<f32> {
     let across = side * point.z + up * point.w;
-    // Most yarns are as thick here as there, and need no square root.
+    // Most yarns have a constant radius, and need no square root.
     if tangent.w == 0.0 {
         return across;
     }

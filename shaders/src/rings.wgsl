@@ -5,8 +5,8 @@
 // The whole turn of each yarn, then the roll at each block's start: one buffer, since eight are all that WebGPU promises.
 @group(0) @binding(4) var<storage, read> rolls: array<u32>;
 
-// The rings of a block, each with its side and its roll; `up_of` makes the rest of the basis, sooner than memory for it
-// would: the less a workgroup has, the more of them run.
+// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis instead of storing it: the
+// less memory a workgroup takes, the more of them run at a time.
 struct BlockRings {
     // Centre, radius.
     centre: array<vec4<f32>, BLOCK_RINGS>,
@@ -28,7 +28,7 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
     if lane < block.rings {
         here = ring_sample(yarn, block, lane);
         standing.tangent[lane] = vec4(here.sample.tangent, here.sample.slope);
-        // The step from the ring before wants the offset; the side takes its place afterwards.
+        // The step from the ring before needs the offset; the side takes its place afterwards.
         standing.side[lane] = here.sample.offset;
     }
     if params.rolled != 0u {

@@ -22,18 +22,18 @@ use crate::cases::{self, Case};
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
-    /// What `TEXERE_REQUIRE` calls it.
+    /// Its name in `TEXERE_REQUIRE`.
     pub name: &'static str,
     /// Whether its output must equal the gold reference to the bit.
     pub exact: bool,
-    /// Opens all devices that it has, a schedule a device. What does not open counts as missing, and so does a backend
-    /// without any.
+    /// Opens all its devices, each once for every schedule. A device that does not open counts as missing, and so does a
+    /// backend without devices.
     pub open: OpenAll,
     /// The cases that its devices get.
     pub cases: fn() -> Vec<Case>,
 }
 
-/// Opens all devices of a backend, and says of each that does not open why.
+/// Opens all devices of a backend, and gives an error for each that does not open.
 pub type OpenAll = fn() -> Vec<Result<Arc<dyn Backend>, BackendError>>;
 
 impl Entry {

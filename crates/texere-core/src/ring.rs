@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use crate::{Basis, Sample, SectionPoint, Turn, Vertex};
 
-/// One place along a yarn: everything of it that a section needs to stand there, but for the slope of the radius.
+/// One sample of a yarn's centreline: all that places a section there, except the slope of the radius.
 ///
 /// **Shape**: eight 4-byte values, 32 bytes. **Units**: mm; `roll` in 2⁻³² turns.
 ///

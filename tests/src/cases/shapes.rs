@@ -1,4 +1,4 @@
-//! Single yarns, each with something about it that a backend might get wrong.
+//! Single yarns, each with a difficulty that a backend might get wrong.
 
 use std::f64::consts::TAU;
 
@@ -86,7 +86,7 @@ fn loops(k: f64) -> [f64; 3] {
     [(stitch as f64 + x) * 2.0, y * 2.6, z * 0.35]
 }
 
-/// All of them.
+/// All shapes.
 pub(super) fn all() -> Vec<Shape> {
     let mut shapes = straight();
     shapes.extend(round());
@@ -103,7 +103,7 @@ fn straight() -> Vec<Shape> {
         open("straight-oblique", along(5, |k| [k, 2.0 * k, -2.0 * k])),
         open("straight-up", along(5, |k| [0.5, 0.25, k])),
         open("straight-down", along(5, |k| [0.5, 0.25, -k])),
-        // Less than a milliradian off z: in reach of the frame's noise, out of reach of its rule for the vertical.
+        // Less than a milliradian off z: the frame is sensitive to rounding there, but its rule for the vertical does not apply.
         open("nearly-up", along(5, |k| [k * 1e-4, k * 8e-4, k])),
         open("one-interval", listed(&[[0.0, 0.0, 0.0], [1.0, 2.0, 0.5]])),
         open("one-interval-up", listed(&[[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]])),
@@ -138,7 +138,7 @@ fn turning_back() -> Vec<Shape> {
     vec![
         open("hairpin", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3]])),
         open("hairpin-oblique", listed(&[[0.0; 3], [1.0, 2.0, 1.0], [3.0, 6.0, 3.0], [1.0, 2.0, 1.0]])),
-        // Nowhere exact in f32, so that what should vanish is noise.
+        // Not exact in f32, so that what should vanish is rounding noise.
         open("hairpin-askew", listed(&[[0.1, 0.2, 0.3], [0.7, 1.6, -0.1], [0.1, 0.2, 0.3]])),
         open("hairpin-up", listed(&[[0.0; 3], [0.0, 0.0, 2.0], [0.0; 3]])),
         closed("hairpin-closed", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]])),
@@ -177,7 +177,7 @@ fn far() -> Vec<Shape> {
         moved(open("far-wave", along(20, wave)), [1e4, -1e4]),
         moved(open("far-loops", along(37, loops)), [1e4, 1e4]),
         moved(closed("far-helix-closed", along(48, |k| torus_knot(k, 48.0))), [-1e4, 1e4]),
-        // A thousand kilometres out the grid of f32 is a sixteenth of a mm.
+        // Far from the origin, where neighbouring f32 values are a sixteenth of a mm apart.
         moved(open("farthest-wave", along(20, |k| wave(k).map(|value| value * 4.0))), [1e6, -1e6]),
         open("long-interval", listed(&[[-5e3, 0.0, 0.0], [5e3, 10.0, 0.0], [5e3, 5e3, 0.0]])),
     ]

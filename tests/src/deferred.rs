@@ -13,7 +13,7 @@ use texere_core::{
 };
 use texere_cpu::SerialBackend;
 
-use crate::drive::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
 /// The most bytes of a lent piece.
 const PIECE_BYTES: usize = 4096;

@@ -4,12 +4,13 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_core::{
-    Backend, Chunk, Engine, Limits, MeshMut, MeshPiece, Plan, PlanError, Ring, Session, SessionError, Turn,
-    Vertex, Yarns,
+    Backend, Chunk, Engine, Limits, MeshMut, MeshPiece, Plan, PlanError, Ring, Session, SessionError, Vertex,
+    Yarns,
 };
 use thiserror::Error;
 
 use crate::compare::{Fault, Place, Report};
+use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
 /// An error that keeps a case from running.
 #[derive(Debug, Error)]
@@ -21,24 +22,6 @@ pub enum DriveError {
     /// The session, or the backend behind it, failed.
     #[error("the session failed")]
     Session(#[from] SessionError),
-}
-
-/// A NaN that no arithmetic gives: memory that still holds it was never written.
-const POISON: f32 = f32::from_bits(0x7fc0_bad1);
-
-/// A vertex that was never written.
-pub(crate) const POISONED_VERTEX: Vertex = Vertex { position: [POISON; 3], normal: [POISON; 3] };
-
-/// A ring that was never written.
-pub(crate) const POISONED_RING: Ring =
-    Ring { centre: [POISON; 3], radius: POISON, tangent: [POISON; 3], roll: Turn(0x7fc0_bad1) };
-
-/// An index that was never written; no chunk has so many vertices.
-pub(crate) const POISONED_INDEX: u32 = u32::MAX;
-
-/// Whether `value` is what memory was filled with before the backend ran.
-pub(crate) fn is_poison(value: f32) -> bool {
-    value.to_bits() == POISON.to_bits()
 }
 
 /// The ways through a session; all must give the same output.

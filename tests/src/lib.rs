@@ -14,6 +14,7 @@ mod deferred;
 pub mod drive;
 pub mod limits;
 pub mod oracle;
+mod poison;
 mod registry;
 mod sabotage;
 pub mod schedule;

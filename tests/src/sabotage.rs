@@ -13,7 +13,7 @@ use texere_core::{
 use texere_cpu::SerialBackend;
 
 use crate::compare::Fault;
-use crate::drive::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
 /// The fault of a broken backend. Unless it says otherwise, it happens once, in the second chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use libtest_mimic::Failed;
 use texere_core::{Backend, BackendError, DeviceInfo, Frame, Plan, Schedule, Settings, Yarns};
 
 use crate::REGISTRY;
-use crate::suite::names;
+use crate::registry::names;
 
 /// Whether `device` must refuse `yarns` under `settings`. Only [`Schedule::PerYarn`] leaves anything out.
 #[must_use]

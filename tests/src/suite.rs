@@ -10,6 +10,7 @@ use texere_core::Backend;
 
 use crate::cases::{self, Case};
 use crate::check::check_within;
+use crate::registry::names;
 use crate::registry::{Entry, chain};
 use crate::schedule::{beyond, refuses};
 use crate::sessions;
@@ -86,11 +87,6 @@ fn trial(case: Arc<Case>, device: Arc<dyn Backend>, exact: bool, worst: &Table) 
         worst.note(name, &report);
         if report.is_clean() { Ok(()) } else { Err(report.to_string().into()) }
     })
-}
-
-/// The names in a comma-separated list.
-pub(crate) fn names(list: &str) -> impl Iterator<Item = &str> {
-    list.split(',').map(str::trim).filter(|name| !name.is_empty())
 }
 
 /// A trial in place of those of a backend, or of a device of it, that is missing.

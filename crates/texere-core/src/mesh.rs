@@ -2,64 +2,7 @@
 
 use std::sync::Arc;
 
-use bytemuck::{Pod, Zeroable};
-
-use crate::{Chunk, Material, Plan};
-
-/// A vertex of a tube.
-///
-/// **Shape**: six `f32`, 24 bytes. **Units**: mm; the normal is a unit vector that points out of the yarn.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
-pub struct Vertex {
-    /// Position, mm.
-    pub position: [f32; 3],
-    /// Outward unit normal.
-    pub normal: [f32; 3],
-}
-
-const _: () = assert!(size_of::<Vertex>() == 24 && std::mem::offset_of!(Vertex, normal) == 12);
-
-/// One of a yarn's two ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum End {
-    /// Where its rings start.
-    Start,
-    /// Where they finish.
-    Finish,
-}
-
-/// How triangles are encoded. They are counter-clockwise seen from outside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Topology {
-    /// Three `u32` indices a triangle, counted from the chunk's first vertex.
-    #[default]
-    Indexed,
-    /// One index pattern for all parts, drawn with a base vertex. Halves the bytes that have to be written.
-    Shared,
-    /// No indices: for a caller who knows the pattern.
-    None,
-}
-
-/// The most gaps between rings that the shared pattern covers; longer parts take several draws. With up to seven sides
-/// every index of it fits 16 bits.
-pub const SHARED_GAPS: u64 = 8192;
-
-/// The indices of the quads between a ring and the next, counted from the ring's first vertex: six for each side.
-///
-/// ```
-/// let quad = &texere_core::index_pattern(6)[..6];
-/// assert_eq!(quad, [0, 1, 6, 1, 7, 6]);
-/// ```
-#[must_use]
-pub fn index_pattern(sides: u32) -> Vec<u32> {
-    (0..sides)
-        .flat_map(|k| {
-            let next = (k + 1) % sides;
-            [k, next, sides + k, next, sides + next, sides + k]
-        })
-        .collect()
-}
+use crate::{Chunk, End, Material, Plan, SHARED_GAPS, Topology, Vertex, index_pattern};
 
 /// A range of indices that draws (part of) one yarn.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -5,8 +5,9 @@ use std::ops::Range;
 use texere_core::{Cap, Chunk, End, Part, Ring, Topology, Vertex};
 
 use super::{Fault, Place, Report, same_bits};
-use crate::drive::{ChunkOutput, Output, POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+use crate::drive::{ChunkOutput, Output};
 use crate::oracle::{Oracle, cap_flaw, quad_indices};
+use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
 /// A whole output, joined from its chunks.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::{DIRECTION, POSITION};
+use super::bounds::{DIRECTION, POSITION};
 
 /// The kinds of fault that an output can have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -198,6 +198,16 @@ impl Size {
     }
 }
 
+impl Plan {
+    /// Cuts the work into chunks that fit `limits`, in order. Two chunks and the control points fit
+    /// `limits.memory_bytes` together.
+    ///
+    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one block fits.
+    pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
+        Chunks::new(self, *limits)
+    }
+}
+
 /// The chunks of a plan, cut as they are asked for.
 #[derive(Debug, Clone)]
 pub struct Chunks<'a> {

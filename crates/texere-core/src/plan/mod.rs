@@ -297,14 +297,6 @@ impl Plan {
     pub fn trajectory_bytes(&self) -> u64 {
         self.counts.rings * size_of::<Ring>() as u64
     }
-
-    /// Cuts the work into chunks that fit `limits`, in order. Two chunks and the control points fit
-    /// `limits.memory_bytes` together.
-    ///
-    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one block fits.
-    pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
-        Chunks::new(self, *limits)
-    }
 }
 
 /// Identifies a plan within the process. A plan never changes, so its clones have the same identity.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan};
 
 use crate::engine::CpuEngine;
-use crate::parallel::{Parallel, Path};
+use crate::parallel::Parallel;
 use crate::serial::Serial;
 
 /// One thread, one yarn after the other: the reference.
@@ -18,7 +18,7 @@ pub struct SerialBackend {
 #[derive(Debug)]
 pub struct ParallelBackend {
     info: DeviceInfo,
-    path: Path,
+    parallel: Parallel,
 }
 
 fn info(name: &str, schedule: &str, threads: usize) -> DeviceInfo {
@@ -51,11 +51,11 @@ impl ParallelBackend {
     /// those that the environment variable `TEXERE_SIMD` names.
     #[must_use]
     pub fn new() -> Self {
-        Self::with("cpu", Path::detect())
+        Self::with("cpu", Parallel::new())
     }
 
-    /// Opens it once for each kind of vectors that the processor has, the widest ones last, for tests that none differs
-    /// from the others. Each one's name says which: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
+    /// Opens it once for each kind of vectors that the processor has, the widest ones last, whatever `TEXERE_SIMD` says: for
+    /// tests that all kinds give the same. Each one's name says which: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
     ///
     /// ```
     /// use texere_core::Backend;
@@ -64,12 +64,13 @@ impl ParallelBackend {
     /// ```
     #[must_use]
     pub fn each() -> Vec<Self> {
-        let named = |path: Path| Self::with(&format!("cpu/{}", path.name()), path);
-        Path::available().into_iter().map(named).collect()
+        Parallel::each()
+            .map(|parallel| Self::with(&format!("cpu/{}", parallel.vectors()), parallel))
+            .collect()
     }
 
-    fn with(name: &str, path: Path) -> Self {
-        Self { info: info(name, "equal ranges of rings", rayon::current_num_threads()), path }
+    fn with(name: &str, parallel: Parallel) -> Self {
+        Self { info: info(name, "equal ranges of rings", rayon::current_num_threads()), parallel }
     }
 }
 
@@ -101,6 +102,6 @@ impl Backend for ParallelBackend {
     }
 
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
-        Ok(Box::new(CpuEngine::new(Parallel(self.path), plan)?))
+        Ok(Box::new(CpuEngine::new(self.parallel, plan)?))
     }
 }

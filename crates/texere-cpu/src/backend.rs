@@ -47,11 +47,19 @@ impl SerialBackend {
 }
 
 impl ParallelBackend {
-    /// Opens the parallel backend, which works on rayon's global pool, with the widest vectors that the processor has, or
-    /// those that the environment variable `TEXERE_SIMD` names.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::with("cpu", Parallel::new())
+    /// Opens the parallel backend, which works on rayon's global pool, with the vectors that the environment variable
+    /// `TEXERE_SIMD` names (`portable`, `avx2` or `avx512`) or, without it, the widest ones that the processor has.
+    ///
+    /// ```
+    /// use texere_core::Backend;
+    /// use texere_cpu::ParallelBackend;
+    /// assert_eq!(ParallelBackend::open()?.info().name, "cpu");
+    /// # Ok::<(), texere_core::BackendError>(())
+    /// ```
+    ///
+    /// **Errors**: [`BackendError::NoInstructionSet`] where `TEXERE_SIMD` names no vectors of this processor.
+    pub fn open() -> Result<Self, BackendError> {
+        Ok(Self::with("cpu", Parallel::new()?))
     }
 
     /// Opens it once for each kind of vectors that the processor has, the widest ones last, whatever `TEXERE_SIMD` says: for
@@ -75,12 +83,6 @@ impl ParallelBackend {
 }
 
 impl Default for SerialBackend {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl Default for ParallelBackend {
     fn default() -> Self {
         Self::new()
     }

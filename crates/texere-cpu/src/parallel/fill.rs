@@ -18,7 +18,7 @@ const FILL_FLOATS: usize = 1 << 18;
 /// assert!(out.iter().all(|value| *value == 1.5));
 /// ```
 pub fn fill(out: &mut [f32], value: f32) {
-    let set = InstructionSet::chosen();
+    let set = InstructionSet::chosen().unwrap_or_else(|_| InstructionSet::widest());
     out.par_chunks_mut(FILL_FLOATS).for_each(|out| set.run(Fill { out, value }));
 }
 

@@ -1,5 +1,9 @@
 //! Which vector instructions the parallel backend uses, found out at run time.
 
+use std::ffi::OsStr;
+
+use texere_core::BackendError;
+
 #[cfg(target_arch = "x86_64")]
 use super::avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
@@ -35,12 +39,25 @@ impl InstructionSet {
         sets
     }
 
-    /// The set that `TEXERE_SIMD` names, if the processor has it, else the one with the widest vectors.
-    pub(super) fn chosen() -> Self {
+    /// The set with the widest vectors.
+    pub(super) fn widest() -> Self {
+        Self::available().pop().unwrap_or(Self::Portable(Portable))
+    }
+
+    /// The set that `TEXERE_SIMD` names or, without it, the one with the widest vectors.
+    ///
+    /// **Errors**: [`BackendError::NoInstructionSet`] where the processor has no set of that name.
+    pub(super) fn chosen() -> Result<Self, BackendError> {
+        std::env::var_os(VARIABLE).map_or_else(|| Ok(Self::widest()), |name| Self::named(&name))
+    }
+
+    fn named(wanted: &OsStr) -> Result<Self, BackendError> {
         let sets = Self::available();
-        let wanted = std::env::var(VARIABLE).ok();
-        let named = wanted.and_then(|name| sets.iter().find(|set| set.name() == name).copied());
-        named.or(sets.last().copied()).unwrap_or(Self::Portable(Portable))
+        sets.iter().copied().find(|set| set.name() == wanted).ok_or_else(|| BackendError::NoInstructionSet {
+            variable: VARIABLE,
+            wanted: wanted.to_string_lossy().into_owned(),
+            found: sets.iter().map(|set| set.name()).collect(),
+        })
     }
 
     pub(super) const fn name(self) -> &'static str {
@@ -60,6 +77,31 @@ impl InstructionSet {
             Self::Avx2(simd) => simd.run(job),
             #[cfg(target_arch = "x86_64")]
             Self::Avx512(simd) => simd.run(job),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_set_that_the_processor_has_is_found_by_its_name() {
+        for set in InstructionSet::available() {
+            let named = InstructionSet::named(OsStr::new(set.name()));
+            assert_eq!(named.map(InstructionSet::name).ok(), Some(set.name()));
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_no_set_of_this_processor_is_refused_with_those_that_are() {
+        for wanted in ["", "AVX2", "avx2 ", "neon", "portable,avx2"] {
+            let message = match InstructionSet::named(OsStr::new(wanted)) {
+                Ok(set) => format!("{} was taken", set.name()),
+                Err(error) => error.to_string(),
+            };
+            let start = format!("TEXERE_SIMD is \"{wanted}\"; this processor has: portable");
+            assert!(message.starts_with(&start), "{message}");
         }
     }
 }

@@ -45,9 +45,11 @@ pub(crate) struct Parallel(InstructionSet);
 const STREAM_BYTES: usize = 32 << 20;
 
 impl Parallel {
-    /// With the vectors that `TEXERE_SIMD` names, if the processor has them, else the widest ones that it has.
-    pub(crate) fn new() -> Self {
-        Self(InstructionSet::chosen())
+    /// With the vectors that `TEXERE_SIMD` names or, without it, the widest ones that the processor has.
+    ///
+    /// **Errors**: [`BackendError::NoInstructionSet`] where it has none of that name.
+    pub(crate) fn new() -> Result<Self, BackendError> {
+        InstructionSet::chosen().map(Self)
     }
 
     /// One for each kind of vectors that the processor has, the widest last.

@@ -33,7 +33,7 @@ use lines::{IndexLines, IndexTable, Lines, VertexLines};
 use rings::{Rings, Source, Stretch, Walk};
 use runs::{MeshRun, RingRun, mesh_runs, ring_runs, take};
 use simd::{Floats, Job, LANES_MAX, LINE, Line, Simd};
-use spline::Places;
+use spline::Seats;
 use tiles::TileLines;
 use vertices::{Surface, VERTEX};
 
@@ -93,12 +93,12 @@ impl Executor for Parallel {
 /// What is the same for all runs.
 struct Maker<'a> {
     work: &'a Work,
-    places: Places,
+    seats: Vec<Seats>,
 }
 
 impl<'a> Maker<'a> {
     fn new(work: &'a Work) -> Self {
-        Self { work, places: Places::new(&work.plan) }
+        Self { work, seats: Seats::at_each_place(&work.plan) }
     }
 
     /// Calls `take` with the rings of `blocks`, which are one yarn's and follow each other, the first of them number `number`
@@ -106,7 +106,7 @@ impl<'a> Maker<'a> {
     #[cfg_attr(optimized, inline(always))]
     fn rings<S: Simd>(&self, simd: S, blocks: &[Block], number: u64, sink: &mut impl Sink) {
         let Work { plan, points, rolls } = self.work;
-        let source = Source { plan, points, places: &self.places };
+        let source = Source { plan, points, seats: &self.seats };
         let (yarn, first) = (blocks[0].yarn as usize, blocks[0].first_ring);
         let stretch = Stretch { yarn, first, count: blocks.iter().map(|block| block.rings).sum() };
         let mut walk = Walk::new(simd, source, stretch);

@@ -129,8 +129,11 @@ impl Simd for Portable {
 
     #[cfg_attr(optimized, inline(always))]
     fn scatter(self, rows: [F32x4; 4], out: &mut [f32], stride: usize) {
+        // What is left after each lane is cheaper to check than a lane's place in the whole.
+        let mut left = &mut out[..3 * stride + 4];
         for lane in 0..4 {
-            out[lane * stride..][..4].copy_from_slice(&each(|row| rows[row].0[lane]));
+            left[..4].copy_from_slice(&each(|row| rows[row].0[lane]));
+            left = left.get_mut(stride..).unwrap_or_default();
         }
     }
 

@@ -7,14 +7,15 @@
 use texere_core::{Basis, ControlPoint, PaddedPoints, Plan, Ring, SLOPE_LIMIT, VERTICAL};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
-use super::spline::{Cubics, Places, xyz};
+use super::spline::{Cubics, Seats, xyz};
 
 /// What rings are made from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) plan: &'a Plan,
     pub(super) points: &'a PaddedPoints,
-    pub(super) places: &'a Places,
+    /// One for each place in an interval.
+    pub(super) seats: &'a [Seats],
 }
 
 impl<'a> Source<'a> {
@@ -71,9 +72,9 @@ pub(super) struct Walk<'a, S: Simd> {
 impl<'a, S: Simd> Walk<'a, S> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(simd: S, source: Source<'a>, stretch: Stretch) -> Self {
-        let Source { plan, places, .. } = source;
+        let Source { plan, seats, .. } = source;
         let points = source.yarn(stretch.yarn);
-        let per_interval = places.0.len();
+        let per_interval = seats.len();
         let interval = stretch.first as usize / per_interval;
         Self {
             simd,
@@ -98,8 +99,8 @@ impl<'a, S: Simd> Walk<'a, S> {
     /// The next vector of rings. Past the end of the stretch its lanes hold nothing of meaning.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn next(&mut self) -> Rings<S> {
-        let (simd, Source { plan, places, .. }) = (self.simd, self.source);
-        let seats = &places.0[self.place];
+        let (simd, Source { plan, seats: at_place, .. }) = (self.simd, self.source);
+        let seats = &at_place[self.place];
         if self.interval + seats.interval[S::LANES - 1] as usize >= self.first_cubic + S::LANES {
             self.first_cubic = self.interval;
             self.cubics = Cubics::new(simd, self.points, self.interval, plan.sampling().s());
@@ -116,8 +117,8 @@ impl<'a, S: Simd> Walk<'a, S> {
         let (intervals, place) = self.stride;
         self.interval += intervals;
         self.place += place;
-        if self.place >= places.0.len() {
-            self.place -= places.0.len();
+        if self.place >= at_place.len() {
+            self.place -= at_place.len();
             self.interval += 1;
         }
         rings

@@ -8,7 +8,7 @@ use super::planar::stays_upright;
 use super::rings::{Source, Stretch, Walk};
 use super::runs::take;
 use super::simd::{Integers, Job, LANES_MAX, Simd};
-use super::spline::Places;
+use super::spline::Seats;
 use super::turns::Steps;
 use crate::engine::resize;
 use crate::rolls::Rolls;
@@ -29,8 +29,8 @@ pub(super) fn scan(
     resize("rolls", at_block, plan.block_count())?;
     // A vector may reach past the last ring.
     resize("rolls", in_block, plan.counts().rings + LANES_MAX as u64)?;
-    let places = Places::new(plan);
-    let source = Source { plan, points, places: &places };
+    let seats = Seats::at_each_place(plan);
+    let source = Source { plan, points, seats: &seats };
     runs(plan, at_block, in_block).into_par_iter().for_each(|run| set.run(ScanRun { source, run }));
     whole.clear();
     for bounds in plan.block_offsets().windows(2) {

@@ -12,18 +12,15 @@ pub(super) struct Seats {
     pub(super) t: [f32; LANES_MAX],
 }
 
-/// The seats for each place in an interval at which a vector's first ring can lie.
-#[derive(Debug)]
-pub(crate) struct Places(pub(super) Vec<Seats>);
-
-impl Places {
-    pub(crate) fn new(plan: &Plan) -> Self {
+impl Seats {
+    /// Those for each place in an interval at which a vector's first ring can lie.
+    pub(super) fn at_each_place(plan: &Plan) -> Vec<Self> {
         let (per_interval, step) = (plan.settings().subdivisions + 1, plan.sampling().step());
-        let seats = |place: u32| Seats {
+        let seats = |place: u32| Self {
             interval: std::array::from_fn(|lane| (place + lane as u32) / per_interval),
             t: std::array::from_fn(|lane| ((place + lane as u32) % per_interval) as f32 * step),
         };
-        Self((0..per_interval).map(seats).collect())
+        (0..per_interval).map(seats).collect()
     }
 }
 

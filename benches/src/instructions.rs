@@ -50,7 +50,7 @@ fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
 fn mesh((ends, picks): (usize, usize), settings: Settings, times: u32) -> Result<u64, Box<dyn Error>> {
     let yarns = paper_cloth(ends, picks)?.yarns()?;
     let (plan, chunks) = plan(&yarns, settings)?;
-    let mut session = session(&ParallelBackend::new(), &plan, &yarns)?;
+    let mut session = session(&ParallelBackend::open()?, &plan, &yarns)?;
     let mut vertices = texere_core::zeroed("vertices", chunks[0].vertices().into())?;
     let mut indices = texere_core::zeroed("indices", chunks[0].indices().into())?;
     for _ in 0..times {

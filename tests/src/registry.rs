@@ -16,7 +16,7 @@ use crate::cases::{self, Case};
 /// use std::sync::Arc;
 /// use texere_conformance::Entry;
 /// use texere_cpu::ParallelBackend;
-/// let entry = Entry::exact("cpu", || vec![Ok(Arc::new(ParallelBackend::new()))]);
+/// let entry = Entry::exact("cpu", || vec![ParallelBackend::open().map(|cpu| Arc::new(cpu) as _)]);
 /// let (devices, missing) = entry.devices();
 /// assert_eq!((devices.len(), missing.len()), (1, 0));
 /// ```

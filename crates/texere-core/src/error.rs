@@ -284,6 +284,16 @@ pub enum BackendError {
         /// Names that would have worked.
         found: Vec<String>,
     },
+    /// An environment variable names vector instructions that the processor does not have, or that texere does not know.
+    #[error("{variable} is \"{wanted}\"; this processor has: {}", .found.join(", "))]
+    NoInstructionSet {
+        /// The variable.
+        variable: &'static str,
+        /// What it says.
+        wanted: String,
+        /// Names that would have worked.
+        found: Vec<&'static str>,
+    },
     /// Memory could not be allocated.
     #[error("out of memory: {bytes} bytes for {what}")]
     OutOfMemory {

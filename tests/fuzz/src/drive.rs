@@ -75,7 +75,7 @@ fn cloth(woven: &Woven) -> Outcome {
         .subdivisions(1)
         .topology(Topology::Indexed)
         .caps(true);
-    match pipeline.mesh(&ParallelBackend::new()) {
+    match pipeline.mesh(&ParallelBackend::open().expect("the CPU's backend")) {
         Ok(mesh) => {
             let whole = |vertex: &texere_core::Vertex| {
                 vertex.position.iter().chain(&vertex.normal).all(|value| value.is_finite())

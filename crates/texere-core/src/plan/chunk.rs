@@ -224,6 +224,10 @@ impl<'a> Chunks<'a> {
     pub(super) fn new(plan: &'a Plan, limits: Limits) -> Result<Self, PlanError> {
         let chunks =
             Self { plan, limits, index: 0, next_block: 0, next_yarn: 0, first_vertex: 0, first_index: 0 };
+        // Where any block fits, yarns need not be looked at one by one: a session asks for chunks with each scan.
+        if chunks.largest_block().excess(plan.resident_bytes(), &limits).is_none() {
+            return Ok(chunks);
+        }
         for yarn in 0..plan.layout().yarns().len() {
             let offsets = plan.block_offsets();
             // The first, the last and, standing for those between, the second block of the yarn.
@@ -236,6 +240,19 @@ impl<'a> Chunks<'a> {
             }
         }
         Ok(chunks)
+    }
+
+    /// No less than any block takes, with both its caps and the ring that it may repeat.
+    fn largest_block(&self) -> Size {
+        let (sides, rings) = (u64::from(self.plan.settings().sides), u64::from(BLOCK_RINGS) + 1);
+        Size {
+            blocks: 2,
+            rings,
+            vertices: (rings + 2) * sides,
+            indices: (rings + 1) * sides * 6,
+            // Each ring in an interval of its own, then the other points that the last one and the step to the next ring read.
+            window: rings + 5 + WINDOW_POINTS,
+        }
     }
 
     /// Rings of block `block` of `yarn`: first, count, and whether the yarn goes on after it.
@@ -429,6 +446,45 @@ fn note_caps(chunk: &mut Chunk, yarn: usize, first: u32, rings: u32, goes_on: bo
         if present {
             let chunk_ring = chunk.rings + ring;
             chunk.caps.push(Cap { yarn: yarn as u32, end, chunk_ring, first_vertex: 0, first_index: 0 });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Frame, Settings, Yarn, Yarns};
+
+    #[test]
+    fn no_block_takes_more_than_the_largest() {
+        let mut yarns = Yarns::builder();
+        for count in [3, 64, 65, 66, 130, 500] {
+            let points: Vec<_> = (0..count).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
+            yarns.yarn(Yarn::default(), &points);
+            yarns.yarn(Yarn { closed: true, ..Yarn::default() }, &points);
+        }
+        let yarns = yarns.build().unwrap();
+        for (sides, subdivisions, caps) in
+            [(3, 0, true), (3, 0, false), (6, 1, true), (256, 0, true), (5, 7, false)]
+        {
+            let settings =
+                Settings { sides, subdivisions, caps, frame: Frame::Upright, ..Settings::default() };
+            let plan = Plan::new(yarns.layout().clone(), settings).unwrap();
+            let chunks = plan.chunks(&Limits::NONE).unwrap();
+            let largest = chunks.largest_block();
+            for yarn in 0..plan.layout().yarns().len() {
+                for block in plan.block_offsets()[yarn]..plan.block_offsets()[yarn + 1] {
+                    let size = chunks.extended(&Size::default(), None, yarn, block).1;
+                    let pairs = [
+                        (size.blocks, largest.blocks),
+                        (size.rings, largest.rings),
+                        (size.vertices, largest.vertices),
+                        (size.indices, largest.indices),
+                        (size.window, largest.window),
+                    ];
+                    assert!(pairs.iter().all(|(size, largest)| size <= largest), "{size:?} of {largest:?}");
+                }
+            }
         }
     }
 }

@@ -1,5 +1,5 @@
-//! What a device reaches against its floor, side by side: the mesh stage beside a plain fill of the same bytes, reading and
-//! uploading beside plain copies from and to pinned memory.
+//! A device against its floor, side by side: the mesh stage beside a plain fill of the same bytes, reading and uploading
+//! beside plain copies from and to pinned memory.
 
 use std::error::Error;
 use std::time::Duration;
@@ -10,7 +10,7 @@ use crate::fill::{Fill, Gpu};
 use crate::measure::{Bench, median_time};
 use crate::{one_yarn, paper_cloth};
 
-/// What is asked of the mesh stage.
+/// A variant of the mesh stage.
 #[derive(Debug, Clone, Copy)]
 struct Case {
     name: &'static str,
@@ -54,7 +54,7 @@ pub fn print(devices: &[String], sizes: &[(usize, usize)], rounds: usize) -> Res
         .iter()
         .map(|&(ends, picks)| Ok((format!("{ends} x {picks}"), paper_cloth(ends, picks)?.yarns()?)));
     let cloths: Vec<_> = cloths.collect::<Result<_, Box<dyn Error>>>()?;
-    // Opened once: drivers keep something of each context.
+    // Opened once: drivers keep some memory of each context.
     let mut gpus = Vec::new();
     for name in devices {
         gpus.push((name, Gpu::open(name)?, texere::open(&format!("{name}/per-yarn"))?));

@@ -1,4 +1,4 @@
-//! Makes a cloth or its mesh some times over, for a count of instructions: `instructions KIND TIMES`.
+//! Makes a cloth or its mesh several times, for a count of instructions: `instructions KIND TIMES`.
 //!
 //! KIND is a mesh, `upright`, `minimizing` with its scan, `bare` without indices, or `streamed`, upright and too large for
 //! any cache; or control points, `crossing` with one a crossing, or `round`. It prints how many rings, or control points,
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Control points of one cloth, so large that next to nothing else is counted.
+/// Control points of one cloth, so large that all else is negligible.
 fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
     let mut cloth = paper_cloth(300, 300)?;
     cloth.set_shape(shape);
@@ -50,7 +50,7 @@ fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
 fn mesh((ends, picks): (usize, usize), settings: Settings, times: u32) -> Result<u64, Box<dyn Error>> {
     let yarns = paper_cloth(ends, picks)?.yarns()?;
     let (plan, chunks) = plan(&yarns, settings)?;
-    let mut session = session(&ParallelBackend::new(), &plan, &yarns)?;
+    let mut session = session(&ParallelBackend::open()?, &plan, &yarns)?;
     let mut vertices = texere_core::zeroed("vertices", chunks[0].vertices().into())?;
     let mut indices = texere_core::zeroed("indices", chunks[0].indices().into())?;
     for _ in 0..times {

@@ -1,4 +1,4 @@
-//! What devices reach: against their floor, and beside the paper's tables.
+//! Measures devices: against their floor, and beside the paper's tables.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -94,7 +94,7 @@ fn gpus() -> impl Iterator<Item = String> {
     texere::devices().found.into_iter().filter(move |device| is_gpu(device.kind)).map(|device| device.name)
 }
 
-/// The serial reference first, then all others, with either schedule; where there is a GPU, nothing that imitates one.
+/// The serial reference first, then all others, with either schedule; where there is a GPU, no software device.
 fn all_devices() -> Vec<String> {
     let mut others: Vec<_> = gpus().collect();
     if others.is_empty() {

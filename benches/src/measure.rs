@@ -1,4 +1,4 @@
-//! What a device takes for the stages of one fabric.
+//! The time that a device takes for the stages of one fabric.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -10,14 +10,14 @@ use thiserror::Error;
 
 use crate::median;
 
-/// What can go wrong before there is anything to measure.
+/// Errors before there is anything to measure.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MeasureError {
     /// The yarns fit no plan.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// The device gave up.
+    /// The device failed.
     #[error(transparent)]
     Session(#[from] SessionError),
 }
@@ -49,7 +49,7 @@ impl Bench {
         let creation = start.elapsed();
         let start = Instant::now();
         session.upload(0, yarns.points())?;
-        // Times are of what has ended.
+        // Times are of work that has ended.
         session.timings();
         let upload = start.elapsed();
         Ok(Self { plan, chunks, session, yarns, creation, upload })
@@ -131,8 +131,8 @@ impl Bench {
     }
 }
 
-/// Bytes that two chunks in flight may take: on a device whose memory is the host's, the cloths of the tables would not
-/// leave room for the rest.
+/// Bytes that two chunks in flight may take. Without this limit, on a device whose memory is the host's, the cloths of the
+/// tables would leave no room for the rest.
 const HOST_SHARE: u64 = 12 << 30;
 
 /// The middle one of some times.

@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("usage: polylines ENDS PICKS FOLDER".into());
     };
     let yarns = paper_cloth(ends.parse()?, picks.parse()?)?.yarns()?;
-    let trajectory = Pipeline::new(&yarns).trajectory(&ParallelBackend::new())?;
+    let trajectory = Pipeline::new(&yarns).trajectory(&ParallelBackend::open()?)?;
     let points: Vec<u8> =
         trajectory.rings.iter().flat_map(|ring| ring.centre).flat_map(f32::to_le_bytes).collect();
     let offsets: Vec<u8> = trajectory.offsets.iter().flat_map(|offset| offset.to_le_bytes()).collect();

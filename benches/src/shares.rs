@@ -64,8 +64,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             case.print(threads);
         }
         let times = (0..rounds.min(5)).map(|_| -> Result<_, Box<dyn Error + Send + Sync>> {
+            let cpu = ParallelBackend::open()?;
             let start = Instant::now();
-            let mesh = pool.install(|| Pipeline::new(&yarns).mesh(&ParallelBackend::new()))?;
+            let mesh = pool.install(|| Pipeline::new(&yarns).mesh(&cpu))?;
             let time = start.elapsed();
             drop(mesh);
             Ok(time)
@@ -83,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn case(name: &'static str, settings: Settings, yarns: &Yarns) -> Result<Case, Box<dyn Error>> {
     let (plan, chunks) = plan(yarns, settings)?;
-    let session = session(&ParallelBackend::new(), &plan, yarns)?;
+    let session = session(&ParallelBackend::open()?, &plan, yarns)?;
     Ok(Case { name, plan, chunks, session, rounds: Vec::new() })
 }
 

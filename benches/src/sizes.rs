@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .fold((vertices.len(), indices.len()), |most, here| (most.0.max(here.0), most.1.max(here.1)));
         vertices.resize(most_vertices, Vertex::default());
         indices.resize(most_indices, 0);
-        jobs.push((name, session(&ParallelBackend::new(), &plan, yarns)?, plan, chunks, Vec::new()));
+        jobs.push((name, session(&ParallelBackend::open()?, &plan, yarns)?, plan, chunks, Vec::new()));
     }
     for _ in 0..rounds {
         for (_, session, _, chunks, times) in &mut jobs {

@@ -1,4 +1,4 @@
-// The closed ends of yarns, once the tube vertices stand. After common.cl.
+// The caps at the ends of yarns, after the tube vertices. After common.cl.
 //
 // The twin of caps.wgsl and of texere-cpu's caps.rs.
 

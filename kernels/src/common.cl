@@ -135,7 +135,7 @@ typedef struct {
     bool is_round;
     // The least half width and half height.
     float2 floors;
-    // A squared velocity that counts as none.
+    // A squared velocity up to this counts as zero.
     float at_rest;
 } Segment;
 
@@ -249,8 +249,7 @@ Sample segment_sample(const Segment *segment, float t) {
     return sample;
 }
 
-// `part` / `whole`, exactly: neither is so large that half of one for safety would not do, and it takes a fraction of the
-// time of a division of integers.
+// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an integer division.
 uint quotient(uint part, uint whole) {
     return (uint)(((float)part + 0.5f) * (1.0f / (float)whole));
 }
@@ -345,7 +344,7 @@ float transport_turns(float3 tangent, float3 next_tangent, float3 chord) {
     float mirror_squared = apart ? length_squared : 1.0f;
     side = mirrored(side, mirror, mirror_squared);
     float3 reflected_tangent = mirrored(tangent, mirror, mirror_squared);
-    // A hairpin leaves nothing for the second reflection to do.
+    // At a hairpin the second reflection is the identity.
     mirror = next_tangent - reflected_tangent;
     mirror_squared = dot3(mirror, mirror);
     if (mirror_squared > NO_MIRROR) {
@@ -368,7 +367,7 @@ uint closed_up(const YarnRow *yarn, uint ring, uint sum, uint whole) {
     if (yarn->closed == 0u) {
         return sum;
     }
-    // Not `?:`, which PoCL 3.1 leaves out: there the last ring kept what rounding the share leaves.
+    // Not `?:`, which PoCL 3.1 miscompiles: the last ring kept the rounding error of its share.
     return select(sum - turn_share(whole, ring, steps), 0u, ring == steps);
 }
 

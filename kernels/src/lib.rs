@@ -1,4 +1,4 @@
-//! The OpenCL C sources of texere, as text, and what a host has to know to launch them. No GPU interface is used here.
+//! The OpenCL C sources of texere, as text, with their entry points and workgroup sizes. No GPU interface is used here.
 //!
 //! Each stage is a file, and the WGSL stages of texere-shaders are its twins: the same names, the same order of
 //! operations. A [`Program`] is the list of files that are compiled together, shared ones first.
@@ -14,7 +14,7 @@
 pub struct Entry {
     /// The kernel function.
     pub name: &'static str,
-    /// Lanes in a workgroup: the source requires just so many, but for `mesh` and `mesh_odd`, which 64 do for as well.
+    /// Lanes in a workgroup. The source requires exactly this many, except for `mesh` and `mesh_odd`, which also run with 64.
     pub group: usize,
 }
 
@@ -34,7 +34,7 @@ pub const MESH: Entry = Entry { name: "mesh", group: 128 };
 /// The same for an odd number of sides.
 pub const MESH_ODD: Entry = Entry { name: "mesh_odd", ..MESH };
 
-/// The workgroup of [`MESH`] where it writes no indices: with less to write for each ring, lanes that have none cost more.
+/// The workgroup of [`MESH`] where it writes no indices: with less to write for each ring, lanes without a ring cost more.
 pub const UNINDEXED_GROUP: usize = 64;
 
 /// The chunk's caps, after [`MESH`]: a lane a cap vertex.
@@ -49,7 +49,7 @@ pub const MESH_PER_YARN: Entry = Entry { name: "mesh_per_yarn", group: 64 };
 /// Sources that are compiled together, and the entry points in them.
 #[derive(Debug, Clone, Copy)]
 pub struct Program {
-    /// What to call it in a message.
+    /// Its name in messages.
     pub name: &'static str,
     /// The files, in order.
     pub sources: &'static [&'static str],

@@ -3,9 +3,9 @@
 // The twin of mesh.wgsl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
 // at a time (8 where sides are odd in number), contiguous across the workgroup.
 
-// How a workgroup shares out the stores of its rings, all of which have equally many: a lane makes the same one, `store`,
-// of ring `ring` and of each `step`th ring after it. So what it wants of the outline or of the pattern it fetches once.
-// Where a ring has more stores than the workgroup lanes, a lane goes on `across` stores further.
+// A lane's share of the stores of a workgroup's rings, all of which have equally many: the same one, `store`, of ring `ring`
+// and of each `step`th ring after it. So a lane fetches its part of the outline or of the pattern only once. Where a ring
+// has more stores than the workgroup has lanes, a lane goes on `across` stores further.
 typedef struct {
     uint store;
     uint across;
@@ -24,8 +24,8 @@ Share share_of(uint lane, uint stores) {
     return share;
 }
 
-// Four floats of ring `ring`'s vertices, the first of which is number `first` of its vertex, an even one: so they hold
-// no more than one normal, or the end of one, and one position, or the start of one.
+// Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an even number: so they hold
+// floats of at most one normal and one position.
 float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float4 normal_point, float4 position_point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, normal_point);
@@ -36,7 +36,7 @@ float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float
     return first == 2u ? (float4)(position.z, normal) : (float4)(normal.yz, position.xy);
 }
 
-// Two floats likewise.
+// Two consecutive floats, likewise.
 float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4 point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, point);

@@ -2,8 +2,8 @@
 //
 // rings.wgsl is the twin of this file.
 
-// The rings of a block, each with its side and its roll; `up_of` makes the rest of the basis, sooner than memory for it
-// would: the less a workgroup has, the more of them run.
+// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis instead of storing it: the
+// less memory a workgroup takes, the more of them run at a time.
 typedef struct {
     // Centre, half width.
     float4 centre[BLOCK_RINGS];

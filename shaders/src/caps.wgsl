@@ -1,4 +1,4 @@
-// The closed ends of yarns, once the tube vertices stand. After common.wgsl.
+// The caps at the ends of yarns, after the tube vertices. After common.wgsl.
 //
 // The twin of caps.cl and of texere-cpu's caps.rs.
 

@@ -135,7 +135,7 @@ struct Segment {
     is_round: bool,
     // The least half width and half height.
     floors: vec2<f32>,
-    // A squared velocity that counts as none.
+    // A squared velocity up to this counts as zero.
     at_rest: f32,
 }
 
@@ -247,8 +247,7 @@ fn segment_sample(segment: Segment, t: f32) -> Sample {
     return sample;
 }
 
-// `part` / `whole`, exactly: neither is so large that half of one for safety would not do, and it takes a fraction of the
-// time of a division of integers.
+// `part` / `whole`, rounded down: exact for numbers as small as these, and much faster than an integer division.
 fn quotient(part: u32, whole: u32) -> u32 {
     return u32((f32(part) + 0.5) * (1.0 / f32(whole)));
 }
@@ -342,7 +341,7 @@ fn transport_turns(tangent: vec3<f32>, next_tangent: vec3<f32>, chord: vec3<f32>
     var mirror_squared = select(1.0, length_squared, apart);
     side = mirrored(side, mirror, mirror_squared);
     let reflected_tangent = mirrored(tangent, mirror, mirror_squared);
-    // A hairpin leaves nothing for the second reflection to do.
+    // At a hairpin the second reflection is the identity.
     mirror = next_tangent - reflected_tangent;
     mirror_squared = dot(mirror, mirror);
     if mirror_squared > NO_MIRROR {

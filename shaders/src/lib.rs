@@ -1,5 +1,5 @@
-//! The WGSL shaders of texere: sources, entry points, workgroup sizes and bindings. It knows no GPU programming
-//! interface; `texere-wgpu` runs them.
+//! The WGSL shaders of texere: sources, entry points, workgroup sizes and bindings. No GPU interface is used here;
+//! `texere-wgpu` runs them.
 //!
 //! | file | entry points | work |
 //! |---|---|---|
@@ -21,8 +21,8 @@
 
 pub mod picture;
 
-/// The grid of a launch of `workgroups`: columns, rows. No side is longer than every device allows, 65,535, and no row
-/// too many: a workgroup that finds nothing to do takes time, too.
+/// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every device allows, and there
+/// are as few workgroups without work as can be, since these take time too.
 ///
 /// ```
 /// assert_eq!(texere_shaders::grid(65_535), (65_535, 1));
@@ -34,7 +34,7 @@ pub const fn grid(workgroups: u32) -> (u32, u32) {
     if rows == 0 { (0, 0) } else { (workgroups.div_ceil(rows), rows) }
 }
 
-/// What a shader reads or writes; the number is that of its binding in group 0.
+/// A resource that a shader reads or writes; its number is that of its binding in group 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Resource {

@@ -15,9 +15,9 @@ const MESH_GROUP = 128u;
 @group(0) @binding(7) var<storage, read_write> vertex_pairs: array<vec2<f32>>;
 @group(0) @binding(8) var<storage, read_write> index_pairs: array<vec2<u32>>;
 
-// How a workgroup shares out the stores of its rings, all of which have equally many: a lane makes the same one, `store`,
-// of ring `ring` and of each `step`th ring after it. So what it wants of the outline or of the pattern it fetches once.
-// Where a ring has more stores than the workgroup lanes, a lane goes on `across` stores further.
+// A lane's share of the stores of a workgroup's rings, all of which have equally many: the same one, `store`, of ring `ring`
+// and of each `step`th ring after it. So a lane fetches its part of the outline or of the pattern only once. Where a ring
+// has more stores than the workgroup has lanes, a lane goes on `across` stores further.
 struct Share {
     store: u32,
     across: u32,
@@ -33,8 +33,8 @@ fn share_of(lane: u32, stores: u32) -> Share {
     return Share(select(stores, lane - ring * across, ring < step), across, ring, step);
 }
 
-// Four floats of ring `ring`'s vertices, the first of which is number `first` of its vertex, an even one: so they hold
-// no more than one normal, or the end of one, and one position, or the start of one.
+// Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an even number: so they hold
+// floats of at most one normal and one position.
 fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: vec4<f32>) -> vec4<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, normal_point);
@@ -43,7 +43,7 @@ fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: v
     return select(later, vec4(position, normal.x), first == 0u);
 }
 
-// Two floats likewise.
+// Two consecutive floats, likewise.
 fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, point);

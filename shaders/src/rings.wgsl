@@ -5,8 +5,8 @@
 // The whole turn of each yarn, then the roll at each block's start: one buffer, since eight are all that WebGPU promises.
 @group(0) @binding(4) var<storage, read> rolls: array<u32>;
 
-// The rings of a block, each with its side and its roll; `up_of` makes the rest of the basis, sooner than memory for it
-// would: the less a workgroup has, the more of them run.
+// The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis instead of storing it: the
+// less memory a workgroup takes, the more of them run at a time.
 struct BlockRings {
     // Centre, half width.
     centre: array<vec4<f32>, BLOCK_RINGS>,

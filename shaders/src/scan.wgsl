@@ -1,4 +1,4 @@
-// Rolls at block starts: what a block needs to know of the yarn before it. After common.wgsl.
+// The roll at each block's start, summed over the blocks before it. After common.wgsl.
 //
 // The twin of scan.cl and of texere-cpu's serial/scan.rs. A block turns by the sum of its steps; a running sum over a
 // yarn's blocks then gives the roll at each block's first ring. Turns wrap, so the order of the sums does not matter.

@@ -128,8 +128,12 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
     let point: [u32; 4] = bytemuck::cast(ControlPoint::default().flattened(1.0, 2.0));
     assert_eq!(point[3], 0x4000_3c00);
     assert_eq!((offset_of!(SectionPoint, y), offset_of!(SectionPoint, normal_x)), (4, 8));
-    assert_eq!((offset_of!(Ring, half_width), offset_of!(Ring, tangent), offset_of!(Ring, roll)), (12, 16, 28));
-    let sizes = [offset_of!(Ring, half_height), offset_of!(Ring, width_growth), offset_of!(Ring, height_growth)];
+    assert_eq!(
+        (offset_of!(Ring, half_width), offset_of!(Ring, tangent), offset_of!(Ring, roll)),
+        (12, 16, 28)
+    );
+    let sizes =
+        [offset_of!(Ring, half_height), offset_of!(Ring, width_growth), offset_of!(Ring, height_growth)];
     assert_eq!(sizes, [32, 36, 40]);
     assert_eq!((offset_of!(Vertex, position), offset_of!(Vertex, normal)), (0, 12));
 }

@@ -1,4 +1,4 @@
-//! One fabric on one device, every way there is.
+//! The check of one fabric on one device, every way through a session.
 
 use std::sync::Arc;
 
@@ -13,9 +13,8 @@ use crate::drive::{DriveError, Way, drive};
 use crate::limits::Tight;
 use crate::oracle::Oracle;
 
-/// Runs `yarns` under `settings` on `device` every way there is, and tells what is wrong: against the oracle, against
-/// the gold reference (to the bit where `exact`), whole against chunks of a few blocks, a closed yarn's end
-/// against its start.
+/// Runs `yarns` under `settings` on `device` every way through a session, and compares: with the oracle, with the gold
+/// reference (to the bit where `exact`), the whole with chunks of a few blocks, a closed yarn's end with its start.
 ///
 /// ```
 /// use texere_conformance::{DeferredBackend, cases, check};
@@ -25,7 +24,7 @@ use crate::oracle::Oracle;
 /// # Ok::<(), texere_conformance::drive::DriveError>(())
 /// ```
 ///
-/// **Errors**: [`DriveError`] where the device gives up.
+/// **Errors**: [`DriveError`] where the device fails.
 pub fn check(
     yarns: &Yarns,
     settings: Settings,
@@ -37,7 +36,7 @@ pub fn check(
 
 /// [`check`], with chunks cut to the limit that is `tight`.
 ///
-/// **Errors**: [`DriveError`] where the device gives up.
+/// **Errors**: [`DriveError`] where the device fails.
 pub fn check_within(
     yarns: &Yarns,
     settings: Settings,

@@ -1,8 +1,8 @@
 //! A backend that behaves like a GPU, and gives the gold reference's output.
 //!
-//! Launches only note what to do; the work is done when it is read. Chunks are as small as they get, results come in
-//! small pieces from memory that held NaN before, and a third chunk takes the memory of the first. What passes the
-//! suite on this backend does not lean on the good nature of a CPU.
+//! Launches only record what to do; the work is done when it is read. Chunks are as small as they get, results come in
+//! small pieces from memory that held NaN before, and a third chunk takes the memory of the first. So it shows where the
+//! core or the suite relies on results being there early, as they are on a CPU.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -13,9 +13,9 @@ use texere_core::{
 };
 use texere_cpu::SerialBackend;
 
-use crate::drive::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
-/// Bytes that a lent piece has at most.
+/// The most bytes of a lent piece.
 const PIECE_BYTES: usize = 4096;
 
 /// A block, and the row for the ring that a cut repeats.
@@ -67,7 +67,7 @@ impl Backend for DeferredBackend {
     }
 }
 
-/// What was launched in a slot, and its memory.
+/// The memory of a slot's results.
 #[derive(Debug, Default)]
 struct Launch {
     rings: Vec<Ring>,

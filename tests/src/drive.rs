@@ -4,14 +4,15 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_core::{
-    Backend, Chunk, Engine, Limits, MeshMut, MeshPiece, Plan, PlanError, Ring, Session, SessionError, Turn,
-    Vertex, Yarns,
+    Backend, Chunk, Engine, Limits, MeshMut, MeshPiece, Plan, PlanError, Ring, Session, SessionError, Vertex,
+    Yarns,
 };
 use thiserror::Error;
 
 use crate::compare::{Fault, Place, Report};
+use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
-/// What keeps a case from being run at all.
+/// An error that keeps a case from running.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DriveError {
@@ -23,34 +24,7 @@ pub enum DriveError {
     Session(#[from] SessionError),
 }
 
-/// A NaN that no arithmetic makes: what it covers was never written.
-const POISON: f32 = f32::from_bits(0x7fc0_bad1);
-
-/// A vertex that was never written.
-pub(crate) const POISONED_VERTEX: Vertex = Vertex { position: [POISON; 3], normal: [POISON; 3] };
-
-/// A ring that was never written.
-pub(crate) const POISONED_RING: Ring =
-    Ring {
-        centre: [POISON; 3],
-        half_width: POISON,
-        tangent: [POISON; 3],
-        roll: Turn(0x7fc0_bad1),
-        half_height: POISON,
-        width_growth: POISON,
-        height_growth: POISON,
-        padding: 0x7fc0_bad1,
-    };
-
-/// An index that was never written; no chunk has so many vertices.
-pub(crate) const POISONED_INDEX: u32 = u32::MAX;
-
-/// Whether `value` is what memory was filled with before the backend ran.
-pub(crate) fn is_poison(value: f32) -> bool {
-    value.to_bits() == POISON.to_bits()
-}
-
-/// The ways through a session; all of them must give the same.
+/// The ways through a session; all must give the same output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
     /// Straight into the caller's memory, both stages in one; rings from a stage of their own afterwards.
@@ -61,10 +35,10 @@ pub enum Way {
     Staged,
 }
 
-/// All that a backend handed over, chunk by chunk.
+/// A backend's whole output, chunk by chunk.
 #[derive(Debug)]
 pub struct Output {
-    /// The plan that it was asked for.
+    /// The plan.
     pub plan: Arc<Plan>,
     /// The chunks.
     pub chunks: Vec<Chunk>,
@@ -72,7 +46,7 @@ pub struct Output {
     pub meshes: Vec<ChunkOutput>,
 }
 
-/// All that a backend handed over for a chunk, as long as planned.
+/// A backend's output for a chunk, as long as planned.
 #[derive(Debug)]
 pub struct ChunkOutput {
     /// Its rings.
@@ -101,10 +75,10 @@ const PIECES: usize = 100;
 
 /// Runs `yarns` through a new session of `device`, chunks cut to `limits` and the device's own, by `way`.
 ///
-/// What breaks the rules of a session (too many pieces, or out of order) goes to `report`; what the output is worth is
-/// for a comparison to say.
+/// Breaches of a session's rules (too many pieces, or out of order) go to `report`; whether the output is right is for a
+/// comparison to find.
 ///
-/// **Errors**: [`DriveError`] where plan or backend give up.
+/// **Errors**: [`DriveError`] where planning or the backend fails.
 pub fn drive(
     device: &dyn Backend,
     plan: &Arc<Plan>,
@@ -160,7 +134,7 @@ fn upload(session: &mut Session, yarns: &Yarns, way: Way) -> Result<(), SessionE
     pieces.into_iter().try_for_each(|(first, piece)| session.upload(first, piece))
 }
 
-/// Copies `piece` to `out` from `at` on, where it must follow what came before; gives back whether it fits.
+/// Copies `piece` to `out` from `at` on, if it follows the piece before and fits; gives back whether it does.
 fn take<T: Copy>(
     what: &str,
     done: &mut usize,
@@ -226,7 +200,7 @@ fn read_mesh(
     Ok(())
 }
 
-/// A chunk's mesh as a session lends it, all pieces one after the other.
+/// A chunk's mesh, joined from the pieces that a session lends.
 #[derive(Debug, Default, PartialEq)]
 pub struct Lent {
     /// Its vertices.
@@ -257,7 +231,7 @@ fn proceed(fits: bool) -> ControlFlow<()> {
     if fits { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 }
 
-/// Notes what never came. After a sink has broken off, that is its own doing.
+/// Reports missing output, unless the sink itself broke off.
 fn note_end(what: &str, answer: ControlFlow<()>, done: usize, planned: usize, report: &mut Report) {
     if answer.is_continue() && done < planned {
         report.note(Fault::Missing, Place::default(), format_args!("{planned} {what}"), done);

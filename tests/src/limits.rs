@@ -1,12 +1,12 @@
-//! Limits so tight that a plan has to be cut.
+//! Limits so tight that a plan is cut into several chunks.
 
 use texere_core::{Limits, Plan, PlanError};
 
-/// The suite's own chunks hold at most this share of a plan's blocks, so that every case of more than one block is cut
-/// and none into more chunks than take long.
+/// The suite's own chunks hold at most this share of a plan's blocks: every case of more than one block is cut, and none
+/// into so many chunks that it takes long.
 const CUTS: u64 = 40;
 
-/// Which limit chunks are cut to.
+/// The limit that chunks are cut to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tight {
     /// None: all in one chunk, as far as the device takes it.
@@ -37,7 +37,7 @@ impl Tight {
     }
 }
 
-/// The least that a limit can be for `plan`: what the refusals of anything less ask for.
+/// The least value of a limit that holds the largest block of `plan`, found from the errors for anything less.
 ///
 /// # Panics
 ///

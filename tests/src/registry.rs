@@ -16,24 +16,24 @@ use crate::cases::{self, Case};
 /// use std::sync::Arc;
 /// use texere_conformance::Entry;
 /// use texere_cpu::ParallelBackend;
-/// let entry = Entry::exact("cpu", || vec![Ok(Arc::new(ParallelBackend::new()))]);
+/// let entry = Entry::exact("cpu", || vec![ParallelBackend::open().map(|cpu| Arc::new(cpu) as _)]);
 /// let (devices, missing) = entry.devices();
 /// assert_eq!((devices.len(), missing.len()), (1, 0));
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
-    /// What `TEXERE_REQUIRE` calls it.
+    /// Its name in `TEXERE_REQUIRE`.
     pub name: &'static str,
     /// Whether its output must equal the gold reference to the bit.
     pub exact: bool,
-    /// Opens all devices that it has, a schedule a device. What does not open counts as missing, and so does a backend
-    /// without any.
+    /// Opens all its devices, each once for every schedule. A device that does not open counts as missing, and so does a
+    /// backend without devices.
     pub open: OpenAll,
     /// The cases that its devices get.
     pub cases: fn() -> Vec<Case>,
 }
 
-/// Opens all devices of a backend, and says of each that does not open why.
+/// Opens all devices of a backend, and gives an error for each that does not open.
 pub type OpenAll = fn() -> Vec<Result<Arc<dyn Backend>, BackendError>>;
 
 impl Entry {
@@ -104,4 +104,9 @@ fn open_each<B: Backend + 'static>(
 pub(crate) fn chain(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |error| error.source());
     causes.map(ToString::to_string).collect::<Vec<_>>().join(": ")
+}
+
+/// The names in a comma-separated list.
+pub(crate) fn names(list: &str) -> impl Iterator<Item = &str> {
+    list.split(',').map(str::trim).filter(|name| !name.is_empty())
 }

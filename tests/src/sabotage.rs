@@ -13,19 +13,19 @@ use texere_core::{
 use texere_cpu::SerialBackend;
 
 use crate::compare::Fault;
-use crate::drive::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
-/// What a broken backend does wrong. Unless it says otherwise it does so once, in its second chunk.
+/// The fault of a broken backend. Unless it says otherwise, it happens once, in the second chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Sabotage {
     /// Nothing.
     None,
-    /// One vertex lies a thousandth of the radius beside its place.
+    /// One vertex lies a thousandth of the radius off its place.
     ShiftedVertex,
     /// Two indices have changed places.
     SwappedIndices,
-    /// Nothing but zeros, as from a device that lost its launch.
+    /// Only zeros, as from a device that lost its launch.
     Zeros,
     /// One coordinate is NaN.
     NotANumber,
@@ -61,7 +61,7 @@ pub enum Sabotage {
     FastClock,
     /// Every upload sends the whole fabric.
     WholeUpload,
-    /// Control points that came once stay, whatever comes after them.
+    /// Later uploads of control points are ignored.
     LostEdit,
     /// It calls itself per-yarn, and refuses nothing.
     Eager,
@@ -70,7 +70,7 @@ pub enum Sabotage {
 }
 
 impl Sabotage {
-    /// All that spoils an output.
+    /// All faults of output.
     pub const ALL: [Self; 16] = [
         Self::ShiftedVertex,
         Self::SwappedIndices,
@@ -90,7 +90,7 @@ impl Sabotage {
         Self::OpenCap,
     ];
 
-    /// The faults that must be found in its output, and no others.
+    /// The faults that the comparer must find in its output, and no others.
     #[must_use]
     pub const fn faults(self) -> &'static [Fault] {
         match self {
@@ -111,7 +111,7 @@ impl Sabotage {
             Self::NotANumber | Self::Infinity => &[Fault::NotFinite],
             Self::MissingChunk => &[Fault::Missing, Fault::Bits],
             Self::MissingPiece => &[Fault::Missing],
-            // What follows the misplaced piece is not taken.
+            // Nothing after the misplaced piece is taken.
             Self::MisplacedPiece => &[Fault::Count, Fault::Missing, Fault::Bits],
             Self::RolledSection => &[Fault::Position, Fault::Normal, Fault::Roll],
             Self::SwappedYarns => &[Fault::Position],
@@ -132,7 +132,7 @@ pub struct SabotagedBackend {
 }
 
 impl SabotagedBackend {
-    /// Breaks the serial backend.
+    /// The serial backend with a fault.
     #[must_use]
     pub fn new(sabotage: Sabotage) -> Self {
         let serial = SerialBackend::new();
@@ -165,7 +165,7 @@ struct SabotagedEngine {
     plan: Arc<Plan>,
     serial: Box<dyn Engine>,
     sabotage: Sabotage,
-    /// The first upload, which [`Sabotage::LostEdit`] holds fast to.
+    /// The first upload, which [`Sabotage::LostEdit`] keeps.
     kept: Vec<ControlPoint>,
 }
 

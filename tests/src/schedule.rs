@@ -1,4 +1,4 @@
-//! What a schedule leaves out: decided here from what is asked, so that no backend can excuse itself.
+//! The cases that a schedule does not do: decided here from the case, so that no backend can excuse itself.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use libtest_mimic::Failed;
 use texere_core::{Backend, BackendError, DeviceInfo, Frame, Plan, Schedule, Settings, Yarns};
 
 use crate::REGISTRY;
-use crate::suite::names;
+use crate::registry::names;
 
 /// Whether `device` must refuse `yarns` under `settings`. Only [`Schedule::PerYarn`] leaves anything out.
 #[must_use]
@@ -17,11 +17,11 @@ pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
             || yarns.layout().yarns().iter().any(|yarn| yarn.closed || yarn.twist != 0.0))
 }
 
-/// All devices of [`REGISTRY`] that there are here and that must do `yarns` under `settings`.
+/// All devices of [`REGISTRY`] on this machine that must do `yarns` under `settings`.
 ///
 /// # Panics
 ///
-/// Where one is missing of a backend that `TEXERE_REQUIRE` names. Of another backend the reason is printed.
+/// Where a device is missing of a backend that `TEXERE_REQUIRE` names. For other backends the reason is printed.
 pub fn able_devices(yarns: &Yarns, settings: &Settings) -> impl Iterator<Item = Arc<dyn Backend>> {
     let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
     let opened = REGISTRY.iter().flat_map(move |entry| {

@@ -1,4 +1,4 @@
-//! What every session promises besides its output: times that can be true, and an edit that moves one yarn.
+//! Guarantees of every session besides its output: plausible times, and an edit that moves one yarn.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::{Arc, OnceLock};
@@ -13,7 +13,7 @@ use texere_core::{
 use crate::cases;
 use crate::drive::Lent;
 
-/// A name, and whether a device keeps the promise.
+/// A guarantee's name, and the check of a device for it.
 type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);
 
 const PROMISES: [Promise; 3] = [
@@ -31,7 +31,7 @@ pub(crate) fn trials(device: &Arc<dyn Backend>) -> Vec<Trial> {
     PROMISES.into_iter().map(trial).collect()
 }
 
-/// All that a device can be asked for at once: a scan and caps too, unless its schedule does neither.
+/// Settings and a yarn that use all stages: scan and caps too, unless the device's schedule does neither.
 fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
     if device.info().schedule == Schedule::PerYarn {
         return (Settings::default(), Yarn::default());
@@ -40,7 +40,7 @@ fn all_of(device: &dyn Backend) -> (Settings, Yarn) {
     (settings, Yarn { twist: 1.0, ..Yarn::default() })
 }
 
-/// Each stage took time, and all of them together no more than there was.
+/// Each stage takes time, and all of them together no more than the host's clock saw go by.
 fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     let (settings, yarn) = all_of(device);
     let yarns = cases::winding(2_500, yarn);
@@ -68,7 +68,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
         ("scan", scan, plan.needs_scan()),
         ("trajectory", trajectory, true),
         ("mesh", mesh, true),
-        // What works in the host's own memory reads nothing back.
+        // A device that works in the host's memory reads nothing back.
         ("readback", readback, device.info().timed_by_device),
     ];
     for (stage, time, takes_time) in idle {
@@ -82,7 +82,7 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Nothing is scanned again until other control points come.
+/// A second scan without an upload in between does nothing.
 fn a_second_scan_is_no_work(device: &dyn Backend) -> Result<(), Failed> {
     let (settings, yarn) = all_of(device);
     let yarns = cases::winding(2_500, yarn);

@@ -1,4 +1,4 @@
-//! The trials: every case on every device of every backend, and what every session promises besides.
+//! The trials: every case on every device of every backend, and the guarantees of every session.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -10,12 +10,13 @@ use texere_core::Backend;
 
 use crate::cases::{self, Case};
 use crate::check::check_within;
+use crate::registry::names;
 use crate::registry::{Entry, chain};
 use crate::schedule::{beyond, refuses};
 use crate::sessions;
 use crate::worst::Table;
 
-/// The flag that prints how near the outputs came to their bounds.
+/// The flag that prints the largest errors, beside what is allowed.
 const WORST: &str = "--worst";
 
 /// The flag that adds the product of all factors: [`cases::product`].
@@ -24,11 +25,11 @@ const FULL: &str = "--full";
 /// Runs the suite on the backends of `registry` and says whether all is well.
 ///
 /// `args` are those of a test program, its name first: `--list` and a filter among them. `--full` adds the cases of
-/// [`cases::product`], and `--worst` prints how near the outputs came to their bounds.
+/// [`cases::product`], and `--worst` prints the largest errors, beside what is allowed.
 ///
 /// Each trial is named `case::device`. A backend that is missing, or a device of it that does not open, shows as ignored
-/// with the reason, or as failed where the backend is among `required`: names with commas between them. A backend of
-/// one's own takes one line in a test target without harness:
+/// with the reason, or as failed where the backend is among `required`: names with commas between them. To run the suite on
+/// a backend of your own takes one line in a test target without harness:
 ///
 /// ```no_run
 /// # use texere_wgpu::{Schedule, WgpuBackend as MyBackend};
@@ -88,12 +89,7 @@ fn trial(case: Arc<Case>, device: Arc<dyn Backend>, exact: bool, worst: &Table) 
     })
 }
 
-/// The names in a list with commas between them.
-pub(crate) fn names(list: &str) -> impl Iterator<Item = &str> {
-    list.split(',').map(str::trim).filter(|name| !name.is_empty())
-}
-
-/// Stands for the trials of a backend, or of a device of it, that is not there.
+/// A trial in place of those of a backend, or of a device of it, that is missing.
 fn missing(name: &str, must: bool, reason: String) -> Trial {
     Trial::ignorable_test(format!("{name}::missing"), move || {
         if must { Err(reason.into()) } else { Ok(Completion::ignored_with(reason)) }

@@ -1,4 +1,4 @@
-//! The table that `--worst` prints: how near outputs came to their bounds.
+//! The table that `--worst` prints: the largest errors, beside what is allowed.
 
 use std::sync::{Arc, Mutex};
 

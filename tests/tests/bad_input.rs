@@ -244,10 +244,10 @@ fn limits_that_hold_no_block() {
             };
             assert!(needed > limit, "{limits:?}");
             let through = Pipeline::new(&yarns).settings(settings).limits(limits);
-            let Err(PipelineError::Plan(told)) = through.mesh(&NullBackend::default()) else {
+            let Err(PipelineError::Plan(refusal)) = through.mesh(&NullBackend::default()) else {
                 panic!("{error}")
             };
-            assert_eq!(told, error);
+            assert_eq!(refusal, error);
         }
     }
 }

@@ -30,9 +30,10 @@ fn tubes(yarns: &Yarns, settings: Settings) -> Vec<(&'static str, Vec<Ring>, f64
     });
     let mut tubes = vec![("oracle", rings.collect(), 1e-9)];
     let place = |at: [f32; 3]| DVec3::from_array(at.map(f64::from));
-    for (name, device) in
-        [("cpu-serial", &SerialBackend::new() as &dyn texere_core::Backend), ("cpu", &ParallelBackend::new())]
-    {
+    for (name, device) in [
+        ("cpu-serial", &SerialBackend::new() as &dyn texere_core::Backend),
+        ("cpu", &ParallelBackend::open().unwrap()),
+    ] {
         let pipeline = || Pipeline::new(yarns).settings(settings);
         let (mesh, trajectory) = (pipeline().mesh(device).unwrap(), pipeline().trajectory(device).unwrap());
         let rings = mesh.vertices.chunks(sides).zip(&trajectory.rings).map(|(vertices, ring)| Ring {

@@ -11,7 +11,7 @@ use texere_cpu::{ParallelBackend, SerialBackend};
 const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
 
 fn mesh(yarns: &Yarns, settings: Settings) -> Mesh {
-    Pipeline::new(yarns).settings(settings).mesh(&ParallelBackend::new()).unwrap()
+    Pipeline::new(yarns).settings(settings).mesh(&ParallelBackend::open().unwrap()).unwrap()
 }
 
 fn place(position: [f32; 3]) -> DVec3 {
@@ -192,7 +192,7 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
         session.mesh_into(&chunk, MeshMut { vertices: &mut vertices, indices: &mut indices }).unwrap();
         vertices
     };
-    for device in [&SerialBackend::new() as &dyn Backend, &ParallelBackend::new()] {
+    for device in [&SerialBackend::new() as &dyn Backend, &ParallelBackend::open().unwrap()] {
         let mut edited = Session::new(device, plan.clone()).unwrap();
         edited.upload(0, yarns.points()).unwrap();
         let before = run(&mut edited);
@@ -200,7 +200,10 @@ fn an_edited_yarn_is_as_good_as_a_new_one() {
             let range = yarns.range(yarn).unwrap();
             let moved: Vec<_> = yarns.points()[range.clone()]
                 .iter()
-                .map(|point| ControlPoint { z: point.z * 1.5 + 0.25, ..*point }.flattened(point.half_width() * 0.75, point.half_height() * 0.75))
+                .map(|point| {
+                    ControlPoint { z: point.z * 1.5 + 0.25, ..*point }
+                        .flattened(point.half_width() * 0.75, point.half_height() * 0.75)
+                })
                 .collect();
             yarns.set_points(yarn, &moved).unwrap();
             edited.upload(range.start as u64, &moved).unwrap();

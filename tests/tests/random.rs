@@ -113,7 +113,7 @@ proptest! {
         // Enough for any one block, and by chance for a few.
         let block = 66 * u64::from(settings.sides) * 24 * squeeze;
         let limits = Limits { blocks, memory_bytes: plan.resident_bytes() + 6 * block + 20_000, ..Limits::NONE };
-        for device in [&SerialBackend::new() as &dyn Backend, &ParallelBackend::new()] {
+        for device in [&SerialBackend::new() as &dyn Backend, &ParallelBackend::open().unwrap()] {
             let (whole, trajectory) = run(&yarns, settings, Limits::NONE, device);
             let (cut, cut_trajectory) = run(&yarns, settings, limits, device);
             prop_assert!(normal_form(&whole) == normal_form(&cut));
@@ -125,7 +125,7 @@ proptest! {
     /// Whatever is taken makes numbers, tangents and normals of length 1, and radii above zero.
     #[test]
     fn output_is_sound(yarns in yarns(), settings in settings()) {
-        let (mesh, trajectory) = run(&yarns, settings, Limits::NONE, &ParallelBackend::new());
+        let (mesh, trajectory) = run(&yarns, settings, Limits::NONE, &ParallelBackend::open().unwrap());
         let length = |v: [f32; 3]| v.map(f64::from).iter().map(|x| x * x).sum::<f64>().sqrt();
         for ring in &trajectory.rings {
             prop_assert!(ring.centre.iter().all(|x| x.is_finite()) && ring.half_width.is_finite() && ring.half_width > 0.0);

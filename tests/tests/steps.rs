@@ -1,4 +1,4 @@
-//! The steps of a run, as `Pipeline` promises them: bounded by default, told one by one, and no more of them after a stop.
+//! The steps of a run, as `Pipeline` promises them: bounded by default, reported one by one, and no more of them after a stop.
 
 use std::ops::ControlFlow;
 
@@ -22,17 +22,17 @@ fn device() -> Box<dyn Backend> {
     texere::open("cpu").unwrap()
 }
 
-/// Progress as it is told, in order.
-fn told(run: impl FnOnce(Pipeline<'_>, &dyn Backend)) -> Vec<Progress> {
-    let (yarns, mut told) = (yarns(), Vec::new());
+/// Progress as it is reported, in order.
+fn reported(run: impl FnOnce(Pipeline<'_>, &dyn Backend)) -> Vec<Progress> {
+    let (yarns, mut reported) = (yarns(), Vec::new());
     run(
         Pipeline::new(&yarns).progress(|progress| {
-            told.push(progress);
+            reported.push(progress);
             ControlFlow::Continue(())
         }),
         &*device(),
     );
-    told
+    reported
 }
 
 #[test]
@@ -63,11 +63,12 @@ fn progress_is_told_after_each_chunk() {
         |pipeline, device| drop(pipeline.trajectory(device).unwrap()),
     ];
     for run in runs {
-        let told = told(run);
-        let total = told[0].total;
-        assert!(told.iter().all(|progress| progress.total == total));
-        assert_eq!((told[0].rings, told[told.len() - 1].rings), (0, total));
-        let steps: Vec<_> = told.windows(2).map(|pair| pair[1].rings.checked_sub(pair[0].rings)).collect();
+        let reported = reported(run);
+        let total = reported[0].total;
+        assert!(reported.iter().all(|progress| progress.total == total));
+        assert_eq!((reported[0].rings, reported[reported.len() - 1].rings), (0, total));
+        let steps: Vec<_> =
+            reported.windows(2).map(|pair| pair[1].rings.checked_sub(pair[0].rings)).collect();
         assert!(steps.iter().all(|step| step.is_some_and(|rings| rings <= STEP_RINGS)), "{steps:?}");
     }
 }

@@ -82,9 +82,9 @@ fn a_report_names_the_place_and_both_values() {
     assert_eq!((mismatch.fault, mismatch.place.yarn), (Fault::Position, 2));
     assert_eq!((mismatch.place.ring, mismatch.place.point), (10, Some(2)));
     assert_ne!(mismatch.expected, mismatch.actual);
-    let told = report.to_string();
-    assert!(told.starts_with("Position at yarn 2, ring 10, point 2: expected "), "{told}");
-    assert!(told.ends_with("2 mismatches: 2 Position"), "{told}");
+    let reason = report.to_string();
+    assert!(reason.starts_with("Position at yarn 2, ring 10, point 2: expected "), "{reason}");
+    assert!(reason.ends_with("2 mismatches: 2 Position"), "{reason}");
 }
 
 const BROKEN: &[Entry] = &[Entry::near("broken", || sabotaged(Sabotage::Zeros))];
@@ -155,12 +155,12 @@ fn a_broken_backend_fails_the_run() {
 fn assert_fails(filter: &str, registry: &[Entry], trial: &str, why: &str) {
     let (_, printed) = run_trials(filter, registry, "");
     assert_eq!(failed(&printed), [trial]);
-    let told = printed.split_once(&format!("---- {trial} ----\n")).map(|(_, told)| told.trim_start());
-    assert!(told.is_some_and(|told| told.starts_with(why)), "{printed}");
+    let reason = printed.split_once(&format!("---- {trial} ----\n")).map(|(_, reason)| reason.trim_start());
+    assert!(reason.is_some_and(|reason| reason.starts_with(why)), "{printed}");
 }
 
 #[test]
-fn a_clock_that_stands_still_or_runs_fast_is_told() {
+fn a_clock_that_stands_still_or_runs_fast_is_reported() {
     let timed = |registry, device, why| {
         assert_fails("every-stage", registry, &format!("session::every-stage-is-timed::{device}"), why);
     };
@@ -169,7 +169,7 @@ fn a_clock_that_stands_still_or_runs_fast_is_told() {
 }
 
 #[test]
-fn an_edit_that_moves_too_much_or_nothing_is_told() {
+fn an_edit_that_moves_too_much_or_nothing_is_reported() {
     let edited = |registry, device, why| {
         assert_fails("an-edit", registry, &format!("session::an-edit-moves-one-yarn::{device}"), why);
     };

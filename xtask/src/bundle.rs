@@ -1,6 +1,6 @@
 //! `cargo xtask bundle`: all that tests and measures texere, in a folder for a machine that has a GPU and nothing else.
 //!
-//! Works where Debian's packages are to be had, for the processor that this is.
+//! Needs Debian's packages; the bundle is for the same kind of processor.
 
 use std::fs;
 use std::io;
@@ -36,9 +36,9 @@ pub(crate) fn run(steps: &mut Steps) {
     if !steps.succeed() {
         return;
     }
-    // Built by now: cargo only says where it lies.
-    let told = steps.output("cargo", &[&built[..], &suite].concat(), &[]).unwrap_or_default();
-    let Some(suite) = told.rsplit_once('(').and_then(|(_, path)| path.split(')').next()) else {
+    // Built by now: cargo only names the program's path.
+    let output = steps.output("cargo", &[&built[..], &suite].concat(), &[]).unwrap_or_default();
+    let Some(suite) = output.rsplit_once('(').and_then(|(_, path)| path.split(')').next()) else {
         return steps.fail("cargo does not say where the conformance suite is".into());
     };
     if let Err(error) = collect(steps, suite) {

@@ -1,7 +1,7 @@
 //! How many instructions a ring of a mesh takes, and a control point: a check of speed that no neighbour on the machine
 //! disturbs.
 //!
-//! `valgrind --tool=callgrind` counts them. What start-up takes falls out of the difference between two runs.
+//! `valgrind --tool=callgrind` counts them. The difference between two runs leaves out start-up.
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -15,8 +15,8 @@ const POINTS: [&str; 2] = ["crossing", "round"];
 /// How many times more often the longer run does its work than the shorter one.
 const TIMES: u32 = 10;
 
-/// By how much a count may exceed the baseline: another compiler changes some per cent, a loop that no longer runs in
-/// vectors several times as much.
+/// By how much a count may exceed the baseline: another compiler changes some per cent, a loop that is no longer
+/// vectorised several times as much.
 const TOLERANCE: f64 = 1.05;
 
 /// A line for each path and kind: path, kind, instructions a ring or a control point.
@@ -47,7 +47,7 @@ pub(crate) fn check(steps: &mut Steps) {
     }
 }
 
-/// Keeps the counts of now as the baseline.
+/// Records the current counts as the baseline.
 pub(crate) fn record(steps: &mut Steps) {
     let mut lines = String::new();
     for (name, counted) in count(steps) {
@@ -80,8 +80,8 @@ fn count(steps: &mut Steps) -> Vec<(String, f64)> {
     counts
 }
 
-/// Ways through the CPU backend, and what is made by each: valgrind runs those that the processor has, but for AVX-512.
-/// Control points are made in one way alone.
+/// Paths of the CPU backend, and the kinds that each makes: those that the processor has, without AVX-512, which valgrind
+/// does not run. Control points have one path only.
 fn runs() -> Vec<(&'static str, &'static str)> {
     let mut runs: Vec<_> = POINTS.iter().chain(&MESHES).map(|kind| ("portable", *kind)).collect();
     if has_avx2() {

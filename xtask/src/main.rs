@@ -107,7 +107,7 @@ fn consumer(steps: &mut Steps) {
     steps.cargo("a program that links texere, unoptimised", &program, &[]);
 }
 
-/// Where Debian's packages can be installed, sees to it that these are. Without the software devices the suite shows a
+/// Installs Debian's `packages` where they are missing and can be installed. Without the software devices the suite shows a
 /// backend as ignored, or failed where `TEXERE_REQUIRE` names it.
 fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     let installed = |package: &str| steps.succeeds("dpkg", &["--status", package]);
@@ -121,7 +121,7 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     steps.install(what, &missing);
 }
 
-/// What needs no test run.
+/// The checks that run no tests.
 fn check(steps: &mut Steps) {
     steps.cargo("format", &["fmt", "--all", "--check"], &[]);
     steps.cargo(

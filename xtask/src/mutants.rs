@@ -1,18 +1,18 @@
-//! The faults that the suite has to catch: in each kernel, and in what stands before all of them, a line that a slip of the
-//! hand might have left.
+//! The mutants that the suite has to catch: in each kernel, and in the prelude before all of them, a line with a plausible
+//! mistake.
 
 /// One line of a kernel or of the prelude, broken.
 #[derive(Debug)]
 pub(crate) struct Mutant {
-    /// What `TEXERE_REQUIRE` and the names of the trials call the backend.
+    /// The backend's name, in `TEXERE_REQUIRE` and in the names of trials.
     pub(crate) backend: &'static str,
     /// The source, from the repository's root.
     pub(crate) file: &'static str,
-    /// The kernel, or what all kernels take from the file.
+    /// The kernel, or the definition that all kernels take from the file.
     pub(crate) kernel: &'static str,
-    /// A part of a line that the file has once.
+    /// A part of a line that occurs once in the file.
     pub(crate) line: &'static str,
-    /// What takes its place.
+    /// Its replacement.
     pub(crate) broken: &'static str,
 }
 
@@ -84,7 +84,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     opencl("kernels/src/mesh.cl", "mesh_odd", "share.across = min(stores, lanes);", "share.across = stores;"),
     // Caps look inwards.
     opencl("kernels/src/caps.cl", "caps", "cap.end == 0u ? -1.0f : 1.0f", "cap.end == 0u ? 1.0f : -1.0f"),
-    // Radii grow, normals don't know.
+    // Radii grow, but normals don't tilt.
     opencl(
         "kernels/src/per_yarn.cl",
         "trajectory_per_yarn",

@@ -13,13 +13,13 @@ use std::process::{ExitCode, Stdio};
 use crate::mutants::{MUTANTS, Mutant};
 use crate::steps::{command, root};
 
-/// What a run of the suite came to.
+/// The outcome of a run of the suite.
 #[derive(Debug, PartialEq, Eq)]
 enum Suite {
     Passed,
     /// So many trials failed.
     Failed(usize),
-    /// It did not get as far as its trials: what it said.
+    /// It did not get as far as its trials; its output.
     Broken(String),
 }
 
@@ -85,7 +85,7 @@ fn copy_of_the_repository() -> io::Result<PathBuf> {
     if !listed.status.success() {
         return Err(io::Error::other(format!("git ls-files: {}", listed.status)));
     }
-    // A build is worth keeping, a file that is no longer in the repository is not.
+    // The build is kept, a file that is no longer in the repository is not.
     for entry in fs::read_dir(&copy).into_iter().flatten() {
         let path = entry?.path();
         match path.file_name().and_then(OsStr::to_str) {

@@ -33,19 +33,19 @@ impl Steps {
         }
     }
 
-    /// What a command prints to both of its outputs, if it succeeds.
+    /// A command's output, standard and error, if it succeeds.
     pub(crate) fn output(&self, program: &str, args: &[&str], env: &[(&str, &str)]) -> Option<String> {
         let output = command(program, args).envs(env.iter().copied()).output().ok()?;
         let text = [output.stdout, output.stderr].concat();
         output.status.success().then(|| String::from_utf8_lossy(&text).into_owned())
     }
 
-    /// Notes that a step of our own failed.
+    /// Records the failure of a step that is no command.
     pub(crate) fn fail(&mut self, failure: String) {
         self.failed.get_or_insert(failure);
     }
 
-    /// Whether a command runs and succeeds; what it prints is dropped.
+    /// Whether a command runs and succeeds; its output is dropped.
     pub(crate) fn succeeds(&self, program: &str, args: &[&str]) -> bool {
         let status = command(program, args).stdout(Stdio::null()).stderr(Stdio::null()).status();
         status.is_ok_and(|status| status.success())

@@ -1,4 +1,4 @@
-//! The floor of a device: how long it takes to write so many bytes and do nothing else.
+//! The floor of a device: the time to write a number of bytes and do nothing else.
 
 mod opencl;
 mod wgpu;
@@ -26,13 +26,13 @@ pub trait Fill: Debug {
     /// **Errors**: [`BackendError`] from the device.
     fn copy_to_host(&mut self) -> Result<Duration, BackendError>;
 
-    /// Likewise from such memory; none where a driver gives no such memory that is sure to be the host's.
+    /// The same in the other direction, from such memory; none where a driver offers no memory that is certain to be the host's.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn copy_from_host(&mut self) -> Result<Option<Duration>, BackendError>;
 }
 
-/// Bytes of a copy over the bus: so many that its start does not count.
+/// Bytes of a copy over the bus: so many that its start-up time is negligible.
 const COPY_BYTES: u64 = 256 << 20;
 
 /// A GPU that is open, with what is needed to measure it.

@@ -82,7 +82,7 @@ impl OpenClFill {
         };
         let pinned = pinned.map_err(driver("clCreateBuffer"))?;
         let mut mapped = ptr::null_mut();
-        // SAFETY: the whole of a buffer of this context; nobody looks at it.
+        // SAFETY: the whole of a buffer of this context; nothing reads it.
         unsafe {
             let flags = CL_MAP_READ | CL_MAP_WRITE;
             queue.enqueue_map_buffer(&pinned, CL_BLOCKING, flags, 0, COPY_BYTES as usize, &mut mapped, &[])
@@ -146,7 +146,7 @@ impl super::Fill for OpenClFill {
     }
 
     fn copy_to_host(&mut self) -> Result<Duration, BackendError> {
-        // SAFETY: the pinned memory is as large as the largest range, and read by nobody.
+        // SAFETY: the pinned memory is as large as the largest range, and nothing reads it.
         self.copy(|queue, buffer, offset, bytes, host| unsafe {
             enqueue_read_buffer(queue, buffer, CL_NON_BLOCKING, offset, bytes, host, 0, ptr::null())
         })

@@ -1,4 +1,4 @@
-//! The paper's evaluation again: its tables 1, 2 and 3 and its figures 5 and 6, with ours beside them.
+//! The paper's tables 1, 2 and 3 and its figures 5 and 6, with ours beside them.
 
 mod markdown;
 mod plot;
@@ -56,7 +56,7 @@ struct Cloth {
 const PICTURE: [u32; 2] = [1600, 1200];
 
 /// Measures `devices` on the paper's cloth in `sizes` (ends, picks), the median of `rounds` each, and writes
-/// `BENCHMARKS.md`, `figure-5.svg` and `figure-6.svg` to `folder`. `heading` says in the report how it came about.
+/// `BENCHMARKS.md`, `figure-5.svg` and `figure-6.svg` to `folder`. `heading` says in the report how it was made.
 ///
 /// # Errors
 ///
@@ -109,7 +109,7 @@ fn column(device: &str, cloths: &[Cloth], rounds: usize) -> Result<Column, Box<d
     Ok(Column { info: backend.info().clone(), context: first_context, build, runs })
 }
 
-/// Geometry, buffers and drawing of each cloth on the first of `devices` that draws; of none where none does.
+/// Geometry, buffers and drawing of each cloth on the first of `devices` that draws; empty where none does.
 fn phases(devices: &[String], cloths: &[Cloth]) -> Result<Vec<Phases>, Box<dyn Error>> {
     let Some(device) = devices.iter().find(|name| name.starts_with("wgpu:") && !name.contains('/')) else {
         return Ok(Vec::new());
@@ -124,7 +124,7 @@ fn phases(devices: &[String], cloths: &[Cloth]) -> Result<Vec<Phases>, Box<dyn E
 }
 
 fn run(bench: &mut Bench, info: &DeviceInfo, rounds: usize) -> Result<Run, Box<dyn Error>> {
-    // What a first run allocates and compiles is none of a run's work.
+    // A first run, which allocates and compiles, is not counted.
     bench.staged()?;
     let (mut trajectory, mut mesh, mut whole) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..rounds {

@@ -14,8 +14,8 @@ pub(crate) struct Args {
     pub(crate) command: Command,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line is wrong; \
-                          3 the design is wrong; 4 check found that the cloth pierces itself, folds or jams.";
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line or the \
+                          variable TEXERE_SIMD is wrong; 3 the design is wrong; 4 check found that the cloth pierces itself, folds or jams.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {

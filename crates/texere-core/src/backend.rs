@@ -1,4 +1,4 @@
-//! The boundary to what does the work: object-safe, blocking where it must wait, free of any GPU type.
+//! The backend trait: object-safe, blocking where it must wait, free of any GPU type.
 
 use std::fmt;
 use std::sync::Arc;
@@ -58,7 +58,7 @@ impl fmt::Display for Schedule {
     }
 }
 
-/// Who does the work, and within which limits.
+/// A device's name, kind and limits.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DeviceInfo {
     /// The name that opens it, such as `cpu`.
@@ -71,23 +71,21 @@ pub struct DeviceInfo {
     pub schedule: Schedule,
     /// What kind of machine it is.
     pub kind: DeviceKind,
-    /// Bytes of memory that the device has, where it tells.
+    /// Bytes of memory that the device has, where it says so.
     pub memory_bytes: Option<u64>,
-    /// What chunks are cut to.
+    /// The limits that chunks are cut to.
     pub limits: Limits,
-    /// Whether [`Session::timings`](crate::Session::timings) of scan, trajectory and mesh are by a clock of the device's own, from the start of the
-    /// work to its end. Otherwise they are by the host's clock.
+    /// Whether the device's own clock measures the [`Session::timings`](crate::Session::timings) of scan, trajectory and mesh,
+    /// from the start of the work to its end. Otherwise the host's clock does.
     pub timed_by_device: bool,
 }
 
-/// A device that is open and can do the work.
-///
-/// [`Session::new`](crate::Session::new) starts work on it.
+/// An open device. [`Session::new`](crate::Session::new) starts work on it.
 pub trait Backend: fmt::Debug + Send + Sync {
     /// Backend, device, driver, schedule and limits.
     fn info(&self) -> &DeviceInfo;
 
-    /// Opens an engine for a plan, which owns all the device memory that the work needs.
+    /// Opens an engine for a plan. The engine owns all the device memory that the work needs.
     ///
     /// **Errors**: [`BackendError`] where memory, the device or the schedule does not allow it.
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError>;

@@ -1,4 +1,4 @@
-//! What a device does for a session. A session checks every call and keeps the books; an engine gets valid input alone.
+//! The engine trait: what a device does for a session. The session checks every call; an engine gets only valid input.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -6,14 +6,14 @@ use std::time::Duration;
 
 use crate::{BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, Ring};
 
-/// One of the two places that a session has on its device. A chunk in flight has a place: its tables, its rings and its mesh
-/// lie there until the next chunk but one needs the memory.
+/// One of a session's two places for a chunk in flight. The chunk's tables, rings and mesh lie there until another chunk
+/// takes the slot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Slot {
-    /// The place of the first chunk, the third and so on.
+    /// The first slot.
     #[default]
     Even,
-    /// The place of the second chunk, the fourth and so on.
+    /// The second slot.
     Odd,
 }
 
@@ -30,7 +30,7 @@ impl Slot {
         }
     }
 
-    /// 0 or 1: where its memory lies in an array of two.
+    /// 0 or 1, the index into an array of two.
     #[must_use]
     pub const fn index(self) -> usize {
         self as usize
@@ -44,7 +44,7 @@ pub struct StageTimings {
     pub upload: Duration,
     /// Rolls.
     pub scan: Duration,
-    /// Rings; part of `mesh` where the two are fused.
+    /// Rings; counted in `mesh` where the two stages are fused.
     pub trajectory: Duration,
     /// Vertices and indices.
     pub mesh: Duration,
@@ -52,31 +52,31 @@ pub struct StageTimings {
     pub readback: Duration,
 }
 
-/// Takes rings as they are lent.
+/// A callback that borrows rings, piece by piece.
 pub type RingSink<'a> = &'a mut dyn FnMut(&[Ring]) -> ControlFlow<()>;
 
-/// Takes vertices and indices as they are lent.
+/// A callback that borrows vertices and indices, piece by piece.
 pub type MeshSink<'a> = &'a mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>;
 
 /// The work on one plan on one device. It owns all memory that the work needs.
 ///
 /// A [`Session`](crate::Session) calls it, and keeps these rules, so that no engine has to check them:
 ///
-/// - Control points come within the plan's. What was scanned or made of those before is not asked for again.
+/// - Control points come within the plan's range. Results of the points before them are not read any more.
 /// - Where the plan needs a scan, one comes before any stage, and again after each upload.
 /// - Every chunk is the plan's own. It is loaded into a slot before a stage is run for it there.
 /// - `mesh` of an engine that [reads rings](Engine::mesh_reads_rings) comes after `trajectory` in the same slot.
 /// - What is read has been made, and nothing has taken its slot since. Slices to write into are as long as the chunk says.
 ///
-/// Whoever calls an engine without a session has to keep them. An engine whose kernels check no bounds makes sure of the two
-/// that memory depends on, that a chunk is its plan's ([`Plan::owns`](crate::Plan::owns)) and lies in its slot, and else gives
+/// A caller without a session has to keep them. An engine whose kernels check no bounds checks the two that memory safety
+/// depends on: the chunk is of its plan ([`Plan::owns`](crate::Plan::owns)), and is loaded in the slot. Otherwise it gives
 /// back [`BackendError::NotLoaded`].
 ///
-/// Every call may return before its work is done, but those that read.
+/// Every call may return before its work is done, except those that read.
 ///
 /// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
 pub trait Engine: fmt::Debug + Send {
-    /// Takes control points, the first of which is number `first` of the fabric. Gives back the bytes sent for it, virtual ends
+    /// Takes control points, the first of which is number `first` of the fabric. Gives back the bytes sent, virtual ends
     /// included.
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError>;
 
@@ -84,7 +84,7 @@ pub trait Engine: fmt::Debug + Send {
     /// a slot, for an engine that needs their tables there.
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError>;
 
-    /// Takes the tables of `chunk` into `slot`, where those of another chunk may lie.
+    /// Takes the tables of `chunk` into `slot`, in place of any other chunk's.
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
 
     /// Whether `mesh` works from the rings that `trajectory` left rather than from control points.
@@ -140,7 +140,7 @@ pub trait Engine: fmt::Debug + Send {
         false
     }
 
-    /// Time spent so far, by all that has been launched: waits for it.
+    /// Time spent in each stage so far. Waits for all that has been launched.
     fn timings(&mut self) -> StageTimings;
 }
 
@@ -155,7 +155,8 @@ pub struct ScanChunk {
     pub loaded: bool,
 }
 
-/// The chunks of a scan, in order, each in a slot. Whoever takes one has to see to its tables.
+/// The chunks of a scan, in order, each with its slot. An engine that takes one has to load its tables, unless they are
+/// there.
 pub struct ScanChunks<'a> {
     chunks: &'a mut dyn Iterator<Item = ScanChunk>,
 }

@@ -1,8 +1,8 @@
-//! What can go wrong: one enum for each boundary.
+//! Errors: one enum for each boundary.
 
 use thiserror::Error;
 
-/// A section whose numbers are not sound.
+/// A section with invalid parameters.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SectionError {
@@ -47,7 +47,7 @@ pub enum SectionError {
     Clockwise,
 }
 
-/// Yarns that can't be taken. Yarns and points are counted from 0, as in the slices they came from.
+/// Invalid yarns. Yarns and points are counted from 0, as in the slices they came from.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum YarnError {
@@ -128,7 +128,7 @@ pub enum YarnError {
         /// How many there are.
         sections: usize,
     },
-    /// A section whose numbers are not sound.
+    /// A section with invalid parameters.
     #[error("section {section} is not sound")]
     Section {
         /// Which one.
@@ -274,7 +274,7 @@ pub enum PlanError {
     },
 }
 
-/// What a backend could not do. Everything that core can check before is not among these.
+/// A failure of a backend. Whatever the core can check beforehand is not among these.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BackendError {
@@ -286,7 +286,17 @@ pub enum BackendError {
         /// Names that would have worked.
         found: Vec<String>,
     },
-    /// Memory could not be had.
+    /// An environment variable names vector instructions that the processor does not have, or that texere does not know.
+    #[error("{variable} is \"{wanted}\"; this processor has: {}", .found.join(", "))]
+    NoInstructionSet {
+        /// The variable.
+        variable: &'static str,
+        /// What it says.
+        wanted: String,
+        /// Names that would have worked.
+        found: Vec<&'static str>,
+    },
+    /// Memory could not be allocated.
     #[error("out of memory: {bytes} bytes for {what}")]
     OutOfMemory {
         /// What for.
@@ -294,7 +304,7 @@ pub enum BackendError {
         /// How many bytes.
         bytes: u64,
     },
-    /// The device is gone; this session is dead, a new one on a healthy device works.
+    /// The device is lost, and the session with it. A new session on a healthy device works.
     #[error("device {device} is lost")]
     DeviceLost {
         /// Its name.
@@ -318,7 +328,7 @@ pub enum BackendError {
         /// The driver's whole log.
         log: String,
     },
-    /// An engine was asked to work on a chunk that was not loaded, or is another plan's: whoever called it was no session.
+    /// An engine was asked to work on a chunk that is not loaded, or belongs to another plan. A session never does this.
     #[error("chunk {chunk} is not loaded")]
     NotLoaded {
         /// The chunk's index.
@@ -334,7 +344,7 @@ pub enum BackendError {
     },
 }
 
-/// A call of a session that could not be done: misuse, the same on every backend, or what the backend says.
+/// A session's call that failed: misuse, reported alike on every backend, or a failure of the backend.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {
@@ -348,7 +358,7 @@ pub enum SessionError {
         /// How many there are.
         points: u64,
     },
-    /// A stage was called before the one that it stands on.
+    /// A stage was called before the one that it depends on.
     #[error("{call} was called before {needed}")]
     OutOfOrder {
         /// The call.
@@ -362,7 +372,7 @@ pub enum SessionError {
         /// The chunk's index.
         chunk: u64,
     },
-    /// A chunk was read that no stage was run for, or so long ago that its memory has been used again.
+    /// A chunk was read that no stage has run for, or whose memory has been reused since.
     #[error("chunk {chunk} is not in flight")]
     NotInFlight {
         /// The chunk's index.

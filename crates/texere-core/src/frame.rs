@@ -1,10 +1,10 @@
-//! Frames: which way round a section stands on the centreline.
+//! Frames: how a section is oriented on the centreline.
 
 use glam::Vec3;
 
 use crate::{NO_LENGTH, Turn, atan2_turns};
 
-/// How sections stand along a yarn. Twist turns either of them further.
+/// How sections are oriented along a yarn. Twist turns them further in either frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Frame {
     /// The section's side lies level (at right angles to z), its up points out of the fabric: right for flat yarns in
@@ -102,7 +102,7 @@ fn transport_turns(tangent: Vec3, next_tangent: Vec3, chord: Vec3) -> f32 {
         if length_squared > NO_LENGTH { (chord, length_squared) } else { (tangent, 1.0) };
     let side = reflect(side, mirror, mirror_squared);
     let reflected_tangent = reflect(tangent, mirror, mirror_squared);
-    // A hairpin leaves nothing for the second reflection to do.
+    // At a hairpin the second reflection is the identity.
     let mirror = next_tangent - reflected_tangent;
     let mirror_squared = mirror.length_squared();
     let side = if mirror_squared > NO_MIRROR { reflect(side, mirror, mirror_squared) } else { side };

@@ -32,7 +32,9 @@ mod sampling;
 mod section;
 mod session;
 mod spline;
+mod topology;
 mod turn;
+mod vertex;
 mod yarns;
 
 pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
@@ -40,7 +42,7 @@ pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageT
 pub use error::{BackendError, PipelineError, PlanError, SectionError, SessionError, YarnError};
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;
-pub use mesh::{Draw, End, Mesh, MeshMut, MeshPiece, SHARED_GAPS, Topology, Vertex, index_pattern};
+pub use mesh::{Draw, Mesh, MeshMut, MeshPiece};
 pub use null::NullBackend;
 pub use padded::{PaddedPoints, renew_virtual_ends, zeroed};
 pub use pipeline::{Pipeline, Progress};
@@ -54,5 +56,7 @@ pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
 pub use session::{Session, Traffic};
 pub use spline::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};
+pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};
+pub use vertex::Vertex;
 pub use yarns::{Layout, Origin, TWIST_LIMIT, Yarn, Yarns, YarnsBuilder};

@@ -1,72 +1,15 @@
-//! The mesh: vertices, triangles, and how they are told apart.
+//! The mesh: vertices, triangles, and how to draw them.
 
 use std::sync::Arc;
 
-use bytemuck::{Pod, Zeroable};
-
-use crate::{Chunk, Material, Plan};
-
-/// A vertex of a tube.
-///
-/// **Shape**: six `f32`, 24 bytes. **Units**: mm; the normal is a unit vector that points out of the yarn.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
-pub struct Vertex {
-    /// Position, mm.
-    pub position: [f32; 3],
-    /// Outward unit normal.
-    pub normal: [f32; 3],
-}
-
-const _: () = assert!(size_of::<Vertex>() == 24 && std::mem::offset_of!(Vertex, normal) == 12);
-
-/// One of a yarn's two ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum End {
-    /// Where its rings start.
-    Start,
-    /// Where they finish.
-    Finish,
-}
-
-/// How triangles are told. They are counter-clockwise seen from outside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Topology {
-    /// Three `u32` a triangle, numbered from the start of the vertex's chunk.
-    #[default]
-    Indexed,
-    /// One index pattern for all parts, drawn with a base vertex: halves what has to be written.
-    Shared,
-    /// No indices: for a caller who knows the pattern.
-    None,
-}
-
-/// The most gaps between rings that the shared pattern covers; longer parts are drawn in several goes. With up to seven
-/// sides every index of it fits 16 bits.
-pub const SHARED_GAPS: u64 = 8192;
-
-/// The indices of the quads between a ring and the next, numbered from the ring's first vertex: six for each side.
-///
-/// ```
-/// let quad = &texere_core::index_pattern(6)[..6];
-/// assert_eq!(quad, [0, 1, 6, 1, 7, 6]);
-/// ```
-#[must_use]
-pub fn index_pattern(sides: u32) -> Vec<u32> {
-    (0..sides)
-        .flat_map(|k| {
-            let next = (k + 1) % sides;
-            [k, next, sides + k, next, sides + next, sides + k]
-        })
-        .collect()
-}
+use crate::{Chunk, End, Material, Plan, SHARED_GAPS, Topology, Vertex, index_pattern};
 
 /// A range of indices that draws (part of) one yarn.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Draw {
     /// The yarn, from 0 among all.
     pub yarn: u32,
-    /// Into the mesh's indices.
+    /// Its range in the mesh's indices.
     pub indices: std::ops::Range<u64>,
     /// What to add to an index to get a vertex of the mesh.
     pub base_vertex: u64,
@@ -125,7 +68,7 @@ impl Plan {
         self.shared_indices().into_iter().map(|index| u16::try_from(index).ok()).collect()
     }
 
-    /// The indices of a cap of `section`, numbered from the cap's first vertex.
+    /// The indices of a cap of `section`, counted from the cap's first vertex: three a triangle, facing out of the yarn.
     pub fn cap_indices(&self, section: usize, end: End) -> impl Iterator<Item = u32> {
         self.cap_triangles(section).iter().flat_map(move |&[a, b, c]| match end {
             End::Start => [a, c, b],
@@ -139,7 +82,7 @@ impl Plan {
         let topology = self.settings().topology;
         let tubes = chunk.parts().iter().flat_map(move |part| {
             let gaps = u64::from(part.rings) - 1;
-            // A shared pattern starts anew at each stretch's first ring; an indexed part is one stretch.
+            // A shared pattern starts again at each stretch's first ring; an indexed part is one stretch.
             let stretch = if topology == Topology::Shared { SHARED_GAPS } else { gaps.max(1) };
             (0..gaps.div_ceil(stretch)).map(move |number| {
                 let here = stretch.min(gaps - number * stretch);
@@ -180,7 +123,7 @@ impl Plan {
     }
 }
 
-/// A stretch of a chunk's mesh, lent for the time of a call.
+/// A piece of a chunk's mesh, borrowed for one call.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MeshPiece<'a> {
@@ -200,7 +143,7 @@ pub enum MeshPiece<'a> {
     },
 }
 
-/// Where a caller wants a chunk's mesh: slices exactly as long as planned.
+/// The caller's memory for a chunk's mesh: slices exactly as long as planned.
 #[derive(Debug)]
 pub struct MeshMut<'a> {
     /// `chunk.vertices()` long.
@@ -211,7 +154,7 @@ pub struct MeshMut<'a> {
 
 /// A whole fabric's mesh in host memory.
 ///
-/// It remembers plan, chunks and materials, so that a writer needs nothing else, and a change of colour never rebuilds
+/// It keeps plan, chunks and materials, so that a writer needs nothing else, and a change of colour never rebuilds
 /// geometry.
 ///
 /// ```
@@ -234,9 +177,9 @@ pub struct Mesh {
     pub vertices: Vec<Vertex>,
     /// All indices: chunk after chunk, or the shared pattern.
     pub indices: Vec<u32>,
-    /// The chunks: which vertices are whose.
+    /// The chunks, which say what yarn each vertex belongs to.
     pub chunks: Vec<Chunk>,
-    /// The plan that it was made by.
+    /// The plan that it was made from.
     pub plan: Arc<Plan>,
     /// The materials that yarns refer to.
     pub materials: Arc<[Material]>,

@@ -1,4 +1,4 @@
-//! The backend that does nothing: for tests of what happens before a device is reached, and as a pattern to copy.
+//! A backend that does nothing: for tests of what happens before a device is reached.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

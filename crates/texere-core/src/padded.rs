@@ -47,13 +47,13 @@ impl PaddedPoints {
         plan.padded_offsets()[yarns.start]..plan.padded_offsets()[yarns.end]
     }
 
-    /// All of them.
+    /// All padded points, yarn after yarn.
     #[must_use]
     pub fn points(&self) -> &[ControlPoint] {
         &self.points
     }
 
-    /// Those of one yarn.
+    /// The padded points of one yarn.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -91,7 +91,7 @@ pub fn renew_virtual_ends(padded: &mut [ControlPoint], closed: bool) {
     }
 }
 
-/// `count` zeroed values, from pages that are not touched yet.
+/// `count` zeroed values, in fresh pages that the system maps only when they are touched.
 ///
 /// **Errors**: [`BackendError::OutOfMemory`], naming `what`.
 pub fn zeroed<T: bytemuck::Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, BackendError> {

@@ -1,4 +1,4 @@
-//! The safe way through: checks, plans, and drives any backend.
+//! The pipeline: plans the work and drives any backend.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use crate::{
     Settings, Topology, Trajectory, Yarns, zeroed,
 };
 
-/// Control points sent in one go: 16 MB, so that progress is told and a cancellation heard in between.
+/// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed in between.
 const UPLOAD_POINTS: usize = 1 << 20;
 
 /// How far a run has come.
@@ -82,14 +82,14 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Which way round sections stand.
+    /// How sections are oriented.
     #[must_use]
     pub fn frame(mut self, frame: Frame) -> Self {
         self.settings.frame = frame;
         self
     }
 
-    /// How triangles are told.
+    /// How triangles are encoded.
     #[must_use]
     pub fn topology(mut self, topology: Topology) -> Self {
         self.settings.topology = topology;
@@ -111,8 +111,8 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Calls `progress` while control points are uploaded, with no rings done, and after each chunk, at last with all rings
-    /// done. `Break` ends the run there with [`PipelineError::Cancelled`].
+    /// Calls `progress` while control points are uploaded, with no rings done, and after each chunk; the last call has all
+    /// rings done. `Break` ends the run there with [`PipelineError::Cancelled`].
     #[must_use]
     pub fn progress(mut self, progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'a) -> Self {
         self.progress = Some(Box::new(progress));
@@ -163,8 +163,8 @@ impl<'a> Pipeline<'a> {
     }
 
     /// The mesh piece by piece, each with the chunk that it belongs to, in bounded memory: the control points and two
-    /// chunks at a time. A sink that answers `Break` ends the run, and its answer comes back; not more than the next chunk
-    /// has been worked on by then.
+    /// chunks at a time. A sink that answers `Break` ends the run, and its answer comes back; by then at most one chunk more
+    /// has been worked on.
     ///
     /// **Errors**: those of [`Pipeline::mesh`].
     pub fn stream<B>(

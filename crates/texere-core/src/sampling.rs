@@ -1,4 +1,4 @@
-//! How densely, and how tautly, the spline is sampled.
+//! Sampling of the spline: its tension, and how many rings it gets.
 
 use crate::{ControlPoint, PlanError, Sample, Segment};
 

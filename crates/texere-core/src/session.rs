@@ -49,7 +49,7 @@ pub struct Traffic {
 #[derive(Debug)]
 pub struct Session<E: Engine + ?Sized = dyn Engine> {
     plan: Arc<Plan>,
-    /// What a scan cuts chunks to.
+    /// The limits that a scan's chunks are cut to.
     limits: Limits,
     scanned: bool,
     in_flight: [InFlight; 2],
@@ -62,7 +62,7 @@ pub struct Session<E: Engine + ?Sized = dyn Engine> {
 /// What lies in a slot.
 #[derive(Debug, Default)]
 struct InFlight {
-    /// The blocks of the chunk whose tables are there. Its number would not do: chunks of another cut have the same.
+    /// The blocks of the chunk whose tables are there. Its index would not do: chunks of another cut have the same ones.
     blocks: Option<Range<u64>>,
     has_rings: bool,
     has_mesh: bool,
@@ -84,8 +84,8 @@ impl Session {
 }
 
 impl<E: Engine + ?Sized> Session<E> {
-    /// Starts work on `plan` with an engine that was opened for it, on a device of `limits`: for backends whose engines can
-    /// do more than [`Engine`] says.
+    /// Starts work on `plan` with an engine that was opened for it, on a device of `limits`. For backends whose engines can
+    /// do more than the trait [`Engine`].
     #[must_use]
     pub fn with_engine(engine: Box<E>, limits: Limits, plan: Arc<Plan>) -> Self {
         Self {
@@ -128,7 +128,7 @@ impl<E: Engine + ?Sized> Session<E> {
         if end > total {
             return Err(SessionError::UploadRange { first, end, points: total });
         }
-        // What was worked out before belongs to the old points.
+        // Earlier results belong to the old points.
         self.scanned = false;
         self.in_flight.iter_mut().for_each(InFlight::forget_results);
         self.traffic.uploaded += self.engine.upload(first, points)?;
@@ -142,7 +142,7 @@ impl<E: Engine + ?Sized> Session<E> {
     pub fn scan(&mut self) -> Result<(), SessionError> {
         if self.plan.needs_scan() && !self.scanned {
             let chunks = self.plan.chunks(&self.limits)?;
-            // Put back only if all goes well: else nobody knows which tables have come.
+            // Put back only on success: after an error it is unknown which tables are loaded.
             let mut in_flight = std::mem::take(&mut self.in_flight);
             let mut in_slots = chunks.map(|chunk| {
                 let (slot, loaded) = claim(&mut in_flight, &mut self.next, &chunk);
@@ -243,7 +243,7 @@ impl<E: Engine + ?Sized> Session<E> {
         self.find(chunk, |here| here.has_mesh)
     }
 
-    /// Time spent so far, by all that has been launched: waits for it.
+    /// Time spent in each stage so far. Waits for all that has been launched.
     pub fn timings(&mut self) -> StageTimings {
         self.engine.timings()
     }
@@ -260,14 +260,14 @@ impl<E: Engine + ?Sized> Session<E> {
         }
     }
 
-    /// Whether `chunk` is of this session's plan: what its tables say is what the plan counted.
+    /// Checks that `chunk` is of this session's plan, and so that its tables fit the plan's counts.
     fn check_own(&self, chunk: &Chunk) -> Result<(), SessionError> {
         if self.plan.owns(chunk) { Ok(()) } else { Err(SessionError::ForeignChunk { chunk: chunk.index() }) }
     }
 
     /// The slot of `chunk`, with its tables, for a stage.
     fn start(&mut self, call: &'static str, chunk: &Chunk) -> Result<Slot, SessionError> {
-        // Before any slot is given up: a chunk that is refused takes no place.
+        // Before any slot is given up: a chunk that is refused takes none.
         self.check_own(chunk)?;
         if self.plan.needs_scan() && !self.scanned {
             return Err(SessionError::OutOfOrder { call, needed: "scan" });
@@ -313,12 +313,13 @@ fn slot_of(in_flight: &[InFlight; 2], chunk: &Chunk) -> Option<Slot> {
     Slot::BOTH.into_iter().find(holds)
 }
 
-/// The slot of `chunk`, and whether its tables are there; else that of the chunk that took one longest ago, emptied.
+/// The slot that holds the tables of `chunk`, and `true`. If none does: the slot that was taken longest ago, emptied, and
+/// `false`.
 fn claim(in_flight: &mut [InFlight; 2], next: &mut Slot, chunk: &Chunk) -> (Slot, bool) {
     if let Some(slot) = slot_of(in_flight, chunk) {
         return (slot, true);
     }
-    // An empty slot first: a chunk that could not be loaded has left one.
+    // An empty slot first: a chunk that could not be loaded leaves one.
     let is_empty = |slot: Slot| in_flight[slot.index()].blocks.is_none();
     let slot = if is_empty(next.other()) && !is_empty(*next) { next.other() } else { *next };
     *next = slot.other();

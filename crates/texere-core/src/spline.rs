@@ -26,7 +26,7 @@ pub struct Segment {
     position: [Vec3; 3],
     half_width: Size,
     half_height: Size,
-    /// A squared velocity that counts as none.
+    /// A squared velocity up to this counts as zero.
     at_rest: f32,
 }
 
@@ -49,13 +49,13 @@ pub struct Sample {
     pub height_growth: f32,
 }
 
-/// A velocity whose square is below this share of the segment's squared size counts as none.
+/// A velocity whose square is below this share of the segment's squared size counts as zero.
 ///
-/// Repeated points and cusps give exact zeros; the share (a millionth of the size) catches their rounded cousins,
-/// whose direction would be noise.
+/// Repeated points and cusps give exact zeros; the share (a millionth of the size) catches those that rounding moves a
+/// little off zero, whose direction would be noise.
 pub const ZERO_VELOCITY: f32 = 1e-12;
 
-/// A squared length, mm², that counts as none whatever there is around it: that of an attometre. The squares of much
+/// The squared length, mm², up to which a length counts as zero whatever the segment's size: 1e-15 mm. The squares of much
 /// shorter ones leave the normal range of `f32`, and some devices flush them to zero.
 pub const NO_LENGTH: f32 = 1e-30;
 

@@ -80,7 +80,7 @@ impl Turn {
         let ([s1, s2, s3], [c1, c2, c3]) = (SINE, COSINE);
         let sin = ((s3 * z + s2) * z + s1) * z * x + x;
         let cos = ((c3 * z + c2) * z + c1) * z * z - 0.5 * z + 1.0;
-        // Without a jump, so that loops over many turns can run in vectors.
+        // Without a branch, so that loops over many turns can be vectorised.
         let (sin, cos) = if quarter & 1 == 0 { (sin, cos) } else { (cos, sin) };
         (if quarter & 2 == 0 { sin } else { -sin }, if (quarter + 1) & 2 == 0 { cos } else { -cos })
     }
@@ -134,7 +134,7 @@ pub fn atan2_turns(y: f32, x: f32) -> f32 {
     let quadrant = if across > along { 0.25 - octant } else { octant };
     let half = if x < 0.0 { 0.5 - quadrant } else { quadrant };
     let signed = if y < 0.0 { -half } else { half };
-    // What 0/0 made of it does not matter.
+    // At (0, 0) `signed` is NaN, from 0/0.
     if high == 0.0 { 0.0 } else { signed }
 }
 

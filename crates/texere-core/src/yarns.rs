@@ -70,11 +70,11 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Checks and joins `yarns`, `offsets` (where each yarn's control points start, and their total last) and `sections`.
+    /// A layout of `yarns`, `offsets` (where each yarn's control points start, and their total last) and `sections`.
     ///
     /// **Errors**: [`YarnError`] for offsets that are not increasing prefix sums, a yarn of fewer than two control
     /// points (three when closed), an unknown section, a twist that is not finite or beyond [`TWIST_LIMIT`], a section
-    /// whose numbers are not sound.
+    /// with invalid parameters.
     pub fn new(yarns: Vec<Yarn>, offsets: Vec<u64>, sections: Vec<Section>) -> Result<Self, YarnError> {
         if yarns.is_empty() {
             return Err(YarnError::NoYarns);
@@ -186,7 +186,7 @@ impl Yarns {
         YarnsBuilder::default()
     }
 
-    /// Checks and joins a layout, its materials and its control points (as many as the layout says, yarn after yarn).
+    /// Yarns of a layout, its materials and its control points (as many as the layout says, yarn after yarn).
     ///
     /// **Errors**: [`YarnError`] for a wrong number of points or materials, and for the first control point that is not
     /// finite, lies beyond [`COORDINATE_LIMIT`], or whose half width or half height is outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\].
@@ -216,7 +216,7 @@ impl Yarns {
         Ok(self)
     }
 
-    /// Counts, offsets, and what belongs to each yarn.
+    /// Counts, offsets, sections, and each yarn's own data.
     #[must_use]
     pub fn layout(&self) -> &Arc<Layout> {
         &self.layout
@@ -234,7 +234,7 @@ impl Yarns {
         &self.points
     }
 
-    /// Where each control point comes from, if the structure said so.
+    /// Where each control point comes from, if the structure gave it.
     #[must_use]
     pub fn sources(&self) -> Option<&[u32]> {
         self.sources.as_deref()
@@ -255,8 +255,8 @@ impl Yarns {
 
     /// Moves one yarn: replaces its control points by as many others.
     ///
-    /// **Errors**: [`YarnError`] for an unknown yarn, another number of points, or a point that is not sound; the yarns
-    /// are then as they were.
+    /// **Errors**: [`YarnError`] for an unknown yarn, another number of points, or an invalid point; the yarns are then as
+    /// they were.
     pub fn set_points(&mut self, yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
         let range =
             self.range(yarn).ok_or(YarnError::UnknownYarn { yarn, yarns: self.layout.yarns.len() })?;
@@ -292,7 +292,7 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
 }
 
 fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
-    // All of them without a branch; which one is at fault is asked only where one is.
+    // All points at once, without a branch; the invalid one is looked for only if there is one.
     let within = |value: f32, low: f32, high: f32| (value >= low) & (value <= high);
     let sound = points.iter().fold(true, |sound, point| {
         let placed = [point.x, point.y, point.z].map(|at| within(at, -COORDINATE_LIMIT, COORDINATE_LIMIT));
@@ -359,7 +359,7 @@ impl YarnsBuilder {
         self
     }
 
-    /// Checks everything. Without a section or a material of its own the set has the circle and undyed yarn.
+    /// Checks everything and gives the yarns. Where no section was added there is the circle, where no material undyed yarn.
     ///
     /// **Errors**: those of [`Layout::new`] and [`Yarns::new`].
     pub fn build(mut self) -> Result<Yarns, YarnError> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule};
 
 use crate::engine::CpuEngine;
-use crate::parallel::{Parallel, Path};
+use crate::parallel::Parallel;
 use crate::serial::Serial;
 
 /// One thread, one yarn after the other: the reference.
@@ -18,7 +18,7 @@ pub struct SerialBackend {
 #[derive(Debug)]
 pub struct ParallelBackend {
     info: DeviceInfo,
-    path: Path,
+    parallel: Parallel,
 }
 
 fn info(name: &str, schedule: Schedule, threads: usize) -> DeviceInfo {
@@ -47,15 +47,23 @@ impl SerialBackend {
 }
 
 impl ParallelBackend {
-    /// Opens the parallel backend, which works on rayon's global pool, with the widest vectors that the processor has, or
-    /// those that the environment variable `TEXERE_SIMD` names.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::with("cpu", Path::detect())
+    /// Opens the parallel backend, which works on rayon's global pool, with the vectors that the environment variable
+    /// `TEXERE_SIMD` names (`portable`, `avx2` or `avx512`) or, without it, the widest ones that the processor has.
+    ///
+    /// ```
+    /// use texere_core::Backend;
+    /// use texere_cpu::ParallelBackend;
+    /// assert_eq!(ParallelBackend::open()?.info().name, "cpu");
+    /// # Ok::<(), texere_core::BackendError>(())
+    /// ```
+    ///
+    /// **Errors**: [`BackendError::NoInstructionSet`] where `TEXERE_SIMD` names no vectors of this processor.
+    pub fn open() -> Result<Self, BackendError> {
+        Ok(Self::with("cpu", Parallel::new()?))
     }
 
-    /// Opens it once for each kind of vectors that the processor has, the widest ones last, for tests that none differs
-    /// from the others. Each one's name says which: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
+    /// Opens it once for each kind of vectors that the processor has, the widest ones last, whatever `TEXERE_SIMD` says: for
+    /// tests that all kinds give the same. Each one's name says which: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
     ///
     /// ```
     /// use texere_core::Backend;
@@ -64,22 +72,17 @@ impl ParallelBackend {
     /// ```
     #[must_use]
     pub fn each() -> Vec<Self> {
-        let named = |path: Path| Self::with(&format!("cpu/{}", path.name()), path);
-        Path::available().into_iter().map(named).collect()
+        Parallel::each()
+            .map(|parallel| Self::with(&format!("cpu/{}", parallel.vectors()), parallel))
+            .collect()
     }
 
-    fn with(name: &str, path: Path) -> Self {
-        Self { info: info(name, Schedule::PerRing, rayon::current_num_threads()), path }
+    fn with(name: &str, parallel: Parallel) -> Self {
+        Self { info: info(name, Schedule::PerRing, rayon::current_num_threads()), parallel }
     }
 }
 
 impl Default for SerialBackend {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl Default for ParallelBackend {
     fn default() -> Self {
         Self::new()
     }
@@ -101,6 +104,6 @@ impl Backend for ParallelBackend {
     }
 
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
-        Ok(Box::new(CpuEngine::new(Parallel(self.path), plan)?))
+        Ok(Box::new(CpuEngine::new(self.parallel, plan)?))
     }
 }

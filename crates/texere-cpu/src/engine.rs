@@ -1,4 +1,4 @@
-//! An engine on the CPU: memory and timings; the stages themselves come from [`Stages`].
+//! An engine on the CPU: memory and timings; the stages themselves come from an [`Executor`].
 
 use std::fmt::Debug;
 use std::ops::ControlFlow;
@@ -28,8 +28,8 @@ pub(crate) struct ChunkRings {
     pub(crate) slopes: Vec<f32>,
 }
 
-/// The two stages and the scan, one way of doing them.
-pub(crate) trait Stages: Copy + Debug + Send + 'static {
+/// One way to run the scan and the two stages on a CPU.
+pub(crate) trait Executor: Copy + Debug + Send + 'static {
     /// Whether `mesh` works out its rings itself.
     const FUSED: bool;
     fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError>;
@@ -47,23 +47,23 @@ struct Room {
 }
 
 #[derive(Debug)]
-pub(crate) struct CpuEngine<S> {
+pub(crate) struct CpuEngine<E> {
     work: Work,
     /// One for each [`Slot`].
     rooms: [Room; 2],
     timings: StageTimings,
-    stages: S,
+    executor: E,
 }
 
-impl<S: Stages> CpuEngine<S> {
-    pub(crate) fn new(stages: S, plan: Arc<Plan>) -> Result<Self, BackendError> {
+impl<E: Executor> CpuEngine<E> {
+    pub(crate) fn new(executor: E, plan: Arc<Plan>) -> Result<Self, BackendError> {
         let points = PaddedPoints::new(&plan)?;
         pages::prefer_huge(points.points());
         Ok(Self {
             work: Work { plan, points, rolls: Rolls::default() },
             rooms: Default::default(),
             timings: StageTimings::default(),
-            stages,
+            executor,
         })
     }
 }
@@ -88,7 +88,7 @@ fn timed<T>(total: &mut Duration, work: impl FnOnce() -> T) -> T {
     result
 }
 
-impl<S: Stages> Engine for CpuEngine<S> {
+impl<E: Executor> Engine for CpuEngine<E> {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError> {
         let Work { plan, points: padded, .. } = &mut self.work;
         let sent = timed(&mut self.timings.upload, || padded.upload(plan, first, points));
@@ -96,8 +96,8 @@ impl<S: Stages> Engine for CpuEngine<S> {
     }
 
     fn scan(&mut self, _chunks: ScanChunks<'_>) -> Result<(), BackendError> {
-        let Self { work: Work { plan, points, rolls }, timings, stages, .. } = self;
-        timed(&mut timings.scan, || stages.scan(plan, points, rolls))
+        let Self { work: Work { plan, points, rolls }, timings, executor, .. } = self;
+        timed(&mut timings.scan, || executor.scan(plan, points, rolls))
     }
 
     /// A chunk's tables are read where they lie.
@@ -106,14 +106,14 @@ impl<S: Stages> Engine for CpuEngine<S> {
     }
 
     fn mesh_reads_rings(&self) -> bool {
-        !S::FUSED
+        !E::FUSED
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let rings = &mut self.rooms[slot.index()].rings;
         resize("rings", &mut rings.rings, chunk.rings().into())?;
         resize("slopes", &mut rings.slopes, chunk.rings().into())?;
-        timed(&mut self.timings.trajectory, || self.stages.trajectory(&self.work, chunk, rings));
+        timed(&mut self.timings.trajectory, || self.executor.trajectory(&self.work, chunk, rings));
         Ok(())
     }
 
@@ -122,7 +122,7 @@ impl<S: Stages> Engine for CpuEngine<S> {
         resize("vertices", vertices, chunk.vertices().into())?;
         resize("indices", indices, chunk.indices().into())?;
         let out = MeshMut { vertices, indices };
-        timed(&mut self.timings.mesh, || self.stages.mesh(&self.work, chunk, rings, out));
+        timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out));
         Ok(())
     }
 
@@ -151,7 +151,7 @@ impl<S: Stages> Engine for CpuEngine<S> {
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
         let rings = &self.rooms[slot.index()].rings;
-        timed(&mut self.timings.mesh, || self.stages.mesh(&self.work, chunk, rings, out));
+        timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out));
         Ok(())
     }
 

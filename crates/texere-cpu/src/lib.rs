@@ -11,7 +11,7 @@
 //! yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, x * x, 0.0, 0.1)));
 //! let yarns = yarns.build()?;
 //! let gold = Pipeline::new(&yarns).mesh(&SerialBackend::new())?;
-//! let mesh = Pipeline::new(&yarns).mesh(&ParallelBackend::new())?;
+//! let mesh = Pipeline::new(&yarns).mesh(&ParallelBackend::open()?)?;
 //! assert_eq!(gold.vertices, mesh.vertices);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

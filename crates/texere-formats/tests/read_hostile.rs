@@ -49,7 +49,7 @@ fn woven(design: Design) -> Woven {
 }
 
 /// The whole chain of an error, none of whose messages may be longer than two lines of a terminal.
-fn told(error: &dyn Error) -> String {
+fn message(error: &dyn Error) -> String {
     let mut chain = vec![error.to_string()];
     let mut cause = error.source();
     while let Some(error) = cause {
@@ -137,7 +137,7 @@ fn short_file_of_many_pixels() {
     std::fs::write(&path, format!("[weave]\nimage = \"motif.png\"\n{THREADS}")).unwrap();
     let peak = peak_mib(move || {
         let error = soon(move || read(path)).unwrap_err();
-        assert!(told(&error).contains("bytes are too few for 4096 × 65535 pixels"), "{}", told(&error));
+        assert!(message(&error).contains("bytes are too few for 4096 × 65535 pixels"), "{}", message(&error));
     });
     assert!(peak < 64.0, "{peak} MiB");
 }
@@ -163,7 +163,7 @@ fn long_names() {
     // A key that is nothing like any other, and the comparison that finds it out.
     let text = format!("{} = 1\n{THREADS}", "x".repeat(1 << 21));
     let peak = peak_mib(move || {
-        assert!(told(&toml(&text).unwrap_err()).contains("line 1"));
+        assert!(message(&toml(&text).unwrap_err()).contains("line 1"));
     });
     assert!(peak < 64.0, "{peak} MiB");
 }
@@ -238,8 +238,8 @@ fn an_error_is_never_longer_than_a_line_or_two() {
         plain.clone(),
     ] {
         let error = toml(&text).expect_err(&text[..200]);
-        let told = told(&error);
-        assert!(!told.contains(['\u{1b}', '\n']), "{told:?}");
+        let message = message(&error);
+        assert!(!message.contains(['\u{1b}', '\n']), "{message:?}");
     }
     let draft = |line: &str| {
         format!(
@@ -254,8 +254,8 @@ fn an_error_is_never_longer_than_a_line_or_two() {
         format!("[WARP]\nUnits={plain}\nSpacing={plain}"),
         format!("[WARP COLORS]\n1={plain}"),
     ] {
-        let told = told(&wif(&draft(&line)).expect_err(&line[..30]));
-        assert!(!told.contains(['\u{1b}', '\n']), "{told:?}");
+        let message = message(&wif(&draft(&line)).expect_err(&line[..30]));
+        assert!(!message.contains(['\u{1b}', '\n']), "{message:?}");
     }
 }
 
@@ -278,8 +278,8 @@ mod unix {
 
     fn refused(folder: &Path, name: &str, kind: &str) {
         let path = folder.join(name);
-        let told = told(&soon(move || read(path)).unwrap_err());
-        assert!(told.contains(kind), "{name}: {told}");
+        let message = message(&soon(move || read(path)).unwrap_err());
+        assert!(message.contains(kind), "{name}: {message}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Cameras: where the eye is, and what it sees.
+//! Cameras: the eye's position, direction and field of view.
 
 use glam::Vec3;
 
@@ -62,7 +62,7 @@ pub struct Camera {
     pub(crate) toward: Vec3,
     pub(crate) up: Vec3,
     pub(crate) projection: Projection,
-    /// Whether what is nearer to the eye than the target is cut away.
+    /// Whether all that is nearer to the eye than the target is cut away.
     pub(crate) cuts: bool,
     /// Whether the cloth lies on its face.
     pub(crate) is_over: bool,
@@ -83,7 +83,7 @@ impl Camera {
     /// **Errors**: [`RenderError::Camera`].
     pub fn true_scale(extent: &Extent, mm_per_pixel: f32) -> Result<Self, RenderError> {
         let scale = positive("a scale (mm per pixel)", mm_per_pixel)?;
-        // A pixel that the cloth's edge only touches by rounding is none.
+        // A pixel that the edge touches only by rounding does not count.
         let size = extent.size().map(|mm| (mm / scale - 1e-3).ceil().max(1.0) as u32);
         Ok(Self::straight(extent, size, size[1] as f32 * scale))
     }
@@ -201,7 +201,7 @@ impl Camera {
 }
 
 fn aspect(size: [u32; 2]) -> f32 {
-    // An empty picture is refused when it is drawn.
+    // An empty picture is refused later, when it is drawn.
     size[0].max(1) as f32 / size[1].max(1) as f32
 }
 

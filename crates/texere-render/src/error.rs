@@ -1,4 +1,4 @@
-//! What can go wrong between a fabric and its picture.
+//! Errors of making pictures.
 
 use texere_core::{BackendError, PlanError, SessionError};
 use thiserror::Error;
@@ -17,7 +17,7 @@ pub enum RenderError {
         /// The longest side that the device allows.
         limit: u32,
     },
-    /// The picture fits the device's textures, but not with so many pixels of the screen for each of its own.
+    /// The picture fits the device's textures, but not with this supersampling.
     #[error(
         "supersampled {supersampling} times, a picture of {width} × {height} pixels is not between 1 × 1 and {limit} × {limit}; \
          {most} times is the most"
@@ -34,17 +34,17 @@ pub enum RenderError {
         /// The longest side that the device allows.
         limit: u32,
     },
-    /// A number that a camera was given makes no view.
+    /// A camera's parameter is out of range.
     #[error("{what} of {value} makes no view: it must be {expected}")]
     Camera {
-        /// What the number says.
+        /// What the parameter is.
         what: &'static str,
-        /// The number.
+        /// Its value.
         value: f32,
-        /// What would do.
+        /// The values that are allowed.
         expected: &'static str,
     },
-    /// The settings make no plan.
+    /// The settings can't be planned for.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// The device failed.

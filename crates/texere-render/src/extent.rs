@@ -1,4 +1,4 @@
-//! How much room a fabric takes.
+//! The bounding box of a fabric.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ impl Extent {
                 (low.min(centre - reach), high.max(centre + reach), radii + f64::from(point.radius))
             })
         });
-        // In order, so that a sum is the same every time.
+        // In order, so that the sum is the same every time.
         let (low, high, radii) = each
             .collect::<Vec<_>>()
             .into_iter()

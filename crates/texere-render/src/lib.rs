@@ -7,8 +7,8 @@
 //! ```
 //!
 //! A [`Renderer`] is an open device with its shaders, a [`Scene`] a fabric on it, a [`Camera`] a view of the fabric. The
-//! mesh is drawn from the very buffers that the mesh stage wrote, chunk after chunk into one depth buffer; then all that
-//! is seen is lit at once.
+//! mesh is drawn from the very buffers that the mesh stage wrote, chunk after chunk into one depth buffer; then the visible
+//! pixels are lit, once.
 
 mod camera;
 mod error;

@@ -40,7 +40,7 @@ impl Renderer {
         size: [u32; 2],
     ) -> Result<Phases, RenderError> {
         let camera = Camera::face(&Extent::of(yarns), size);
-        // Compiles and allocates what any first picture does.
+        // A first picture, which compiles and allocates.
         self.scene(yarns, settings)?.picture(&camera, Quality::default())?;
 
         let start = Instant::now();
@@ -71,7 +71,7 @@ impl Renderer {
         settings: &Settings,
         serial: &dyn Backend,
     ) -> Result<(Duration, Duration), RenderError> {
-        // With caps, since the parallel one has them, too.
+        // With caps, as the parallel phase has them.
         let settings = Settings { topology: Topology::Indexed, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let mut session = Session::new(serial, plan.clone())?;

@@ -7,7 +7,7 @@ use wgpu::{BindingType, BufferBindingType, ShaderStages, TextureSampleType, Text
 
 use crate::screen::{COLOR, DEPTH, KEPT, SAMPLES, VISIBILITY};
 
-/// An open device with what it takes to make pictures.
+/// An open device with the pipelines that make pictures.
 ///
 /// ```no_run
 /// use texere_core::{Settings, Yarns};
@@ -26,9 +26,9 @@ use crate::screen::{COLOR, DEPTH, KEPT, SAMPLES, VISIBILITY};
 pub struct Renderer {
     pub(crate) device: WgpuBackend,
     pub(crate) sieve: wgpu::ComputePipeline,
-    /// Outsides alone, for views that show no end of a yarn.
+    /// Draws outsides only, for views that show no end of a yarn.
     pub(crate) outsides: wgpu::RenderPipeline,
-    /// Insides, too.
+    /// Draws insides, too.
     pub(crate) all_sides: wgpu::RenderPipeline,
     pub(crate) visibility: wgpu::RenderPipeline,
     pub(crate) shade: wgpu::RenderPipeline,
@@ -52,7 +52,7 @@ impl Renderer {
         Self::with_shaders(device, picture::SIEVE, picture::YARNS)
     }
 
-    /// The same with other shaders for yarns, such as a broken one that a test must find.
+    /// [`Renderer::new`] with other shaders for yarns, such as a broken one that a test must find.
     pub(crate) fn with_shaders(device: WgpuBackend, sieve: &str, yarns: &str) -> Result<Self, BackendError> {
         let layouts = device.scoped("Device::create_bind_group_layout", || Layouts::new(device.device()))?;
         let sieve = device.scoped("Device::create_compute_pipeline", || {

@@ -13,13 +13,13 @@ use crate::sieve::Sieve;
 use crate::uniform::{ViewUniform, YarnLook};
 use crate::{Camera, Extent, RenderError, Renderer};
 
-/// Memory for two chunks of mesh, bytes: enough to keep any device busy, little beside what pictures take.
+/// Memory for two chunks of mesh, bytes: enough to keep any device busy, little beside the memory of pictures.
 const CHUNK_MEMORY: u64 = 128 << 20;
 
 // The list of one chunk's triangles is a single binding.
 const _: () = assert!(Sieve::list_bytes(CHUNK_MEMORY / 2) <= 128 << 20);
 
-/// How fine a picture is.
+/// The quality of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quality {
     /// Pixels of the screen for a pixel of the picture, each way. Each has four samples, whatever this is.
@@ -55,8 +55,8 @@ pub struct PictureTimings {
     pub shade: Duration,
 }
 
-/// A fabric on a device: control points and tables. Its mesh is made anew, chunk by chunk, for each picture: whatever the
-/// fabric, no more of it is in memory than two chunks and what may be seen of one, 214 MiB together.
+/// A fabric on a device: control points and tables. Its mesh is made anew, chunk by chunk, for each picture. Whatever the
+/// fabric, only two chunks and one chunk's list of visible triangles are in memory, 214 MiB together.
 #[derive(Debug)]
 pub struct Scene<'a> {
     renderer: &'a Renderer,
@@ -64,7 +64,7 @@ pub struct Scene<'a> {
     limits: Limits,
     session: WgpuSession,
     extent: Extent,
-    /// For each yarn, from ring to ring, mm.
+    /// For each yarn, the mean length from ring to ring, mm.
     ring_lengths: Vec<f32>,
     looks: wgpu::Buffer,
     sieve: Sieve,
@@ -73,7 +73,7 @@ pub struct Scene<'a> {
 }
 
 impl Renderer {
-    /// Sends a fabric to the device. The settings' topology and caps are set aside: pictures list their own triangles, and
+    /// Sends a fabric to the device. The settings' topology and caps are ignored: pictures list their own triangles, and
     /// show yarns solid, also where they end or are cut.
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
@@ -145,13 +145,13 @@ impl Renderer {
 }
 
 impl Scene<'_> {
-    /// How much room the fabric takes.
+    /// The fabric's bounding box.
     #[must_use]
     pub const fn extent(&self) -> &Extent {
         &self.extent
     }
 
-    /// The plan that its mesh is made by.
+    /// The plan that its mesh is made from.
     #[must_use]
     pub const fn plan(&self) -> &Arc<Plan> {
         &self.plan
@@ -289,13 +289,12 @@ impl Scene<'_> {
     }
 }
 
-/// What chunks are cut to on any device.
+/// The limits that chunks are cut to on any device.
 pub(crate) fn chunk_limits(plan: &Plan) -> Limits {
     Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..Limits::NONE }
 }
 
-/// The mean length from ring to ring of each yarn, mm: of its first control points, since no more hangs on it than where
-/// its fibres show.
+/// The mean length from ring to ring of each yarn, mm, by its first control points: it only places the fibres' pattern.
 fn ring_lengths(yarns: &Yarns, plan: &Plan) -> Vec<f32> {
     const POINTS: usize = 64;
     let per_interval = plan.settings().subdivisions as f32 + 1.0;

@@ -1,4 +1,4 @@
-//! The triangles of a chunk that a picture may show: what is told of a chunk's runs, and the list that is drawn.
+//! The triangles of a chunk that a picture may show: the table of a chunk's runs, and the list that is drawn.
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::{BackendError, Chunk, Plan};
@@ -26,7 +26,7 @@ const CAP: u32 = 1 << 31;
 /// A triangle of the list: three vertices and the run.
 type Triangle = [u32; 4];
 
-/// What an indirect draw reads: corners, instances, and the first of each.
+/// The arguments of an indirect draw: corners, instances, and the first of each.
 const DRAW_BYTES: u64 = 16;
 
 /// The buffers of one chunk at a time, as large as the largest so far.
@@ -54,7 +54,8 @@ impl Sieve {
         vertex_bytes / size_of::<texere_core::Vertex>() as u64 * 2 * size_of::<Triangle>() as u64
     }
 
-    /// Tells the device of `chunk`: its runs, an empty list of triangles, and after these those of caps.
+    /// Writes the tables of `chunk`: its runs, and the list of triangles, which starts with those of caps. The sieve appends
+    /// the rest.
     pub(crate) fn fill(
         &mut self,
         renderer: &Renderer,
@@ -92,7 +93,7 @@ impl Sieve {
         renderer.write(&self.draw, bytemuck::cast_slice(&draw))
     }
 
-    /// What both the sieve and the draw bind after the view and the chunk's vertices.
+    /// The bindings of both the sieve and the draw, after the view and the chunk's vertices.
     pub(crate) fn bindings(&self) -> [BindingResource<'_>; 2] {
         let runs =
             BufferBinding { buffer: &self.runs, offset: 0, size: wgpu::BufferSize::new(self.run_bytes) };

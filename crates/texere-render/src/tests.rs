@@ -15,8 +15,8 @@ use crate::{Camera, Cut, Extent, Quality, RenderError, Renderer};
 /// The goldens were drawn by lavapipe, whose device this is.
 const DEVICE: &str = "llvmpipe";
 
-/// How far a picture may be from its golden: the mean of FLIP (Andersson et al. 2020), what an eye sees of the difference.
-/// Other versions of LLVM round some pixels the other way.
+/// How far a picture may be from its golden: the mean of FLIP (Andersson et al. 2020), a measure of the visible difference.
+/// It is not 0, since other versions of LLVM round some pixels the other way.
 const TOLERANCE: f32 = 0.02;
 
 const SIZE: [u32; 2] = [240, 180];
@@ -146,7 +146,7 @@ fn pictures_are_their_goldens() {
     assert!(wrong.is_empty(), "look at these, and where they are right put them into goldens/: {wrong:#?}");
 }
 
-/// Each of these must be told from the golden of the face.
+/// Each of these must be found to differ from the golden of the face.
 fn assert_seen(what: &str, drawn: &RgbImage) {
     let off = difference(drawn, &golden("face"));
     assert!(off > TOLERANCE, "{what} is off by {off} only");
@@ -220,7 +220,7 @@ fn triangles_that_are_left_out_would_not_be_seen() {
         let all = draw(&whole, &yarns, &camera, &Limits::NONE);
         assert!(picture(&yarns, &camera) == all, "{name}");
     }
-    // It would be seen if samples were not where the sieve looks for them, or if it took the back for the face.
+    // The pictures would differ if samples were not where the sieve looks for them, or if it took the back for the face.
     for (from, to) in [("0.375, 0.875", "0.125, 0.375"), ("let outside = -area", "let outside = area")] {
         let broken = sieve(from, to);
         for (name, camera) in &small {
@@ -308,12 +308,12 @@ fn sizes_that_no_texture_has_and_views_of_nothing_are_refused() {
         let refused = scene.picture(&Camera::face(&extent, size), Quality { supersampling });
         assert!(matches!(refused, Err(RenderError::Size { .. })), "{size:?}");
     }
-    // What would fit without it is the supersampling's fault.
+    // A picture that fits without supersampling is refused for the supersampling.
     let limit = renderer.side_limit();
     for (size, given, most) in [([10, 10], 0, limit / 10), ([limit, 1], 2, 1), ([1, limit / 2], 3, 2)] {
         match scene.picture(&Camera::face(&extent, size), Quality { supersampling: given }) {
-            Err(RenderError::Supersampling { supersampling, most: told, .. }) => {
-                assert_eq!((supersampling, told), (given, most), "{size:?}");
+            Err(RenderError::Supersampling { supersampling, most: allowed, .. }) => {
+                assert_eq!((supersampling, allowed), (given, most), "{size:?}");
             }
             other => panic!("{size:?}: {other:?}"),
         }

@@ -1,4 +1,4 @@
-//! What shaders are told of the view and of each yarn.
+//! The uniforms of shaders: the view, and the look of each yarn.
 
 use bytemuck::{Pod, Zeroable};
 use glam::dcamera::rh::proj::directx;
@@ -93,7 +93,7 @@ fn projection(camera: &Camera, pixels_down: f32) -> (DMat4, f32) {
         Projection::Perspective { distance } => {
             let eye = f64::from(distance);
             let look = view::look_to_mat4(toward * eye, -toward, up);
-            // What lies behind the eye is not seen; the least distance keeps the far end's depths apart.
+            // The near plane: in front of the eye, and far enough from it to leave the far end enough depth resolution.
             let nearest = (eye - near).max(eye * 0.02);
             let projected = directx::perspective(
                 f64::from(FIELD_OF_VIEW),

@@ -74,7 +74,10 @@ pub fn devices() -> Devices {
             Err(error) => devices.missing.push((family.name, error)),
         }
     }
-    devices.found.push(ParallelBackend::new().info().clone());
+    match ParallelBackend::open() {
+        Ok(cpu) => devices.found.push(cpu.info().clone()),
+        Err(error) => devices.missing.push(("cpu", error)),
+    }
     devices.found.push(SerialBackend::new().info().clone());
     devices
 }
@@ -84,7 +87,7 @@ pub fn devices() -> Devices {
 /// | name | device |
 /// |---|---|
 /// | `auto` | a discrete GPU, else an integrated one, else the CPU, as [`Devices::auto`] says; what does not open is passed over |
-/// | `cpu`, `cpu-serial` | all cores; the serial reference |
+/// | `cpu`, `cpu-serial` | all cores, with the vectors that `TEXERE_SIMD` names, if it is set; the serial reference |
 /// | `wgpu`, `wgpu:1`, `wgpu:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `wgpu`) |
 /// | `opencl`, `opencl:1`, `opencl:nvidia` | likewise (feature `opencl`) |
 /// | `opencl:0/per-yarn` | the same device with the paper's mapping, one thread a yarn |
@@ -96,15 +99,19 @@ pub fn devices() -> Devices {
 /// # Ok::<(), texere::BackendError>(())
 /// ```
 ///
-/// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked, and what the device says when
-/// it is opened.
+/// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked;
+/// [`BackendError::NoInstructionSet`] of `cpu`; and what the device says when it is opened.
 pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     match name {
-        "auto" => Ok(open_gpu().unwrap_or_else(|| Box::new(ParallelBackend::new()))),
-        "cpu" => Ok(Box::new(ParallelBackend::new())),
+        "auto" => open_gpu().map_or_else(open_cpu, Ok),
+        "cpu" => open_cpu(),
         "cpu-serial" => Ok(Box::new(SerialBackend::new())),
         _ => open_in_family(name),
     }
+}
+
+fn open_cpu() -> Result<Box<dyn Backend>, BackendError> {
+    Ok(Box::new(ParallelBackend::open()?))
 }
 
 /// The GPU that `auto` stands for, if there is one that opens. No family is asked for its devices after one has a discrete

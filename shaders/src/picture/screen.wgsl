@@ -1,4 +1,4 @@
-// What the yarns left on the screen, read back. After view.wgsl.
+// Reads back what the yarns' pass drew on the screen. After view.wgsl.
 
 @group(0) @binding(1) var depths: texture_depth_multisampled_2d;
 @group(0) @binding(2) var directions: texture_multisampled_2d<u32>;

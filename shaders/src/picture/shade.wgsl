@@ -1,4 +1,4 @@
-// Light on what is seen, tone mapping, and the picture's own pixels. After view.wgsl and screen.wgsl.
+// Lights the visible pixels, maps tones, and averages to the picture's own pixels. After view.wgsl and screen.wgsl.
 
 // Rust: texere_render's YarnLook, 32 bytes.
 struct YarnLook {
@@ -100,8 +100,8 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let fibre = from_octahedron(packed.zw);
     let eye = to_eye(here.local);
     if (number & CUT) != 0u {
-        // Fibres end on: they swallow what falls between them. A cut is a plane with nothing before it; the depth kept is
-        // that of the yarn's far side, which says nothing of what surrounds the plane.
+        // Fibres seen end on absorb the light that falls between them. Nothing stands before a cut's plane, and the depth kept
+        // is that of the yarn's far side: so occlusion does not apply.
         let open = select(seen.x, 1.0, view.has_ground == 0u);
         return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * open);
     }

@@ -7,16 +7,16 @@
 
 const SIEVE_GROUP = 64u;
 
-// Quads that a workgroup looks at in one go, and their corners: those of whole rings, of 256 sides at most, and of the ring
+// Quads that a workgroup looks at together, and their corners: those of whole rings, of 256 sides at most, and of the ring
 // after them.
 const TILE_QUADS = 512u;
 const TILE_CORNERS = 768u;
 
-// How far a rasteriser may take a corner from where it is, pixels: half of 1/256 by rounding, as Direct3D wants and Vulkan's
-// desktop drivers do, the rest by f32.
+// How far a rasteriser may move a corner, pixels: half of 1/256 by rounding, as Direct3D requires and Vulkan's desktop drivers
+// do, the rest by f32.
 const MARGIN = 0.0078125;
 
-// Triangles larger than this are seen without asking: pixels.
+// Triangles larger than this are kept without a test: pixels.
 const LARGE = 2.0;
 
 // A row of samples in each quarter of a pixel, and where each one's sample is: the pattern that WebGPU prescribes.
@@ -50,7 +50,7 @@ fn area(edge: vec2<f32>, point: vec2<f32>) -> f32 {
     return edge.x * point.y - edge.y * point.x;
 }
 
-// What the area may be off by.
+// The error bound of the area.
 fn slack(edge: vec2<f32>) -> f32 {
     return MARGIN * (abs(edge.x) + abs(edge.y));
 }

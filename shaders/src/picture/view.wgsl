@@ -1,4 +1,4 @@
-// What every picture shader reads: the view, and how what is seen is kept until it is shaded.
+// What every picture shader reads: the view, and the encoding of visible samples until they are shaded.
 
 // Rust: texere_render's ViewUniform, 224 bytes. All positions are relative to the camera's target, since f32 has no
 // tenth of a millimetre left at ten kilometres.
@@ -7,7 +7,7 @@ struct View {
     local_from_clip: mat4x4<f32>,
     // The camera's target in the fabric's coordinates.
     target_point: vec3<f32>,
-    // What the ambient occlusion looks round for, mm.
+    // How far ambient occlusion looks, mm.
     reach: f32,
     // Where the eye is, or with w = 0 the direction to it.
     eye: vec4<f32>,

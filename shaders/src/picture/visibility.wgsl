@@ -1,5 +1,4 @@
-// How much of the surroundings, and of the key light, each pixel sees: both looked for on the screen. After view.wgsl
-// and screen.wgsl.
+// Ambient occlusion and the key light's shadow at each pixel, both found on the screen. After view.wgsl and screen.wgsl.
 
 const OCCLUSION_TAPS = 14u;
 const SHADOW_STEPS = 18u;
@@ -10,7 +9,7 @@ const LIGHT_RADIUS = 0.13;
 // Turns of the spiral that the taps lie on, prime to their number.
 const SPIRAL_TURNS = 9.0;
 
-// Below this many pixels there is nothing to find; what is returned is what yarns have on average.
+// Below this many pixels there is nothing to find, and yarns' average is returned.
 const LEAST_PIXELS = 1.5;
 const AVERAGE = vec2(0.8, 0.85);
 
@@ -38,8 +37,7 @@ fn ambient(here: Surface, pixel: vec2<i32>, turn: f32) -> f32 {
     return max(1.0 - 2.6 * sum / f32(OCCLUSION_TAPS), 0.0);
 }
 
-// Whether the key light is seen: steps towards one of sixteen points of it until something on the screen is in front of
-// the way.
+// Whether the key light is visible: steps towards one of its sixteen points until something on the screen is in the way.
 fn lit(here: Surface, phase: f32) -> f32 {
     // The points lie as seeds in a sunflower (Vogel 1979).
     let side = normalize(cross(view.light, vec3(0.31, 0.23, 0.92)));

@@ -10,8 +10,8 @@ use texere_fuzz::{Reader, fuzz};
 #[global_allocator]
 static HEAP: PeakAlloc = PeakAlloc;
 
-/// Inputs after which progress is told.
-const TOLD: u64 = 10_000;
+/// Inputs after which progress is printed.
+const STEP: u64 = 10_000;
 
 /// Feeds mutated designs to texere's readers.
 #[derive(Debug, Parser)]
@@ -39,7 +39,7 @@ fn main() {
         let (start, end) = (Instant::now(), args.first + args.inputs);
         let (mut number, mut taken) = (args.first, 0);
         while number < end {
-            let next = end.min(number + TOLD);
+            let next = end.min(number + STEP);
             taken += fuzz(reader, number..next, &HEAP, &args.kept);
             number = next;
             let (inputs, seconds) = (number - args.first, start.elapsed().as_secs_f64());

@@ -34,7 +34,7 @@ pub enum Outcome {
 pub fn drive(path: &Path) -> Outcome {
     let mut design = match read(path) {
         Ok(design) => design,
-        Err(error) => return Outcome::Refused(told(&error)),
+        Err(error) => return Outcome::Refused(chain(&error)),
     };
     for warning in design.warnings() {
         assert!(warning.chars().count() < 600, "a warning of {} characters", warning.chars().count());
@@ -60,7 +60,7 @@ pub fn drive(path: &Path) -> Outcome {
 fn cloth(woven: &Woven) -> Outcome {
     let yarns = match woven.yarns() {
         Ok(yarns) => yarns,
-        Err(error) => return Outcome::NoYarns(told(&error)),
+        Err(error) => return Outcome::NoYarns(chain(&error)),
     };
     assert_eq!(woven.point_count(), yarns.points().len() as u64, "points that were not counted");
     if yarns.points().len() > POINTS {
@@ -75,7 +75,7 @@ fn cloth(woven: &Woven) -> Outcome {
         .subdivisions(1)
         .topology(Topology::Indexed)
         .caps(true);
-    match pipeline.mesh(&ParallelBackend::new()) {
+    match pipeline.mesh(&ParallelBackend::open().expect("the CPU's backend")) {
         Ok(mesh) => {
             let whole = |vertex: &texere_core::Vertex| {
                 vertex.position.iter().chain(&vertex.normal).all(|value| value.is_finite())
@@ -83,7 +83,7 @@ fn cloth(woven: &Woven) -> Outcome {
             assert!(mesh.vertices.iter().all(whole), "a vertex that is no place");
         }
         Err(PipelineError::Plan(PlanError::PolygonSides { .. })) => {}
-        Err(error) => panic!("a mesh that could not be made: {}", told(&error)),
+        Err(error) => panic!("a mesh that could not be made: {}", chain(&error)),
     }
     let _ = Measures::new(woven, &yarns, 0.0);
     let report = clearance(&yarns, 0.0).expect("clearance of sound yarns");
@@ -92,8 +92,8 @@ fn cloth(woven: &Woven) -> Outcome {
 }
 
 /// An error and its causes, each of which fits a line or two.
-fn told(error: &dyn Error) -> String {
-    let mut told = error.to_string();
+fn chain(error: &dyn Error) -> String {
+    let mut chain = error.to_string();
     let mut cause = error.source();
     while let Some(error) = cause {
         let message = error.to_string();
@@ -102,9 +102,12 @@ fn told(error: &dyn Error) -> String {
             "a message of {} characters: {message:.200}",
             message.chars().count()
         );
-        told = format!("{told}: {message}");
+        chain = format!("{chain}: {message}");
         cause = error.source();
     }
-    assert!(!told.contains(|letter: char| letter.is_control()), "a message that steers a terminal: {told:?}");
-    told
+    assert!(
+        !chain.contains(|letter: char| letter.is_control()),
+        "a message that steers a terminal: {chain:?}"
+    );
+    chain
 }

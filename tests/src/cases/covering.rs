@@ -18,7 +18,7 @@ pub(super) fn covering(sizes: &[usize]) -> Vec<Vec<usize>> {
             let gain = |value: &usize| {
                 levels.iter().filter(|&&level| open.contains(&pair(level, (factor, *value)))).count()
             };
-            // Among equals another one each time, so that no value is worn out.
+            // Among equals a different one each time, so that values are used evenly.
             let values = (0..sizes[factor]).map(|value| (value + rows.len()) % sizes[factor]);
             let best = values.max_by_key(gain).unwrap_or_default();
             levels.push((factor, best));
@@ -34,7 +34,7 @@ pub(super) fn covering(sizes: &[usize]) -> Vec<Vec<usize>> {
     rows
 }
 
-/// The factor that comes first in front.
+/// The pair, ordered by factor.
 fn pair(one: Level, other: Level) -> (Level, Level) {
     if one < other { (one, other) } else { (other, one) }
 }

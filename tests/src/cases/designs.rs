@@ -11,7 +11,8 @@ use super::{Case, USUAL};
 /// Ends, and picks, that a cut cloth has at most.
 const THREADS: usize = 20;
 
-/// `designs/` of this workspace; in the working folder only where the suite was built alone and carried elsewhere.
+/// `designs/` of this workspace, or else of the working folder, for a suite that runs on another machine than it was built
+/// on.
 fn folder() -> PathBuf {
     let ours = Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs");
     if ours.is_dir() { ours } else { PathBuf::from("designs") }
@@ -27,12 +28,12 @@ pub fn design(path: impl AsRef<Path>) -> Design {
     read(folder().join(path)).unwrap()
 }
 
-/// Every design as it is meant to look, in both frames, and as the paper has it: upright and without caps.
+/// Every design with caps in both frames, and as the paper has it: upright and without caps.
 pub(super) fn each_design() -> Vec<Case> {
     let mut paths = Vec::new();
     gather(&folder(), Path::new(""), &mut paths);
     paths.sort();
-    // A suite that finds no design has lost its way, and says so where a design is asked for.
+    // Where no design is found the suite must fail: a case for a missing design does.
     let paths = if paths.is_empty() { vec!["missing.toml".into()] } else { paths };
     paths
         .into_iter()
@@ -68,7 +69,7 @@ fn small(design: &Design) -> Yarns {
     }
 }
 
-/// A piece from the middle of a cloth, where a figure lies rather than its ground.
+/// A piece from the middle of a cloth, where a figured cloth has its figure.
 fn middle(cloth: &Woven) -> Woven {
     let whole = cloth.drawdown();
     let (ends, picks) = (whole.ends().min(THREADS), whole.picks().min(THREADS));

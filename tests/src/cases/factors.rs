@@ -1,4 +1,4 @@
-//! Settings, sections, ends and limits, all against all: every pair of values, or every combination.
+//! Cases that combine settings, sections, ends and limits: every pair of values, or every combination.
 
 use texere_core::{Frame, Section, Settings, Topology, Yarn};
 
@@ -72,9 +72,10 @@ impl Counts {
         ]
     }
 
-    /// The case of one value a factor, by number; its name has them all.
+    /// The case with the given value, by number, of each factor; its name has them all.
     fn case(&self, set: &str, row: &[usize]) -> Case {
-        let &[subdivisions, sides, frame, section, end, caps, topology, twist, limit, flattening] = row else {
+        let &[subdivisions, sides, frame, section, end, caps, topology, twist, limit, flattening] = row
+        else {
             panic!("{row:?} is not a value for each factor");
         };
         let (subdivisions, sides) = (self.subdivisions[subdivisions], self.sides[sides]);
@@ -91,7 +92,8 @@ impl Counts {
             "{set}::k{subdivisions}-n{sides}-{section_name}-{end_name}-{caps_name}-{topology_name}-{twist_name}-\
              {limit_name}-{flattening_name}::{frame_name}"
         );
-        let build = move || fabrics::couple(Yarn { closed, twist, ..Yarn::default() }, section(sides), flatten);
+        let build =
+            move || fabrics::couple(Yarn { closed, twist, ..Yarn::default() }, section(sides), flatten);
         Case { tight, ..Case::new(name, settings, build) }
     }
 }
@@ -127,7 +129,8 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// What two cases have to differ in to have another value of factor `which`, read from the case and not from a row.
+    /// A text that differs between two cases if and only if their values of factor `which` differ, read from the case and not
+    /// from its row.
     fn value(case: &Case, which: usize) -> String {
         let Settings { subdivisions, sides, frame, topology, caps, .. } = case.settings;
         let yarns = case.yarns();
@@ -136,7 +139,7 @@ mod tests {
             0 => subdivisions.to_string(),
             1 => sides.to_string(),
             2 => format!("{frame:?}"),
-            // A polygon has other corners for each number of sides.
+            // A polygon has as many corners as there are sides.
             3 => format!("{:?}", std::mem::discriminant(&yarns.layout().sections()[yarn.section as usize])),
             4 => yarn.closed.to_string(),
             5 => caps.to_string(),

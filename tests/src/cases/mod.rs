@@ -1,4 +1,4 @@
-//! The cases that every backend has to get right.
+//! The cases of the suite.
 
 mod covering;
 mod designs;
@@ -16,14 +16,14 @@ use texere_core::{Frame, SIDES_MAX, Section, Settings, Topology, Yarn, Yarns};
 
 use crate::limits::Tight;
 
-/// Yarns and what is asked of them, with a name.
+/// A case: yarns, settings and limits, with a name.
 #[derive(Clone)]
 pub struct Case {
-    /// What it is about, and its frame: `helix-closed::rotation-minimizing`.
+    /// Its subject and its frame: `helix-closed::rotation-minimizing`.
     pub name: String,
-    /// What is asked for.
+    /// The settings of its plan.
     pub settings: Settings,
-    /// What its chunks are cut to.
+    /// The limit that its chunks are cut to.
     pub tight: Tight,
     build: Arc<dyn Fn() -> Yarns + Send + Sync>,
 }
@@ -42,7 +42,7 @@ impl fmt::Debug for Case {
 const FRAMES: [(&str, Frame); 2] =
     [("upright", Frame::Upright), ("rotation-minimizing", Frame::RotationMinimizing)];
 
-/// What cases ask for unless they are about just that.
+/// The settings of cases that are not about settings.
 const USUAL: Settings = Settings {
     tension: 0.0,
     subdivisions: 3,
@@ -104,7 +104,7 @@ pub fn mixed() -> Yarns {
     fabrics::mixed()
 }
 
-/// One open or closed yarn of `points` points without any awkward place: the tube of a fabric that lies as it should.
+/// One open or closed yarn of `points` points without any difficulty.
 #[must_use]
 pub fn winding(points: u32, yarn: Yarn) -> Yarns {
     fabrics::winding(points, yarn)
@@ -196,7 +196,7 @@ fn papers() -> Vec<Case> {
 
 fn long_and_many() -> Vec<Case> {
     let mut cases = Vec::new();
-    // Round the size of a block, where one ring is left over or missing.
+    // Near the size of a block, with a ring too many or too few.
     for points in [63, 64, 65, 66, 128, 129, 193] {
         let settings = Settings { subdivisions: 0, ..USUAL };
         let open = move || fabrics::winding(points, Yarn { twist: 0.3, ..Yarn::default() });
@@ -233,7 +233,7 @@ mod tests {
         assert_eq!(names.len(), cases.len());
     }
 
-    /// Near half a turn, rounding would decide which way round a closed yarn is spread, and no two backends would agree.
+    /// Near half a turn, rounding decides which way round a closed yarn's turn is spread, and backends would disagree.
     #[test]
     fn no_closed_yarn_is_near_half_a_turn_off() {
         for case in all() {

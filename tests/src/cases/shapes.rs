@@ -1,4 +1,4 @@
-//! Single yarns, each with something about it that a backend might get wrong.
+//! Single yarns, each with a difficulty that a backend might get wrong.
 
 use std::f64::consts::TAU;
 
@@ -95,7 +95,7 @@ fn loops(k: f64) -> [f64; 3] {
     [(stitch as f64 + x) * 2.0, y * 2.6, z * 0.35]
 }
 
-/// All of them.
+/// All shapes.
 pub(super) fn all() -> Vec<Shape> {
     let mut shapes = straight();
     shapes.extend(round());
@@ -113,7 +113,7 @@ fn straight() -> Vec<Shape> {
         open("straight-oblique", along(5, |k| [k, 2.0 * k, -2.0 * k])),
         open("straight-up", along(5, |k| [0.5, 0.25, k])),
         open("straight-down", along(5, |k| [0.5, 0.25, -k])),
-        // Less than a milliradian off z: in reach of the frame's noise, out of reach of its rule for the vertical.
+        // Less than a milliradian off z: the frame is sensitive to rounding there, but its rule for the vertical does not apply.
         open("nearly-up", along(5, |k| [k * 1e-4, k * 8e-4, k])),
         open("one-interval", listed(&[[0.0, 0.0, 0.0], [1.0, 2.0, 0.5]])),
         open("one-interval-up", listed(&[[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]])),
@@ -148,7 +148,7 @@ fn turning_back() -> Vec<Shape> {
     vec![
         open("hairpin", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3]])),
         open("hairpin-oblique", listed(&[[0.0; 3], [1.0, 2.0, 1.0], [3.0, 6.0, 3.0], [1.0, 2.0, 1.0]])),
-        // Nowhere exact in f32, so that what should vanish is noise.
+        // Not exact in f32, so that what should vanish is rounding noise.
         open("hairpin-askew", listed(&[[0.1, 0.2, 0.3], [0.7, 1.6, -0.1], [0.1, 0.2, 0.3]])),
         open("hairpin-up", listed(&[[0.0; 3], [0.0, 0.0, 2.0], [0.0; 3]])),
         closed("hairpin-closed", listed(&[[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]])),
@@ -187,7 +187,7 @@ fn far() -> Vec<Shape> {
         moved(open("far-wave", along(20, wave)), [1e4, -1e4]),
         moved(open("far-loops", along(37, loops)), [1e4, 1e4]),
         moved(closed("far-helix-closed", along(48, |k| torus_knot(k, 48.0))), [-1e4, 1e4]),
-        // A thousand kilometres out the grid of f32 is a sixteenth of a mm.
+        // Far from the origin, where neighbouring f32 values are a sixteenth of a mm apart.
         moved(open("farthest-wave", along(20, |k| wave(k).map(|value| value * 4.0))), [1e6, -1e6]),
         open("long-interval", listed(&[[-5e3, 0.0, 0.0], [5e3, 10.0, 0.0], [5e3, 5e3, 0.0]])),
     ]
@@ -217,10 +217,19 @@ fn uneven() -> Vec<Shape> {
 fn flat() -> Vec<Shape> {
     let ribbon = |name| flattened(name, &[[0.5, 0.125]; 8]);
     // Flat where it crosses, nearly round where it floats, and for a moment as high as wide.
-    let changing =
-        [[0.3, 0.2], [0.35, 0.15], [0.25, 0.25], [0.2, 0.3], [0.5, 0.1], [0.25, 0.25], [0.25, 0.25], [0.4, 0.2]];
+    let changing = [
+        [0.3, 0.2],
+        [0.35, 0.15],
+        [0.25, 0.25],
+        [0.2, 0.3],
+        [0.5, 0.1],
+        [0.25, 0.25],
+        [0.25, 0.25],
+        [0.4, 0.2],
+    ];
     let flat_knot = |name| {
-        let at = |k: f64| point(torus_knot(k, 48.0), RADIUS).flattened(0.3 + 0.1 * (k * 0.4).cos() as f32, 0.2);
+        let at =
+            |k: f64| point(torus_knot(k, 48.0), RADIUS).flattened(0.3 + 0.1 * (k * 0.4).cos() as f32, 0.2);
         closed(name, (0..48).map(|k| at(f64::from(k))).collect())
     };
     vec![
@@ -229,13 +238,22 @@ fn flat() -> Vec<Shape> {
         flattened("flat-changing", &changing),
         // The spline of the height dips below zero, that of the width does not.
         flattened("flat-overshooting", &[[0.25, 1.0], [0.25, 0.0625], [0.25, 0.0625], [0.25, 1.0]]),
-        flattened("flat-round-at-last", &[[0.4, 0.2], [0.25, 0.25], [0.25, 0.25], [0.25, 0.25], [0.25, 0.25]]),
+        flattened(
+            "flat-round-at-last",
+            &[[0.4, 0.2], [0.25, 0.25], [0.25, 0.25], [0.25, 0.25], [0.25, 0.25]],
+        ),
         twisted(ribbon("flat-twisted"), 2.0),
         twisted(flattened("flat-changing-twisted", &changing), -1.5),
         flat_knot("flat-closed"),
         twisted(flat_knot("flat-closed-twisted"), 0.7),
         // Along z, where the upright side is +y.
-        open("flat-up", (0..5).map(|k| point([0.5, 0.25, f64::from(k)], RADIUS).flattened(0.4, 0.2)).collect()),
-        open("flat-repeated", [0.0, 1.0, 1.0, 2.0].map(|x| point([x, 0.5 * x, 0.0], RADIUS).flattened(0.4, 0.2)).into()),
+        open(
+            "flat-up",
+            (0..5).map(|k| point([0.5, 0.25, f64::from(k)], RADIUS).flattened(0.4, 0.2)).collect(),
+        ),
+        open(
+            "flat-repeated",
+            [0.0, 1.0, 1.0, 2.0].map(|x| point([x, 0.5 * x, 0.0], RADIUS).flattened(0.4, 0.2)).into(),
+        ),
     ]
 }

@@ -5,10 +5,11 @@ use std::ops::Range;
 use texere_core::{Cap, Chunk, End, Part, Ring, Topology, Vertex};
 
 use super::{Fault, Place, Report, same_bits};
-use crate::drive::{ChunkOutput, Output, POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
+use crate::drive::{ChunkOutput, Output};
 use crate::oracle::{Oracle, cap_flaw, quad_indices};
+use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
-/// An output as if it had come in one piece.
+/// A whole output, joined from its chunks.
 #[derive(Debug, Clone)]
 pub struct Assembled {
     /// Rings of all yarns, in order.
@@ -34,7 +35,7 @@ pub struct AssembledCap {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Puts `output` together, and reports what is missing, there twice, or makes other triangles than it should.
+/// Joins the chunks of `output`, and reports what is missing, repeated, or makes wrong triangles.
 ///
 /// Rings that two chunks share must be equal to the bit.
 #[must_use]
@@ -55,7 +56,7 @@ struct Assembly<'a> {
     oracle: &'a Oracle,
     sides: usize,
     assembled: Assembled,
-    /// Rings that each yarn has got so far.
+    /// Rings of each yarn so far.
     done: Vec<usize>,
 }
 
@@ -81,7 +82,7 @@ impl<'a> Assembly<'a> {
         let Some(done) = self.done.get(yarn).copied() else {
             return report.note(Fault::Count, place, self.oracle.yarns.len(), "a yarn more");
         };
-        // A part goes on where the last one ended, with the ring that the cut repeats.
+        // A part starts where the one before ended, at the ring that the cut repeats.
         let goes_on = report.note_count("rings before", place, done.saturating_sub(1) as u64, first as u64);
         let total = self.oracle.yarns[yarn].rings.len();
         if !goes_on || first + rings > total {

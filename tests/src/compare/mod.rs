@@ -1,9 +1,14 @@
 //! The comparer: one output against the oracle, or against another output.
 
 mod assemble;
+mod bounds;
 mod report;
 
 pub use assemble::{Assembled, AssembledCap, assemble};
+pub use bounds::{
+    COORDINATE_ULPS, DIRECTION, INTERVAL_TWIST, NEAR_VERTICAL, POSITION, ROLL_DRIFT, ROLL_FLOOR,
+    SURELY_VERTICAL,
+};
 pub use report::{Fault, Mismatch, Place, Quantity, Report, Worst};
 
 use std::f64::consts::TAU;
@@ -11,43 +16,16 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use texere_core::{End, Frame, Plan, Ring, Vertex};
 
-use crate::drive::is_poison;
 use crate::oracle::{Oracle, OracleRing};
+use crate::poison::is_poison;
 
-/// How far a centre or a vertex may lie from where it should, in radii of the yarn.
-pub const POSITION: f64 = 1e-4;
-
-/// What is allowed on top of that, in units in the last place of the largest coordinate of the control points it comes
-/// from: far from the origin f32 has no more to give.
-pub const COORDINATE_ULPS: f64 = 4.0;
-
-/// How far a unit vector may lie from its direction, rad; relative to it, a half width or half height from its size; and,
-/// beside 1, its growth.
-pub const DIRECTION: f64 = 1e-4;
-
-/// How far roll may drift with each ring, and with each radian of twist, from the yarn's start, rad.
-pub const ROLL_DRIFT: f64 = 1e-7;
-
-/// How far roll may be off from the start, rad: what one rounding of a step costs.
-pub const ROLL_FLOOR: f64 = 1e-6;
-
-/// How far roll may be off within a control interval, as a share of the interval's twist: f32 says where between its two
-/// control points a ring lies to eight roundings. It does not add up, since the ends are certain again.
-pub const INTERVAL_TWIST: f64 = 5e-7;
-
-/// The angle to z, rad, under which the upright frame turns faster than a tangent's last bits can say.
-pub const NEAR_VERTICAL: f64 = 1e-3;
-
-/// The angle to z, rad, under which every backend takes the tangent for vertical, and the frame is certain again.
-pub const SURELY_VERTICAL: f64 = 1e-7;
-
-/// What a ring may be off by.
+/// The errors that a ring is allowed.
 struct Allowance {
     /// mm, for a centre.
     position: f64,
     /// rad, about the tangent.
     roll: f64,
-    /// Whether the frame is certain enough to be compared.
+    /// Whether the frame can be compared: see [`NEAR_VERTICAL`].
     framed: bool,
 }
 
@@ -70,7 +48,7 @@ fn ulp(value: f64) -> f64 {
     f64::from(value.next_up()) - f64::from(value)
 }
 
-/// Whether two values are the same to the bit. Unlike `==` it takes a NaN for itself, and tells 0 from -0.
+/// Whether two values are the same to the bit. Unlike `==`, a NaN equals itself, and 0 differs from -0.
 pub(crate) fn same_bits<T: bytemuck::Pod>(a: &T, b: &T) -> bool {
     bytemuck::bytes_of(a) == bytemuck::bytes_of(b)
 }
@@ -93,7 +71,7 @@ pub fn compare_counts(oracle: &Oracle, plan: &Plan, report: &mut Report) {
     }
 }
 
-/// What an output is held against.
+/// The reference that an output is compared with.
 trait Expected {
     fn ring(&self, yarn: usize, number: usize) -> OracleRing;
     /// Position and normal.
@@ -110,7 +88,7 @@ impl Expected for Oracle {
     }
 }
 
-/// Another backend's output; what an output does not say (twist so far) comes from the oracle.
+/// Another backend's output as the reference; what an output lacks (twist so far) comes from the oracle.
 struct Gold<'a> {
     oracle: &'a Oracle,
     output: &'a Assembled,
@@ -177,7 +155,7 @@ fn compare(oracle: &Oracle, expected: &impl Expected, output: &Assembled, report
     }
 }
 
-/// Notes values that are no numbers; what was never written is told apart from what was reckoned wrong.
+/// Reports NaN and infinity, and distinguishes memory that was never written from results that are wrong.
 fn is_finite(values: &[f32], place: Place, report: &mut Report) -> bool {
     let finite = values.iter().all(|value| value.is_finite());
     if !finite {
@@ -211,15 +189,20 @@ fn compare_ring(
     }
     for (growth, expected) in [width_growth, height_growth].map(f64::from).into_iter().zip(expected.growths) {
         let room = 1.0 + expected.abs();
-        report.check(Quantity::Growth, place, [(growth - expected).abs(), DIRECTION * room, room], (expected, growth));
+        report.check(
+            Quantity::Growth,
+            place,
+            [(growth - expected).abs(), DIRECTION * room, room],
+            (expected, growth),
+        );
     }
     let error = [(tangent - expected.tangent).length(), DIRECTION, 1.0];
     if !report.check(Quantity::Tangent, place, error, (expected.tangent, tangent)) {
-        // A roll about another tangent says nothing.
+        // A roll about another tangent can't be compared.
         return;
     }
-    // Between two rings near the vertical the upright frame may turn either way round, and so may a roll against it: the
-    // direction that the two make together is certain, and is what is compared. Twist alone is a roll by itself.
+    // Between two rings near the vertical the upright frame may turn either way round, and so may a roll against it. The
+    // direction that the two make together is defined, so that is compared. An upright yarn's roll is compared by itself.
     let roll = turns(actual);
     let turn = match oracle.settings.frame {
         Frame::Upright => (roll - expected.roll) * TAU,
@@ -276,7 +259,8 @@ fn compare_vertex(
         let error = [(actual_normal.length() - 1.0).abs(), DIRECTION, 1.0];
         report.check(Quantity::Normal, place, error, (normal, actual_normal));
     } else {
-        // In the ring's plane, as far from its centre as it should, its normal leaning as far out and along.
+        // Without a frame: the vertex must lie in the ring's plane, at the right distance from its centre, and its normal must
+        // have the right components outward and along the yarn.
         let off_plane = actual_arm.dot(ring.tangent).abs();
         let off_distance = (actual_arm.length() - arm.length()).abs();
         let error = [off_plane.max(off_distance), room + arm.length() * DIRECTION, ring.thinnest()];
@@ -303,12 +287,12 @@ fn compare_cap(oracle: &Oracle, expected: &impl Expected, cap: &AssembledCap, re
     }
 }
 
-/// Whether two caps are cut alike. What was never written has been told of as missing.
+/// Whether two caps have the same triangles. A cap that was never written has been reported as missing.
 fn same_triangles(old: &AssembledCap, new: &AssembledCap) -> bool {
     new.triangles.is_empty() || old.triangles == new.triangles
 }
 
-/// Checks what a closed yarn promises of itself: its last ring is its first again, to the bit, and so are their vertices.
+/// Checks that a closed yarn's last ring equals its first to the bit, and so do their vertices.
 pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Report) {
     let sides = oracle.settings.sides as usize;
     for yarn in (0..oracle.yarns.len()).filter(|&yarn| oracle.yarns[yarn].closed) {

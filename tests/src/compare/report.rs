@@ -1,11 +1,11 @@
-//! What a comparison found: faults by name, the first few in full, and how near the rest came.
+//! The result of a comparison: faults by name, the first few in full, and the largest errors.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::{DIRECTION, POSITION};
+use super::bounds::{DIRECTION, POSITION};
 
-/// What can be wrong with an output.
+/// The kinds of fault that an output can have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Fault {
@@ -31,7 +31,7 @@ pub enum Fault {
     Bits,
 }
 
-/// Where in a fabric.
+/// A place in a fabric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Place {
     /// The yarn, from 0.
@@ -49,16 +49,16 @@ impl fmt::Display for Place {
     }
 }
 
-/// One thing that is wrong.
+/// One fault, in full.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mismatch {
-    /// What.
+    /// The kind of fault.
     pub fault: Fault,
-    /// Where.
+    /// Its place.
     pub place: Place,
-    /// What should be there.
+    /// The expected value.
     pub expected: String,
-    /// What is there.
+    /// The value found.
     pub actual: String,
 }
 
@@ -69,7 +69,7 @@ impl fmt::Display for Mismatch {
     }
 }
 
-/// What is measured, each against what is allowed.
+/// The quantities that are measured, each against what is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -91,15 +91,8 @@ pub enum Quantity {
 
 impl Quantity {
     /// All of them, in the order of the table.
-    pub const ALL: [Self; 7] = [
-        Self::Centre,
-        Self::Half,
-        Self::Growth,
-        Self::Tangent,
-        Self::Roll,
-        Self::Vertex,
-        Self::Normal,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Centre, Self::Half, Self::Growth, Self::Tangent, Self::Roll, Self::Vertex, Self::Normal];
 
     /// What is allowed in the quantity's unit where neither digits nor drift ask for more; no such bound for roll.
     const fn bound(self) -> f64 {
@@ -131,7 +124,7 @@ pub struct Worst {
     pub share: f64,
 }
 
-/// What a comparison found.
+/// The result of a comparison.
 #[derive(Debug, Clone, Default)]
 pub struct Report {
     counts: BTreeMap<Fault, u64>,
@@ -143,7 +136,7 @@ pub struct Report {
 const KEPT: usize = 5;
 
 impl Report {
-    /// Whether nothing is wrong.
+    /// Whether no fault was found.
     #[must_use]
     pub fn is_clean(&self) -> bool {
         self.counts.is_empty()
@@ -167,7 +160,7 @@ impl Report {
         self.worst.get(&quantity).copied().unwrap_or_default()
     }
 
-    /// Takes over the faults that `other` found; what it measured stays its own.
+    /// Adds the faults of `other`, but not its measurements.
     pub fn absorb(&mut self, other: Self) {
         for (fault, count) in other.counts {
             *self.counts.entry(fault).or_default() += count;
@@ -176,7 +169,7 @@ impl Report {
         self.first.extend(other.first.into_iter().take(room));
     }
 
-    /// Notes that something is wrong.
+    /// Adds a fault.
     pub fn note(&mut self, fault: Fault, place: Place, expected: impl fmt::Debug, actual: impl fmt::Debug) {
         *self.counts.entry(fault).or_default() += 1;
         if self.first.len() < KEPT {
@@ -185,7 +178,7 @@ impl Report {
         }
     }
 
-    /// Notes that two counts differ, if they do, and gives back whether they agree.
+    /// Adds a fault if two counts differ, and gives back whether they agree.
     pub fn note_count(&mut self, what: &str, place: Place, expected: u64, actual: u64) -> bool {
         if expected != actual {
             self.note(Fault::Count, place, format_args!("{expected} {what}"), actual);
@@ -193,7 +186,7 @@ impl Report {
         expected == actual
     }
 
-    /// Measures `error` in units of `unit`, of which `allowed` are too few to matter; more is a fault.
+    /// Measures `error` in units of `unit`, and gives back whether it is within `allowed`.
     fn measure(&mut self, quantity: Quantity, error: f64, allowed: f64, unit: f64) -> bool {
         let worst = self.worst.entry(quantity).or_default();
         if allowed <= 2.0 * quantity.bound() * unit {
@@ -203,7 +196,7 @@ impl Report {
         error <= allowed
     }
 
-    /// [`Report::measure`], and notes the fault; gives back whether all is well.
+    /// [`Report::measure`], and adds a fault where the error is too large; gives back whether it is not.
     pub(super) fn check(
         &mut self,
         quantity: Quantity,

@@ -13,15 +13,15 @@ pub(super) fn upright(tangent: DVec3) -> (DVec3, DVec3) {
 ///
 /// **Source**: double reflection, Wang, Jüttler, Zheng and Liu, ACM TOG 27(1), 2008. The first reflection maps one
 /// centre to the other, the second the reflected tangent to the next tangent. Rings that coincide have no chord: the
-/// tangent stands in for it. Where a yarn turns straight back any second reflection across the tangent would do: since
-/// rolls are turns of the upright frame, it is the one that leaves the upright side where it is.
+/// tangent stands in for it. Where a yarn turns straight back, the second reflection is not determined by the tangents; it
+/// is defined to keep the upright side, since rolls are turns against the upright frame.
 pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) -> DVec3 {
     let across = if chord.length_squared() <= 1e-30 { tangent } else { chord.normalize() };
     let (side, reflected) = (mirror(side, across), mirror(tangent, across));
     let between = next - reflected;
     let between = if between.length_squared() <= 1e-6 { upright(tangent).1 } else { between.normalize() };
     let side = mirror(side, between);
-    // What rounding leaves along the tangent must not add up over a million rings.
+    // Rounding errors along the tangent must not add up over a million rings.
     (side - next * side.dot(next)).normalize()
 }
 

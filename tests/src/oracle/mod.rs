@@ -1,9 +1,9 @@
-//! What is right: the whole pipeline in f64, slow and plain.
+//! The oracle: the whole pipeline in f64, slow and plain.
 //!
 //! It is written from the definitions (the paper's equations, the documents of the core's types) and calls none of the
 //! core's geometry, so that an error in the one is not an error in the other. Control points are taken as exact.
 //!
-//! Where there is a choice it takes another road than the core: the spline is the paper's basis instead of powers of t,
+//! Where there is a choice it uses another method than the core: the spline is the paper's basis instead of powers of t,
 //! the rotation-minimising frame is a vector carried along instead of a sum of turns, areas of sections are closed
 //! forms instead of polygons.
 
@@ -21,7 +21,7 @@ use texere_core::{ControlPoint, Frame, Settings, Topology, Yarn, Yarns};
 use frame::{transport, upright};
 use spline::Curve;
 
-/// One ring as it should be.
+/// One ring, exact.
 #[derive(Debug, Clone, Copy)]
 pub struct OracleRing {
     /// Centre, mm.
@@ -38,8 +38,8 @@ pub struct OracleRing {
     pub twist: f64,
     /// Twist over the whole control interval that the ring lies in, rad, without regard to sign.
     pub interval_twist: f64,
-    /// The largest coordinate, without regard to sign, of the four control points that it comes from, mm: what f32 has
-    /// to share its digits with.
+    /// The largest coordinate, without regard to sign, of the four control points that it comes from, mm, on which the
+    /// rounding of f32 depends.
     pub extent: f64,
     /// Side and up of the upright frame, along which flattening works.
     pub upright: [DVec3; 2],
@@ -74,16 +74,16 @@ impl OracleRing {
 pub struct OracleYarn {
     /// Its rings; the last of a closed yarn is a copy of the first.
     pub rings: Vec<OracleRing>,
-    /// Which of the outlines stands on them.
+    /// The number of its outline.
     pub section: usize,
     /// Whether its ends join.
     pub closed: bool,
-    /// What a closed yarn's whole turn exceeds a whole number of turns by, in \[-1/2, 1/2): near either end, rounding
+    /// A closed yarn's whole turn less the nearest whole number of turns, in \[-1/2, 1/2): near either end, rounding
     /// decides which way round it is spread.
     pub excess: f64,
 }
 
-/// A fabric as it should be.
+/// A fabric, exact.
 ///
 /// ```
 /// use texere_conformance::oracle::Oracle;
@@ -102,11 +102,11 @@ pub struct Oracle {
     pub yarns: Vec<OracleYarn>,
     /// The outline of each section, in radii.
     pub outlines: Vec<Vec<OutlinePoint>>,
-    /// What was asked for.
+    /// The settings.
     pub settings: Settings,
 }
 
-/// How many of everything there should be.
+/// The counts that there should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OracleCounts {
     /// Rings of all yarns.
@@ -120,7 +120,7 @@ pub struct OracleCounts {
 }
 
 impl Oracle {
-    /// Works out `yarns` under `settings`.
+    /// The oracle for `yarns` under `settings`.
     #[must_use]
     pub fn new(yarns: &Yarns, settings: &Settings) -> Self {
         let layout = yarns.layout();
@@ -138,7 +138,7 @@ impl Oracle {
         }
     }
 
-    /// How many of everything there should be.
+    /// The counts that there should be.
     #[must_use]
     pub fn counts(&self) -> OracleCounts {
         let sides = u64::from(self.settings.sides);
@@ -235,7 +235,7 @@ fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
     }
 }
 
-/// Spreads what is missing to a whole number of turns over a closed yarn, and closes it with a copy of its first ring.
+/// Spreads a closed yarn's excess over whole turns along it, and closes it with a copy of its first ring.
 fn close(rings: &mut [OracleRing]) -> f64 {
     let gaps = rings.len() - 1;
     let whole = rings[gaps].roll;

@@ -18,7 +18,7 @@ pub struct OutlinePoint {
 }
 
 impl OutlinePoint {
-    /// With a normal of any length.
+    /// A point from a normal of any length.
     fn new(x: f64, y: f64, normal_x: f64, normal_y: f64) -> Self {
         let length = normal_x.hypot(normal_y);
         Self { x, y, normal_x: normal_x / length, normal_y: normal_y / length }
@@ -28,7 +28,7 @@ impl OutlinePoint {
         Self { x: self.x * scale, y: self.y * scale, ..self }
     }
 
-    /// How far from the yarn's axis.
+    /// Distance from the yarn's axis.
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.x.hypot(self.y)

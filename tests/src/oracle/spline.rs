@@ -1,4 +1,4 @@
-//! The cardinal spline in f64: the paper's equations 1 to 4, as they stand there.
+//! The cardinal spline in f64: the paper's equations 1 to 4, as printed.
 
 use glam::DVec3;
 use texere_core::{ControlPoint, Settings};
@@ -84,8 +84,8 @@ impl Interval {
         }
     }
 
-    /// The square under which a derivative counts as none, mm²: a millionth of the interval's size, and never less than
-    /// what f32 can square.
+    /// The square up to which a derivative counts as zero, mm²: a millionth of the interval's size, squared, and never less
+    /// than f32 can square.
     fn at_rest(&self) -> f64 {
         let size: f64 = self.positions.iter().map(|point| point.length_squared()).sum();
         (1e-12 * size).max(1e-30)
@@ -96,9 +96,8 @@ impl Interval {
         self.positions.iter().map(furthest).fold(0.0, f64::max)
     }
 
-    /// The tangent at t: along the first derivative that does not vanish, +x where all do. The way that a yarn takes
-    /// right after, but at t = 1, where a yarn ends, the way it took right before: then odd orders keep their sign and
-    /// the second changes it.
+    /// The tangent at t: along the first derivative that does not vanish, +x where all do. It is the limit from the right,
+    /// but at t = 1, where a yarn ends, from the left: then odd orders keep their sign and the second changes it.
     fn tangent(&self, orders: [[f64; 4]; 4], t: f64) -> DVec3 {
         let before = if t < 1.0 { 1.0 } else { -1.0 };
         for (order, sign) in [(1, 1.0), (2, before), (3, 1.0)] {

@@ -1,4 +1,4 @@
-//! Triangles by their own rule, and whether a cap is closed.
+//! Triangles from their definition, and the check that a cap is closed.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub fn quad_indices(ring: u64, side: u64, sides: u64) -> [u64; 6] {
     [here, beside, ahead, beside, across, ahead]
 }
 
-/// What is wrong with a cap.
+/// A fault of a cap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flaw {
     /// It has another number of triangles than corners less two.
@@ -30,7 +30,7 @@ pub enum Flaw {
     Open,
 }
 
-/// What is wrong with `triangles` as a cap of `outline` at `end`, if anything.
+/// The fault of `triangles` as a cap of `outline` at `end`, or `None`.
 ///
 /// The corners run counter-clockwise about the tangent, so a finish cap, which faces along it, has them in order, and a
 /// start cap in reverse. As many triangles as corners less two, each facing outward, whose edges cancel but for the

@@ -40,7 +40,7 @@ pub(crate) fn gallery(steps: &mut Steps) {
     }
     for name in PAPER {
         let (path, picture) = (format!("designs/paper/{name}.toml"), format!("{FOLDER}/paper-{name}.png"));
-        // Its threads are as narrow as pixels: more samples, or they beat against them.
+        // Its threads are as narrow as pixels: more samples against moiré.
         let options = ["--size", "640x480", "--supersampling", "4"];
         let args = [&["texere", "render", &path, "-o", &picture], &options[..]].concat();
         steps.cargo(&picture, &args, &[]);

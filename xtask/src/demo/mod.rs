@@ -10,7 +10,7 @@ pub(crate) use gallery::gallery;
 /// Where the demo's picture lies, from the repository's root.
 const DEMO: &str = "target/demo.png";
 
-/// A picture of a herringbone, near enough to see how its yarns go, on whatever draws here.
+/// A close-up of a herringbone, on whatever device draws here.
 pub(crate) fn demo(steps: &mut Steps) {
     vulkan::install(steps);
     render(steps, "the demo", &["designs/herringbone.wif", "-o", DEMO, "--view", "close-up"]);

@@ -1,18 +1,18 @@
-//! A Vulkan driver, where there is none.
+//! Installs a Vulkan driver where there is none.
 
 use std::fs;
 
 use crate::steps::Steps;
 
-/// Where drivers say that they are there, on Linux.
+/// The folders where drivers are registered, on Linux.
 const DRIVER_FOLDERS: [&str; 3] =
     ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d"];
 
 /// Debian's packages for drawing on a CPU: a Vulkan loader and lavapipe.
 pub(crate) const PACKAGES: [&str; 2] = ["libvulkan1", "mesa-vulkan-drivers"];
 
-/// Installs lavapipe where there is no Vulkan driver and it may; where it may not, says what to install. Metal and
-/// Direct3D 12 come with their systems.
+/// Installs lavapipe where there is no Vulkan driver, or says what to install where it may not. Metal and Direct3D 12 come
+/// with their systems.
 pub(crate) fn install(steps: &mut Steps) {
     if !cfg!(target_os = "linux") || has_driver() {
         return;
@@ -29,8 +29,9 @@ pub(crate) fn install(steps: &mut Steps) {
 }
 
 fn has_driver() -> bool {
-    let told = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"].iter().any(|name| std::env::var_os(name).is_some());
+    let configured =
+        ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"].iter().any(|name| std::env::var_os(name).is_some());
     let holds_any =
         |folder: &&str| fs::read_dir(folder).is_ok_and(|mut entries| entries.any(|entry| entry.is_ok()));
-    told || DRIVER_FOLDERS.iter().any(holds_any)
+    configured || DRIVER_FOLDERS.iter().any(holds_any)
 }

@@ -146,3 +146,27 @@ fn exit_codes_say_whose_fault_it_is() {
         assert!(stderr(&output).contains(said), "{args:?}: {}", stderr(&output));
     }
 }
+
+#[test]
+fn vectors_that_the_processor_does_not_have_are_refused() {
+    let (folder, plain) = (tempfile::tempdir().unwrap(), design("plain.toml"));
+    let path = folder.path().join("mesh.glb");
+    let with_vectors = |vectors: &str, args: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_texere")).args(args).env("TEXERE_SIMD", vectors).output().unwrap()
+    };
+    let mesh = ["mesh", &plain, "-o", path.to_str().unwrap(), "--device", "cpu"];
+    let said = "TEXERE_SIMD is \"avx9\"; this processor has: portable";
+
+    let output = with_vectors("avx9", &mesh);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains(said), "{}", stderr(&output));
+    assert!(!path.exists());
+    let devices = stdout(&with_vectors("avx9", &["devices"]));
+    assert!(
+        devices.contains(&format!("no cpu device: {said}")) && devices.contains("cpu-serial: "),
+        "{devices}"
+    );
+
+    let output = with_vectors("portable", &mesh);
+    assert!(output.status.success() && path.exists(), "{}", stderr(&output));
+}

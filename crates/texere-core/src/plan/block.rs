@@ -2,12 +2,12 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Rings in a full block. 64 rings of six vertices are nine kilobytes: a loop body's worth of cache, a rayon item, a
-/// workgroup.
+/// Rings in a full block. 64 rings of six vertices are nine kilobytes, which fit a core's first cache; on a GPU a block is
+/// a workgroup.
 pub const BLOCK_RINGS: u32 = 64;
 
-/// Up to [`BLOCK_RINGS`] consecutive rings of one yarn: a row of the table that tells every kernel what it works on,
-/// so that none has to search for its yarn.
+/// Up to [`BLOCK_RINGS`] consecutive rings of one yarn: a row of the table from which every kernel learns its yarn, without
+/// a search.
 ///
 /// **Shape**: eight `u32`, 32 bytes. All but `yarn` and `first_ring` count from the start of the chunk.
 #[repr(C)]

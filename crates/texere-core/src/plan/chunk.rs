@@ -38,8 +38,8 @@ pub struct Cap {
 /// A range of blocks that is launched, read and drawn together.
 ///
 /// It holds all that a launch needs: the block table, the parts that it makes, and its place in the whole. Where it
-/// ends inside a yarn it repeats the next ring, so that its triangles stand on its own vertices. Only [`Plan::chunks`] makes
-/// chunks, and nobody can change one, so that a kernel need not check what its tables say.
+/// ends inside a yarn it repeats the next ring, so that its triangles use its own vertices alone. Only [`Plan::chunks`]
+/// makes chunks, and they can't be changed, so a kernel need not check their tables.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
@@ -77,38 +77,38 @@ impl Chunk {
         self.plan
     }
 
-    /// Its number among those it was cut with, from 0.
+    /// Its number among the chunks of the same cut, from 0.
     #[must_use]
     pub const fn index(&self) -> u64 {
         self.index
     }
 
-    /// Its blocks among all blocks; the table has one row more where a ring is repeated. No other chunk of the plan has the
-    /// same, unless it is the same but for its place in the whole.
+    /// Its blocks among all blocks of the plan; the table has one row more where a ring is repeated. Chunks of one plan with
+    /// the same range have the same tables, and differ at most in their place in the whole.
     #[must_use]
     pub const fn block_range(&self) -> Range<u64> {
         self.block_range.start..self.block_range.end
     }
 
-    /// The padded control points that it reads, cut to multiples of [`WINDOW_POINTS`] at the start.
+    /// The padded control points that it reads, from a multiple of [`WINDOW_POINTS`] on.
     #[must_use]
     pub const fn window(&self) -> Range<u64> {
         self.window.start..self.window.end
     }
 
-    /// The block table.
+    /// The block table, in order of yarn and ring.
     #[must_use]
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
 
-    /// Its runs of rings.
+    /// Its parts: one run of rings for each yarn that it holds some of.
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
     }
 
-    /// Its caps.
+    /// Its caps, in order; none unless [`Settings::caps`](crate::Settings::caps) asks for them.
     #[must_use]
     pub fn caps(&self) -> &[Cap] {
         &self.caps
@@ -151,10 +151,10 @@ impl Chunk {
     }
 }
 
-/// Windows start at multiples of this many control points: 256 bytes, which every device takes as a binding's offset.
+/// Windows start at multiples of this many control points: 256 bytes, an offset that every device allows for a binding.
 pub const WINDOW_POINTS: u64 = 16;
 
-/// What a chunk takes, in the units that limits are told in.
+/// What a chunk takes, in the units of [`Limits`].
 #[derive(Debug, Clone, Copy, Default)]
 struct Size {
     blocks: u64,
@@ -176,7 +176,7 @@ impl Size {
         ]
     }
 
-    /// The first limit that is broken, if the chunk were a block of `rings` rings.
+    /// The first limit that is exceeded.
     fn excess(&self, resident: u64, limits: &Limits) -> Option<PlanError> {
         let rings = self.rings as u32;
         let index_limit = u64::from(u32::MAX);
@@ -198,6 +198,16 @@ impl Size {
     }
 }
 
+impl Plan {
+    /// Cuts the work into chunks that fit `limits`, in order. Two chunks and the control points fit
+    /// `limits.memory_bytes` together.
+    ///
+    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one block fits.
+    pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
+        Chunks::new(self, *limits)
+    }
+}
+
 /// The chunks of a plan, cut as they are asked for.
 #[derive(Debug, Clone)]
 pub struct Chunks<'a> {
@@ -214,6 +224,10 @@ impl<'a> Chunks<'a> {
     pub(super) fn new(plan: &'a Plan, limits: Limits) -> Result<Self, PlanError> {
         let chunks =
             Self { plan, limits, index: 0, next_block: 0, next_yarn: 0, first_vertex: 0, first_index: 0 };
+        // Where any block fits, yarns need not be looked at one by one: a session asks for chunks with each scan.
+        if chunks.largest_block().excess(plan.resident_bytes(), &limits).is_none() {
+            return Ok(chunks);
+        }
         for yarn in 0..plan.layout().yarns().len() {
             let offsets = plan.block_offsets();
             // The first, the last and, standing for those between, the second block of the yarn.
@@ -226,6 +240,19 @@ impl<'a> Chunks<'a> {
             }
         }
         Ok(chunks)
+    }
+
+    /// No less than any block takes, with both its caps and the ring that it may repeat.
+    fn largest_block(&self) -> Size {
+        let (sides, rings) = (u64::from(self.plan.settings().sides), u64::from(BLOCK_RINGS) + 1);
+        Size {
+            blocks: 2,
+            rings,
+            vertices: (rings + 2) * sides,
+            indices: (rings + 1) * sides * 6,
+            // Each ring in an interval of its own, then the other points that the last one and the step to the next ring read.
+            window: rings + 5 + WINDOW_POINTS,
+        }
     }
 
     /// Rings of block `block` of `yarn`: first, count, and whether the yarn goes on after it.
@@ -270,7 +297,7 @@ impl<'a> Chunks<'a> {
         let caps = self.cap_count(yarn, first, goes_on);
         let quads = u64::from(if goes_on { rings } else { rings - 1 });
         let points = self.points_read(yarn, first, rings + u32::from(goes_on));
-        // Unless the window is known, it may start as far ahead as aligning it can take it.
+        // Where the window is not known yet, the worst case: it starts up to WINDOW_POINTS - 1 points earlier, to be aligned.
         let window = window.unwrap_or(points.start.saturating_sub(WINDOW_POINTS - 1));
         let inner = Size {
             blocks: size.blocks + 1,
@@ -389,7 +416,7 @@ impl Chunks<'_> {
 
     fn push_block(&self, chunk: &mut Chunk, yarn: usize, first_ring: u32, rings: u32, quads: u32) {
         let settings = self.plan.settings();
-        // The table names interval and remainder alike for all rings, so it takes the plain interval of its first one.
+        // Kernels work out interval and remainder alike for all rings, so the table has the plain interval of the first.
         let interval = u64::from(first_ring) / (u64::from(settings.subdivisions) + 1);
         let point = self.plan.padded_offsets()[yarn] + interval;
         chunk.blocks.push(Block {
@@ -412,13 +439,52 @@ impl Chunks<'_> {
     }
 }
 
-/// Notes which caps a block brings; where they lie is known only after the last tube vertex.
+/// Notes the caps that a block brings; their places are known only after the last tube vertex.
 fn note_caps(chunk: &mut Chunk, yarn: usize, first: u32, rings: u32, goes_on: bool) {
     let ends = [(End::Start, first == 0, 0), (End::Finish, !goes_on, rings - 1)];
     for (end, present, ring) in ends {
         if present {
             let chunk_ring = chunk.rings + ring;
             chunk.caps.push(Cap { yarn: yarn as u32, end, chunk_ring, first_vertex: 0, first_index: 0 });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Frame, Settings, Yarn, Yarns};
+
+    #[test]
+    fn no_block_takes_more_than_the_largest() {
+        let mut yarns = Yarns::builder();
+        for count in [3, 64, 65, 66, 130, 500] {
+            let points: Vec<_> = (0..count).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
+            yarns.yarn(Yarn::default(), &points);
+            yarns.yarn(Yarn { closed: true, ..Yarn::default() }, &points);
+        }
+        let yarns = yarns.build().unwrap();
+        for (sides, subdivisions, caps) in
+            [(3, 0, true), (3, 0, false), (6, 1, true), (256, 0, true), (5, 7, false)]
+        {
+            let settings =
+                Settings { sides, subdivisions, caps, frame: Frame::Upright, ..Settings::default() };
+            let plan = Plan::new(yarns.layout().clone(), settings).unwrap();
+            let chunks = plan.chunks(&Limits::NONE).unwrap();
+            let largest = chunks.largest_block();
+            for yarn in 0..plan.layout().yarns().len() {
+                for block in plan.block_offsets()[yarn]..plan.block_offsets()[yarn + 1] {
+                    let size = chunks.extended(&Size::default(), None, yarn, block).1;
+                    let pairs = [
+                        (size.blocks, largest.blocks),
+                        (size.rings, largest.rings),
+                        (size.vertices, largest.vertices),
+                        (size.indices, largest.indices),
+                        (size.window, largest.window),
+                    ];
+                    assert!(pairs.iter().all(|(size, largest)| size <= largest), "{size:?} of {largest:?}");
+                }
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What a device can hold, and what is worked on in one go.
+//! The limits of a device, which chunks are cut to.
 
 use super::BLOCK_RINGS;
 use crate::{SIDES_MAX, Vertex};
@@ -6,8 +6,8 @@ use crate::{SIDES_MAX, Vertex};
 /// The limits that chunks are cut to.
 ///
 /// By default a buffer of a chunk has 64 MiB at most: with six sides some 466,000 rings and 5.6 million triangles. So two
-/// chunks take less than 300 MB whatever the fabric, progress comes in steps of that size, and a cancellation is heard at
-/// the next one. All that a larger chunk would save is a launch.
+/// chunks take less than 300 MB whatever the fabric, progress comes in steps of that size, and a cancellation takes effect
+/// at the next one. All that a larger chunk would save is a launch.
 ///
 /// ```
 /// use texere_core::Limits;

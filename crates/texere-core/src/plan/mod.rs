@@ -16,7 +16,7 @@ use crate::{
     Vertex, Yarn, triangulate,
 };
 
-/// What a caller chooses about a mesh.
+/// The choices that a mesh is made with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Tension of the spline, in \[0, 1).
@@ -25,9 +25,9 @@ pub struct Settings {
     pub subdivisions: u32,
     /// Sides of the tube (the paper's nc).
     pub sides: u32,
-    /// Which way round sections stand.
+    /// How sections are oriented.
     pub frame: Frame,
-    /// How triangles are told.
+    /// How triangles are encoded.
     pub topology: Topology,
     /// Whether the ends of open yarns are closed with a cap, which makes every yarn watertight.
     pub caps: bool,
@@ -47,7 +47,8 @@ impl Default for Settings {
     }
 }
 
-/// The most rings that one plan may have, 2³⁶: ten terabytes of mesh with six sides, so surely a slip of the pen.
+/// The most rings that one plan may have, 2³⁶. More would be over ten terabytes of mesh with six sides: a mistake in the
+/// input.
 pub const RINGS_MAX: u64 = 1 << 36;
 
 /// The most rings that one yarn may have: what a `u32` counts.
@@ -159,13 +160,13 @@ impl Plan {
         }
     }
 
-    /// Whether `chunk` was cut from this plan, or a clone of it: then all that its tables say is what the plan counted.
+    /// Whether `chunk` was cut from this plan, or a clone of it, so that its tables fit the plan's counts.
     #[must_use]
     pub fn owns(&self, chunk: &Chunk) -> bool {
         chunk.plan() == self.id
     }
 
-    /// What its chunks know it by.
+    /// The identity that its chunks carry.
     pub(crate) const fn id(&self) -> PlanId {
         self.id
     }
@@ -176,7 +177,7 @@ impl Plan {
         &self.layout
     }
 
-    /// What was chosen.
+    /// The settings.
     #[must_use]
     pub const fn settings(&self) -> &Settings {
         &self.settings
@@ -231,7 +232,7 @@ impl Plan {
         (self.offsets.rings[yarn + 1] - self.offsets.rings[yarn]) as u32
     }
 
-    /// What belongs to `yarn`.
+    /// Material, section, twist and origin of `yarn`.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -296,17 +297,9 @@ impl Plan {
     pub fn trajectory_bytes(&self) -> u64 {
         self.counts.rings * size_of::<Ring>() as u64
     }
-
-    /// Cuts the work into chunks that fit `limits`, in order. Two chunks and the control points fit
-    /// `limits.memory_bytes` together.
-    ///
-    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one block fits.
-    pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
-        Chunks::new(self, *limits)
-    }
 }
 
-/// Tells a plan from all others of the process. A plan never changes, so its clones are the same plan.
+/// Identifies a plan within the process. A plan never changes, so its clones have the same identity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlanId(u64);
 

@@ -97,7 +97,7 @@ pub const SIDES_MAX: u32 = 256;
 const MEASURE_POINTS: u32 = 1024;
 
 impl Section {
-    /// Whether the shape's own numbers are sound.
+    /// Checks the shape's parameters.
     ///
     /// **Errors**: [`SectionError`] names the number and its limits.
     pub fn validate(&self) -> Result<(), SectionError> {

@@ -1,4 +1,4 @@
-//! Triangles that fill a section: what closes a yarn's end.
+//! Triangulation of a section, for the caps at a yarn's ends.
 
 use super::SectionPoint;
 

@@ -14,75 +14,228 @@ use std::arch::x86_64::{
     _mm512_sub_epi32, _mm512_sub_ps, _mm512_test_epi32_mask, _mm512_unpackhi_ps, _mm512_unpacklo_ps,
     _mm512_xor_si512,
 };
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::vector::{LINE, Line, Vector};
+use super::simd::{Floats, Integers, Job, LINE, Line, Mask, Simd};
 
-// SAFETY, for all blocks in this file: the instructions need AVX-512 F and DQ, and `Path` calls code that is generic over
-// vectors with this type only where the processor has them. What is said at a block is about its pointers.
+// SAFETY, for all blocks in this file: the instructions need AVX-512 F and DQ. An `Avx512` proves that the processor has
+// them, since `detect` alone makes one. So does a vector or a mask, since it is made with an `Avx512` or from another of them:
+// their fields are private, and nothing outside this file makes one. What is said at a block is about its pointers.
+
+/// Proof that the processor has AVX-512, its parts F and DQ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Avx512(());
+
+impl Avx512 {
+    pub(super) fn detect() -> Option<Self> {
+        (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")).then_some(Self(()))
+    }
+}
 
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Avx512(__m512);
+pub(super) struct F32x16(__m512);
 
-impl Add for Avx512 {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct U32x16(__m512i);
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mask16(__mmask16);
+
+/// Implements an operator of two vectors by its instruction.
+macro_rules! operator {
+    ($vector:ty, $operator:ident, $method:ident, $instruction:ident) => {
+        impl $operator for $vector {
+            type Output = Self;
+            #[cfg_attr(optimized, inline(always))]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: no pointers.
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        }
+    };
+}
+
+operator!(F32x16, Add, add, _mm512_add_ps);
+operator!(F32x16, Sub, sub, _mm512_sub_ps);
+operator!(F32x16, Mul, mul, _mm512_mul_ps);
+operator!(F32x16, Div, div, _mm512_div_ps);
+operator!(U32x16, Add, add, _mm512_add_epi32);
+operator!(U32x16, Sub, sub, _mm512_sub_epi32);
+
+impl Neg for F32x16 {
     type Output = Self;
     #[cfg_attr(optimized, inline(always))]
-    fn add(self, other: Self) -> Self {
+    fn neg(self) -> Self {
         // SAFETY: no pointers.
-        Self(unsafe { _mm512_add_ps(self.0, other.0) })
+        Self(unsafe {
+            let sign = _mm512_castps_si512(_mm512_set1_ps(-0.0));
+            _mm512_castsi512_ps(_mm512_xor_si512(sign, _mm512_castps_si512(self.0)))
+        })
     }
 }
 
-impl Sub for Avx512 {
-    type Output = Self;
-    #[cfg_attr(optimized, inline(always))]
-    fn sub(self, other: Self) -> Self {
-        // SAFETY: no pointers.
-        Self(unsafe { _mm512_sub_ps(self.0, other.0) })
-    }
-}
-
-impl Mul for Avx512 {
-    type Output = Self;
-    #[cfg_attr(optimized, inline(always))]
-    fn mul(self, other: Self) -> Self {
-        // SAFETY: no pointers.
-        Self(unsafe { _mm512_mul_ps(self.0, other.0) })
-    }
-}
-
-impl Div for Avx512 {
-    type Output = Self;
-    #[cfg_attr(optimized, inline(always))]
-    fn div(self, other: Self) -> Self {
-        // SAFETY: no pointers.
-        Self(unsafe { _mm512_div_ps(self.0, other.0) })
-    }
-}
-
-impl Vector for Avx512 {
+impl Simd for Avx512 {
     const LANES: usize = 16;
-    type Mask = __mmask16;
-    type Whole = __m512i;
+    type Floats = F32x16;
+    type Integers = U32x16;
+    type Mask = Mask16;
+
+    fn run(self, job: impl Job) {
+        #[target_feature(enable = "avx512f,avx512dq")]
+        fn with_avx512(simd: Avx512, job: impl Job) {
+            job.run(simd);
+        }
+        // SAFETY: no pointers.
+        unsafe { with_avx512(self, job) }
+    }
 
     #[cfg_attr(optimized, inline(always))]
-    fn load(from: &[f32]) -> Self {
+    fn splat(self, value: f32) -> F32x16 {
+        // SAFETY: no pointers.
+        F32x16(unsafe { _mm512_set1_ps(value) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn load(self, from: &[f32]) -> F32x16 {
         let from = &from[..16];
         // SAFETY: sixteen values are there; the load need not be aligned.
-        Self(unsafe { _mm512_loadu_ps(from.as_ptr()) })
+        F32x16(unsafe { _mm512_loadu_ps(from.as_ptr()) })
     }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn splat_integer(self, value: u32) -> U32x16 {
+        // SAFETY: no pointers.
+        U32x16(unsafe { _mm512_set1_epi32(value.cast_signed()) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn load_integers(self, from: &[u32]) -> U32x16 {
+        let from = &from[..16];
+        // SAFETY: sixteen values are there; the load need not be aligned.
+        U32x16(unsafe { _mm512_loadu_si512(from.as_ptr().cast()) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn components(self, points: &[[f32; 4]]) -> [F32x16; 4] {
+        let points = points[..16].as_flattened();
+        let (a, b) = (self.load(points), self.load(&points[16..]));
+        let (c, d) = (self.load(&points[32..]), self.load(&points[48..]));
+        // Four of lanes 0, 4, 8 and 12 are the components of points 0 to 3: the order has to be turned, too.
+        // SAFETY: no pointers.
+        let order =
+            U32x16(unsafe { _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15) });
+        let [x, y, z, w] = self.tiles([a, b, c, d]);
+        [x.permute(order), y.permute(order), z.permute(order), w.permute(order)]
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn tiles(self, [a, b, c, d]: [F32x16; 4]) -> [F32x16; 4] {
+        // SAFETY: no pointers.
+        unsafe {
+            let (low_ab, high_ab) = (_mm512_unpacklo_ps(a.0, b.0), _mm512_unpackhi_ps(a.0, b.0));
+            let (low_cd, high_cd) = (_mm512_unpacklo_ps(c.0, d.0), _mm512_unpackhi_ps(c.0, d.0));
+            [
+                F32x16(_mm512_shuffle_ps::<0x44>(low_ab, low_cd)),
+                F32x16(_mm512_shuffle_ps::<0xee>(low_ab, low_cd)),
+                F32x16(_mm512_shuffle_ps::<0x44>(high_ab, high_cd)),
+                F32x16(_mm512_shuffle_ps::<0xee>(high_ab, high_cd)),
+            ]
+        }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn arrange<const STREAM: bool>(self, columns: &[f32], lines: &mut [Line]) {
+        let count = lines.len() / 4;
+        let (first, others) = lines.split_at_mut(count);
+        let (second, others) = others.split_at_mut(count);
+        let (third, fourth) = others.split_at_mut(count);
+        let lines = first.iter_mut().zip(second).zip(third).zip(fourth);
+        for (four, (((first, second), third), fourth)) in columns.chunks_exact(4 * Self::LANES).zip(lines) {
+            let (a, b) = (self.load(four), self.load(&four[16..]));
+            let (c, d) = (self.load(&four[32..]), self.load(&four[48..]));
+            // SAFETY: a line is an aligned vector.
+            unsafe {
+                let (low_ab, high_ab) =
+                    (_mm512_shuffle_f32x4::<0x44>(a.0, b.0), _mm512_shuffle_f32x4::<0xee>(a.0, b.0));
+                let (low_cd, high_cd) =
+                    (_mm512_shuffle_f32x4::<0x44>(c.0, d.0), _mm512_shuffle_f32x4::<0xee>(c.0, d.0));
+                for (to, line) in [
+                    (first, _mm512_shuffle_f32x4::<0x88>(low_ab, low_cd)),
+                    (second, _mm512_shuffle_f32x4::<0xdd>(low_ab, low_cd)),
+                    (third, _mm512_shuffle_f32x4::<0x88>(high_ab, high_cd)),
+                    (fourth, _mm512_shuffle_f32x4::<0xdd>(high_ab, high_cd)),
+                ] {
+                    let to = to.0.as_mut_ptr();
+                    if STREAM { _mm512_stream_ps(to, line) } else { _mm512_storeu_ps(to, line) }
+                }
+            }
+        }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn scatter(self, rows: [F32x16; 4], out: &mut [f32], stride: usize) {
+        let out = &mut out[..15 * stride + 4];
+        let to = out.as_mut_ptr();
+        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
+        unsafe {
+            for (lane, F32x16(column)) in self.tiles(rows).into_iter().enumerate() {
+                _mm_storeu_ps(to.add(lane * stride), _mm512_extractf32x4_ps::<0>(column));
+                _mm_storeu_ps(to.add((lane + 4) * stride), _mm512_extractf32x4_ps::<1>(column));
+                _mm_storeu_ps(to.add((lane + 8) * stride), _mm512_extractf32x4_ps::<2>(column));
+                _mm_storeu_ps(to.add((lane + 12) * stride), _mm512_extractf32x4_ps::<3>(column));
+            }
+        }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn scatter_eight(self, [a, b, c, d, e, f, g, h]: [F32x16; 8], out: &mut [f32], stride: usize) {
+        let out = &mut out[..15 * stride + 8];
+        let to = out.as_mut_ptr();
+        let (low, high) = (self.tiles([a, b, c, d]), self.tiles([e, f, g, h]));
+        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
+        unsafe {
+            let first = _mm512_setr_epi32(0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23);
+            let last = _mm512_setr_epi32(8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31);
+            for (lane, (F32x16(low), F32x16(high))) in low.into_iter().zip(high).enumerate() {
+                let first = _mm512_permutex2var_ps(low, first, high);
+                let last = _mm512_permutex2var_ps(low, last, high);
+                _mm256_storeu_ps(to.add(lane * stride), _mm512_castps512_ps256(first));
+                _mm256_storeu_ps(to.add((lane + 4) * stride), _mm512_extractf32x8_ps::<1>(first));
+                _mm256_storeu_ps(to.add((lane + 8) * stride), _mm512_castps512_ps256(last));
+                _mm256_storeu_ps(to.add((lane + 12) * stride), _mm512_extractf32x8_ps::<1>(last));
+            }
+        }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn stream(self, from: &[f32; LINE], to: &mut Line) {
+        // SAFETY: a line is an aligned vector; loads need not be aligned.
+        unsafe { _mm512_stream_ps(to.0.as_mut_ptr(), _mm512_loadu_ps(from.as_ptr())) }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn stream_indices(self, table: &[u32; LINE], base: U32x16, to: &mut Line) {
+        let indices = base + self.load_integers(table);
+        // SAFETY: a line is an aligned vector.
+        unsafe { _mm512_stream_si512(to.0.as_mut_ptr().cast(), indices.0) }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn fence(self) {
+        // SAFETY: no pointers.
+        unsafe { _mm_sfence() }
+    }
+}
+
+impl Floats for F32x16 {
+    type Integers = U32x16;
+    type Mask = Mask16;
 
     #[cfg_attr(optimized, inline(always))]
     fn store(self, to: &mut [f32]) {
         let to = &mut to[..16];
         // SAFETY: sixteen places are there; the store need not be aligned.
         unsafe { _mm512_storeu_ps(to.as_mut_ptr(), self.0) }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn splat(value: f32) -> Self {
-        // SAFETY: no pointers.
-        Self(unsafe { _mm512_set1_ps(value) })
     }
 
     #[cfg_attr(optimized, inline(always))]
@@ -106,15 +259,6 @@ impl Vector for Avx512 {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn negate(self) -> Self {
-        // SAFETY: no pointers.
-        Self(unsafe {
-            let sign = _mm512_castps_si512(_mm512_set1_ps(-0.0));
-            _mm512_castsi512_ps(_mm512_xor_si512(sign, _mm512_castps_si512(self.0)))
-        })
-    }
-
-    #[cfg_attr(optimized, inline(always))]
     fn min(self, other: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_min_ps(self.0, other.0) })
@@ -127,257 +271,132 @@ impl Vector for Avx512 {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn less(self, other: Self) -> __mmask16 {
+    fn less(self, other: Self) -> Mask16 {
         // SAFETY: no pointers.
-        unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) }
+        Mask16(unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn is_zero(self) -> __mmask16 {
+    fn is_zero(self) -> Mask16 {
         // SAFETY: no pointers.
-        unsafe { _mm512_cmp_ps_mask::<_CMP_EQ_OQ>(self.0, _mm512_setzero_ps()) }
+        Mask16(unsafe { _mm512_cmp_ps_mask::<_CMP_EQ_OQ>(self.0, _mm512_setzero_ps()) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn select(mask: __mmask16, yes: Self, no: Self) -> Self {
+    fn permute(self, places: U32x16) -> Self {
         // SAFETY: no pointers.
-        Self(unsafe { _mm512_mask_blend_ps(mask, no.0, yes.0) })
+        Self(unsafe { _mm512_permutexvar_ps(places.0, self.0) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn bits(mask: __mmask16) -> u32 {
-        mask.into()
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn pick(from: Self, places: __m512i) -> Self {
-        // SAFETY: no pointers.
-        Self(unsafe { _mm512_permutexvar_ps(places, from.0) })
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn preceding(before: Self, here: Self) -> Self {
+    fn shift_in(self, before: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe {
-            let (before, here) = (_mm512_castps_si512(before.0), _mm512_castps_si512(here.0));
+            let (before, here) = (_mm512_castps_si512(before.0), _mm512_castps_si512(self.0));
             _mm512_castsi512_ps(_mm512_alignr_epi32::<15>(here, before))
         })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn preceding_four(before: Self, here: Self) -> Self {
+    fn shift_in_four(self, before: Self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe {
-            let (before, here) = (_mm512_castps_si512(before.0), _mm512_castps_si512(here.0));
+            let (before, here) = (_mm512_castps_si512(before.0), _mm512_castps_si512(self.0));
             _mm512_castsi512_ps(_mm512_alignr_epi32::<12>(here, before))
         })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn components(points: &[[f32; 4]]) -> [Self; 4] {
-        let points = points[..16].as_flattened();
-        let (a, b) = (Self::load(points), Self::load(&points[16..]));
-        let (c, d) = (Self::load(&points[32..]), Self::load(&points[48..]));
-        // Four of lanes 0, 4, 8 and 12 are the components of points 0 to 3: the order has to be turned, too.
+    fn to_signed(self) -> U32x16 {
         // SAFETY: no pointers.
-        let order = unsafe { _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15) };
-        let [x, y, z, w] = Self::tiles([a, b, c, d]);
-        [Self::pick(x, order), Self::pick(y, order), Self::pick(z, order), Self::pick(w, order)]
+        U32x16(unsafe { _mm512_cvttps_epi32(self.0) })
     }
+}
+
+impl Integers for U32x16 {
+    type Floats = F32x16;
+    type Mask = Mask16;
 
     #[cfg_attr(optimized, inline(always))]
-    fn tiles([a, b, c, d]: [Self; 4]) -> [Self; 4] {
-        // SAFETY: no pointers.
-        unsafe {
-            let (low_ab, high_ab) = (_mm512_unpacklo_ps(a.0, b.0), _mm512_unpackhi_ps(a.0, b.0));
-            let (low_cd, high_cd) = (_mm512_unpacklo_ps(c.0, d.0), _mm512_unpackhi_ps(c.0, d.0));
-            [
-                Self(_mm512_shuffle_ps::<0x44>(low_ab, low_cd)),
-                Self(_mm512_shuffle_ps::<0xee>(low_ab, low_cd)),
-                Self(_mm512_shuffle_ps::<0x44>(high_ab, high_cd)),
-                Self(_mm512_shuffle_ps::<0xee>(high_ab, high_cd)),
-            ]
-        }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn arrange<const STREAM: bool>(columns: &[f32], lines: &mut [Line]) {
-        let count = lines.len() / 4;
-        let (first, others) = lines.split_at_mut(count);
-        let (second, others) = others.split_at_mut(count);
-        let (third, fourth) = others.split_at_mut(count);
-        let lines = first.iter_mut().zip(second).zip(third).zip(fourth);
-        for (four, (((first, second), third), fourth)) in columns.chunks_exact(4 * Self::LANES).zip(lines) {
-            let (a, b) = (Self::load(four), Self::load(&four[16..]));
-            let (c, d) = (Self::load(&four[32..]), Self::load(&four[48..]));
-            // SAFETY: a line is an aligned vector.
-            unsafe {
-                let (low_ab, high_ab) =
-                    (_mm512_shuffle_f32x4::<0x44>(a.0, b.0), _mm512_shuffle_f32x4::<0xee>(a.0, b.0));
-                let (low_cd, high_cd) =
-                    (_mm512_shuffle_f32x4::<0x44>(c.0, d.0), _mm512_shuffle_f32x4::<0xee>(c.0, d.0));
-                for (to, line) in [
-                    (first, _mm512_shuffle_f32x4::<0x88>(low_ab, low_cd)),
-                    (second, _mm512_shuffle_f32x4::<0xdd>(low_ab, low_cd)),
-                    (third, _mm512_shuffle_f32x4::<0x88>(high_ab, high_cd)),
-                    (fourth, _mm512_shuffle_f32x4::<0xdd>(high_ab, high_cd)),
-                ] {
-                    let to = to.0.as_mut_ptr();
-                    if STREAM { _mm512_stream_ps(to, line) } else { _mm512_storeu_ps(to, line) }
-                }
-            }
-        }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn scatter(rows: [Self; 4], out: &mut [f32], stride: usize) {
-        let out = &mut out[..15 * stride + 4];
-        let to = out.as_mut_ptr();
-        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
-        unsafe {
-            for (lane, Self(column)) in Self::tiles(rows).into_iter().enumerate() {
-                _mm_storeu_ps(to.add(lane * stride), _mm512_extractf32x4_ps::<0>(column));
-                _mm_storeu_ps(to.add((lane + 4) * stride), _mm512_extractf32x4_ps::<1>(column));
-                _mm_storeu_ps(to.add((lane + 8) * stride), _mm512_extractf32x4_ps::<2>(column));
-                _mm_storeu_ps(to.add((lane + 12) * stride), _mm512_extractf32x4_ps::<3>(column));
-            }
-        }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn scatter_eight([a, b, c, d, e, f, g, h]: [Self; 8], out: &mut [f32], stride: usize) {
-        let out = &mut out[..15 * stride + 8];
-        let to = out.as_mut_ptr();
-        let (low, high) = (Self::tiles([a, b, c, d]), Self::tiles([e, f, g, h]));
-        // SAFETY: lane l is stored at l * stride, and the last of them ends where `out` does; stores need not be aligned.
-        unsafe {
-            let first = _mm512_setr_epi32(0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23);
-            let last = _mm512_setr_epi32(8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31);
-            for (lane, (Self(low), Self(high))) in low.into_iter().zip(high).enumerate() {
-                let first = _mm512_permutex2var_ps(low, first, high);
-                let last = _mm512_permutex2var_ps(low, last, high);
-                _mm256_storeu_ps(to.add(lane * stride), _mm512_castps512_ps256(first));
-                _mm256_storeu_ps(to.add((lane + 4) * stride), _mm512_extractf32x8_ps::<1>(first));
-                _mm256_storeu_ps(to.add((lane + 8) * stride), _mm512_castps512_ps256(last));
-                _mm256_storeu_ps(to.add((lane + 12) * stride), _mm512_extractf32x8_ps::<1>(last));
-            }
-        }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn load_whole(from: &[u32]) -> __m512i {
-        let from = &from[..16];
-        // SAFETY: sixteen values are there; the load need not be aligned.
-        unsafe { _mm512_loadu_si512(from.as_ptr().cast()) }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn store_whole(values: __m512i, to: &mut [u32]) {
+    fn store(self, to: &mut [u32]) {
         let to = &mut to[..16];
         // SAFETY: sixteen places are there; the store need not be aligned.
-        unsafe { _mm512_storeu_si512(to.as_mut_ptr().cast(), values) }
+        unsafe { _mm512_storeu_si512(to.as_mut_ptr().cast(), self.0) }
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn splat_whole(value: u32) -> __m512i {
+    fn first(self) -> u32 {
         // SAFETY: no pointers.
-        unsafe { _mm512_set1_epi32(value.cast_signed()) }
+        unsafe { _mm512_cvtsi512_si32(self.0) }.cast_unsigned()
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn add_whole(a: __m512i, b: __m512i) -> __m512i {
+    fn without_first(self) -> Self {
         // SAFETY: no pointers.
-        unsafe { _mm512_add_epi32(a, b) }
+        Self(unsafe { _mm512_maskz_mov_epi32(0xfffe, self.0) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn sub_whole(a: __m512i, b: __m512i) -> __m512i {
+    fn running_sum(self) -> Self {
         // SAFETY: no pointers.
-        unsafe { _mm512_sub_epi32(a, b) }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn first(a: __m512i) -> u32 {
-        // SAFETY: no pointers.
-        unsafe { _mm512_cvtsi512_si32(a) }.cast_unsigned()
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn without_first(a: __m512i) -> __m512i {
-        // SAFETY: no pointers.
-        unsafe { _mm512_maskz_mov_epi32(0xfffe, a) }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn running_sum(a: __m512i) -> __m512i {
-        // SAFETY: no pointers.
-        unsafe {
+        Self(unsafe {
+            let a = self.0;
             let zero = _mm512_setzero_si512();
             let a = _mm512_add_epi32(a, _mm512_alignr_epi32::<15>(a, zero));
             let a = _mm512_add_epi32(a, _mm512_alignr_epi32::<14>(a, zero));
             let a = _mm512_add_epi32(a, _mm512_alignr_epi32::<12>(a, zero));
             _mm512_add_epi32(a, _mm512_alignr_epi32::<8>(a, zero))
-        }
+        })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn splat_last(a: __m512i) -> __m512i {
+    fn splat_last(self) -> Self {
         // SAFETY: no pointers.
-        unsafe { _mm512_permutexvar_epi32(_mm512_set1_epi32(15), a) }
+        Self(unsafe { _mm512_permutexvar_epi32(_mm512_set1_epi32(15), self.0) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn shift_left<const BY: i32>(a: __m512i) -> __m512i {
+    fn shift_left<const BY: i32>(self) -> Self {
         // SAFETY: no pointers.
-        unsafe { _mm512_sllv_epi32(a, _mm512_set1_epi32(BY)) }
+        Self(unsafe { _mm512_sllv_epi32(self.0, _mm512_set1_epi32(BY)) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn shift_right<const BY: i32>(a: __m512i) -> __m512i {
+    fn shift_right<const BY: i32>(self) -> Self {
         // SAFETY: no pointers.
-        unsafe { _mm512_srlv_epi32(a, _mm512_set1_epi32(BY)) }
+        Self(unsafe { _mm512_srlv_epi32(self.0, _mm512_set1_epi32(BY)) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn has_bit(a: __m512i, bit: u32) -> __mmask16 {
+    fn has_bit(self, bit: u32) -> Mask16 {
         // SAFETY: no pointers.
-        unsafe { _mm512_test_epi32_mask(a, Self::splat_whole(bit)) }
+        Mask16(unsafe { _mm512_test_epi32_mask(self.0, _mm512_set1_epi32(bit.cast_signed())) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn from_signed(a: __m512i) -> Self {
+    fn signed_to_floats(self) -> F32x16 {
         // SAFETY: no pointers.
-        Self(unsafe { _mm512_cvtepi32_ps(a) })
+        F32x16(unsafe { _mm512_cvtepi32_ps(self.0) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn from_bits(a: __m512i) -> Self {
+    fn bit_cast(self) -> F32x16 {
         // SAFETY: no pointers.
-        Self(unsafe { _mm512_castsi512_ps(a) })
+        F32x16(unsafe { _mm512_castsi512_ps(self.0) })
     }
+}
+
+impl Mask for Mask16 {
+    type Floats = F32x16;
 
     #[cfg_attr(optimized, inline(always))]
-    fn to_signed(self) -> __m512i {
+    fn select(self, yes: F32x16, no: F32x16) -> F32x16 {
         // SAFETY: no pointers.
-        unsafe { _mm512_cvttps_epi32(self.0) }
+        F32x16(unsafe { _mm512_mask_blend_ps(self.0, no.0, yes.0) })
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn stream(from: &[f32; LINE], to: &mut Line) {
-        // SAFETY: a line is an aligned vector; loads need not be aligned.
-        unsafe { _mm512_stream_ps(to.0.as_mut_ptr(), _mm512_loadu_ps(from.as_ptr())) }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn stream_indices(table: &[u32; LINE], base: Self::Whole, to: &mut Line) {
-        let indices = Self::add_whole(base, Self::load_whole(table));
-        // SAFETY: a line is an aligned vector.
-        unsafe { _mm512_stream_si512(to.0.as_mut_ptr().cast(), indices) }
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn fence() {
-        // SAFETY: no pointers.
-        unsafe { _mm_sfence() }
+    fn bits(self) -> u32 {
+        self.0.into()
     }
 }

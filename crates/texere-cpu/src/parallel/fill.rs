@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::path::{Job, Path};
-use super::vector::{LINE, Line, Vector};
+use super::instruction_set::InstructionSet;
+use super::simd::{Job, LINE, Line, Simd};
 
 /// Floats that one rayon item fills: a megabyte.
 const FILL_FLOATS: usize = 1 << 18;
@@ -18,8 +18,8 @@ const FILL_FLOATS: usize = 1 << 18;
 /// assert!(out.iter().all(|value| *value == 1.5));
 /// ```
 pub fn fill(out: &mut [f32], value: f32) {
-    let path = Path::detect();
-    out.par_chunks_mut(FILL_FLOATS).for_each(|out| path.run(Fill { out, value }));
+    let set = InstructionSet::chosen().unwrap_or_else(|_| InstructionSet::widest());
+    out.par_chunks_mut(FILL_FLOATS).for_each(|out| set.run(Fill { out, value }));
 }
 
 struct Fill<'a> {
@@ -29,12 +29,12 @@ struct Fill<'a> {
 
 impl Job for Fill<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn run<V: Vector>(self) {
+    fn run<S: Simd>(self, simd: S) {
         let (head, lines, tail) = bytemuck::pod_align_to_mut::<f32, Line>(self.out);
         head.fill(self.value);
         tail.fill(self.value);
         let from = [self.value; LINE];
-        lines.iter_mut().for_each(|line| V::stream(&from, line));
-        V::fence();
+        lines.iter_mut().for_each(|line| simd.stream(&from, line));
+        simd.fence();
     }
 }

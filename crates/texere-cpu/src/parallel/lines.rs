@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::runs::take;
-use super::vector::{LANES_MAX, LINE, Line, Vector};
+use super::simd::{Floats, Integers, LANES_MAX, LINE, Line, Simd};
 use super::vertices::OVERHANG;
 
 /// Where the lines of a slice go, in order.
@@ -67,7 +67,7 @@ impl<'a> VertexLines<'a> {
 
     /// Begins to send `floats` values that have been written, once what waited before is on its way.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn send<V: Vector>(&mut self, floats: usize) {
+    pub(super) fn send(&mut self, simd: impl Simd, floats: usize) {
         let mut first = 0;
         self.end += floats;
         if self.starts && self.end >= LINE {
@@ -80,25 +80,25 @@ impl<'a> VertexLines<'a> {
             self.end -= whole;
             std::mem::swap(&mut self.scratch, &mut self.other);
             let half = first + (whole - first) / LINE / 2 * LINE;
-            self.pass::<V>(first..half);
+            self.pass(simd, first..half);
             self.waiting = half..whole;
         }
     }
 
     /// Sends what waits.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn send_waiting<V: Vector>(&mut self) {
+    pub(super) fn send_waiting(&mut self, simd: impl Simd) {
         let waiting = std::mem::take(&mut self.waiting);
-        self.pass::<V>(waiting);
+        self.pass(simd, waiting);
     }
 
     /// Sends whole lines of the other scratch memory.
     #[cfg_attr(optimized, inline(always))]
-    fn pass<V: Vector>(&mut self, floats: Range<usize>) {
+    fn pass(&mut self, simd: impl Simd, floats: Range<usize>) {
         let (from, _) = self.other[floats].as_chunks::<LINE>();
         let to = take(&mut self.out.lines, from.len());
         if self.out.streams {
-            to.iter_mut().zip(from).for_each(|(to, from)| V::stream(from, to));
+            to.iter_mut().zip(from).for_each(|(to, from)| simd.stream(from, to));
         } else {
             to.iter_mut().zip(from).for_each(|(to, from)| to.0 = *from);
         }
@@ -106,8 +106,8 @@ impl<'a> VertexLines<'a> {
 
     /// Sends the rest.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn finish<V: Vector>(mut self) {
-        self.send_waiting::<V>();
+    pub(super) fn finish(mut self, simd: impl Simd) {
+        self.send_waiting(simd);
         let Lines { head, tail, .. } = self.out;
         if self.starts {
             head.copy_from_slice(&self.scratch[self.end - head.len()..self.end]);
@@ -160,22 +160,22 @@ impl<'a> IndexLines<'a> {
 
     /// Sends the next lines, `count` at most.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn send<V: Vector>(&mut self, count: usize) {
+    pub(super) fn send<S: Simd>(&mut self, simd: S, count: usize) {
         let mut left = count.min(self.out.lines.len());
         while left > 0 {
             let offsets = &self.pattern[self.next..];
             let lines = take(&mut self.out.lines, left.min(offsets.len()));
-            let base = V::splat_whole(self.base);
+            let base = simd.splat_integer(self.base);
             if self.out.streams {
                 lines
                     .iter_mut()
                     .zip(offsets)
-                    .for_each(|(line, offsets)| V::stream_indices(offsets, base, line));
+                    .for_each(|(line, offsets)| simd.stream_indices(offsets, base, line));
             } else {
                 for (line, offsets) in lines.iter_mut().zip(offsets) {
-                    for k in (0..LINE).step_by(V::LANES) {
-                        let indices = V::add_whole(V::load_whole(&offsets[k..]), base);
-                        V::from_bits(indices).store(&mut line.0[k..]);
+                    for k in (0..LINE).step_by(S::LANES) {
+                        let indices = simd.load_integers(&offsets[k..]) + base;
+                        indices.bit_cast().store(&mut line.0[k..]);
                     }
                 }
             }
@@ -189,8 +189,8 @@ impl<'a> IndexLines<'a> {
 
     /// Sends the rest.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn finish<V: Vector>(mut self) {
-        self.send::<V>(usize::MAX);
+    pub(super) fn finish(mut self, simd: impl Simd) {
+        self.send(simd, usize::MAX);
         put(self.out.tail, &self.pattern[self.next], self.base);
     }
 }

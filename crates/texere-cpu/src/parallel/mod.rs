@@ -5,17 +5,17 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod fill;
+mod instruction_set;
 mod lines;
-mod path;
 mod planar;
 mod portable;
 mod rings;
 mod runs;
 mod scan;
+mod simd;
 mod spline;
 mod tiles;
 mod turns;
-mod vector;
 mod vertices;
 
 use rayon::prelude::*;
@@ -24,28 +24,46 @@ use texere_core::{
 };
 
 use crate::caps::caps;
-use crate::engine::{ChunkRings, Stages, Work};
+use crate::engine::{ChunkRings, Executor, Work};
 use crate::pages;
 use crate::rolls::Rolls;
 pub use fill::fill;
+use instruction_set::InstructionSet;
 use lines::{IndexLines, IndexTable, Lines, VertexLines};
-use path::Job;
-pub(crate) use path::Path;
 use rings::{Rings, Source, Stretch, Walk};
 use runs::{MeshRun, RingRun, mesh_runs, ring_runs, take};
-use spline::Places;
+use simd::{Floats, Job, LANES_MAX, LINE, Line, Simd};
+use spline::Seats;
 use tiles::TileLines;
-use vector::{LANES_MAX, LINE, Line, Vector};
 use vertices::{Surface, VERTEX};
 
-/// All cores, each with the vectors of a path.
+/// All cores, each with the same set of vector instructions.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Parallel(pub(crate) Path);
+pub(crate) struct Parallel(InstructionSet);
 
 /// Bytes of output from which on stores go past the caches: as much as the last cache of a large processor holds.
 const STREAM_BYTES: usize = 32 << 20;
 
-impl Stages for Parallel {
+impl Parallel {
+    /// With the vectors that `TEXERE_SIMD` names or, without it, the widest ones that the processor has.
+    ///
+    /// **Errors**: [`BackendError::NoInstructionSet`] where it has none of that name.
+    pub(crate) fn new() -> Result<Self, BackendError> {
+        InstructionSet::chosen().map(Self)
+    }
+
+    /// One for each kind of vectors that the processor has, the widest last.
+    pub(crate) fn each() -> impl Iterator<Item = Self> {
+        InstructionSet::available().into_iter().map(Self)
+    }
+
+    /// What the vectors are called.
+    pub(crate) const fn vectors(self) -> &'static str {
+        self.0.name()
+    }
+}
+
+impl Executor for Parallel {
     const FUSED: bool = true;
 
     fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
@@ -53,12 +71,12 @@ impl Stages for Parallel {
     }
 
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
-        let (path, maker) = (self.0, Maker::new(work));
-        ring_runs(chunk, out).into_par_iter().for_each(|run| path.run(RingJob { maker: &maker, run }));
+        let (set, maker) = (self.0, Maker::new(work));
+        ring_runs(chunk, out).into_par_iter().for_each(|run| set.run(RingJob { maker: &maker, run }));
     }
 
     fn mesh(self, work: &Work, chunk: &Chunk, _rings: &ChunkRings, mut out: MeshMut<'_>) {
-        let (settings, path) = (work.plan.settings(), self.0);
+        let (settings, set) = (work.plan.settings(), self.0);
         let indexed = settings.topology == Topology::Indexed;
         pages::prefer_huge(out.vertices);
         pages::prefer_huge(out.indices);
@@ -67,7 +85,7 @@ impl Stages for Parallel {
         let (maker, table) = (&maker, table.as_ref());
         mesh_runs(chunk, settings.sides as usize, indexed, &mut out)
             .into_par_iter()
-            .for_each(|run| path.run(MeshJob { maker, table, streams, run }));
+            .for_each(|run| set.run(MeshJob { maker, table, streams, run }));
         caps(work, chunk, out);
     }
 }
@@ -75,32 +93,32 @@ impl Stages for Parallel {
 /// What is the same for all runs.
 struct Maker<'a> {
     work: &'a Work,
-    places: Places,
+    seats: Vec<Seats>,
 }
 
 impl<'a> Maker<'a> {
     fn new(work: &'a Work) -> Self {
-        Self { work, places: Places::new(&work.plan) }
+        Self { work, seats: Seats::at_each_place(&work.plan) }
     }
 
     /// Calls `take` with the rings of `blocks`, which are one yarn's and follow each other, the first of them number `number`
     /// among all of the plan: a vector of rings at a time, with their rolls, and how many of them there are.
     #[cfg_attr(optimized, inline(always))]
-    fn rings<V: Vector>(&self, blocks: &[Block], number: u64, sink: &mut impl Sink) {
+    fn rings<S: Simd>(&self, simd: S, blocks: &[Block], number: u64, sink: &mut impl Sink) {
         let Work { plan, points, rolls } = self.work;
-        let source = Source { plan, points, places: &self.places };
+        let source = Source { plan, points, seats: &self.seats };
         let (yarn, first) = (blocks[0].yarn as usize, blocks[0].first_ring);
         let stretch = Stretch { yarn, first, count: blocks.iter().map(|block| block.rings).sum() };
-        let mut walk = Walk::<V>::new(source, stretch);
+        let mut walk = Walk::new(simd, source, stretch);
         if plan.settings().frame.is_level(plan.twist_turns(yarn)) {
             while let count @ 1.. = walk.left() {
-                sink.take(&walk.next(), V::splat_whole(0), count);
+                sink.take(simd, &walk.next(), simd.splat_integer(0), count);
             }
         } else {
             while let count @ 1.. = walk.left() {
                 let block = number + u64::from(walk.done / BLOCK_RINGS);
-                let roll = turns::rolls::<V>(plan, rolls, yarn, first + walk.done, block);
-                sink.take(&walk.next().turned(roll), roll, count);
+                let roll = turns::rolls(simd, plan, rolls, yarn, first + walk.done, block);
+                sink.take(simd, &walk.next().turned(simd, roll), roll, count);
             }
         }
     }
@@ -110,7 +128,7 @@ impl<'a> Maker<'a> {
 trait Sink {
     /// Takes the first `count` rings of a vector. It must be inlined, so that it is compiled for the instructions of its
     /// path.
-    fn take<V: Vector>(&mut self, rings: &Rings<V>, roll: V::Whole, count: usize);
+    fn take<S: Simd>(&mut self, simd: S, rings: &Rings<S>, roll: S::Integers, count: usize);
 }
 
 /// Stage 1 for a run of blocks.
@@ -121,11 +139,11 @@ struct RingJob<'a> {
 
 impl Job for RingJob<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn run<V: Vector>(self) {
+    fn run<S: Simd>(self, simd: S) {
         let RingRun { blocks, first_block, rings, slopes } = self.run;
         let (mut number, mut sink) = (first_block, RingSink { rings, slopes });
         for blocks in blocks.chunk_by(|a, b| a.yarn == b.yarn) {
-            self.maker.rings::<V>(blocks, number, &mut sink);
+            self.maker.rings(simd, blocks, number, &mut sink);
             number += blocks.len() as u64;
         }
     }
@@ -139,9 +157,9 @@ struct RingSink<'a> {
 
 impl Sink for RingSink<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn take<V: Vector>(&mut self, rings: &Rings<V>, roll: V::Whole, count: usize) {
+    fn take<S: Simd>(&mut self, simd: S, rings: &Rings<S>, roll: S::Integers, count: usize) {
         let mut out = [Ring::default(); LANES_MAX];
-        rings.store(roll, &mut out);
+        rings.store(simd, roll, &mut out);
         take(&mut self.rings, count).copy_from_slice(&out[..count]);
         let mut slopes = [0.0; LANES_MAX];
         rings.slope.store(&mut slopes);
@@ -161,7 +179,7 @@ struct MeshJob<'a> {
 
 impl Job for MeshJob<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn run<V: Vector>(self) {
+    fn run<S: Simd>(self, simd: S) {
         let Self { maker, table, streams, run } = self;
         let plan = &maker.work.plan;
         let sides = plan.settings().sides as usize;
@@ -187,17 +205,17 @@ impl Job for MeshJob<'_> {
             let section = plan.yarn(blocks[0].yarn as usize).section as usize;
             let surface = Surface::new(plan.outline(section));
             let mut sink = MeshSink { surface, floats, vertices, indices };
-            maker.rings::<V>(blocks, number, &mut sink);
+            maker.rings(simd, blocks, number, &mut sink);
             match sink.vertices {
-                Way::Tiles(tiles) => tiles.finish::<V>(),
-                Way::Scratch(lines) => lines.finish::<V>(),
+                Way::Tiles(tiles) => tiles.finish(simd),
+                Way::Scratch(lines) => lines.finish(simd),
             }
             if let Some(indices) = sink.indices {
-                indices.finish::<V>();
+                indices.finish(simd);
             }
             number += blocks.len() as u64;
         }
-        V::fence();
+        simd.fence();
     }
 }
 
@@ -212,20 +230,20 @@ struct MeshSink<'a> {
 
 impl Sink for MeshSink<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn take<V: Vector>(&mut self, rings: &Rings<V>, _roll: V::Whole, count: usize) {
+    fn take<S: Simd>(&mut self, simd: S, rings: &Rings<S>, _roll: S::Integers, count: usize) {
         match &mut self.vertices {
             Way::Tiles(tiles) => {
-                self.surface.write::<V, true>(rings, tiles.next::<V>());
-                tiles.send::<V>(count);
+                self.surface.write::<S, true>(simd, rings, tiles.next(simd));
+                tiles.send(simd, count);
             }
             Way::Scratch(lines) => {
-                lines.send_waiting::<V>();
-                self.surface.write::<V, false>(rings, lines.next());
-                lines.send::<V>(count * self.floats);
+                lines.send_waiting(simd);
+                self.surface.write::<S, false>(simd, rings, lines.next());
+                lines.send(simd, count * self.floats);
             }
         }
         if let Some(indices) = &mut self.indices {
-            indices.send::<V>(V::LANES * self.floats / LINE);
+            indices.send(simd, S::LANES * self.floats / LINE);
         }
     }
 }

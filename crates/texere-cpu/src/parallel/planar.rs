@@ -6,8 +6,8 @@
 use texere_core::NO_LENGTH;
 
 use super::rings::{Source, Stretch};
+use super::simd::{Floats, Mask, Simd, difference};
 use super::spline::{neighbours, xyz};
-use super::vector::{Vector, difference};
 
 /// The least velocity along the plane, as a share of the interval's extent (the distances of its four points in all axes,
 /// added up), that counts as going on. It is far above the rounding of velocities (some 1e-5), at which one could seem to
@@ -19,7 +19,7 @@ const EXTENT_MAX: f32 = 1e15;
 
 /// Whether every step between the rings of `stretch` is zero, as far as their frames go.
 #[cfg_attr(optimized, inline(always))]
-pub(super) fn stays_upright<V: Vector>(source: &Source<'_>, stretch: Stretch) -> bool {
+pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stretch) -> bool {
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));
     let per_interval = plan.settings().subdivisions + 1;
     let intervals = (plan.rings(stretch.yarn) - 1) / per_interval;
@@ -27,17 +27,17 @@ pub(super) fn stays_upright<V: Vector>(source: &Source<'_>, stretch: Stretch) ->
     let last = if plan.yarn(stretch.yarn).closed { intervals } else { intervals - 1 };
     let end = ((stretch.first + stretch.count - 1) / per_interval).min(last) + 1;
     let mut first = stretch.first / per_interval;
-    let mut ways = [V::ALL; 4];
+    let mut ways = [S::ALL; 4];
     while first < end {
         // Lanes past the end do not count.
-        let past = V::ALL << (end - first).min(V::LANES as u32);
-        for (way, here) in ways.iter_mut().zip(ways_on::<V>(points, first as usize, plan.sampling().s())) {
+        let past = S::ALL << (end - first).min(S::LANES as u32);
+        for (way, here) in ways.iter_mut().zip(ways_on(simd, points, first as usize, plan.sampling().s())) {
             *way &= here | past;
         }
-        if ways.iter().all(|way| *way != V::ALL) {
+        if ways.iter().all(|way| *way != S::ALL) {
             return false;
         }
-        first += V::LANES as u32;
+        first += S::LANES as u32;
     }
     true
 }
@@ -47,26 +47,26 @@ pub(super) fn stays_upright<V: Vector>(source: &Source<'_>, stretch: Stretch) ->
 ///
 /// A cubic's velocity lies between the three values of its Bézier form, of which the outer ones are those at the ends.
 #[cfg_attr(optimized, inline(always))]
-fn ways_on<V: Vector>(points: &[[f32; 4]], first: usize, s: f32) -> [u32; 4] {
-    let [before, start, end, after] = neighbours::<V>(points, first);
+fn ways_on<S: Simd>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> [u32; 4] {
+    let [before, start, end, after] = neighbours(simd, points, first);
     let (before, start, end, after) = (xyz(before), xyz(start), xyz(end), xyz(after));
     let (a, b, c) = (difference(before, start), difference(end, start), difference(after, start));
-    let (s, mut spread, mut ways) = (V::splat(s), [V::splat(0.0); 3], [0; 4]);
+    let (s, mut spread, mut ways) = (simd.splat(s), [simd.splat(0.0); 3], [0; 4]);
     for axis in 0..3 {
         spread[axis] = a[axis].abs() + b[axis].abs() + c[axis].abs();
     }
     let extent = spread[0] + spread[1] + spread[2];
-    let sound = V::bits(V::less(extent, V::splat(EXTENT_MAX)));
-    let least = (extent * V::splat(ONWARD)).max(V::splat(10.0 * NO_LENGTH.sqrt()));
+    let sound = extent.less(simd.splat(EXTENT_MAX)).bits();
+    let least = (extent * simd.splat(ONWARD)).max(simd.splat(10.0 * NO_LENGTH.sqrt()));
     // No closures here: they would not be compiled for the instructions of the path.
     for (axis, across) in [(0, 1), (1, 0)] {
         let (at_start, at_end) = ((b[axis] - a[axis]) * s, c[axis] * s);
-        let between = b[axis] * V::splat(3.0) - at_start - at_end;
+        let between = b[axis] * simd.splat(3.0) - at_start - at_end;
         let low = at_start.min(at_end).min(between);
         let high = at_start.max(at_end).max(between);
-        let flat = sound & V::bits(spread[across].is_zero());
-        ways[2 * axis] = flat & V::bits(V::less(least, low));
-        ways[2 * axis + 1] = flat & V::bits(V::less(least, high.negate()));
+        let flat = sound & spread[across].is_zero().bits();
+        ways[2 * axis] = flat & least.less(low).bits();
+        ways[2 * axis + 1] = flat & least.less(-high).bits();
     }
     ways
 }

@@ -6,15 +6,16 @@
 
 use texere_core::{Basis, ControlPoint, PaddedPoints, Plan, Ring, SLOPE_LIMIT, VERTICAL};
 
-use super::spline::{Cubics, Places, xyz};
-use super::vector::{LANES_MAX, Vector, dot, plus, scale};
+use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
+use super::spline::{Cubics, Seats, xyz};
 
 /// What rings are made from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) plan: &'a Plan,
     pub(super) points: &'a PaddedPoints,
-    pub(super) places: &'a Places,
+    /// One for each place in an interval.
+    pub(super) seats: &'a [Seats],
 }
 
 impl<'a> Source<'a> {
@@ -36,23 +37,24 @@ pub(super) struct Stretch {
 
 /// A vector of consecutive rings, with all that their vertices need.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rings<V> {
-    pub(super) centre: [V; 3],
-    pub(super) radius: V,
-    pub(super) tangent: [V; 3],
-    pub(super) slope: V,
-    pub(super) side: [V; 3],
-    pub(super) up: [V; 3],
+pub(super) struct Rings<S: Simd> {
+    pub(super) centre: [S::Floats; 3],
+    pub(super) radius: S::Floats,
+    pub(super) tangent: [S::Floats; 3],
+    pub(super) slope: S::Floats,
+    pub(super) side: [S::Floats; 3],
+    pub(super) up: [S::Floats; 3],
     /// Centre relative to the interval's start, and the interval's end: what chords are made of.
-    pub(super) offset: [V; 3],
-    pub(super) span: [V; 3],
+    pub(super) offset: [S::Floats; 3],
+    pub(super) span: [S::Floats; 3],
     /// Zero where an interval starts.
-    pub(super) t: V,
+    pub(super) t: S::Floats,
 }
 
 /// Goes along a stretch, a vector of upright rings at a time.
 #[derive(Debug)]
-pub(super) struct Walk<'a, V> {
+pub(super) struct Walk<'a, S: Simd> {
+    simd: S,
     source: Source<'a>,
     stretch: Stretch,
     points: &'a [[f32; 4]],
@@ -63,26 +65,27 @@ pub(super) struct Walk<'a, V> {
     /// By how many intervals and places a vector goes on.
     stride: (usize, usize),
     /// The cubics of the intervals from number `first_cubic` on.
-    cubics: Cubics<V>,
+    cubics: Cubics<S>,
     first_cubic: usize,
 }
 
-impl<'a, V: Vector> Walk<'a, V> {
+impl<'a, S: Simd> Walk<'a, S> {
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn new(source: Source<'a>, stretch: Stretch) -> Self {
-        let Source { plan, places, .. } = source;
+    pub(super) fn new(simd: S, source: Source<'a>, stretch: Stretch) -> Self {
+        let Source { plan, seats, .. } = source;
         let points = source.yarn(stretch.yarn);
-        let per_interval = places.0.len();
+        let per_interval = seats.len();
         let interval = stretch.first as usize / per_interval;
         Self {
+            simd,
             source,
             stretch,
             points,
             done: 0,
             interval,
             place: stretch.first as usize % per_interval,
-            stride: (V::LANES / per_interval, V::LANES % per_interval),
-            cubics: Cubics::new(points, interval, plan.sampling().s()),
+            stride: (S::LANES / per_interval, S::LANES % per_interval),
+            cubics: Cubics::new(simd, points, interval, plan.sampling().s()),
             first_cubic: interval,
         }
     }
@@ -90,23 +93,23 @@ impl<'a, V: Vector> Walk<'a, V> {
     /// How many rings there are in the next vector; 0 at the end.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn left(&self) -> usize {
-        ((self.stretch.count - self.done) as usize).min(V::LANES)
+        ((self.stretch.count - self.done) as usize).min(S::LANES)
     }
 
     /// The next vector of rings. Past the end of the stretch its lanes hold nothing of meaning.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn next(&mut self) -> Rings<V> {
-        let Source { plan, places, .. } = self.source;
-        let seats = &places.0[self.place];
-        if self.interval + seats.interval[V::LANES - 1] as usize >= self.first_cubic + V::LANES {
+    pub(super) fn next(&mut self) -> Rings<S> {
+        let (simd, Source { plan, seats: at_place, .. }) = (self.simd, self.source);
+        let seats = &at_place[self.place];
+        if self.interval + seats.interval[S::LANES - 1] as usize >= self.first_cubic + S::LANES {
             self.first_cubic = self.interval;
-            self.cubics = Cubics::new(self.points, self.interval, plan.sampling().s());
+            self.cubics = Cubics::new(simd, self.points, self.interval, plan.sampling().s());
         }
-        let behind = V::splat_whole((self.interval - self.first_cubic) as u32);
-        let interval = V::add_whole(V::load_whole(&seats.interval), behind);
-        let t = V::load(&seats.t);
-        let (mut rings, rare) = upright(&self.cubics, interval, t);
-        if rare != 0 || self.stretch.count - self.done <= V::LANES as u32 {
+        let behind = simd.splat_integer((self.interval - self.first_cubic) as u32);
+        let interval = simd.load_integers(&seats.interval) + behind;
+        let t = simd.load(&seats.t);
+        let (mut rings, rare) = upright(simd, &self.cubics, interval, t);
+        if rare != 0 || self.stretch.count - self.done <= S::LANES as u32 {
             rings = self.mended(rings, rare);
         }
 
@@ -114,8 +117,8 @@ impl<'a, V: Vector> Walk<'a, V> {
         let (intervals, place) = self.stride;
         self.interval += intervals;
         self.place += place;
-        if self.place >= places.0.len() {
-            self.place -= places.0.len();
+        if self.place >= at_place.len() {
+            self.place -= at_place.len();
             self.interval += 1;
         }
         rings
@@ -123,7 +126,7 @@ impl<'a, V: Vector> Walk<'a, V> {
 
     /// Has the core make those of the next rings whose bits are set in `rare`, and an open yarn's last ring.
     #[cfg_attr(optimized, inline(always))]
-    fn mended(&self, rings: Rings<V>, rare: u32) -> Rings<V> {
+    fn mended(&self, rings: Rings<S>, rare: u32) -> Rings<S> {
         let mut fields = rings.fields();
         let mut lanes = Lanes([[0.0; LANES_MAX]; FIELDS]);
         for (field, lane) in fields.iter().zip(&mut lanes.0) {
@@ -133,7 +136,7 @@ impl<'a, V: Vector> Walk<'a, V> {
         let source = self.source;
         mend(&source, self.stretch, self.done, rare, &mut lanes);
         for (field, lane) in fields.iter_mut().zip(&lanes.0) {
-            *field = V::load(lane);
+            *field = self.simd.load(lane);
         }
         rings.with_fields(fields)
     }
@@ -147,26 +150,26 @@ const FIELDS: usize = 14;
 #[repr(align(64))]
 struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
-impl<V: Vector> Rings<V> {
+impl<S: Simd> Rings<S> {
     /// Writes them to the first `LANES` places of a slice.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn store(&self, roll: V::Whole, out: &mut [Ring]) {
+    pub(super) fn store(&self, simd: S, roll: S::Integers, out: &mut [Ring]) {
         const FLOATS: usize = size_of::<Ring>() / size_of::<f32>();
         let out: &mut [f32] = bytemuck::cast_slice_mut(out);
         let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);
-        V::scatter([cx, cy, cz, self.radius], out, FLOATS);
-        V::scatter([tx, ty, tz, V::from_bits(roll)], &mut out[FLOATS / 2..], FLOATS);
+        simd.scatter([cx, cy, cz, self.radius], out, FLOATS);
+        simd.scatter([tx, ty, tz, roll.bit_cast()], &mut out[FLOATS / 2..], FLOATS);
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn fields(&self) -> [V; FIELDS] {
+    fn fields(&self) -> [S::Floats; FIELDS] {
         let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);
         let ([sx, sy, sz], [ux, uy, uz]) = (self.side, self.up);
         [cx, cy, cz, self.radius, tx, ty, tz, self.slope, sx, sy, sz, ux, uy, uz]
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn with_fields(self, fields: [V; FIELDS]) -> Self {
+    fn with_fields(self, fields: [S::Floats; FIELDS]) -> Self {
         let [cx, cy, cz, radius, tx, ty, tz, slope, sx, sy, sz, ux, uy, uz] = fields;
         let (centre, tangent) = ([cx, cy, cz], [tx, ty, tz]);
         Self { centre, radius, tangent, slope, side: [sx, sy, sz], up: [ux, uy, uz], ..self }
@@ -196,35 +199,35 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
 /// Upright rings at `t` of each lane's interval, which is number `interval` of `cubics`, and a bit for each that the core
 /// has to mend.
 #[cfg_attr(optimized, inline(always))]
-fn upright<V: Vector>(cubics: &Cubics<V>, interval: V::Whole, t: V) -> (Rings<V>, u32) {
-    let (one, zero) = (V::splat(1.0), V::splat(0.0));
-    let sampled = cubics.sample(interval, t);
+fn upright<S: Simd>(simd: S, cubics: &Cubics<S>, interval: S::Integers, t: S::Floats) -> (Rings<S>, u32) {
+    let (one, zero) = (simd.splat(1.0), simd.splat(0.0));
+    let sampled = cubics.sample(simd, interval, t);
     let (offset, velocity) = (xyz(sampled.offset), xyz(sampled.velocity));
 
     let speed_squared = dot(velocity, velocity);
-    let moves = V::less(sampled.at_rest, speed_squared);
+    let moves = sampled.at_rest.less(speed_squared);
     let inverse = one / speed_squared.sqrt();
     let tangent = scale(velocity, inverse);
-    let limit = V::splat(SLOPE_LIMIT);
-    let slope = (sampled.velocity[3] * inverse).max(limit.negate()).min(limit);
+    let limit = simd.splat(SLOPE_LIMIT);
+    let slope = (sampled.velocity[3] * inverse).max(-limit).min(limit);
     let radius = sampled.start[3] + sampled.offset[3];
-    let held = V::less(radius, sampled.floor);
+    let held = radius.less(sampled.floor);
 
     let [x, y, z] = tangent;
     let level = x * x + y * y;
-    let vertical = V::less(level, V::splat(VERTICAL));
+    let vertical = level.less(simd.splat(VERTICAL));
     let inverse = one / level.sqrt();
-    let (side_x, side_y) = (y.negate() * inverse, x * inverse);
+    let (side_x, side_y) = (-y * inverse, x * inverse);
     let rings = Rings {
         centre: plus(xyz(sampled.start), offset),
-        radius: V::select(held, sampled.floor, radius),
+        radius: held.select(sampled.floor, radius),
         tangent,
-        slope: V::select(held, zero, slope),
+        slope: held.select(zero, slope),
         side: [side_x, side_y, zero],
-        up: [z.negate() * side_y, z * side_x, x * side_y - y * side_x],
+        up: [-z * side_y, z * side_x, x * side_y - y * side_x],
         offset,
         span: sampled.span,
         t,
     };
-    (rings, (V::bits(moves) ^ V::ALL) | V::bits(vertical))
+    (rings, (moves.bits() ^ S::ALL) | vertical.bits())
 }

@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 use texere_core::{BLOCK_RINGS, BackendError, PaddedPoints, Plan, Turn};
 
-use super::path::{Job, Path};
+use super::instruction_set::InstructionSet;
 use super::planar::stays_upright;
 use super::rings::{Source, Stretch, Walk};
 use super::runs::take;
-use super::spline::Places;
+use super::simd::{Integers, Job, LANES_MAX, Simd};
+use super::spline::Seats;
 use super::turns::Steps;
-use super::vector::{LANES_MAX, Vector};
 use crate::engine::resize;
 use crate::rolls::Rolls;
 
@@ -20,7 +20,7 @@ const RUN_BLOCKS: u32 = 64;
 const RUN_RINGS: u32 = RUN_BLOCKS * BLOCK_RINGS;
 
 pub(super) fn scan(
-    path: Path,
+    set: InstructionSet,
     plan: &Plan,
     points: &PaddedPoints,
     rolls: &mut Rolls,
@@ -29,9 +29,9 @@ pub(super) fn scan(
     resize("rolls", at_block, plan.block_count())?;
     // A vector may reach past the last ring.
     resize("rolls", in_block, plan.counts().rings + LANES_MAX as u64)?;
-    let places = Places::new(plan);
-    let source = Source { plan, points, places: &places };
-    runs(plan, at_block, in_block).into_par_iter().for_each(|run| path.run(ScanRun { source, run }));
+    let seats = Seats::at_each_place(plan);
+    let source = Source { plan, points, seats: &seats };
+    runs(plan, at_block, in_block).into_par_iter().for_each(|run| set.run(ScanRun { source, run }));
     whole.clear();
     for bounds in plan.block_offsets().windows(2) {
         let mut roll = Turn::ZERO;
@@ -76,7 +76,7 @@ struct ScanRun<'a> {
 
 impl Job for ScanRun<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn run<V: Vector>(self) {
+    fn run<S: Simd>(self, simd: S) {
         let Self { source, run: Run { yarn, first_ring, mut blocks, mut rings } } = self;
         let of_yarn = source.plan.rings(yarn);
         let (frame, twist) = (source.plan.settings().frame, source.plan.twist_turns(yarn));
@@ -89,7 +89,7 @@ impl Job for ScanRun<'_> {
         for (number, upright) in upright.iter_mut().enumerate().take(blocks.len()) {
             let first = first_ring + number as u32 * BLOCK_RINGS;
             *upright = frame.is_level(twist)
-                || (twist == 0.0 && stays_upright::<V>(&source, stretch(first, BLOCK_RINGS)));
+                || (twist == 0.0 && stays_upright(simd, &source, stretch(first, BLOCK_RINGS)));
         }
         for alike in upright[..blocks.len()].chunk_by(|a, b| a == b) {
             let blocks = take(&mut blocks, alike.len());
@@ -99,7 +99,7 @@ impl Job for ScanRun<'_> {
                 blocks.fill(Turn::ZERO);
                 rings.fill(Turn::ZERO);
             } else {
-                sums::<V>(source, stretch(first, count as u32), blocks, rings);
+                sums(simd, source, stretch(first, count as u32), blocks, rings);
             }
             first += count as u32;
         }
@@ -108,22 +108,22 @@ impl Job for ScanRun<'_> {
 
 /// Adds up the steps between the rings of `stretch`: `rings`, and perhaps the one after them.
 #[cfg_attr(optimized, inline(always))]
-fn sums<V: Vector>(source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], rings: &mut [Turn]) {
-    let mut walk = Walk::<V>::new(source, stretch);
-    let mut steps = Steps::<V>::new(&source, stretch.yarn);
+fn sums<S: Simd>(simd: S, source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], rings: &mut [Turn]) {
+    let mut walk = Walk::new(simd, source, stretch);
+    let mut steps = Steps::new(simd, &source, stretch.yarn);
     for (number, rings) in rings.chunks_mut(BLOCK_RINGS as usize).enumerate() {
-        let mut sum = V::splat_whole(0);
-        for (group, rings) in rings.chunks_mut(V::LANES).enumerate() {
+        let mut sum = simd.splat_integer(0);
+        for (group, rings) in rings.chunks_mut(S::LANES).enumerate() {
             let mut own = steps.next(&walk.next());
             if group == 0 {
                 if let Some(before) = number.checked_sub(1) {
-                    blocks[before] = blocks[before] + Turn(V::first(own));
+                    blocks[before] = blocks[before] + Turn(own.first());
                 }
-                own = V::without_first(own);
+                own = own.without_first();
             }
             let mut sums = [0; LANES_MAX];
-            sum = V::add_whole(V::splat_last(sum), V::running_sum(own));
-            V::store_whole(sum, &mut sums);
+            sum = sum.splat_last() + own.running_sum();
+            sum.store(&mut sums);
             rings.copy_from_slice(&bytemuck::cast_slice(&sums)[..rings.len()]);
         }
         blocks[number] = rings.last().copied().unwrap_or_default();
@@ -131,7 +131,7 @@ fn sums<V: Vector>(source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], ri
     if walk.left() > 0 {
         let own = steps.next(&walk.next());
         if let Some(last) = blocks.last_mut() {
-            *last = *last + Turn(V::first(own));
+            *last = *last + Turn(own.first());
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use texere_core::{NO_LENGTH, Plan, RADIUS_FLOOR, ZERO_VELOCITY};
 
-use super::vector::{LANES_MAX, Vector, dot};
+use super::simd::{Floats, LANES_MAX, Simd, dot};
 
 /// Where on their cubics a vector of consecutive rings lies: each one's interval, counted from the first one's, and its
 /// parameter.
@@ -12,55 +12,52 @@ pub(super) struct Seats {
     pub(super) t: [f32; LANES_MAX],
 }
 
-/// The seats for each place in an interval at which a vector's first ring can lie.
-#[derive(Debug)]
-pub(crate) struct Places(pub(super) Vec<Seats>);
-
-impl Places {
-    pub(crate) fn new(plan: &Plan) -> Self {
+impl Seats {
+    /// Those for each place in an interval at which a vector's first ring can lie.
+    pub(super) fn at_each_place(plan: &Plan) -> Vec<Self> {
         let (per_interval, step) = (plan.settings().subdivisions + 1, plan.sampling().step());
-        let seats = |place: u32| Seats {
+        let seats = |place: u32| Self {
             interval: std::array::from_fn(|lane| (place + lane as u32) / per_interval),
             t: std::array::from_fn(|lane| ((place + lane as u32) % per_interval) as f32 * step),
         };
-        Self((0..per_interval).map(seats).collect())
+        (0..per_interval).map(seats).collect()
     }
 }
 
 /// The coefficients of `Segment` in the core, an interval in each lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cubics<V> {
+pub(super) struct Cubics<S: Simd> {
     /// Position and radius at t = 0.
-    start: [V; 4],
+    start: [S::Floats; 4],
     /// Position at t = 1, relative to the start.
-    span: [V; 3],
+    span: [S::Floats; 3],
     /// What goes with t, t² and t³.
-    terms: [[V; 4]; 3],
+    terms: [[S::Floats; 4]; 3],
     /// A squared velocity that counts as none.
-    at_rest: V,
+    at_rest: S::Floats,
     /// The least radius.
-    floor: V,
+    floor: S::Floats,
 }
 
 /// The cubics of rings, a ring in each lane, at its own parameter.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sampled<V> {
-    pub(super) start: [V; 4],
+pub(super) struct Sampled<S: Simd> {
+    pub(super) start: [S::Floats; 4],
     /// From the start, and the derivative there: position and radius.
-    pub(super) offset: [V; 4],
-    pub(super) velocity: [V; 4],
-    pub(super) span: [V; 3],
-    pub(super) at_rest: V,
-    pub(super) floor: V,
+    pub(super) offset: [S::Floats; 4],
+    pub(super) velocity: [S::Floats; 4],
+    pub(super) span: [S::Floats; 3],
+    pub(super) at_rest: S::Floats,
+    pub(super) floor: S::Floats,
 }
 
-impl<V: Vector> Cubics<V> {
+impl<S: Simd> Cubics<S> {
     /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn new(points: &[[f32; 4]], first: usize, s: f32) -> Self {
-        let [before, start, end, after] = neighbours::<V>(points, first);
-        let (doubled, rest, less) = (V::splat(2.0 * s), V::splat(3.0 - 2.0 * s), V::splat(s - 2.0));
-        let (s, zero) = (V::splat(s), V::splat(0.0));
+    pub(super) fn new(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> Self {
+        let [before, start, end, after] = neighbours(simd, points, first);
+        let (doubled, rest, less) = (simd.splat(2.0 * s), simd.splat(3.0 - 2.0 * s), simd.splat(s - 2.0));
+        let (s, zero) = (simd.splat(s), simd.splat(0.0));
         let (mut a, mut b, mut c) = ([zero; 4], [zero; 4], [zero; 4]);
         let mut terms = [[zero; 4]; 3];
         for k in 0..4 {
@@ -76,54 +73,55 @@ impl<V: Vector> Cubics<V> {
             start,
             span: b,
             terms,
-            at_rest: (V::splat(ZERO_VELOCITY) * (dot(a, a) + dot(b, b) + dot(c, c))).max(V::splat(NO_LENGTH)),
-            floor: radii * V::splat(RADIUS_FLOOR),
+            at_rest: (simd.splat(ZERO_VELOCITY) * (dot(a, a) + dot(b, b) + dot(c, c)))
+                .max(simd.splat(NO_LENGTH)),
+            floor: radii * simd.splat(RADIUS_FLOOR),
         }
     }
 
     /// The spline at `t` of each lane's interval, which is number `interval` of these.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn sample(&self, interval: V::Whole, t: V) -> Sampled<V> {
-        let zero = V::splat(0.0);
-        let thrice = V::splat(3.0) * t;
+    pub(super) fn sample(&self, simd: S, interval: S::Integers, t: S::Floats) -> Sampled<S> {
+        let zero = simd.splat(0.0);
+        let thrice = simd.splat(3.0) * t;
         let (mut start, mut offset, mut velocity) = ([zero; 4], [zero; 4], [zero; 4]);
         for k in 0..4 {
-            let c1 = V::pick(self.terms[0][k], interval);
-            let c2 = V::pick(self.terms[1][k], interval);
-            let c3 = V::pick(self.terms[2][k], interval);
-            start[k] = V::pick(self.start[k], interval);
+            let c1 = self.terms[0][k].permute(interval);
+            let c2 = self.terms[1][k].permute(interval);
+            let c3 = self.terms[2][k].permute(interval);
+            start[k] = self.start[k].permute(interval);
             offset[k] = (c1 + (c2 + c3 * t) * t) * t;
-            velocity[k] = c1 + (c2 * V::splat(2.0) + c3 * thrice) * t;
+            velocity[k] = c1 + (c2 * simd.splat(2.0) + c3 * thrice) * t;
         }
         let [x, y, z] = self.span;
-        let span = [V::pick(x, interval), V::pick(y, interval), V::pick(z, interval)];
-        let (at_rest, floor) = (V::pick(self.at_rest, interval), V::pick(self.floor, interval));
+        let span = [x.permute(interval), y.permute(interval), z.permute(interval)];
+        let (at_rest, floor) = (self.at_rest.permute(interval), self.floor.permute(interval));
         Sampled { start, offset, velocity, span, at_rest, floor }
     }
 }
 
 /// The first three components.
 #[cfg_attr(optimized, inline(always))]
-pub(super) fn xyz<V: Vector>([x, y, z, _]: [V; 4]) -> [V; 3] {
+pub(super) fn xyz<F: Floats>([x, y, z, _]: [F; 4]) -> [F; 3] {
     [x, y, z]
 }
 
 /// The points from number `first` on, one in each lane, and those from the next three numbers on.
 #[cfg_attr(optimized, inline(always))]
-pub(super) fn neighbours<V: Vector>(points: &[[f32; 4]], first: usize) -> [[V; 4]; 4] {
+pub(super) fn neighbours<S: Simd>(simd: S, points: &[[f32; 4]], first: usize) -> [[S::Floats; 4]; 4] {
     let last;
-    let window = match points.get(first..first + V::LANES + 3) {
+    let window = match points.get(first..first + S::LANES + 3) {
         Some(window) => window,
         None => {
             last = last_points(points, first);
-            &last[..V::LANES + 3]
+            &last[..S::LANES + 3]
         }
     };
     [
-        V::components(window),
-        V::components(&window[1..]),
-        V::components(&window[2..]),
-        V::components(&window[3..]),
+        simd.components(window),
+        simd.components(&window[1..]),
+        simd.components(&window[2..]),
+        simd.components(&window[3..]),
     ]
 }
 

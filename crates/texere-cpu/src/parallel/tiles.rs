@@ -8,7 +8,7 @@
 
 use super::lines::Lines;
 use super::runs::take;
-use super::vector::{LANES_MAX, LINE, Line, Vector};
+use super::simd::{Floats, LANES_MAX, LINE, Line, Simd};
 
 /// Floats of a quarter of a line.
 const QUARTER: usize = 4;
@@ -53,41 +53,41 @@ impl<'a> TileLines<'a> {
 
     /// Where the columns of the next rings go.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn next<V: Vector>(&mut self) -> &mut [f32] {
-        &mut self.columns[BEFORE * V::LANES..]
+    pub(super) fn next<S: Simd>(&mut self, _simd: S) -> &mut [f32] {
+        &mut self.columns[BEFORE * S::LANES..]
     }
 
     /// Sends the lines of `count` rings whose columns have been written.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn send<V: Vector>(&mut self, count: usize) {
-        let (before, here) = self.columns.split_at_mut(BEFORE * V::LANES);
-        let last = &here[(4 * self.quarters - BEFORE) * V::LANES..][..BEFORE * V::LANES];
-        for (before, last) in before.chunks_exact_mut(V::LANES).zip(last.chunks_exact(V::LANES)) {
+    pub(super) fn send<S: Simd>(&mut self, simd: S, count: usize) {
+        let (before, here) = self.columns.split_at_mut(BEFORE * S::LANES);
+        let last = &here[(4 * self.quarters - BEFORE) * S::LANES..][..BEFORE * S::LANES];
+        for (before, last) in before.chunks_exact_mut(S::LANES).zip(last.chunks_exact(S::LANES)) {
             // What comes before ring 0 is of the rings before; what comes before ring 4 is of ring 3.
-            V::preceding_four(V::load(before), V::load(last)).store(before);
+            simd.load(last).shift_in_four(simd.load(before)).store(before);
         }
 
-        if self.starts || count < V::LANES {
-            self.send_edge::<V>(count);
+        if self.starts || count < S::LANES {
+            self.send_edge(simd, count);
         } else {
-            let lines = take(&mut self.out.lines, self.quarters * V::LANES / QUARTER);
-            let columns = &self.columns[(BEFORE - self.shift) * V::LANES..];
-            V::arrange::<true>(columns, lines);
+            let lines = take(&mut self.out.lines, self.quarters * S::LANES / QUARTER);
+            let columns = &self.columns[(BEFORE - self.shift) * S::LANES..];
+            simd.arrange::<true>(columns, lines);
         }
 
-        let (before, here) = self.columns.split_at_mut(BEFORE * V::LANES);
-        let last = &here[(4 * self.quarters - BEFORE) * V::LANES..][..BEFORE * V::LANES];
-        for (before, last) in before.chunks_exact_mut(V::LANES).zip(last.chunks_exact(V::LANES)) {
-            V::load(last).store(before);
+        let (before, here) = self.columns.split_at_mut(BEFORE * S::LANES);
+        let last = &here[(4 * self.quarters - BEFORE) * S::LANES..][..BEFORE * S::LANES];
+        for (before, last) in before.chunks_exact_mut(S::LANES).zip(last.chunks_exact(S::LANES)) {
+            simd.load(last).store(before);
         }
     }
 
     /// The same for the first rings, and for the last ones where they are no full vector.
     #[cfg_attr(optimized, inline(always))]
-    fn send_edge<V: Vector>(&mut self, count: usize) {
-        let lines = self.quarters * V::LANES / QUARTER;
-        let columns = &self.columns[(BEFORE - self.shift) * V::LANES..];
-        V::arrange::<false>(columns, &mut self.edge[..lines]);
+    fn send_edge<S: Simd>(&mut self, simd: S, count: usize) {
+        let lines = self.quarters * S::LANES / QUARTER;
+        let columns = &self.columns[(BEFORE - self.shift) * S::LANES..];
+        simd.arrange::<false>(columns, &mut self.edge[..lines]);
         let mut floats: &[f32] = bytemuck::cast_slice(&self.edge[..lines]);
         // What fills no line is sent with the rings that follow, if any do.
         let mut left = (self.shift + count * self.quarters) * QUARTER;
@@ -101,7 +101,7 @@ impl<'a> TileLines<'a> {
         let (whole, rest) = floats[..left.min(floats.len())].as_chunks::<LINE>();
         let to = take(&mut self.out.lines, whole.len());
         for (to, from) in to.iter_mut().zip(whole) {
-            V::stream(from, to);
+            simd.stream(from, to);
         }
         if !rest.is_empty() {
             std::mem::take(&mut self.out.tail).copy_from_slice(rest);
@@ -110,12 +110,12 @@ impl<'a> TileLines<'a> {
 
     /// Sends the rest.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn finish<V: Vector>(self) {
+    pub(super) fn finish<S: Simd>(self, _simd: S) {
         // The last lanes of the last columns, unless less than a vector came last.
-        let last = &self.columns[(BEFORE - self.shift) * V::LANES..BEFORE * V::LANES];
+        let last = &self.columns[(BEFORE - self.shift) * S::LANES..BEFORE * S::LANES];
         let (tail, _) = self.out.tail.as_chunks_mut::<QUARTER>();
-        for (to, from) in tail.iter_mut().zip(last.chunks_exact(V::LANES)) {
-            to.copy_from_slice(&from[V::LANES - QUARTER..]);
+        for (to, from) in tail.iter_mut().zip(last.chunks_exact(S::LANES)) {
+            to.copy_from_slice(&from[S::LANES - QUARTER..]);
         }
     }
 }

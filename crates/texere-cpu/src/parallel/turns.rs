@@ -3,42 +3,44 @@
 use texere_core::{ARCTANGENT, COSINE, Frame, NO_LENGTH, NO_MIRROR, Plan, SINE, TAN_EIGHTH, Turn};
 
 use super::rings::{Rings, Source};
-use super::vector::{LANES_MAX, Vector, difference, dot, plus, scale, select};
+use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
 use crate::rolls::Rolls;
 
 /// The steps along upright rings.
 #[derive(Debug)]
-pub(super) struct Steps<V> {
+pub(super) struct Steps<S: Simd> {
+    simd: S,
     minimizing: bool,
     /// Turns per mm; none where it is zero.
-    twist: Option<V>,
+    twist: Option<S::Floats>,
     /// The vector of rings before the present one, if there is one.
-    before: Option<Traces<V>>,
+    before: Option<Traces<S>>,
 }
 
 /// What a step needs of the ring where it begins.
 #[derive(Debug, Clone, Copy)]
-struct Traces<V> {
-    offset: [V; 3],
-    span: [V; 3],
-    tangent: [V; 3],
-    side: [V; 3],
+struct Traces<S: Simd> {
+    offset: [S::Floats; 3],
+    span: [S::Floats; 3],
+    tangent: [S::Floats; 3],
+    side: [S::Floats; 3],
 }
 
-impl<V: Vector> Steps<V> {
+impl<S: Simd> Steps<S> {
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn new(source: &Source<'_>, yarn: usize) -> Self {
+    pub(super) fn new(simd: S, source: &Source<'_>, yarn: usize) -> Self {
         let twist = source.plan.twist_turns(yarn);
         Self {
+            simd,
             minimizing: source.plan.settings().frame == Frame::RotationMinimizing,
-            twist: (twist != 0.0).then(|| V::splat(twist)),
+            twist: (twist != 0.0).then(|| simd.splat(twist)),
             before: None,
         }
     }
 
     /// The step to each of the next rings from the one before it. That to the very first means nothing.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn next(&mut self, rings: &Rings<V>) -> V::Whole {
+    pub(super) fn next(&mut self, rings: &Rings<S>) -> S::Integers {
         let here =
             Traces { offset: rings.offset, span: rings.span, tangent: rings.tangent, side: rings.side };
         let before = self.before.replace(here).unwrap_or(here);
@@ -46,27 +48,31 @@ impl<V: Vector> Steps<V> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn between(&self, before: &Traces<V>, rings: &Rings<V>) -> V::Whole {
+    fn between(&self, before: &Traces<S>, rings: &Rings<S>) -> S::Integers {
+        let simd = self.simd;
         let offset = preceding(before.offset, rings.offset);
         let span = preceding(before.span, rings.span);
         // The last ring of an interval is followed by the start of the next one.
         let chord = difference(select(rings.t.is_zero(), span, rings.offset), offset);
         let length_squared = dot(chord, chord);
-        let turn =
-            if self.minimizing { transport(before, rings, chord, length_squared) } else { V::splat(0.0) };
+        let turn = if self.minimizing {
+            transport(simd, before, rings, chord, length_squared)
+        } else {
+            simd.splat(0.0)
+        };
         match self.twist {
-            Some(twist) => from_turns(turn + twist * length_squared.sqrt()),
-            None => from_turns(turn),
+            Some(twist) => from_turns(simd, turn + twist * length_squared.sqrt()),
+            None => from_turns(simd, turn),
         }
     }
 }
 
-impl<V: Vector> Rings<V> {
+impl<S: Simd> Rings<S> {
     /// These rings with their bases turned by `roll`.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn turned(&self, roll: V::Whole) -> Self {
-        let (sin, cos) = sin_cos::<V>(roll);
-        let level = V::from_signed(roll).is_zero();
+    pub(super) fn turned(&self, simd: S, roll: S::Integers) -> Self {
+        let (sin, cos) = sin_cos(simd, roll);
+        let level = roll.signed_to_floats().is_zero();
         let (side, up) = (self.side, self.up);
         Self {
             side: select(level, side, plus(scale(side, cos), scale(up, sin))),
@@ -78,93 +84,111 @@ impl<V: Vector> Rings<V> {
 
 /// Rolls of a vector of rings of `yarn`, from ring `first` in block `block` on.
 #[cfg_attr(optimized, inline(always))]
-pub(super) fn rolls<V: Vector>(plan: &Plan, rolls: &Rolls, yarn: usize, first: u32, block: u64) -> V::Whole {
+pub(super) fn rolls<S: Simd>(
+    simd: S,
+    plan: &Plan,
+    rolls: &Rolls,
+    yarn: usize,
+    first: u32,
+    block: u64,
+) -> S::Integers {
     let place = (plan.ring_offsets()[yarn] + u64::from(first)) as usize;
-    let in_block = V::load_whole(bytemuck::cast_slice(&rolls.in_block[place..]));
-    let sums = V::add_whole(V::splat_whole(rolls.at_block(block).0), in_block);
+    let in_block = simd.load_integers(bytemuck::cast_slice(&rolls.in_block[place..]));
+    let sums = simd.splat_integer(rolls.at_block(block).0) + in_block;
     if !plan.yarn(yarn).closed {
         return sums;
     }
     let mut lanes = [0; LANES_MAX];
-    V::store_whole(sums, &mut lanes);
+    sums.store(&mut lanes);
     for (roll, ring) in lanes.iter_mut().zip(first..plan.rings(yarn)) {
         *roll = rolls.closed_up(plan, yarn, ring, Turn(*roll)).0;
     }
-    V::load_whole(&lanes)
+    simd.load_integers(&lanes)
 }
 
 /// The vectors of the rings before `here`, the first of which is the last one in `before`.
 #[cfg_attr(optimized, inline(always))]
-fn preceding<V: Vector>(before: [V; 3], here: [V; 3]) -> [V; 3] {
-    [V::preceding(before[0], here[0]), V::preceding(before[1], here[1]), V::preceding(before[2], here[2])]
+fn preceding<F: Floats>(before: [F; 3], here: [F; 3]) -> [F; 3] {
+    [here[0].shift_in(before[0]), here[1].shift_in(before[1]), here[2].shift_in(before[2])]
 }
 
 /// Double reflection from the rings before to `rings`, in turns.
 #[cfg_attr(optimized, inline(always))]
-fn transport<V: Vector>(before: &Traces<V>, rings: &Rings<V>, chord: [V; 3], length_squared: V) -> V {
+fn transport<S: Simd>(
+    simd: S,
+    before: &Traces<S>,
+    rings: &Rings<S>,
+    chord: [S::Floats; 3],
+    length_squared: S::Floats,
+) -> S::Floats {
     let tangent = preceding(before.tangent, rings.tangent);
-    let apart = V::less(V::splat(NO_LENGTH), length_squared);
+    let apart = simd.splat(NO_LENGTH).less(length_squared);
     let mirror = select(apart, chord, tangent);
-    let mirror_squared = V::select(apart, length_squared, V::splat(1.0));
-    let side = reflect(preceding(before.side, rings.side), mirror, mirror_squared);
-    let second = difference(rings.tangent, reflect(tangent, mirror, mirror_squared));
+    let mirror_squared = apart.select(length_squared, simd.splat(1.0));
+    let side = reflect(simd, preceding(before.side, rings.side), mirror, mirror_squared);
+    let second = difference(rings.tangent, reflect(simd, tangent, mirror, mirror_squared));
     let second_squared = dot(second, second);
-    let bends = V::less(V::splat(NO_MIRROR), second_squared);
-    let side = select(bends, reflect(side, second, second_squared), side);
-    atan2_turns(dot(side, rings.up), dot(side, rings.side))
+    let bends = simd.splat(NO_MIRROR).less(second_squared);
+    let side = select(bends, reflect(simd, side, second, second_squared), side);
+    atan2_turns(simd, dot(side, rings.up), dot(side, rings.side))
 }
 
 /// `v` mirrored in the plane at right angles to `mirror`.
 #[cfg_attr(optimized, inline(always))]
-fn reflect<V: Vector>(v: [V; 3], mirror: [V; 3], mirror_squared: V) -> [V; 3] {
-    let share = V::splat(2.0) * dot(v, mirror) / mirror_squared;
+fn reflect<S: Simd>(
+    simd: S,
+    v: [S::Floats; 3],
+    mirror: [S::Floats; 3],
+    mirror_squared: S::Floats,
+) -> [S::Floats; 3] {
+    let share = simd.splat(2.0) * dot(v, mirror) / mirror_squared;
     difference(v, scale(mirror, share))
 }
 
 /// `Turn::from_turns`
 #[cfg_attr(optimized, inline(always))]
-fn from_turns<V: Vector>(turns: V) -> V::Whole {
-    let half = V::splat(0.5);
-    let wrapped = (turns - (turns + half).floor()).max(half.negate());
-    (wrapped * V::splat(Turn::STEPS) + half).floor().to_signed()
+fn from_turns<S: Simd>(simd: S, turns: S::Floats) -> S::Integers {
+    let half = simd.splat(0.5);
+    let wrapped = (turns - (turns + half).floor()).max(-half);
+    (wrapped * simd.splat(Turn::STEPS) + half).floor().to_signed()
 }
 
 /// `Turn::sin_cos`
 #[cfg_attr(optimized, inline(always))]
-fn sin_cos<V: Vector>(turn: V::Whole) -> (V, V) {
-    let quarter = V::shift_right::<30>(V::add_whole(turn, V::splat_whole(1 << 29)));
-    let rest = V::sub_whole(turn, V::shift_left::<30>(quarter));
-    let x = V::from_signed(rest) * V::splat(Turn::RADIANS_PER_STEP);
+fn sin_cos<S: Simd>(simd: S, turn: S::Integers) -> (S::Floats, S::Floats) {
+    let quarter = (turn + simd.splat_integer(1 << 29)).shift_right::<30>();
+    let rest = turn - quarter.shift_left::<30>();
+    let x = rest.signed_to_floats() * simd.splat(Turn::RADIANS_PER_STEP);
     let z = x * x;
     let ([s1, s2, s3], [c1, c2, c3]) = (SINE, COSINE);
-    let (s1, s2, s3) = (V::splat(s1), V::splat(s2), V::splat(s3));
-    let (c1, c2, c3) = (V::splat(c1), V::splat(c2), V::splat(c3));
+    let (s1, s2, s3) = (simd.splat(s1), simd.splat(s2), simd.splat(s3));
+    let (c1, c2, c3) = (simd.splat(c1), simd.splat(c2), simd.splat(c3));
     let sin = ((s3 * z + s2) * z + s1) * z * x + x;
-    let cos = ((c3 * z + c2) * z + c1) * z * z - V::splat(0.5) * z + V::splat(1.0);
-    let odd = V::has_bit(quarter, 1);
-    let (sin, cos) = (V::select(odd, cos, sin), V::select(odd, sin, cos));
-    let below = V::has_bit(quarter, 2);
-    let left = V::has_bit(V::add_whole(quarter, V::splat_whole(1)), 2);
-    (V::select(below, sin.negate(), sin), V::select(left, cos.negate(), cos))
+    let cos = ((c3 * z + c2) * z + c1) * z * z - simd.splat(0.5) * z + simd.splat(1.0);
+    let odd = quarter.has_bit(1);
+    let (sin, cos) = (odd.select(cos, sin), odd.select(sin, cos));
+    let below = quarter.has_bit(2);
+    let left = (quarter + simd.splat_integer(1)).has_bit(2);
+    (below.select(-sin, sin), left.select(-cos, cos))
 }
 
 /// `atan2_turns` of the core
 #[cfg_attr(optimized, inline(always))]
-fn atan2_turns<V: Vector>(y: V, x: V) -> V {
+fn atan2_turns<S: Simd>(simd: S, y: S::Floats, x: S::Floats) -> S::Floats {
     let (along, across) = (x.abs(), y.abs());
-    let steep = V::less(along, across);
-    let (low, high) = (V::select(steep, along, across), V::select(steep, across, along));
-    let beyond = V::less(V::splat(TAN_EIGHTH) * high, low);
-    let numerator = V::select(beyond, low - high, low);
-    let denominator = V::select(beyond, low + high, high);
-    let eighth = V::select(beyond, V::splat(0.125), V::splat(0.0));
+    let steep = along.less(across);
+    let (low, high) = (steep.select(along, across), steep.select(across, along));
+    let beyond = (simd.splat(TAN_EIGHTH) * high).less(low);
+    let numerator = beyond.select(low - high, low);
+    let denominator = beyond.select(low + high, high);
+    let eighth = beyond.select(simd.splat(0.125), simd.splat(0.0));
     let q = numerator / denominator;
     let z = q * q;
     let [a1, a3, a5, a7, a9] = ARCTANGENT;
-    let series = ((V::splat(a9) * z + V::splat(a7)) * z + V::splat(a5)) * z + V::splat(a3);
-    let octant = eighth + (series * z * q + V::splat(a1) * q);
-    let quadrant = V::select(steep, V::splat(0.25) - octant, octant);
-    let half = V::select(V::less(x, V::splat(0.0)), V::splat(0.5) - quadrant, quadrant);
-    let signed = V::select(V::less(y, V::splat(0.0)), half.negate(), half);
-    V::select(high.is_zero(), V::splat(0.0), signed)
+    let series = ((simd.splat(a9) * z + simd.splat(a7)) * z + simd.splat(a5)) * z + simd.splat(a3);
+    let octant = eighth + (series * z * q + simd.splat(a1) * q);
+    let quadrant = steep.select(simd.splat(0.25) - octant, octant);
+    let half = x.less(simd.splat(0.0)).select(simd.splat(0.5) - quadrant, quadrant);
+    let signed = y.less(simd.splat(0.0)).select(-half, half);
+    high.is_zero().select(simd.splat(0.0), signed)
 }

@@ -3,7 +3,7 @@
 use texere_core::SectionPoint;
 
 use super::rings::Rings;
-use super::vector::Vector;
+use super::simd::{Floats, Mask, Simd};
 
 /// Floats of a vertex: position and normal.
 pub(super) const VERTEX: usize = 6;
@@ -28,16 +28,16 @@ impl<'a> Surface<'a> {
     /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as the `COLUMNS` that
     /// [`TileLines`](super::tiles::TileLines) wants.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn write<V: Vector, const COLUMNS: bool>(&self, rings: &Rings<V>, out: &mut [f32]) {
-        if V::bits(rings.slope.is_zero()) != V::ALL {
-            vertices::<V, SLOPED, COLUMNS>(rings, self.outline, out);
+    pub(super) fn write<S: Simd, const COLUMNS: bool>(&self, simd: S, rings: &Rings<S>, out: &mut [f32]) {
+        if rings.slope.is_zero().bits() != S::ALL {
+            vertices::<S, SLOPED, COLUMNS>(simd, rings, self.outline, out);
         } else if !self.round {
-            vertices::<V, PLAIN, COLUMNS>(rings, self.outline, out);
+            vertices::<S, PLAIN, COLUMNS>(simd, rings, self.outline, out);
         } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
             // The paper's tube has loops and strides known beforehand.
-            vertices::<V, ROUND, COLUMNS>(rings, outline, out);
+            vertices::<S, ROUND, COLUMNS>(simd, rings, outline, out);
         } else {
-            vertices::<V, ROUND, COLUMNS>(rings, self.outline, out);
+            vertices::<S, ROUND, COLUMNS>(simd, rings, self.outline, out);
         }
     }
 }
@@ -50,31 +50,32 @@ const PLAIN: u8 = 1;
 const ROUND: u8 = 2;
 
 #[cfg_attr(optimized, inline(always))]
-fn vertices<V: Vector, const KIND: u8, const COLUMNS: bool>(
-    rings: &Rings<V>,
+fn vertices<S: Simd, const KIND: u8, const COLUMNS: bool>(
+    simd: S,
+    rings: &Rings<S>,
     outline: &[SectionPoint],
     out: &mut [f32],
 ) {
     if COLUMNS {
-        columns::<V, KIND>(rings, outline, out);
+        columns::<S, KIND>(simd, rings, outline, out);
     } else {
-        scattered::<V, KIND>(rings, outline, out);
+        scattered::<S, KIND>(simd, rings, outline, out);
     }
 }
 
 /// All vertices of `rings` in columns. A column has the same four floats of every fourth ring; first come those of ring 0,
 /// from its first floats to its last, then those of ring 1.
 #[cfg_attr(optimized, inline(always))]
-fn columns<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
+fn columns<S: Simd, const KIND: u8>(simd: S, rings: &Rings<S>, outline: &[SectionPoint], out: &mut [f32]) {
     let (pairs, _) = outline.as_chunks::<2>();
     let quarters = 3 * pairs.len();
-    let out = &mut out[..4 * quarters * V::LANES];
+    let out = &mut out[..4 * quarters * S::LANES];
     for (number, [one, two]) in pairs.iter().enumerate() {
-        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, one);
-        let [g, h, i, j, k, l] = vertex::<V, KIND>(rings, two);
+        let [a, b, c, d, e, f] = vertex::<S, KIND>(simd, rings, one);
+        let [g, h, i, j, k, l] = vertex::<S, KIND>(simd, rings, two);
         for (part, rows) in [[a, b, c, d], [e, f, g, h], [i, j, k, l]].into_iter().enumerate() {
-            for (ring, column) in V::tiles(rows).into_iter().enumerate() {
-                column.store(&mut out[(ring * quarters + 3 * number + part) * V::LANES..]);
+            for (ring, column) in simd.tiles(rows).into_iter().enumerate() {
+                column.store(&mut out[(ring * quarters + 3 * number + part) * S::LANES..]);
             }
         }
     }
@@ -83,48 +84,48 @@ fn columns<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint]
 /// All vertices of `rings`, the last ones first: a store that reaches over the end of its ring is then followed by the next
 /// ring's own.
 #[cfg_attr(optimized, inline(always))]
-fn scattered<V: Vector, const KIND: u8>(rings: &Rings<V>, outline: &[SectionPoint], out: &mut [f32]) {
+fn scattered<S: Simd, const KIND: u8>(simd: S, rings: &Rings<S>, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;
-    let out = &mut out[..V::LANES * stride + OVERHANG];
+    let out = &mut out[..S::LANES * stride + OVERHANG];
     let (fours, rest) = outline.as_chunks::<4>();
     let (twos, last) = rest.as_chunks::<2>();
     if let [point] = last {
         let out = &mut out[(outline.len() - 1) * VERTEX..];
-        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, point);
-        let zero = V::splat(0.0);
-        V::scatter_eight([a, b, c, d, e, f, zero, zero], out, stride);
+        let [a, b, c, d, e, f] = vertex::<S, KIND>(simd, rings, point);
+        let zero = simd.splat(0.0);
+        simd.scatter_eight([a, b, c, d, e, f, zero, zero], out, stride);
     }
     if let [[one, two]] = twos {
         let out = &mut out[fours.len() * 4 * VERTEX..];
-        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, one);
-        let [g, h, i, j, k, l] = vertex::<V, KIND>(rings, two);
-        V::scatter_eight([a, b, c, d, e, f, g, h], out, stride);
-        V::scatter([i, j, k, l], &mut out[8..], stride);
+        let [a, b, c, d, e, f] = vertex::<S, KIND>(simd, rings, one);
+        let [g, h, i, j, k, l] = vertex::<S, KIND>(simd, rings, two);
+        simd.scatter_eight([a, b, c, d, e, f, g, h], out, stride);
+        simd.scatter([i, j, k, l], &mut out[8..], stride);
     }
     for (number, [one, two, three, four]) in fours.iter().enumerate().rev() {
         let out = &mut out[number * 4 * VERTEX..];
-        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, one);
-        let [g, h, i, j, k, l] = vertex::<V, KIND>(rings, two);
-        V::scatter_eight([a, b, c, d, e, f, g, h], out, stride);
-        let [a, b, c, d, e, f] = vertex::<V, KIND>(rings, three);
-        V::scatter_eight([i, j, k, l, a, b, c, d], &mut out[8..], stride);
-        let [g, h, i, j, k, l] = vertex::<V, KIND>(rings, four);
-        V::scatter_eight([e, f, g, h, i, j, k, l], &mut out[16..], stride);
+        let [a, b, c, d, e, f] = vertex::<S, KIND>(simd, rings, one);
+        let [g, h, i, j, k, l] = vertex::<S, KIND>(simd, rings, two);
+        simd.scatter_eight([a, b, c, d, e, f, g, h], out, stride);
+        let [a, b, c, d, e, f] = vertex::<S, KIND>(simd, rings, three);
+        simd.scatter_eight([i, j, k, l, a, b, c, d], &mut out[8..], stride);
+        let [g, h, i, j, k, l] = vertex::<S, KIND>(simd, rings, four);
+        simd.scatter_eight([e, f, g, h, i, j, k, l], &mut out[16..], stride);
     }
 }
 
 /// A vertex of each of `rings`: rows of x, y, z and of the normal's, a ring in each lane.
 #[cfg_attr(optimized, inline(always))]
-fn vertex<V: Vector, const KIND: u8>(rings: &Rings<V>, point: &SectionPoint) -> [V; VERTEX] {
-    let (x, y) = (V::splat(point.x), V::splat(point.y));
-    let (normal_x, normal_y) = (V::splat(point.normal_x), V::splat(point.normal_y));
+fn vertex<S: Simd, const KIND: u8>(simd: S, rings: &Rings<S>, point: &SectionPoint) -> [S::Floats; VERTEX] {
+    let (x, y) = (simd.splat(point.x), simd.splat(point.y));
+    let (normal_x, normal_y) = (simd.splat(point.normal_x), simd.splat(point.normal_y));
     let (lean, steep) = if KIND == SLOPED {
-        let lean = rings.slope * V::splat(point.reach());
-        (lean, V::splat(1.0) / (V::splat(1.0) + lean * lean).sqrt())
+        let lean = rings.slope * simd.splat(point.reach());
+        (lean, simd.splat(1.0) / (simd.splat(1.0) + lean * lean).sqrt())
     } else {
         (rings.slope, rings.slope)
     };
-    let mut rows = [V::splat(0.0); VERTEX];
+    let mut rows = [simd.splat(0.0); VERTEX];
     for axis in 0..3 {
         let outward = rings.side[axis] * x + rings.up[axis] * y;
         rows[axis] = rings.centre[axis] + outward * rings.radius;
@@ -134,7 +135,7 @@ fn vertex<V: Vector, const KIND: u8>(rings: &Rings<V>, point: &SectionPoint) -> 
         };
         rows[3 + axis] = if KIND == SLOPED {
             let leaning = (across - rings.tangent[axis] * lean) * steep;
-            V::select(rings.slope.is_zero(), across, leaning)
+            rings.slope.is_zero().select(across, leaning)
         } else {
             across
         };

@@ -6,13 +6,13 @@ mod trajectory;
 
 use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan};
 
-use crate::engine::{ChunkRings, Stages, Work};
+use crate::engine::{ChunkRings, Executor, Work};
 use crate::rolls::Rolls;
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Serial;
 
-impl Stages for Serial {
+impl Executor for Serial {
     const FUSED: bool = false;
 
     fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {

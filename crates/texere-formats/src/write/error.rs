@@ -1,4 +1,4 @@
-//! What can go wrong while a file is written.
+//! Errors of writing files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use super::Format;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// The path ends in no extension that stands for a format. Choose one of those named.
+    /// The path has no extension of a known format.
     #[error("{} has no known extension; there are: {}", .path.display(), Format::ALL.map(Format::extension).join(", "))]
     UnknownFormat {
         /// The path.
@@ -29,7 +29,7 @@ pub enum WriteError {
         /// What the system said.
         source: io::Error,
     },
-    /// The output is a file that was to be spared, by this name or another.
+    /// The output is a file that must not be replaced, under this name or another.
     #[error("writing {} would replace {}, which must stay", .path.display(), .spared.display())]
     Spared {
         /// The file that was to be written.

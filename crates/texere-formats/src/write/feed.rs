@@ -1,4 +1,4 @@
-//! What a file is fed with: every vertex once, in order, and sound.
+//! Feeds a mesh to a format's writer, and checks that every vertex comes once, in order, and finite.
 
 use std::borrow::Borrow;
 use std::fmt::Debug;
@@ -12,7 +12,7 @@ use super::ply::PlyWriter;
 use super::target::Target;
 use super::{Format, WriteError};
 
-/// A format's way to write.
+/// A format's writer.
 pub(super) trait MeshWriter<W: Write + Seek>: Debug {
     /// Takes a chunk's vertices from number `first` on. All vertices of all chunks come in order.
     fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError>;
@@ -21,7 +21,7 @@ pub(super) trait MeshWriter<W: Write + Seek>: Debug {
     fn finish(self: Box<Self>) -> Result<Target<W>, WriteError>;
 }
 
-/// A file under way and how far it has come.
+/// A file under way, and how many of its vertices have come.
 #[derive(Debug)]
 pub(super) struct Feed<'a, W: Write + Seek> {
     writer: Box<dyn MeshWriter<W> + 'a>,

@@ -1,9 +1,9 @@
-//! Files that were made elsewhere, as they are.
+//! Bytes to a file, unchanged.
 
 use super::target::Target;
 use super::{Output, WriteError};
 
-/// Writes `bytes` as they are, as safely as any other output.
+/// Writes `bytes` unchanged, as safely as any other output: beside the target, then renamed.
 ///
 /// **Errors**: [`WriteError::Io`], [`WriteError::Spared`].
 ///

@@ -10,9 +10,9 @@
 //! What a file holds does not depend on the mesh's [`Topology`]: a plan knows its triangles, so that no index has to
 //! come from a device, and GLB keeps the index pattern that all yarns share once, which halves it.
 //!
-//! A file is written beside its target and renamed when it is whole. After an error, a cancellation or a panic nothing
-//! new is left, and an older file of that name is as it was. A program that a signal ends calls [`abandon`] first; what
-//! is left after a kill, the next write in that folder removes. An [`Output`] says which files must not be replaced.
+//! A file is written beside its target and renamed when it is complete. After an error, a cancellation or a panic nothing
+//! new is left, and an older file of that name is as it was. A program that a signal ends calls [`abandon`] first; files
+//! that a killed process left, the next write in that folder removes. An [`Output`] says which files must not be replaced.
 
 mod draft;
 mod error;
@@ -72,7 +72,7 @@ impl Format {
         }
     }
 
-    /// The format that the extension of `path` stands for, in upper or lower case.
+    /// The format of `path` by its extension, in upper or lower case.
     ///
     /// **Errors**: [`WriteError::UnknownFormat`], which names those that there are.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, WriteError> {
@@ -136,9 +136,9 @@ pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
 }
 
 /// Runs a pipeline on `device` and writes its mesh piece by piece, in the format that the extension of `output`
-/// stands for: never is more of it in memory than two chunks.
+/// stands for. At most two chunks of it are in memory.
 ///
-/// The pipeline's topology is set aside for [`Topology::Shared`], which saves the device every index.
+/// The pipeline's topology is replaced by [`Topology::Shared`], so that the device writes no index.
 ///
 /// **Errors**: those of [`mesh`], and [`WriteError::Pipeline`] where the pipeline fails or its progress asks to stop.
 ///

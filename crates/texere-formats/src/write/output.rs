@@ -1,4 +1,4 @@
-//! Where a file goes, and what it must not replace there.
+//! The target of a write, and the files that it must not replace.
 
 use std::fs::{self, Metadata, OpenOptions};
 use std::io::{self, ErrorKind};
@@ -8,7 +8,7 @@ use same_file::Handle;
 
 use super::WriteError;
 
-/// Where a file goes, and the files that it must not replace: those that the design was read from, for one.
+/// The target of a write, and the files that it must not replace, such as those that the design was read from.
 ///
 /// Any path is an output that replaces whatever file lies there. All writers take one:
 ///
@@ -48,16 +48,16 @@ impl Output {
         &self.path
     }
 
-    /// Whether a file may be put there as things are now: for a program that has much to do before it writes. Writers ask
-    /// by themselves, before they begin and again when they are done.
+    /// Checks whether a file may be put there now: for a program that has much to do before it writes. Writers check this
+    /// themselves, before they begin and again before the rename.
     ///
-    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where there is no such folder, or something that no file
-    /// takes the place of.
+    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] where there is no such folder, or where something lies that
+    /// no file may replace.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)
     }
 
-    /// The place that the path stands for, once it is known that a file may be put there.
+    /// The place that the path stands for, checked as by [`Output::check`].
     pub(super) fn place(self) -> Result<Place, WriteError> {
         let real = follow(&self.path).map_err(|source| WriteError::io("create", &self.path, source))?;
         let place = Place { output: self, real };
@@ -72,7 +72,7 @@ impl<P: AsRef<Path>> From<P> for Output {
     }
 }
 
-/// Where an output goes, all links followed.
+/// The place of an output, with all links followed.
 #[derive(Debug)]
 pub(super) struct Place {
     output: Output,
@@ -85,7 +85,7 @@ impl Place {
         &self.output.path
     }
 
-    /// What is to be replaced, if there is anything.
+    /// The file that is to be replaced, if there is one.
     ///
     /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] for what no file may take the place of.
     pub(super) fn check(&self) -> Result<Option<Metadata>, WriteError> {
@@ -111,7 +111,7 @@ impl Place {
                     return Err(WriteError::Spared { path: self.path().into(), spared: spared.clone() });
                 }
                 Ok(_) => {}
-                // What is gone can't be replaced.
+                // A file that is gone needs no sparing.
                 Err(error) if error.kind() == ErrorKind::NotFound => {}
                 Err(error) => return Err(WriteError::io("look at", spared, error)),
             }
@@ -119,13 +119,13 @@ impl Place {
         Ok(())
     }
 
-    /// Whether the open `file` must stay.
+    /// Whether the open `file` is one of those that must not be replaced.
     pub(super) fn spares(&self, file: &Handle) -> bool {
         self.output.spared.iter().any(|spared| Handle::from_path(spared).is_ok_and(|spared| spared == *file))
     }
 }
 
-/// Follows symbolic links to where a file is, or would be.
+/// Follows symbolic links to the place where a file is, or would be.
 fn follow(path: &Path) -> io::Result<PathBuf> {
     match fs::canonicalize(path) {
         Err(error) if fs::symlink_metadata(path).is_ok() => {
@@ -140,8 +140,8 @@ fn follow(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Whether what lies at a place may be replaced: a rename would also take the place of a device, or of a file that its
-/// user may not write.
+/// Whether the file at a place may be replaced. Without this check a rename would also replace a device, or a file that
+/// the user may not write.
 fn replaceable(place: &Path, old: &Metadata) -> io::Result<()> {
     if old.is_dir() {
         Err(ErrorKind::IsADirectory.into())
@@ -151,7 +151,7 @@ fn replaceable(place: &Path, old: &Metadata) -> io::Result<()> {
         // Root could write it all the same.
         Err(io::Error::new(ErrorKind::PermissionDenied, "read-only file"))
     } else {
-        // Only the system knows whether this user may write it. Nothing is changed by asking.
+        // Only the system knows whether this user may write it. Opening it changes nothing.
         OpenOptions::new().write(true).open(place).map(drop)
     }
 }

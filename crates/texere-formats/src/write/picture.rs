@@ -1,4 +1,4 @@
-//! Pictures that were drawn elsewhere, to PNG.
+//! Pixels to a PNG file.
 
 use std::io::{self, ErrorKind};
 
@@ -26,7 +26,7 @@ pub fn picture([width, height]: [u32; 2], rgb: &[u8], output: impl Into<Output>)
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-    // Cloth is full of detail that no effort packs much better.
+    // Cloth is full of detail: stronger compression takes longer and gains little.
     encoder.set_compression(png::Compression::Fast);
     let written = encoder.write_header().and_then(|mut writer| {
         writer.write_image_data(rgb)?;
@@ -37,17 +37,17 @@ pub fn picture([width, height]: [u32; 2], rgb: &[u8], output: impl Into<Output>)
     Ok(())
 }
 
-/// An error where there is no memory for an encoder. It has none itself, and would end the program.
+/// Fails where there is no memory for an encoder, which would end the program itself.
 pub(super) fn encoder_room() -> io::Result<()> {
-    // Its buffers and its tables take a third of this.
+    // The encoder's buffers and tables take a third of this.
     let mut room = Vec::<u8>::new();
     room.try_reserve_exact(1 << 20).map_err(|_| ErrorKind::OutOfMemory)?;
-    // Or else the compiler sees that nobody uses it, and does not ask.
+    // Without this the compiler may leave out the unused allocation.
     std::hint::black_box(&room);
     Ok(())
 }
 
-/// `output`, where it ends in `.png`.
+/// Gives `output` back if it ends in `.png`.
 ///
 /// **Errors**: [`WriteError::NotPng`].
 pub(super) fn png(output: Output) -> Result<Output, WriteError> {

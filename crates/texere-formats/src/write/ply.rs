@@ -14,7 +14,7 @@ use super::target::Target;
 /// Six floats and three colour bytes.
 const VERTEX_BYTES: usize = 27;
 
-/// How many corners, and three numbers of vertices.
+/// A count of corners in a byte, and three vertex numbers.
 const FACE_BYTES: usize = 13;
 
 /// Vertices that a `u32` numbers and counts.
@@ -22,8 +22,8 @@ const VERTICES_MAX: u64 = u32::MAX as u64;
 
 /// A PLY file under way.
 ///
-/// All vertices come before all faces in it, but chunk comes after chunk: so there are two places where it grows. Faces
-/// written only at the end would be half of the work, done where no progress is told and no cancellation heard.
+/// In the file all vertices come before all faces, but the mesh comes chunk by chunk. So the file grows in two places. To
+/// write all faces at the end would be half of the work, without progress and without a chance to cancel.
 #[derive(Debug)]
 pub(super) struct PlyWriter<'a, W: Write + Seek> {
     target: Target<W>,
@@ -41,7 +41,7 @@ impl<'a, W: Write + Seek> PlyWriter<'a, W> {
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &'a [Material],
     ) -> Result<Self, WriteError> {
-        // Before chunks are gone through, of which there may be millions.
+        // First, since there may be millions of chunks to go through.
         check(plan.counts().vertices)?;
         let vertices = chunks.map(|chunk| u64::from(chunk.borrow().vertices())).sum();
         check(vertices)?;
@@ -112,7 +112,7 @@ fn check(vertices: u64) -> Result<(), WriteError> {
 }
 
 fn header(vertices: u64, faces: u64) -> String {
-    // Some readers know no unsigned number of a vertex; where it fits, they need none.
+    // Some readers know no unsigned vertex numbers. Signed ones do where all numbers fit.
     let number = if vertices <= 1 << 31 { "int" } else { "uint" };
     format!(
         "ply\n\

@@ -1,4 +1,4 @@
-//! The file under way, by its bytes.
+//! A buffered file under way.
 
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use super::unfinished::Unfinished;
 use super::{Output, WriteError};
 
-/// Bytes gathered before the system is called: calls cost nothing beside the copying from here on.
+/// Bytes gathered before the system is called. With more, calls cost nothing beside the copying.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// A file that is written piece by piece, and takes its place only when it is whole.
+/// A file that is written piece by piece, and takes its place only when it is complete.
 #[derive(Debug)]
 pub(super) struct Target<W: Write + Seek> {
     path: PathBuf,
     out: W,
-    /// What `out` has not got yet. Where there is no memory for it, it has no room, and `out` gets all at once.
+    /// Bytes that `out` has not got yet. Without memory for this buffer, every write goes straight to `out`.
     waiting: Vec<u8>,
     position: u64,
 }
@@ -27,7 +27,7 @@ impl<W: Write + Seek> Target<W> {
         Self { path: path.to_owned(), out, waiting, position: 0 }
     }
 
-    /// What went wrong on the way to the file.
+    /// The error for a write that failed.
     pub(super) fn failed(&self, source: io::Error) -> WriteError {
         WriteError::io("write", &self.path, source)
     }
@@ -59,7 +59,7 @@ impl<W: Write + Seek> Target<W> {
         Ok(())
     }
 
-    /// Hands on what is still waiting and gives back what was written to.
+    /// Writes what is still waiting, and gives back the inner writer.
     pub(super) fn into_inner(mut self) -> Result<W, WriteError> {
         self.flush().map_err(|source| self.failed(source))?;
         Ok(self.out)

@@ -9,7 +9,7 @@ use texere_cpu::SerialBackend;
 
 use super::{Feed, Format, Target, WriteError};
 
-/// A file on a disk with room for so many bytes more.
+/// A file on a disk that is full after so many bytes more.
 #[derive(Debug)]
 struct Failing {
     file: NamedTempFile,

@@ -1,8 +1,8 @@
-//! A file that is not yet whole: under a name of its own, in the folder of the place that it is to take.
+//! A file that is not yet complete: under a temporary name, in the folder of its target.
 //!
-//! Nothing of it stays behind. After an error or a panic it goes with its owner; before a signal ends the program,
-//! [`abandon`] removes it; and what a kill has left is removed by the next write in that folder. A file that has a writer
-//! is told from one that has none by the writer's lock, which the system takes away with the process.
+//! It never stays behind. After an error or a panic it is removed when its owner is dropped; before a signal ends the
+//! program, [`abandon`] removes it; and files that a killed process left are removed by the next write in that folder. A
+//! writer holds a lock on its file, which the system releases with the process: a file without a lock is a leftover.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -16,12 +16,12 @@ use tempfile::NamedTempFile;
 use super::WriteError;
 use super::output::Place;
 
-/// Names are this, [`RANDOM`] letters or digits, and an ending that nobody gives a file of their own.
+/// Names are this prefix, [`RANDOM`] letters or digits, and an ending that no user's file has.
 const PREFIX: &str = ".texere-";
 const RANDOM: usize = 16;
 const ENDING: &str = ".unfinished";
 
-/// How often a new file may be taken for a left one, and swept, by others that start at the same moment.
+/// How often a new file may be taken for a leftover, and removed, by others that start at the same moment.
 const ATTEMPTS: usize = 100;
 
 /// The unfinished files of this process.
@@ -36,7 +36,7 @@ fn registry() -> MutexGuard<'static, Registry> {
     REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The registry, unless all files were abandoned. While it is held they can't be.
+/// The registry, or an error once all files have been abandoned. While it is held they can't be.
 fn registry_in_use() -> io::Result<MutexGuard<'static, Registry>> {
     let registry = registry();
     if registry.abandoned {
@@ -60,7 +60,7 @@ pub fn abandon() {
     let mut registry = registry();
     registry.abandoned = true;
     for file in std::mem::take(&mut registry.files) {
-        // What can't be removed is left for the next write to try.
+        // What can't be removed now, the next write tries again.
         let _ = fs::remove_file(file);
     }
 }
@@ -68,7 +68,7 @@ pub fn abandon() {
 /// A file that becomes the one at its place with [`Unfinished::finish`].
 #[derive(Debug)]
 pub(super) struct Unfinished {
-    // The file goes before its entry, so that there is no moment in which nobody would remove it.
+    // Dropped before its entry, so that at every moment somebody removes the file.
     file: NamedTempFile,
     entry: Entry,
     place: Place,
@@ -85,7 +85,7 @@ impl Drop for Entry {
 }
 
 impl Unfinished {
-    /// An empty file beside `place`, since only within one file system a rename is a single step.
+    /// An empty file beside `place`, since a rename is atomic only within one file system.
     pub(super) fn beside(place: Place) -> Result<Self, WriteError> {
         let failed = |source| WriteError::io("create", place.path(), source);
         let permissions = place.check()?.map(|old| old.permissions());
@@ -111,7 +111,7 @@ impl Unfinished {
         self.place.path()
     }
 
-    /// Puts the file in its place, in one step that can't be seen half done. Gives its length in bytes.
+    /// Puts the file in its place atomically. Gives its length in bytes.
     pub(super) fn finish(self) -> Result<u64, WriteError> {
         let Self { place, entry, file } = self;
         let failed = |action, source| WriteError::io(action, place.path(), source);
@@ -151,30 +151,30 @@ fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // What any new file has, less the umask: the result is no secret, as temporary files are by default.
+        // The permissions of any new file, less the umask; temporary files are private by default.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
 }
 
-/// Takes a new file's lock. Gives `false` where another process was quicker to take it for a left one, and removes it:
-/// it holds the lock, or the name is gone by now. From here on nobody sweeps it.
+/// Takes a new file's lock. Gives `false` where another process took the file for a leftover first: that process holds the
+/// lock, or has removed the name. With the lock, no other process removes the file.
 fn hold(file: &NamedTempFile) -> io::Result<bool> {
     match file.as_file().try_lock() {
         Ok(()) => Ok(is_named(file.path(), file.as_file().try_clone()?)),
         Err(TryLockError::WouldBlock) => Ok(false),
-        // Where a file system has no locks, nobody else gets this one either.
+        // On a file system without locks no other process gets this one either, so none removes the file.
         Err(TryLockError::Error(_)) => Ok(true),
     }
 }
 
-/// Removes what writers have left in `folder` that live no more.
+/// Removes leftovers of ended writers from `folder`.
 fn sweep(folder: &Path, place: &Place) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let is_ours = entry.file_name().to_str().is_some_and(is_name)
             && entry.file_type().is_ok_and(|kind| kind.is_file());
         if is_ours {
-            // A left file harms nobody: where it can't be looked at or removed, it stays.
+            // A leftover does no harm: one that can't be opened or removed stays.
             let _ = remove_left(&entry.path(), place);
         }
     }
@@ -185,11 +185,11 @@ fn is_name(name: &str) -> bool {
     random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
-/// Removes a file of our name if no writer has it.
+/// Removes a file with one of our names if no writer holds its lock.
 fn remove_left(path: &Path, place: &Place) -> io::Result<()> {
     let file = OpenOptions::new().read(true).write(true).open(path)?;
     file.try_lock()?;
-    // While the lock was got, its writer may have finished it: then the name is gone, or another file's.
+    // Before we had the lock, its writer may have finished it: then the name is gone, or another file's.
     let handle = Handle::from_file(file)?;
     if Handle::from_path(path)? == handle && !place.spares(&handle) {
         fs::remove_file(path)?;

@@ -86,7 +86,7 @@ pub fn draft(
     Ok([width as u32, height as u32])
 }
 
-/// A draft as far as it is drawn: how many shafts and treadles it really uses.
+/// A draft, with the number of shafts and treadles that it really uses.
 struct Loom<'a> {
     draft: &'a Draft,
     shafts: usize,
@@ -106,7 +106,7 @@ impl<'a> Loom<'a> {
         Self { draft, shafts: shafts.max(highest(&draft.threading)), treadles }
     }
 
-    /// Whether there is anything to draw, and not too much.
+    /// Whether there are shafts to draw, and no more of them than fit.
     fn fits(&self) -> bool {
         (1..=SHAFTS_MAX).contains(&self.shafts) && self.treadles <= SHAFTS_MAX
     }
@@ -119,7 +119,7 @@ impl<'a> Loom<'a> {
         }
     }
 
-    /// What each pick uses of them.
+    /// The treadles, or shafts of a lift plan, of each pick.
     fn uses(&self) -> &'a [Vec<u32>] {
         match &self.draft.shedding {
             Shedding::LiftPlan(lifts) => lifts,
@@ -139,7 +139,7 @@ fn yarn(cloth: &Woven, thread: &Thread) -> Rgb {
     cloth.materials().get(thread.material as usize).map_or(PAPER, |material| material.srgb)
 }
 
-/// All blocks in their places.
+/// The sheet with all blocks in their places.
 fn lay_out<'a>(cloth: &'a Woven, loom: Option<&'a Loom<'a>>, side: Side) -> Sheet<'a> {
     let drawdown = cloth.drawdown();
     let (ends, picks) = (drawdown.ends(), drawdown.picks());
@@ -191,7 +191,7 @@ fn lay_out<'a>(cloth: &'a Woven, loom: Option<&'a Loom<'a>>, side: Side) -> Shee
     sheet
 }
 
-/// What is said below the drawing.
+/// The legend below the drawing.
 fn legend(cloth: &Woven, loom: Option<&Loom<'_>>, side: Side) -> Vec<String> {
     let (side, left) = match side {
         Side::Face => ("FACE", "LEFT"),

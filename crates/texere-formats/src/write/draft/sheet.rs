@@ -7,10 +7,10 @@ use super::font::{self, GLYPH_HEIGHT, GLYPH_WIDTH};
 /// The colour of a pixel.
 pub(super) type Rgb = [u8; 3];
 
-/// What nothing is drawn on.
+/// The background.
 pub(super) const PAPER: Rgb = [255, 255, 255];
 
-/// What is drawn.
+/// The drawing's colour.
 pub(super) const INK: Rgb = [0, 0, 0];
 
 /// A line between squares, and one between groups of them.

@@ -1,4 +1,4 @@
-//! The JSON document of a GLB file: what lies where in its buffer, and which yarn it is.
+//! The JSON document of a GLB file: the layout of its buffer, and the yarn of each part.
 
 use std::borrow::Borrow;
 use std::collections::HashMap;
@@ -24,7 +24,7 @@ const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 /// A millimetre in metres, glTF's unit.
 const MILLIMETRE: f32 = 0.001;
 
-/// Spun yarn scatters light almost as chalk does; what is left to 1 is the faint sheen of fibres lying side by side.
+/// Spun yarn is almost as rough as chalk; the rest to 1 is the faint sheen of fibres lying side by side.
 const ROUGHNESS: f32 = 0.9;
 
 /// A document whose bounds are filled in as vertices pass.

@@ -15,7 +15,7 @@ use super::WriteError;
 use super::feed::MeshWriter;
 use super::target::Target;
 
-/// What a `u32` counts: the header tells the file's length in one.
+/// The header holds the file's length in a `u32`.
 const BYTES_MAX: u64 = u32::MAX as u64;
 
 /// Magic, version and length of the file.
@@ -26,8 +26,8 @@ const CHUNK_HEADER_BYTES: u64 = 8;
 
 /// A GLB file under way.
 ///
-/// The document comes first in it, yet tells the bounds of every yarn, which are known last. It has the same length
-/// whatever the bounds are, so it is written twice: first to hold the place, then as it is.
+/// The document comes first in the file, yet states the bounds of every yarn, which are known last. Its length does not
+/// depend on the bounds, so it is written twice: first to reserve its place, at the end with the bounds.
 #[derive(Debug)]
 pub(super) struct GlbWriter<W: Write + Seek> {
     target: Target<W>,
@@ -41,7 +41,7 @@ impl<W: Write + Seek> GlbWriter<W> {
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &[Material],
     ) -> Result<Self, WriteError> {
-        // Before chunks are gone through, of which there may be millions.
+        // First, since there may be millions of chunks to go through.
         check(plan.counts().bytes())?;
         let document = Document::new(plan, chunks, materials);
         check(document.buffer_bytes())?;

@@ -1,0 +1,229 @@
+//! Vectors of `f32` and of `u32`, one implementation for each set of vector instructions.
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use bytemuck::{Pod, Zeroable};
+
+/// Floats of a cache line.
+pub(super) const LINE: usize = 16;
+
+/// A cache line of the output: what can be written past the caches without a read before it.
+#[repr(C, align(64))]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(super) struct Line(pub(super) [f32; LINE]);
+
+/// The most lanes that an implementation has.
+pub(super) const LANES_MAX: usize = 16;
+
+/// A set of vector instructions, and proof that the processor has it.
+///
+/// Only an implementation's own detection makes a value of the type. Vectors and masks are made with such a value or from other
+/// vectors, so they prove the same, and all methods are safe to call. The values have no size: passing them on costs nothing.
+///
+/// Arithmetic is plain IEEE, lane by lane, without fused multiply-add, so that every implementation gives the same bits.
+pub(super) trait Simd: Copy + Debug + Send + Sync {
+    /// Lanes of a vector: a power of two, from 4 to [`LANES_MAX`].
+    const LANES: usize;
+
+    /// The bits of a mask that is set in all lanes.
+    const ALL: u32 = (1 << Self::LANES) - 1;
+
+    /// `LANES` values of `f32`.
+    type Floats: Floats<Integers = Self::Integers, Mask = Self::Mask>;
+
+    /// `LANES` values of `u32`.
+    type Integers: Integers<Floats = Self::Floats, Mask = Self::Mask>;
+
+    /// Yes or no in each lane.
+    type Mask: Mask<Floats = Self::Floats>;
+
+    /// Runs `job`, compiled for these instructions.
+    fn run(self, job: impl Job);
+
+    /// One value in all lanes.
+    fn splat(self, value: f32) -> Self::Floats;
+
+    /// The first `LANES` values of a slice.
+    fn load(self, from: &[f32]) -> Self::Floats;
+
+    /// One value in all lanes.
+    fn splat_integer(self, value: u32) -> Self::Integers;
+
+    /// The first `LANES` values of a slice.
+    fn load_integers(self, from: &[u32]) -> Self::Integers;
+
+    /// The four components of `LANES` points.
+    fn components(self, points: &[[f32; 4]]) -> [Self::Floats; 4];
+
+    /// Tiles of four by four values, transposed: lane 4j + c of column q is lane 4j + q of row c.
+    fn tiles(self, rows: [Self::Floats; 4]) -> [Self::Floats; 4];
+
+    /// Makes lines of columns: with n lines for every four lanes, line jn + i becomes lanes 4j to 4j + 3 of columns 4i to
+    /// 4i + 3. They go past the caches if `STREAM` says so and the processor can.
+    fn arrange<const STREAM: bool>(self, columns: &[f32], lines: &mut [Line]);
+
+    /// Stores lane l of row r at `out[l * stride + r]`.
+    fn scatter(self, rows: [Self::Floats; 4], out: &mut [f32], stride: usize);
+
+    /// The same with eight rows.
+    #[cfg_attr(optimized, inline(always))]
+    fn scatter_eight(self, [a, b, c, d, e, f, g, h]: [Self::Floats; 8], out: &mut [f32], stride: usize) {
+        self.scatter([a, b, c, d], out, stride);
+        self.scatter([e, f, g, h], &mut out[4..], stride);
+    }
+
+    /// Copies a line past the caches, where the processor can: for outputs that no cache would hold anyway. Other threads are
+    /// sure to see the copy only after a [`Simd::fence`].
+    fn stream(self, from: &[f32; LINE], to: &mut Line);
+
+    /// Writes the line `base + table[i]`, `base` the same in all lanes, past the caches where the processor can.
+    fn stream_indices(self, table: &[u32; LINE], base: Self::Integers, to: &mut Line);
+
+    /// Ends streaming: other threads see what was written.
+    fn fence(self);
+}
+
+/// Work that is written once for all sets of vector instructions.
+pub(super) trait Job {
+    /// Does it. It must be inlined, so that it is compiled for the instructions of `simd`.
+    fn run<S: Simd>(self, simd: S);
+}
+
+/// A vector of `f32`.
+pub(super) trait Floats:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// As many lanes of `u32`.
+    type Integers;
+
+    /// Yes or no in each lane.
+    type Mask;
+
+    /// Writes the lanes to the first places of a slice.
+    fn store(self, to: &mut [f32]);
+
+    /// The square root, rounded correctly.
+    fn sqrt(self) -> Self;
+
+    /// The largest whole number that is not above the value.
+    fn floor(self) -> Self;
+
+    /// The value without its sign.
+    fn abs(self) -> Self;
+
+    /// The smaller one; neither is NaN.
+    fn min(self, other: Self) -> Self;
+
+    /// The larger one; neither is NaN.
+    fn max(self, other: Self) -> Self;
+
+    /// `self < other`
+    fn less(self, other: Self) -> Self::Mask;
+
+    /// `self == 0`
+    fn is_zero(self) -> Self::Mask;
+
+    /// Lane l becomes lane `places[l]`; places are below the count of lanes.
+    fn permute(self, places: Self::Integers) -> Self;
+
+    /// Lane l becomes lane l - 1, the first lane the last one of `before`.
+    fn shift_in(self, before: Self) -> Self;
+
+    /// Lane l becomes lane l - 4, the first four lanes the last four of `before`.
+    fn shift_in_four(self, before: Self) -> Self;
+
+    /// Lanes that are whole numbers within the range of `i32`, as such.
+    fn to_signed(self) -> Self::Integers;
+}
+
+/// A vector of `u32`; sums and differences wrap.
+pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self> {
+    /// As many lanes of `f32`.
+    type Floats;
+
+    /// Yes or no in each lane.
+    type Mask;
+
+    /// Writes the lanes to the first places of a slice.
+    fn store(self, to: &mut [u32]);
+
+    /// The first lane.
+    fn first(self) -> u32;
+
+    /// The same, but 0 in the first lane.
+    fn without_first(self) -> Self;
+
+    /// Each lane becomes the sum of itself and all lanes before it.
+    fn running_sum(self) -> Self;
+
+    /// The last lane in all lanes.
+    fn splat_last(self) -> Self;
+
+    /// `self << BY`
+    fn shift_left<const BY: i32>(self) -> Self;
+
+    /// `self >> BY`
+    fn shift_right<const BY: i32>(self) -> Self;
+
+    /// `self & bit != 0`, of one bit.
+    fn has_bit(self, bit: u32) -> Self::Mask;
+
+    /// The nearest floats to lanes taken as `i32`.
+    fn signed_to_floats(self) -> Self::Floats;
+
+    /// The floats that have the lanes' bits.
+    fn bit_cast(self) -> Self::Floats;
+}
+
+/// Yes or no in each lane.
+pub(super) trait Mask: Copy + Debug {
+    /// As many lanes of `f32`.
+    type Floats;
+
+    /// `yes` where the lane says so, else `no`.
+    fn select(self, yes: Self::Floats, no: Self::Floats) -> Self::Floats;
+
+    /// A bit for each lane, the first lane's lowest.
+    fn bits(self) -> u32;
+}
+
+/// Dot product, added up in the order of `Vec3::dot`.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn dot<F: Floats>(a: [F; 3], b: [F; 3]) -> F {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// `v * factor`
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn scale<F: Floats>(v: [F; 3], factor: F) -> [F; 3] {
+    [v[0] * factor, v[1] * factor, v[2] * factor]
+}
+
+/// `a + b`
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn plus<F: Floats>(a: [F; 3], b: [F; 3]) -> [F; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// `a - b`
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn difference<F: Floats>(a: [F; 3], b: [F; 3]) -> [F; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `yes` where `mask` says so, else `no`.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn select<M: Mask<Floats: Copy>>(
+    mask: M,
+    yes: [M::Floats; 3],
+    no: [M::Floats; 3],
+) -> [M::Floats; 3] {
+    [mask.select(yes[0], no[0]), mask.select(yes[1], no[1]), mask.select(yes[2], no[2])]
+}

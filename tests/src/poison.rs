@@ -1,0 +1,29 @@
+//! What memory is filled with before a stage runs.
+
+use texere_core::{Ring, Turn, Vertex};
+
+/// A NaN that no arithmetic gives: memory that still holds it was never written.
+const POISON: f32 = f32::from_bits(0x7fc0_bad1);
+
+/// A vertex that was never written.
+pub(crate) const POISONED_VERTEX: Vertex = Vertex { position: [POISON; 3], normal: [POISON; 3] };
+
+/// A ring that was never written.
+pub(crate) const POISONED_RING: Ring = Ring {
+    centre: [POISON; 3],
+    half_width: POISON,
+    tangent: [POISON; 3],
+    roll: Turn(0x7fc0_bad1),
+    half_height: POISON,
+    width_growth: POISON,
+    height_growth: POISON,
+    padding: 0x7fc0_bad1,
+};
+
+/// An index that was never written; no chunk has so many vertices.
+pub(crate) const POISONED_INDEX: u32 = u32::MAX;
+
+/// Whether `value` is what memory was filled with before the backend ran.
+pub(crate) fn is_poison(value: f32) -> bool {
+    value.to_bits() == POISON.to_bits()
+}

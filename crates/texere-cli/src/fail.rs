@@ -39,7 +39,7 @@ impl Fail {
         Self { code: WORLD, source: format!("out of memory: {bytes} bytes for {what}").into() }
     }
 
-    /// A draft, or a check of a cloth, was asked of a design that is none.
+    /// A draft was asked of a design that is not woven.
     pub(crate) fn not_woven(design: &Path) -> Self {
         Self { code: DESIGN, source: format!("{} is not woven cloth", design.display()).into() }
     }
@@ -49,12 +49,7 @@ impl Fail {
         Self { code: CLOTH, source: format!("{} {faults}", design.display()).into() }
     }
 
-    /// A picture shows one design.
-    pub(crate) fn too_many_designs(designs: usize) -> Self {
-        Self { code: USAGE, source: format!("a picture shows one design, not {designs}").into() }
-    }
-
-    /// A picture of a turntable that is, by a link, another one, too.
+    /// A picture of a turntable that is a link to another of them.
     pub(crate) fn written_twice(path: &Path) -> Self {
         Self {
             code: USAGE,

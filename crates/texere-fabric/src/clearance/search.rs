@@ -4,20 +4,23 @@ use std::cell::OnceCell;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::{ControlFlow, Range};
 
-use glam::{DVec2, UVec3, Vec3A};
+use glam::{DVec2, Vec3A};
 use texere_core::Yarns;
 
 use super::approach::{Side, refine};
+use super::contact::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace};
 use super::crowd::Crowd;
+use super::curvature;
 use super::found::Found;
 use super::grid::{Bounds, Grid};
 use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{self, Line, Span};
+use super::part::Part;
 use super::passing::Passing;
 use super::support::Support;
 use super::watch::Watch;
-use super::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace, curvature, room_for};
 use crate::FabricError;
+use crate::memory::room_for;
 
 /// The most intervals of a cell that are simply compared with one another. Threads that are clear of one another come to
 /// some 60, with one control point a crossing or several.
@@ -25,15 +28,6 @@ pub(super) const FULL: usize = 256;
 
 /// Pairs between two times that progress is told.
 const TOLD: u64 = 1 << 14;
-
-/// One interval in a cell.
-pub(super) struct Part<'a> {
-    pub(super) point: usize,
-    pub(super) line: Line<'a>,
-    bounds: Bounds,
-    /// The first cell that its box reaches into.
-    cell: UVec3,
-}
 
 /// What is worked out of an interval once it is asked for.
 #[derive(Default)]

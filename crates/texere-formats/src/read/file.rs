@@ -77,3 +77,8 @@ fn kind(metadata: &Metadata) -> &'static str {
     }
     if metadata.is_dir() { "a folder" } else { "something else" }
 }
+
+/// The name of a design that has no title.
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "design".into(), |stem| stem.to_string_lossy().into_owned())
+}

@@ -10,7 +10,8 @@ use serde::Deserialize;
 use texere_fabric::THREADS_MAX;
 
 use super::error::said;
-use super::{ReadError, file, room};
+use super::memory::{filled, room};
+use super::{ReadError, file};
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
 const PIXELS_MAX: u64 = 1 << 28;
@@ -191,7 +192,7 @@ impl Image {
         limits.max_alloc = Some(2 * size + ASIDE_MAX);
         decoder.set_limits(limits).map_err(undecodable)?;
 
-        let mut bytes = super::filled("an image", size as usize, 0)?;
+        let mut bytes = filled("an image", size as usize, 0)?;
         // Decoders take up to as much again and do not ask whether it is there.
         drop(room::<u8>("decoding an image", (size + ASIDE_MAX) as usize)?);
         decoder.read_image(&mut bytes).map_err(undecodable)?;

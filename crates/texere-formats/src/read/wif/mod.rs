@@ -8,7 +8,7 @@
 //! for more treadles, it has those too, with a warning; what then lifts a shaft or presses a treadle beyond them is
 //! refused. Without a declaration there is nothing to go beyond.
 //!
-//! A thickness that leaves threads no room to cross is read as how wide they are drawn: see [`threads::roomy`].
+//! A thickness that leaves threads no room to cross is taken for how wide they are drawn: see [`threads::roomy`].
 
 mod colors;
 mod ini;
@@ -20,13 +20,11 @@ use std::path::Path;
 use texere_core::Section;
 use texere_fabric::{Draft, Drawdown, Shedding, Woven};
 
-use super::file::bytes_of;
-use super::{ReadError, file_name, only_used};
+use super::ReadError;
+use super::file::{bytes_of, file_name};
+use super::threads::only_used;
 use ini::Ini;
-use numbers::{integer, lists};
-
-/// Most shafts or treadles of a loom: a Jacquard machine with a hook for each end, in WIF's clothes.
-const LOOM_LIMIT: u32 = 100_000;
+use numbers::{LOOM_LIMIT, integer, lists};
 
 /// Most threads of a warp or weft.
 const THREAD_LIMIT: u32 = 1_000_000;

@@ -6,7 +6,8 @@ use texere_fabric::{Drawdown, FabricError, Thread, Woven};
 use super::colors::{NO_COLOR, Palette};
 use super::ini::Ini;
 use super::numbers::{bad, length, numbered};
-use crate::read::{ReadError, filled, room};
+use crate::read::ReadError;
+use crate::read::memory::{filled, room};
 
 /// Spacing where the file gives none, mm: 10 threads to the centimetre.
 const DEFAULT_SPACING_MM: f64 = 1.0;

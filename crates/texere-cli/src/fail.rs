@@ -83,14 +83,14 @@ impl fmt::Display for Fail {
     }
 }
 
-/// Whose fault an error is. A cause tells more than what it led to: memory that ran out while a design was read is no
+/// The exit code of an error. A cause says more than what it led to: memory that ran out while a design was read is no
 /// fault of the design.
 fn code_of(error: &(dyn Error + 'static)) -> u8 {
     let causes = successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source());
     causes.filter_map(own_code).last().unwrap_or(WORLD)
 }
 
-/// Whose fault an error is by itself, as far as it tells.
+/// The exit code of an error by itself, where it decides one.
 fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
     // What is wrong with a file that the design names comes in a box.
     let named = || error.downcast_ref::<Box<ReadError>>().map(|error| &**error);

@@ -50,7 +50,7 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(fail) => {
-            // Nobody is left to tell when standard error is closed too.
+            // When standard error is closed too, there is nowhere left to say so.
             let _ = writeln!(std::io::stderr(), "{fail}");
             fail.exit_code()
         }

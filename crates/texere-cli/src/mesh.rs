@@ -18,7 +18,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let device = drivers::quietly(|| texere::open(&args.device))?;
     let bar = progress::bar(std::io::stderr().is_terminal());
     let settings = args.settings.settings();
-    let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::teller(&bar));
+    let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::reporter(&bar));
     let output = Output::to(&args.output).sparing(design.files());
     let written = texere::stream(pipeline, &*device, output)?;
     bar.finish_and_clear();

@@ -33,8 +33,7 @@ fn read_text(text: &str) -> Result<Design, ReadError> {
 }
 
 fn cloth(text: &str) -> Woven {
-    let woven = read_text(text).unwrap().structure.woven().unwrap().cloth().clone();
-    woven
+    read_text(text).unwrap().structure.woven().unwrap().cloth().clone()
 }
 
 /// The refusal of `DENIM` with `from` replaced by `to` has to hold all of `parts`.

@@ -44,8 +44,7 @@ fn wif(text: &str) -> Result<Design, ReadError> {
 }
 
 fn woven(design: Design) -> Woven {
-    let woven = design.structure.woven().unwrap().cloth().clone();
-    woven
+    design.structure.woven().unwrap().cloth().clone()
 }
 
 /// The whole chain of an error, none of whose messages may be longer than two lines of a terminal.

@@ -42,8 +42,7 @@ fn design(folder: &Path, weave: &str) -> Result<Design, ReadError> {
 }
 
 fn cloth(folder: &Path, weave: &str) -> Woven {
-    let woven = design(folder, weave).unwrap().structure.woven().unwrap().cloth().clone();
-    woven
+    design(folder, weave).unwrap().structure.woven().unwrap().cloth().clone()
 }
 
 /// As a weaver draws it, `#` warp up.

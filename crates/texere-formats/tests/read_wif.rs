@@ -29,8 +29,7 @@ fn read_text(text: impl AsRef<[u8]>) -> Result<Design, ReadError> {
 }
 
 fn cloth(text: &str) -> Woven {
-    let woven = read_text(text).unwrap().structure.woven().unwrap().cloth().clone();
-    woven
+    read_text(text).unwrap().structure.woven().unwrap().cloth().clone()
 }
 
 fn drawdown(text: &str) -> String {

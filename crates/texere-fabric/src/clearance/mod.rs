@@ -71,12 +71,12 @@ pub struct Clearance {
 /// Of each pair of yarn parts within [`CLEARANCE_NEAR`] the nearest approach is found on the spline itself, whose tension is
 /// `tension`; sections stand upright, as untwisted ones do, and count with their hulls. Two places of one yarn count
 /// from an arc length of π/2 times the sum of their radii on: nearer ones can only meet in a bend tighter than the yarn
-/// is thick (Schur's theorem: no curve with that curvature brings its ends closer than the circle does), which the
-/// curvature tells. A loop within one control interval is told by the curvature alone.
+/// is thick (Schur's theorem: no curve with that curvature brings its ends closer than the circle does), which shows in
+/// the curvature. So does a loop within one control interval, which is no contact.
 ///
 /// Where much more yarn lies than there is room for, no pairs are measured: yarns that are several times as thick as they
-/// lie apart are told by [`Clearance::crowd`] at once. So time grows with the control points alone (flat sections take about five times as long as round ones); beside the yarns
-/// it takes about 9 bytes a control point.
+/// lie apart are reported as [`Clearance::crowd`] at once. So time grows with the control points alone; flat sections take
+/// about five times as long as round ones. Memory is about 9 bytes a control point beside the yarns.
 ///
 /// **Errors**: [`FabricError::ClearancePoints`] for more control points than are measured, [`FabricError::Tension`] for
 /// a tension outside \[0, 1), [`FabricError::OutOfMemory`].
@@ -97,7 +97,8 @@ pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> 
     clearance_with_progress(yarns, tension, |_| ControlFlow::Continue(()))
 }
 
-/// [`clearance`] that tells how far it has come, from 0 to 1, from any thread; `Break` ends it.
+/// [`clearance()`] that calls `progress` with the share of the work that is done, from 0 to 1, from any thread. `Break` ends
+/// it.
 ///
 /// **Errors**: those of [`clearance`]; [`FabricError::Cancelled`] where `progress` asked to stop.
 ///
@@ -108,12 +109,12 @@ pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> 
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// let yarns = yarns.build()?;
-/// let mut told = 0.0;
+/// let mut share = 0.0;
 /// clearance_with_progress(&yarns, 0.0, |done| {
-///     told = done;
+///     share = done;
 ///     ControlFlow::Continue(())
 /// })?;
-/// assert_eq!(told, 1.0);
+/// assert_eq!(share, 1.0);
 /// let stopped = clearance_with_progress(&yarns, 0.0, |_| ControlFlow::Break(()));
 /// assert_eq!(stopped, Err(FabricError::Cancelled));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -26,8 +26,8 @@ use crate::memory::room_for;
 /// some 60, with one control point a crossing or several.
 pub(super) const FULL: usize = 256;
 
-/// Pairs between two times that progress is told.
-const TOLD: u64 = 1 << 14;
+/// Pairs between two reports of progress.
+const REPORT_EVERY: u64 = 1 << 14;
 
 /// What is worked out of an interval once it is asked for.
 #[derive(Default)]
@@ -115,7 +115,7 @@ impl<'a> Probe<'a> {
         let mut points = Vec::new();
         let mut parts: Vec<Part<'_>> = Vec::new();
         let mut met: Vec<Met> = Vec::new();
-        let mut untold = 0;
+        let mut unreported = 0;
         for cell in cells {
             points.clear();
             room_for(&mut points, grid.count_in(cell), "a cell's intervals")?;
@@ -139,9 +139,9 @@ impl<'a> Probe<'a> {
                 self.sweep(&mut parts, counts, &mut found, watch)?;
                 continue;
             }
-            untold += cell_work(parts.len());
-            if untold >= TOLD {
-                watch.advance(std::mem::take(&mut untold))?;
+            unreported += cell_work(parts.len());
+            if unreported >= REPORT_EVERY {
+                watch.advance(std::mem::take(&mut unreported))?;
             }
             met.clear();
             met.resize_with(parts.len(), Met::default);
@@ -154,7 +154,7 @@ impl<'a> Probe<'a> {
                 }
             }
         }
-        watch.advance(untold)?;
+        watch.advance(unreported)?;
         Ok(found)
     }
 
@@ -180,16 +180,16 @@ impl<'a> Probe<'a> {
         let axis = (sides / (whole.high - whole.low)).min_position();
         parts.sort_by(|one, other| one.bounds.low[axis].total_cmp(&other.bounds.low[axis]));
         let mut beside: Vec<(&Part<'_>, Box<Met>)> = Vec::new();
-        let (each, mut untold) = (cell_work(parts.len()) / parts.len() as u64, 0);
+        let (each, mut unreported) = (cell_work(parts.len()) / parts.len() as u64, 0);
         for part in &*parts {
             beside.retain(|(other, _)| other.bounds.high[axis] >= part.bounds.low[axis]);
             if beside.len() > CLEARANCE_BESIDE {
                 found.add_crowd(crowd);
                 break;
             }
-            untold += each;
-            if untold >= TOLD {
-                watch.advance(std::mem::take(&mut untold))?;
+            unreported += each;
+            if unreported >= REPORT_EVERY {
+                watch.advance(std::mem::take(&mut unreported))?;
             }
             found.pairs += beside.len() as u64;
             let met = Box::new(Met::default());
@@ -202,7 +202,7 @@ impl<'a> Probe<'a> {
             }
             beside.push((part, met));
         }
-        watch.advance(untold)
+        watch.advance(unreported)
     }
 
     /// The contacts of two intervals, the first one's number being the lower.

@@ -37,7 +37,7 @@ pub struct Drawdown {
 }
 
 impl fmt::Debug for Drawdown {
-    /// The size alone: a damask's bits would fill books.
+    /// The size alone: the bits of a damask are too many to print.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Drawdown")
             .field("ends", &self.ends)

@@ -163,7 +163,7 @@ fn change(bend: &Bend<'_>, from: usize, to: usize) -> [f32; 3] {
     [start, start + share * (end - start), end]
 }
 
-/// A way along which a thread keeps its side.
+/// A stretch along which a thread keeps its side.
 struct Float {
     from: f32,
     to: f32,

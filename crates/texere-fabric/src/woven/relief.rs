@@ -108,9 +108,9 @@ impl Woven {
     /// In this order: first the warp's share of the crimp moves, within 20 and 80 %, as little as it must (a share that
     /// was given as [`Crimp::WarpShare`] stays); it costs nothing, and where one set is dense its threads do the
     /// bending in real cloth too. Only what is still jammed is then flattened or thinned. Flattening goes for the set
-    /// that passes between the jammed threads: a wider thread needs more room beside, so one set's relief is the
-    /// other's load, and what can't be relieved stays and is reported. All threads of a set are flattened alike (finishing
-    /// does not pick threads), lobed ones not at all.
+    /// that passes between the jammed threads: a wider thread needs more room beside, so what relieves one set may
+    /// jam the other. What can't be relieved stays and is reported. All threads of a set are flattened alike (finishing
+    /// can't single out threads), lobed ones not at all.
     ///
     /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least one: only there the
     /// spline keeps the threads clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
@@ -148,7 +148,7 @@ impl Woven {
             change = best(&self.shares(share), &[1.0], &[1.0], now, worst);
             let left = worst(&change);
             if relief == Relief::Shrink && left > 1.0 {
-                // A hair less, so that rounding does not leave a hair too little.
+                // A little less, so that rounding does not leave too little room.
                 scaled = (1.0 - ROUNDING as f32) / left;
             } else if relief == Relief::Flatten && left > 1.0 {
                 let [ends, picks] = [self.warp(), self.weft()].map(|set| self.widths(set));

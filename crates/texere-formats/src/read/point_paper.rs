@@ -30,7 +30,7 @@ const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
 /// one bit. So a short file takes no memory for pixels that it can't have.
 const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
-/// The most colours of a point paper: what a byte numbers. A weaver tells far fewer apart.
+/// The most colours of a point paper: as many as a byte can number, and far more than a weaver uses.
 const COLORS_MAX: usize = 256;
 
 /// Which pick the first (top) row of an image is.

@@ -12,19 +12,20 @@ pub(super) fn only_used(
     materials: &[Material],
     sections: &[Section],
 ) -> (Vec<Material>, Vec<Section>) {
-    let [mut worn, mut shaped] = [materials.len(), sections.len()].map(|count| vec![false; count]);
+    let [mut used_materials, mut used_sections] =
+        [materials.len(), sections.len()].map(|count| vec![false; count]);
     for thread in threads.iter().flat_map(|set| set.iter()) {
-        worn[thread.material as usize] = true;
-        shaped[thread.section as usize] = true;
+        used_materials[thread.material as usize] = true;
+        used_sections[thread.section as usize] = true;
     }
     let (mut kept, mut material) = (Vec::new(), vec![0; materials.len()]);
-    for (number, _) in worn.iter().enumerate().filter(|(_, worn)| **worn) {
+    for (number, _) in used_materials.iter().enumerate().filter(|(_, used)| **used) {
         material[number] = kept.len() as u32;
         kept.push(materials[number].clone());
     }
     let (mut unlike, mut section) = (Vec::new(), vec![0; sections.len()]);
     let mut numbers = HashMap::new();
-    for (number, _) in shaped.iter().enumerate().filter(|(_, shaped)| **shaped) {
+    for (number, _) in used_sections.iter().enumerate().filter(|(_, used)| **used) {
         section[number] = *numbers.entry(format!("{:?}", sections[number])).or_insert_with(|| {
             unlike.push(sections[number].clone());
             unlike.len() as u32 - 1

@@ -41,9 +41,11 @@ impl Format {
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, WriteError> {
         let path = path.as_ref();
         let given = path.extension().unwrap_or_default();
-        Self::ALL
-            .into_iter()
-            .find(|format| given.eq_ignore_ascii_case(format.extension()))
-            .ok_or_else(|| WriteError::UnknownFormat { path: path.to_owned() })
+        Self::ALL.into_iter().find(|format| given.eq_ignore_ascii_case(format.extension())).ok_or_else(|| {
+            WriteError::UnknownFormat {
+                path: path.to_owned(),
+                known: Self::ALL.map(Self::extension).join(", "),
+            }
+        })
     }
 }

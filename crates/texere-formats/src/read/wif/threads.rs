@@ -26,7 +26,7 @@ const ROUNDING: f64 = 1e-6;
 /// By how much a thickness may differ from the spacing and still be the same, rounded.
 const ALIKE: f64 = 0.01;
 
-/// What one of the two sets of threads is told by.
+/// What the file says of the warp's threads, or of the weft's.
 #[derive(Debug, Default)]
 struct Set {
     /// Spacing and thickness of all threads that have none of their own.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use serde::Serialize;
-use texere::{Cure, Fault, JamReport, Relief, Remedy, Section, Shape};
+use texere::{Cure, FaultKind, JamReport, Relief, Remedy, Section, Shape};
 
 /// Spacings and diameters that a design file may have, mm.
 const LENGTHS_MM: RangeInclusive<f64> = 0.001..=1000.0;
@@ -112,7 +112,7 @@ impl fmt::Display for CureReport {
 }
 
 /// What a cloth does that it should not, if there is anything: "pierces itself, folds".
-pub(crate) fn phrase(faults: &[Fault]) -> Option<String> {
+pub(crate) fn phrase(faults: &[FaultKind]) -> Option<String> {
     let kinds: Vec<_> = faults.iter().map(ToString::to_string).collect();
     (!kinds.is_empty()).then(|| kinds.join(", "))
 }

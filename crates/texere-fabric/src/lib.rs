@@ -44,7 +44,7 @@ pub use clearance::{
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
 pub use diagnosis::{
-    ClothClearance, Crossing, Cure, Diagnosis, Fault, Faults, JAMS_LISTED, Jams, Remedy, ThreadBend,
+    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Remedy, ThreadBend,
     ThreadContact, ThreadCrowd, ThreadPlace,
 };
 pub use error::FabricError;

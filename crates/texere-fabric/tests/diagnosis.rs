@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use texere_core::{Material, Origin, Section};
 use texere_fabric::{
-    Crossing, Diagnosis, Fault, Relief, Remedy, Shape, Structure, Thread, Weave, Woven, WovenDesign,
+    Crossing, Diagnosis, FaultKind, Relief, Remedy, Shape, Structure, Thread, Weave, Woven, WovenDesign,
 };
 
 /// Yarns of 0.3 mm at these spacings of ends and picks.
@@ -34,7 +34,7 @@ fn clean_cloth_has_no_faults() {
 fn faults_are_named_by_thread_and_crossing() {
     let jammed = cloth("3/1", [0.4, 0.66]);
     let faults = diagnose(&jammed).faults;
-    assert_eq!(faults.kinds(), [Fault::Pierces, Fault::Folds, Fault::Jams]);
+    assert_eq!(faults.kinds(), [FaultKind::Pierces, FaultKind::Folds, FaultKind::Jams]);
     let jams = faults.jams.unwrap();
     assert_eq!((jams.ends, jams.picks, jams.threads[0].thread), (19, 0, Origin::End(2)));
     // A contact of an end and a pick lies where the two cross, or next to it.

@@ -41,7 +41,7 @@ pub use texere_core::{
 pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
-    FabricWarning, Fault, Faults, JamReport, Jams, Measures, NO_CROSSING, Pitch, Relief, Remedy, Shape,
+    FabricWarning, FaultKind, Faults, JamReport, Jams, Measures, NO_CROSSING, Pitch, Relief, Remedy, Shape,
     Shedding, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave,
     Woven, WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm,
 };

@@ -4,7 +4,7 @@ use std::ops::{ControlFlow, Range};
 
 use texere_core::{Origin, Section};
 
-use super::faults::{Diagnosis, Fault, Faults};
+use super::faults::{Diagnosis, FaultKind, Faults};
 use super::places::Crossing;
 use crate::{Crimp, Drawdown, FabricError, JamReport, Relief, Shape, Thread, Woven, WovenDesign};
 
@@ -32,7 +32,7 @@ pub struct Cure {
     /// The tightest bend there, in yarn radii.
     pub curvature: f64,
     /// What it does not cure.
-    pub leaves: Vec<Fault>,
+    pub leaves: Vec<FaultKind>,
 }
 
 /// A change of a cloth.
@@ -181,7 +181,7 @@ struct Trial<'a> {
 struct Outcome {
     clearance: f64,
     curvature: f64,
-    leaves: Vec<Fault>,
+    leaves: Vec<FaultKind>,
 }
 
 impl Outcome {

@@ -38,7 +38,7 @@ pub struct Faults {
 /// A kind of fault. Its text says what the cloth does: "folds".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Fault {
+pub enum FaultKind {
     /// Several times as much yarn as there is room for.
     Crowded,
     /// Threads pierce one another, or themselves.
@@ -49,7 +49,7 @@ pub enum Fault {
     Jams,
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for FaultKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Crowded => "is crowded",
@@ -79,12 +79,12 @@ impl Faults {
     /// assert!(Faults::default().kinds().is_empty());
     /// ```
     #[must_use]
-    pub fn kinds(&self) -> Vec<Fault> {
+    pub fn kinds(&self) -> Vec<FaultKind> {
         let kinds = [
-            self.crowded.map(|_| Fault::Crowded),
-            self.pierces.first().map(|_| Fault::Pierces),
-            self.folds.map(|_| Fault::Folds),
-            self.jams.as_ref().map(|_| Fault::Jams),
+            self.crowded.map(|_| FaultKind::Crowded),
+            self.pierces.first().map(|_| FaultKind::Pierces),
+            self.folds.map(|_| FaultKind::Folds),
+            self.jams.as_ref().map(|_| FaultKind::Jams),
         ];
         kinds.into_iter().flatten().collect()
     }
@@ -101,13 +101,13 @@ impl Woven {
     /// ```
     /// use std::ops::ControlFlow;
     /// use texere_core::{Material, Section};
-    /// use texere_fabric::{Fault, Thread, Weave, Woven};
+    /// use texere_fabric::{FaultKind, Thread, Weave, Woven};
     /// // Ends 1.3 diameters apart: picks can't pass between them.
     /// let twill = Weave::parse("3/1")?.drawdown(20, 16)?;
     /// let (warp, weft) = (vec![Thread::new(0.4, 0.15); 20], vec![Thread::new(0.66, 0.15); 16]);
     /// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
     /// let diagnosis = cloth.diagnose(0.985, |_| ControlFlow::Continue(()))?;
-    /// assert_eq!(diagnosis.faults.kinds(), [Fault::Pierces, Fault::Folds, Fault::Jams]);
+    /// assert_eq!(diagnosis.faults.kinds(), [FaultKind::Pierces, FaultKind::Folds, FaultKind::Jams]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     pub fn diagnose(

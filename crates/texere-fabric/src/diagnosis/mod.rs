@@ -5,5 +5,5 @@ mod faults;
 mod places;
 
 pub use cures::{Cure, Remedy};
-pub use faults::{Diagnosis, Fault, Faults, JAMS_LISTED, Jams};
+pub use faults::{Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams};
 pub use places::{ClothClearance, Crossing, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace};

@@ -42,7 +42,7 @@ impl Design {
         &self.files
     }
 
-    /// What a person should know: what the reader had to assume or leave out, and what the fabric lacks
+    /// What a designer should know: what the reader had to assume or leave out, and what the fabric lacks
     /// ([`Structure::warnings`]).
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {

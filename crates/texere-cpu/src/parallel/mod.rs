@@ -4,7 +4,6 @@
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
-mod fill;
 mod lines;
 mod path;
 mod planar;
@@ -27,7 +26,6 @@ use crate::caps::caps;
 use crate::engine::{ChunkRings, Stages, Work};
 use crate::pages;
 use crate::rolls::Rolls;
-pub use fill::fill;
 use lines::{IndexLines, IndexTable, Lines, VertexLines};
 use path::Job;
 pub(crate) use path::Path;

@@ -7,6 +7,9 @@ pub mod floor;
 #[cfg(feature = "gpu")]
 pub mod measure;
 #[cfg(feature = "gpu")]
+pub mod phases;
+pub mod stream;
+#[cfg(feature = "gpu")]
 pub mod tables;
 
 use std::sync::Arc;

@@ -34,6 +34,22 @@ enum Args {
         #[arg(short, long, default_value = "target/tables")]
         output: PathBuf,
     },
+    /// The paper's figure 5 of any designs: geometry, buffers and drawing, each alone, as a table and a plot
+    #[command(name = "figure-5")]
+    Figure5 {
+        /// .wif drafts or .toml designs
+        #[arg(required = true)]
+        designs: Vec<PathBuf>,
+        /// The device that draws, such as wgpu:1
+        #[arg(long, default_value = "wgpu:0")]
+        device: String,
+        /// Width and height of the picture that is drawn, pixels
+        #[arg(long, default_value = "1600x1200")]
+        size: Size,
+        /// The plot, an .svg file
+        #[arg(short, long, default_value = "target/figure-5.svg")]
+        output: PathBuf,
+    },
 }
 
 #[derive(Debug, clap::Args)]
@@ -46,7 +62,7 @@ struct Work {
     rounds: usize,
 }
 
-/// Ends and picks.
+/// Ends and picks, or width and height.
 #[derive(Debug, Clone, Copy)]
 struct Size(usize, usize);
 
@@ -55,8 +71,10 @@ impl FromStr for Size {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let parsed =
-            text.split_once('x').and_then(|(ends, picks)| Some((ends.parse().ok()?, picks.parse().ok()?)));
-        parsed.map(|(ends, picks)| Self(ends, picks)).ok_or_else(|| format!("{text} is not ENDSxPICKS"))
+            text.split_once('x').and_then(|(one, other)| Some((one.parse().ok()?, other.parse().ok()?)));
+        parsed
+            .map(|(one, other)| Self(one, other))
+            .ok_or_else(|| format!("{text} is not two numbers, such as 489x450"))
     }
 }
 
@@ -84,6 +102,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         Args::Tables { devices, work, heading, output } => {
             let devices = if devices.is_empty() { all_devices() } else { devices };
             tables::write(&devices, &work.sizes(&devices), work.rounds, &heading, &output)
+        }
+        Args::Figure5 { designs, device, size: Size(width, height), output } => {
+            tables::figure_5(&designs, &device, [width.try_into()?, height.try_into()?], &output)
         }
     }
 }

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPoolBuilder;
 use texere::{Frame, Pipeline, Plan, Settings, Topology, Vertex, Yarns};
-use texere_bench::{median, paper_cloth, plan, session};
+use texere_bench::{median, paper_cloth, plan, session, stream};
 use texere_core::{Chunk, MeshMut, Session};
 use texere_cpu::ParallelBackend;
 
@@ -96,8 +96,8 @@ impl Case {
         indices: &mut [u32],
     ) -> Result<Round, texere_core::SessionError> {
         let start = Instant::now();
-        texere_cpu::fill(bytemuck::cast_slice_mut(vertices), 1.0);
-        texere_cpu::fill(bytemuck::cast_slice_mut(indices), 1.0);
+        stream::fill(bytemuck::cast_slice_mut(vertices), 1.0);
+        stream::fill(bytemuck::cast_slice_mut(indices), 1.0);
         let fill = start.elapsed();
 
         // An upload makes the session forget its rolls; one point costs next to nothing.

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use texere_bench::median;
+use texere_bench::{median, stream};
 
 /// Bytes that a fill writes at most. Past the caches its time grows with them.
 const FILL: u64 = 1 << 30;
@@ -34,7 +34,7 @@ impl Floor {
     fn seconds(&mut self, bytes: u64) -> f64 {
         let filled = bytes.min(FILL);
         let start = Instant::now();
-        texere_cpu::fill(&mut self.0[..filled as usize / 4], 2.0);
+        stream::fill(&mut self.0[..filled as usize / 4], 2.0);
         start.elapsed().as_secs_f64() * bytes as f64 / filled as f64
     }
 

@@ -3,9 +3,8 @@
 use std::fmt::Write;
 use std::time::Duration;
 
-use texere::Phases;
-
-use super::{Cloth, Column, PICTURE, Run};
+use super::results::{Cloth, Column, PICTURE, Run};
+use crate::phases::Phases;
 
 /// Triangles a second that the paper states for its largest cloth: its GPU, its CPU.
 const PAPER: [(&str, f64); 2] = [("the paper, RTX 5070 Ti", 37.99e6), ("the paper, i7-8700K", 3.84e6)];
@@ -124,31 +123,21 @@ pub(super) fn report(
              send there, and drawing the face, {width} x {height} pixels of four by four samples, with its light.\n\n\
              ![Geometry, buffers, drawing](figure-5.svg)\n"
         );
-        table(
-            &mut text,
-            &[
-                "cloth",
-                "geometry, serial",
-                "buffers, serial",
-                "geometry, parallel",
-                "buffers, parallel",
-                "drawing",
-            ],
-            |rows| {
-                for (cloth, phases) in cloths.iter().zip(phases) {
-                    rows.push([cloth.name.clone()].into_iter().chain(in_order(phases).map(ms)).collect());
-                }
-            },
-        );
+        text.push_str(&self::phases(cloths, phases));
     }
     text.push_str("\n## Figure 6: devices\n\n![Both stages on every device](figure-6.svg)\n");
     text
 }
 
-/// The phases, each geometry before its buffers.
-pub(super) fn in_order(phases: &Phases) -> [Duration; 5] {
-    let Phases { serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering } = *phases;
-    [serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering]
+/// The table of figure 5, ms.
+pub(super) fn phases(cloths: &[Cloth], phases: &[Phases]) -> String {
+    let mut text = String::new();
+    table(&mut text, &[&["cloth"], &Phases::NAMES[..]].concat(), |rows| {
+        for (cloth, phases) in cloths.iter().zip(phases) {
+            rows.push([cloth.name.clone()].into_iter().chain(phases.in_order().map(ms)).collect());
+        }
+    });
+    text
 }
 
 fn stages(cloth: &Cloth, device: &str, run: &Run, first: Option<Duration>) -> Vec<String> {

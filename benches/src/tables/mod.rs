@@ -2,58 +2,20 @@
 
 mod markdown;
 mod plot;
+mod results;
 
 use std::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use texere::{Counts, DeviceInfo, Phases, Settings, Yarns};
+use texere::{DeviceInfo, Output, Settings};
 use texere_core::StageTimings;
 
 use crate::fill::context;
 use crate::measure::{Bench, median_time};
 use crate::paper_cloth;
-
-/// One device's work on one cloth.
-#[derive(Debug)]
-struct Run {
-    /// Memory and tables, by the host's clock.
-    creation: Duration,
-    /// Control points to the device, by the host's clock.
-    upload: Duration,
-    /// From the open device to the first mesh in its memory, by the host's clock.
-    first: Duration,
-    /// Stage 1 and stage 2 one after the other, by the device's clock where it has one. None where stages are fused.
-    staged: Option<StageTimings>,
-    /// Both stages as fast as the device does them, likewise.
-    whole: Duration,
-    /// The mesh to the host, by the host's clock. None where it lies there already.
-    readback: Option<Duration>,
-    /// Giving memory back, by the host's clock.
-    clean_up: Duration,
-}
-
-/// A device, and its runs on all cloths.
-#[derive(Debug)]
-struct Column {
-    info: DeviceInfo,
-    /// A context of the device's, by the host's clock; the first of a driver pays for the driver. None for a CPU.
-    context: Option<Duration>,
-    /// Compiling the kernels, by the host's clock: opening the device takes so much longer than a context does.
-    build: Duration,
-    runs: Vec<Run>,
-}
-
-/// A cloth of the tables.
-#[derive(Debug)]
-struct Cloth {
-    name: String,
-    yarns: Yarns,
-    counts: Counts,
-}
-
-/// Pixels of the picture that is drawn.
-const PICTURE: [u32; 2] = [1600, 1200];
+use crate::phases::{PhaseTimer, Phases};
+use results::{Cloth, Column, PICTURE, Run};
 
 /// Measures `devices` on the paper's cloth in `sizes` (ends, picks), the median of `rounds` each, and writes
 /// `BENCHMARKS.md`, `figure-5.svg` and `figure-6.svg` to `folder`. `heading` says in the report how it was made.
@@ -70,9 +32,7 @@ pub fn write(
 ) -> Result<(), Box<dyn Error>> {
     let mut cloths = Vec::new();
     for &(ends, picks) in sizes {
-        let yarns = paper_cloth(ends, picks)?.yarns()?;
-        let counts = *texere::Pipeline::new(&yarns).settings(Settings::default()).plan()?.counts();
-        cloths.push(Cloth { name: format!("{ends} x {picks}"), yarns, counts });
+        cloths.push(Cloth::new(format!("{ends} x {picks}"), paper_cloth(ends, picks)?.yarns()?)?);
     }
     let columns: Vec<_> =
         devices.iter().map(|device| column(device, &cloths, rounds)).collect::<Result<_, _>>()?;
@@ -83,9 +43,38 @@ pub fn write(
         markdown::report(heading, &cloths, &columns, &phases, rounds),
     )?;
     if !phases.is_empty() {
-        plot::figure_5(&folder.join("figure-5.svg"), &cloths, &phases)?;
+        std::fs::write(folder.join("figure-5.svg"), plot::figure_5(&cloths, &phases)?)?;
     }
-    plot::figure_6(&folder.join("figure-6.svg"), &cloths, &columns)
+    std::fs::write(folder.join("figure-6.svg"), plot::figure_6(&cloths, &columns)?)?;
+    Ok(())
+}
+
+/// Times geometry, buffers and drawing of `designs` on `device`, a name such as `wgpu:0`, prints them as a table, and draws
+/// the paper's figure 5 of them to `output`, an SVG file, unless that is what a design was read from.
+///
+/// # Errors
+///
+/// Whatever a reader, a device or the file system says.
+pub fn figure_5(
+    designs: &[PathBuf],
+    device: &str,
+    size: [u32; 2],
+    output: &Path,
+) -> Result<(), Box<dyn Error>> {
+    let read: Vec<_> = designs.iter().map(texere::read).collect::<Result<_, _>>()?;
+    let output = Output::to(output).sparing(read.iter().flat_map(|design| design.files()));
+    output.check()?;
+    let timer = PhaseTimer::open(device)?;
+    let (mut cloths, mut phases) = (Vec::new(), Vec::new());
+    for (path, design) in designs.iter().zip(&read) {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let cloth = Cloth::new(name.into(), design.yarns()?)?;
+        phases.push(timer.phases(&cloth.yarns, &Settings::default(), size)?);
+        cloths.push(cloth);
+    }
+    print!("{}:\n\n{}", timer.info().device, markdown::phases(&cloths, &phases));
+    texere::write_file(plot::figure_5(&cloths, &phases)?.as_bytes(), output)?;
+    Ok(())
 }
 
 /// One device on all cloths.
@@ -114,10 +103,10 @@ fn phases(devices: &[String], cloths: &[Cloth]) -> Result<Vec<Phases>, Box<dyn E
     let Some(device) = devices.iter().find(|name| name.starts_with("wgpu:") && !name.contains('/')) else {
         return Ok(Vec::new());
     };
-    let (renderer, serial) = (texere::open_renderer(device)?, texere::open("cpu-serial")?);
+    let timer = PhaseTimer::open(device)?;
     let mut all = Vec::new();
     for Cloth { name, yarns, .. } in cloths {
-        all.push(renderer.phases(yarns, &Settings::default(), &*serial, PICTURE)?);
+        all.push(timer.phases(yarns, &Settings::default(), PICTURE)?);
         eprintln!("{device}: {name}, drawing");
     }
     Ok(all)

@@ -1,46 +1,43 @@
 //! The figures as SVG.
 
 use std::error::Error;
-use std::path::Path;
 use std::time::Duration;
 
 use plotters::prelude::*;
 
-use texere::Phases;
-
-use super::markdown::in_order;
-use super::{Cloth, Column};
+use super::results::{Cloth, Column};
+use crate::phases::Phases;
 
 /// A line of a figure: its name, and a time for each cloth.
 type Line = (String, Vec<Duration>);
 
-/// Geometry and buffers, serial and parallel, and drawing.
-pub(super) fn figure_5(path: &Path, cloths: &[Cloth], phases: &[Phases]) -> Result<(), Box<dyn Error>> {
-    let names = ["geometry, serial", "buffers, serial", "geometry, parallel", "buffers, parallel", "drawing"];
-    let lines = names
+/// Geometry and buffers, serial and parallel, and drawing, as SVG.
+pub(super) fn figure_5(cloths: &[Cloth], phases: &[Phases]) -> Result<String, Box<dyn Error>> {
+    let lines = Phases::NAMES
         .into_iter()
         .enumerate()
-        .map(|(number, name)| (name.into(), phases.iter().map(|phases| in_order(phases)[number]).collect()));
-    draw(path, "Phases of the simulation", cloths, &lines.collect::<Vec<_>>())
+        .map(|(number, name)| (name.into(), phases.iter().map(|phases| phases.in_order()[number]).collect()));
+    draw("Phases of the simulation", cloths, &lines.collect::<Vec<_>>())
 }
 
-/// Both stages of each device.
-pub(super) fn figure_6(path: &Path, cloths: &[Cloth], columns: &[Column]) -> Result<(), Box<dyn Error>> {
+/// Both stages of each device, as SVG.
+pub(super) fn figure_6(cloths: &[Cloth], columns: &[Column]) -> Result<String, Box<dyn Error>> {
     let lines = columns
         .iter()
         .map(|Column { info, runs, .. }| (info.name.clone(), runs.iter().map(|run| run.whole).collect()));
-    draw(path, "Trajectory and mesh", cloths, &lines.collect::<Vec<_>>())
+    draw("Trajectory and mesh", cloths, &lines.collect::<Vec<_>>())
 }
 
 /// Milliseconds over triangles, both axes logarithmic: work that is linear is a line of slope one.
-fn draw(path: &Path, title: &str, cloths: &[Cloth], lines: &[Line]) -> Result<(), Box<dyn Error>> {
+fn draw(title: &str, cloths: &[Cloth], lines: &[Line]) -> Result<String, Box<dyn Error>> {
     let ms = |time: &Duration| time.as_secs_f64() * 1e3;
     let times = || lines.iter().flat_map(|(_, times)| times).map(ms).filter(|time| *time > 0.0);
     let (low, high) = (times().fold(f64::MAX, f64::min), times().fold(f64::MIN_POSITIVE, f64::max));
     let triangles = || cloths.iter().map(|cloth| cloth.counts.triangles as f64);
     let (fewest, most) = (triangles().fold(f64::MAX, f64::min), triangles().fold(1.0, f64::max));
 
-    let area = SVGBackend::new(path, (960, 560)).into_drawing_area();
+    let mut svg = String::new();
+    let area = SVGBackend::with_string(&mut svg, (960, 560)).into_drawing_area();
     area.fill(&WHITE)?;
     let mut chart = ChartBuilder::on(&area)
         .caption(title, ("sans-serif", 20))
@@ -64,5 +61,6 @@ fn draw(path: &Path, title: &str, cloths: &[Cloth], lines: &[Line]) -> Result<()
         .border_style(BLACK)
         .draw()?;
     area.present()?;
-    Ok(())
+    drop((chart, area));
+    Ok(svg)
 }

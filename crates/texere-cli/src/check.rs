@@ -1,19 +1,15 @@
 //! `texere check`
 
 use std::fmt::Write;
-use std::ops::ControlFlow;
 
 use serde::Serialize;
-use texere::{FabricError, Settings, Structure, Woven};
+use texere::Faults;
 
 use crate::args::CheckArgs;
-use crate::cures::{self, Cure};
+use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, place};
+use crate::cures::{CureReport, phrase};
 use crate::fail::Fail;
-use crate::places::{ClearanceReport, ContactReport, Crossing, CrowdReport, CurvatureReport, Names, place};
-use crate::{progress, terminal};
-
-/// The most jammed threads that are listed one by one.
-const LISTED: usize = 100;
+use crate::{print, progress, terminal};
 
 /// What is said of a cloth. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -23,68 +19,68 @@ struct Report {
     /// Contacts nearer than this pierce.
     touching: f64,
     #[serde(flatten)]
-    faults: Faults,
-    cures: Vec<Cure>,
+    faults: FaultsReport,
+    cures: Vec<CureReport>,
 }
 
 /// What is wrong with a cloth; nothing where all are none.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Faults {
-    pub(crate) crowded: Option<CrowdReport>,
-    pub(crate) pierces: Option<Pierces>,
-    pub(crate) folds: Option<CurvatureReport>,
-    pub(crate) jams: Option<Jams>,
+#[derive(Debug, Serialize)]
+struct FaultsReport {
+    crowded: Option<CrowdReport>,
+    pierces: Option<Pierces>,
+    folds: Option<CurvatureReport>,
+    jams: Option<Jams>,
 }
 
 /// Yarns that pierce one another, or themselves.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Pierces {
+#[derive(Debug, Serialize)]
+struct Pierces {
     min: f64,
     /// The contacts that pierce, worst first, as far as `inspect` lists them.
-    pub(crate) worst: Vec<ContactReport>,
+    worst: Vec<ContactReport>,
 }
 
 /// Threads too close for those that cross them.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Jams {
+#[derive(Debug, Serialize)]
+struct Jams {
     ends: usize,
     picks: usize,
     /// The worst one first.
-    pub(crate) threads: Vec<Jammed>,
+    threads: Vec<Jammed>,
 }
 
 /// A thread that lies closer to the one before than those that cross can pass.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Jammed {
+#[derive(Debug, Serialize)]
+struct Jammed {
     thread: String,
-    pub(crate) pitch_mm: f64,
-    pub(crate) pitch_min_mm: f64,
-    /// One of its crossings, to look at.
-    #[serde(skip)]
-    pub(crate) crossing: Crossing,
+    pitch_mm: f64,
+    pitch_min_mm: f64,
 }
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let design = texere::read(&args.design)?;
-    let Structure::Woven(woven) = &design.structure else {
-        return Err(Fail::not_woven(&args.design));
-    };
-    let touching = 1.0 - args.accuracy;
-    let (faults, clearance, curvature) = progress::during("measuring how near yarns come", |bar| {
-        Faults::new(woven, touching, progress::share(bar))
+    let diagnosis = progress::during("measuring how near yarns come", |bar| {
+        design.structure.diagnose(1.0 - args.accuracy, progress::share(bar))
     })?;
-    let faulty = faults.said();
+    let faulty = phrase(&diagnosis.faults.kinds());
     let cures = match &faulty {
         Some(_) => progress::during("looking for cures", |bar| {
-            cures::of(&design, woven, &faults, touching, progress::share(bar))
+            design.structure.cures(&diagnosis, progress::share(bar))
         }),
         None => Vec::new(),
     };
-    let report = Report { name: design.name, clean: faulty.is_none(), touching, faults, cures };
+    let report = Report {
+        name: design.name,
+        clean: faulty.is_none(),
+        touching: diagnosis.touching,
+        faults: FaultsReport::from(&diagnosis.faults),
+        cures: cures.iter().filter_map(CureReport::new).collect(),
+    };
     if args.json {
-        crate::print_json(&report)?;
+        print::json(&report)?;
     } else {
-        crate::print(&report.text(&clearance, &curvature))?;
+        let clearance = &diagnosis.clearance;
+        print::text(&report.text(&clearance.into(), &(&clearance.bend).into()))?;
     }
     match faulty {
         Some(said) => Err(Fail::cloth(&args.design, &said)),
@@ -92,67 +88,23 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     }
 }
 
-impl Faults {
-    /// What is wrong with `cloth`, whose yarns pierce where they come nearer than `touching`, and what was measured.
-    pub(crate) fn new(
-        cloth: &Woven,
-        touching: f64,
-        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-    ) -> Result<(Self, ClearanceReport, CurvatureReport), FabricError> {
-        let yarns = cloth.yarns()?;
-        let found = texere::clearance_with_progress(&yarns, Settings::default().tension, progress)?;
-        let names = Names { cloth, yarns: &yarns };
-        let (clearance, curvature) = (names.clearance(&found), names.curvature(&found));
-        let worst: Vec<_> =
-            clearance.worst.iter().take_while(|contact| contact.ratio < touching).cloned().collect();
-        let faults = Self {
-            crowded: clearance.crowd.clone(),
-            pierces: worst.first().map(|contact| contact.ratio).map(|min| Pierces { min, worst }),
-            folds: (curvature.min < 1.0).then(|| curvature.clone()),
-            jams: Jams::of(cloth),
-        };
-        Ok((faults, clearance, curvature))
-    }
-
-    /// What the cloth does that it should not.
-    pub(crate) fn kinds(&self) -> Vec<&'static str> {
-        let kinds = [
-            self.crowded.as_ref().map(|_| "is crowded"),
-            self.pierces.as_ref().map(|_| "pierces itself"),
-            self.folds.as_ref().map(|_| "folds"),
-            self.jams.as_ref().map(|_| "jams"),
-        ];
-        kinds.into_iter().flatten().collect()
-    }
-
-    /// The same in one phrase, if there is anything.
-    pub(crate) fn said(&self) -> Option<String> {
-        let kinds = self.kinds();
-        (!kinds.is_empty()).then(|| kinds.join(", "))
-    }
-}
-
-impl Jams {
-    pub(crate) fn of(cloth: &Woven) -> Option<Self> {
-        let [ends, picks] = cloth.pitches();
-        let jammed = |pitches: &[texere::Pitch], crossing: fn(usize) -> Crossing| -> Vec<Jammed> {
-            let numbered = pitches.iter().zip(2..).filter(|(pitch, _)| pitch.is_jammed());
-            let jam = |(pitch, number): (&texere::Pitch, usize)| Jammed {
-                thread: pitch.thread.to_string(),
-                pitch_mm: pitch.pitch_mm,
-                pitch_min_mm: pitch.passing_mm,
-                crossing: crossing(number),
+impl From<&Faults> for FaultsReport {
+    fn from(faults: &Faults) -> Self {
+        let jams = faults.jams.as_ref().map(|jams| {
+            let jammed = |jam: &texere::Pitch| Jammed {
+                thread: jam.thread.to_string(),
+                pitch_mm: jam.pitch_mm,
+                pitch_min_mm: jam.passing_mm,
             };
-            numbered.map(jam).collect()
-        };
-        let mut threads = jammed(&ends, |end| Crossing { end, pick: 1 });
-        let jammed_ends = threads.len();
-        threads.extend(jammed(&picks, |pick| Crossing { end: 1, pick }));
-        let jammed_picks = threads.len() - jammed_ends;
-        let lack = |jam: &Jammed| jam.pitch_mm / jam.pitch_min_mm;
-        threads.sort_by(|a, b| lack(a).total_cmp(&lack(b)));
-        threads.truncate(LISTED);
-        (!threads.is_empty()).then_some(Self { ends: jammed_ends, picks: jammed_picks, threads })
+            Jams { ends: jams.ends, picks: jams.picks, threads: jams.threads.iter().map(jammed).collect() }
+        });
+        let worst: Vec<_> = faults.pierces.iter().map(ContactReport::from).collect();
+        Self {
+            crowded: faults.crowded.as_ref().map(CrowdReport::from),
+            pierces: worst.first().map(|contact| contact.ratio).map(|min| Pierces { min, worst }),
+            folds: faults.folds.as_ref().map(CurvatureReport::from),
+            jams,
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
 /// Starts a thread for each core, or as many as the system gives; where it gives none, the program does all by itself.
 ///
-/// Rayon would start them at first use, and panic where it can't have them all. So they are started before it is told how
+/// Rayon would start them at first use, and panic where it can't have them all. So they are started before it learns how
 /// many they are.
 pub(crate) fn start() {
     let (mut workers, wanted) = (Vec::new(), wanted());
@@ -25,7 +25,7 @@ pub(crate) fn start() {
         workers.push(hand_over);
     }
     let pool = ThreadPoolBuilder::new().num_threads(workers.len().max(1));
-    // It fails where there is a pool already, and nobody has made one.
+    // It fails only where there is a pool already, and there is none.
     let _ = if workers.is_empty() {
         pool.use_current_thread().build_global()
     } else {
@@ -40,7 +40,7 @@ pub(crate) fn start() {
 
 /// As many as rayon would start.
 fn wanted() -> usize {
-    let told = env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
-    told.filter(|number| *number > 0)
+    let set = env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
+    set.filter(|number| *number > 0)
         .unwrap_or_else(|| thread::available_parallelism().map_or(1, NonZero::get))
 }

@@ -6,9 +6,9 @@ use std::fmt::Write;
 use serde_json::json;
 
 use crate::args::DevicesArgs;
-use crate::drivers;
 use crate::fail::Fail;
 use crate::terminal::lines;
+use crate::{drivers, print};
 
 pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     let devices = drivers::quietly(|| Ok(texere::devices()))?;
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
         });
         let missing: Vec<_> = missing.map(|(family, why)| json!({ "family": family, "why": why })).collect();
         let all = json!({ "auto": auto, "why": why, "found": found.collect::<Vec<_>>(), "missing": missing });
-        return crate::print(&format!("{all:#}\n"));
+        return print::text(&format!("{all:#}\n"));
     }
     let mut text = String::new();
     for device in &devices.found {
@@ -41,7 +41,7 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     for (family, why) in missing {
         let _ = writeln!(text, "no {family} device: {why}");
     }
-    crate::print(&lines(&text))
+    print::text(&lines(&text))
 }
 
 /// An error and its causes in one line.

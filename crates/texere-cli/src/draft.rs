@@ -1,9 +1,10 @@
 //! `texere draft`
 
-use texere::{Drawdown, Output, Side, Structure};
+use texere::{Drawdown, Output, Side};
 
 use crate::args::DraftArgs;
 use crate::fail::Fail;
+use crate::print;
 use crate::terminal::line;
 
 /// Bytes of rows that are gathered before they are printed: calls cost nothing beside the copying from here on.
@@ -11,19 +12,17 @@ const GATHERED: usize = 1 << 16;
 
 pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
     let design = texere::read(&args.design)?;
-    let Structure::Woven(woven) = &design.structure else {
-        return Err(Fail::not_woven(&args.design));
-    };
+    let woven = design.structure.woven().ok_or_else(|| Fail::not_woven(&args.design))?;
     let side = if args.back { Side::Back } else { Side::Face };
     if args.text {
-        print_rows(woven.drawdown(), side)?;
+        print_rows(woven.cloth().drawdown(), side)?;
     }
     if let Some(output) = &args.output {
         let sparing = Output::to(output).sparing(design.files());
-        let [width, height] = texere::write_draft(woven, design.draft.as_ref(), side, sparing)?;
+        let [width, height] = texere::write_draft(woven.cloth(), woven.draft(), side, sparing)?;
         // With --text, standard output is the drawdown alone.
         if !args.text {
-            crate::print(&format!("{}: {width} × {height} pixels\n", line(output.display())))?;
+            print::text(&format!("{}: {width} × {height} pixels\n", line(output.display())))?;
         }
     }
     Ok(())
@@ -43,7 +42,7 @@ fn print_rows(drawdown: &Drawdown, side: Side) -> Result<(), Fail> {
         rows.extend((0..ends).map(|column| if on_top(column, pick) { '1' } else { '0' }));
         rows.push('\n');
         if rows.len() >= GATHERED || pick == 0 {
-            crate::print(&rows)?;
+            print::text(&rows)?;
             rows.clear();
         }
     }

@@ -50,7 +50,7 @@ mod aside {
 
     impl Drop for Aside {
         fn drop(&mut self) {
-            // Nobody is left to tell if that fails.
+            // If that fails there is nowhere left to say so.
             let _ = rustix::stdio::dup2_stderr(&self.stderr);
             let mut text = Vec::new();
             if self.shown && self.written.rewind().is_ok() && self.written.read_to_end(&mut text).is_ok() {

@@ -39,7 +39,7 @@ impl Fail {
         Self { code: WORLD, source: format!("out of memory: {bytes} bytes for {what}").into() }
     }
 
-    /// A draft, or a check of a cloth, was asked of a design that is none.
+    /// A draft was asked of a design that is not woven.
     pub(crate) fn not_woven(design: &Path) -> Self {
         Self { code: DESIGN, source: format!("{} is not woven cloth", design.display()).into() }
     }
@@ -49,12 +49,7 @@ impl Fail {
         Self { code: CLOTH, source: format!("{} {faults}", design.display()).into() }
     }
 
-    /// A picture shows one design.
-    pub(crate) fn too_many_designs(designs: usize) -> Self {
-        Self { code: USAGE, source: format!("a picture shows one design, not {designs}").into() }
-    }
-
-    /// A picture of a turntable that is, by a link, another one, too.
+    /// A picture of a turntable that is a link to another of them.
     pub(crate) fn written_twice(path: &Path) -> Self {
         Self {
             code: USAGE,
@@ -88,14 +83,14 @@ impl fmt::Display for Fail {
     }
 }
 
-/// Whose fault an error is. A cause tells more than what it led to: memory that ran out while a design was read is no
+/// The exit code of an error. A cause says more than what it led to: memory that ran out while a design was read is no
 /// fault of the design.
 fn code_of(error: &(dyn Error + 'static)) -> u8 {
     let causes = successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source());
     causes.filter_map(own_code).last().unwrap_or(WORLD)
 }
 
-/// Whose fault an error is by itself, as far as it tells.
+/// The exit code of an error by itself, where it decides one.
 fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
     // What is wrong with a file that the design names comes in a box.
     let named = || error.downcast_ref::<Box<ReadError>>().map(|error| &**error);

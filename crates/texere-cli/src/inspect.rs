@@ -3,14 +3,14 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Counts, Design, Measures, Pipeline, Structure, Woven, Yarns};
+use texere::{Counts, Design, Pipeline, Structure, Yarns};
 
 use crate::args::InspectArgs;
+use crate::clearance::{ClearanceReport, CurvatureReport};
 use crate::fail::Fail;
 use crate::measures::{JamsReport, MeasuresReport};
-use crate::places::{ClearanceReport, CurvatureReport, Names};
-use crate::progress;
 use crate::terminal::line;
+use crate::{print, progress};
 
 /// What is said of a design. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -50,25 +50,21 @@ struct ClothReport {
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
     let mut design = texere::read(&args.design)?;
     if let Some(section) = &args.settings.section {
-        design.set_section(section.clone())?;
+        design.structure.set_section(section.clone())?;
     }
     let report = report(design, args)?;
     if args.json {
-        return crate::print_json(&report);
+        return print::json(&report);
     }
-    crate::print(&report.text())
+    print::text(&report.text())
 }
 
 fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let yarns = design.yarns()?;
     let settings = args.settings.settings();
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
-    let cloth = match &design.structure {
-        Structure::Woven(woven) if !args.counts => {
-            Some(ClothReport::new(&design, woven, &yarns, settings.tension)?)
-        }
-        _ => None,
-    };
+    let cloth =
+        if args.counts { None } else { ClothReport::new(&design.structure, &yarns, settings.tension)? };
     Ok(Report { warnings: design.warnings(), name: design.name, size: Size::new(&counts), cloth })
 }
 
@@ -86,21 +82,22 @@ impl Size {
 }
 
 impl ClothReport {
-    fn new(design: &Design, woven: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, Fail> {
-        let found = progress::during("measuring how near yarns come", |bar| {
-            texere::clearance_with_progress(yarns, tension, progress::share(bar))
+    /// None for what is not woven.
+    fn new(structure: &Structure, yarns: &Yarns, tension: f32) -> Result<Option<Self>, Fail> {
+        let Some(woven) = structure.woven() else { return Ok(None) };
+        let clearance = progress::during("measuring how near yarns come", |bar| {
+            structure.clearance(yarns, tension, progress::share(bar))
         })?;
-        let names = Names { cloth: woven, yarns };
-        let measures = Measures::new(woven, yarns, tension)?;
-        Ok(Self {
-            ends: woven.warp().len(),
-            picks: woven.weft().len(),
-            size_mm: woven.size_mm(),
-            jam: JamsReport::from(&design.jam),
-            measures: MeasuresReport::new(&measures, woven.materials()),
-            clearance: names.clearance(&found),
-            curvature: names.curvature(&found),
-        })
+        let measures = structure.measures(yarns, tension)?;
+        Ok(Some(Self {
+            ends: woven.cloth().warp().len(),
+            picks: woven.cloth().weft().len(),
+            size_mm: structure.size_mm(),
+            jam: JamsReport::from(woven.jam_report()),
+            measures: MeasuresReport::new(&measures, yarns.materials()),
+            clearance: ClearanceReport::from(&clearance),
+            curvature: CurvatureReport::from(&clearance.bend),
+        }))
     }
 
     fn lines(&self) -> Vec<(&'static str, String)> {

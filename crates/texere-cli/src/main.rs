@@ -5,6 +5,7 @@
 
 mod args;
 mod check;
+mod clearance;
 mod cores;
 mod cures;
 mod devices;
@@ -14,7 +15,7 @@ mod fail;
 mod inspect;
 mod measures;
 mod mesh;
-mod places;
+mod print;
 mod progress;
 mod render;
 #[cfg(unix)]
@@ -27,8 +28,6 @@ use std::process::ExitCode;
 
 use args::{Args, Command};
 use clap::Parser;
-use fail::Fail;
-use serde::Serialize;
 
 fn main() -> ExitCode {
     let command = match Args::try_parse() {
@@ -51,7 +50,7 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(fail) => {
-            // Nobody is left to tell when standard error is closed too.
+            // When standard error is closed too, there is nowhere left to say so.
             let _ = writeln!(std::io::stderr(), "{fail}");
             fail.exit_code()
         }
@@ -70,19 +69,4 @@ fn misused(error: &clap::Error) -> ExitCode {
     }
     let _ = std::io::stderr().write_all(terminal::lines(&error.to_string()).as_bytes());
     ExitCode::from(fail::USAGE)
-}
-
-/// Prints `report` as JSON, for programs.
-fn print_json(report: &impl Serialize) -> Result<(), Fail> {
-    let json = serde_json::to_string_pretty(report).map_err(|error| Fail::output(error.into()))?;
-    print(&(json + "\n"))
-}
-
-/// Prints `text` to standard output. A reader that has seen enough and closed the pipe is no failure.
-fn print(text: &str) -> Result<(), Fail> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Fail::output(error)),
-        _ => Ok(()),
-    }
 }

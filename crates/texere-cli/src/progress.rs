@@ -15,7 +15,7 @@ const QUIET_FOR: Duration = Duration::from_secs(1);
 /// Steps that a bar of shares has.
 const STEPS: u64 = 1000;
 
-/// A bar that is hidden until [`teller`] shows it, and for good where `terminal` is false.
+/// A bar that is hidden until [`reporter`] shows it, and for good where `terminal` is false.
 pub(crate) fn bar(terminal: bool) -> ProgressBar {
     let bar = ProgressBar::hidden();
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent} %, {eta} left") {
@@ -27,7 +27,7 @@ pub(crate) fn bar(terminal: bool) -> ProgressBar {
     bar
 }
 
-/// Does `work`, and says on a terminal how far it has come if it takes over a second: `work` tells the bar, see [`share`].
+/// Does `work`, and says on a terminal how far it has come if it takes over a second: `work` moves the bar, see [`share`].
 pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T) -> T {
     let bar = bar(std::io::stderr().is_terminal());
     if let Ok(style) = ProgressStyle::with_template("{msg}: {percent} %, {elapsed}") {
@@ -61,8 +61,8 @@ pub(crate) fn share(bar: &ProgressBar) -> impl FnMut(f64) -> ControlFlow<()> + S
     }
 }
 
-/// Moves `bar` on as the pipeline tells how far it has come.
-pub(crate) fn teller(bar: &ProgressBar) -> impl FnMut(Progress) -> ControlFlow<()> + Send {
+/// Moves `bar` on as the pipeline reports how far it has come.
+pub(crate) fn reporter(bar: &ProgressBar) -> impl FnMut(Progress) -> ControlFlow<()> + Send {
     let (bar, start) = (bar.clone(), Instant::now());
     move |progress| {
         if start.elapsed() >= QUIET_FOR {

@@ -7,12 +7,12 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 
-/// Held by whom a signal has told to end the program, until it is ended.
+/// Held from the signal that ends the program until the program has ended.
 static ENDING: Mutex<()> = Mutex::new(());
 
 /// From here on Ctrl-C and its like first remove what is not finished, whatever the program is doing. It then ends by that
-/// very signal, so that a shell knows why. A signal that whoever started the program wants ignored stays ignored, as
-/// `nohup` wants it of SIGHUP.
+/// very signal, so that a shell knows why. A signal that was ignored when the program started stays ignored, as
+/// `nohup` does with SIGHUP.
 pub(crate) fn listen() {
     let (hand_over, wait) = mpsc::channel::<Signals>();
     let listener = thread::Builder::new().spawn(move || {
@@ -31,13 +31,13 @@ pub(crate) fn listen() {
     }
 }
 
-/// Waits for the end, if a signal has told the program to end. A write that was stopped by that is no failure of its
+/// Waits for the end, if a signal is ending the program. A write that was stopped by that is no failure of its
 /// own.
 pub(crate) fn give_way() {
     drop(ENDING.lock().unwrap_or_else(PoisonError::into_inner));
 }
 
-/// The signals that are ignored, a bit each from the lowest. Linux tells; where nobody does, SIGHUP may be.
+/// The signals that are ignored, a bit each from the lowest. Linux says which; elsewhere SIGHUP is taken for ignored.
 fn ignored() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

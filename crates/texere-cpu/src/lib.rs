@@ -25,4 +25,3 @@ mod rolls;
 mod serial;
 
 pub use backend::{ParallelBackend, SerialBackend};
-pub use parallel::fill;

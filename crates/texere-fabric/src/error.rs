@@ -106,7 +106,7 @@ pub enum FabricError {
         /// Ends asked for.
         ends: usize,
     },
-    /// A twill's move with which an end would lie on one side of the cloth for ever.
+    /// A twill's move with which an end would never change sides.
     #[error("weave \"{text}\", character {position}: with move {step} end {end} never changes sides")]
     TwillMove {
         /// The text, cut short where it is long.
@@ -224,7 +224,7 @@ pub enum FabricError {
         /// Most taken.
         limit: u64,
     },
-    /// Whoever was told of the progress asked to stop.
+    /// The progress callback asked to stop.
     #[error("cancelled")]
     Cancelled,
     /// Yarns that are not those of the cloth that is measured.

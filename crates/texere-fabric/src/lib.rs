@@ -10,6 +10,9 @@
 //! [`Weave`] in its usual notation, or straight from a function. [`Woven`] adds what each thread is like and where it
 //! lies, and turns all into [`texere_core::Yarns`].
 //!
+//! A [`Structure`] is the fabric of any design: [`WovenDesign`] is the only kind so far. It says what is wrong with the
+//! fabric ([`Structure::diagnose`]) and which single changes would cure it ([`Structure::cures`]).
+//!
 //! Beside structures there are the measures that designers ask for: [`Measures`] (yarn consumption, crimp, cover, weight,
 //! thickness), [`clearance()`] (whether yarns pierce one another), [`length_mm`] of yarn, and the diameter of a yarn of
 //! known weight ([`diameter_mm`]).
@@ -26,9 +29,12 @@
 //! ```
 
 mod clearance;
+mod diagnosis;
 mod error;
 mod length;
 mod measures;
+mod memory;
+mod structure;
 mod warning;
 mod woven;
 mod yarn_size;
@@ -37,13 +43,18 @@ pub use clearance::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
+pub use diagnosis::{
+    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Remedy, ThreadBend,
+    ThreadContact, ThreadCrowd, ThreadPlace,
+};
 pub use error::FabricError;
 pub use length::{length_mm, lengths_mm};
 pub use measures::{Cover, Measures, lengths_by_material, thickness_mm, weight_g};
+pub use structure::Structure;
 pub use warning::FabricWarning;
 pub use woven::{
-    CROSSINGS_MAX, Crimp, Draft, Drawdown, Jam, JamReport, NO_CROSSING, POINTS_MAX, Pitch, REPEAT_MAX,
-    SPACING_MAX, SPACING_MIN, Shape, Shedding, THREADS_MAX, Thread, Tightness, Weave, Woven,
+    CROSSINGS_MAX, Crimp, Draft, Drawdown, JamReport, NO_CROSSING, POINTS_MAX, Pitch, REPEAT_MAX, Relief,
+    SPACING_MAX, SPACING_MIN, Shape, Shedding, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign,
 };
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,

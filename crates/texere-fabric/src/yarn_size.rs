@@ -12,7 +12,7 @@ pub const COTTON_DENSITY: f64 = 1.0 / 1.1;
 
 /// Diameter (mm) of a round yarn of `tex` (g/km) and `density` (g/cm³).
 ///
-/// A length of 1 km weighs `tex` g and fills `π d²/4` mm² × 1 km, whence d = √(4 tex / (1000 π density)), or
+/// A length of 1 km weighs `tex` g and fills `π d²/4` mm² × 1 km, so that d = √(4 tex / (1000 π density)), or
 /// 0.0357 √(tex / density). With [`COTTON_DENSITY`] it is Peirce's d = 1 / (28 √Ne) inch.
 ///
 /// ```

@@ -7,7 +7,7 @@
 mod cloths;
 
 use texere_core::Section;
-use texere_fabric::{Crimp, Drawdown, FabricWarning, Jam, Shape, Thread, Weave, clearance};
+use texere_fabric::{Crimp, Drawdown, FabricWarning, Relief, Shape, Thread, Weave, clearance};
 
 use cloths::{cloth, jam, weaves};
 
@@ -125,7 +125,7 @@ fn below_the_least_pitch_threads_pierce_and_are_told_of() {
             cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
             let jammed = |warning: &FabricWarning| matches!(warning, FabricWarning::Jammed { pitch_mm, .. } if *pitch_mm == pitch * 0.2);
             assert!(cloth.warnings().iter().any(jammed), "{name} at {pitch} diameters");
-            let report = cloth.relieve(Jam::Report).unwrap();
+            let report = cloth.relieve(Relief::Report).unwrap();
             assert!(report.before[0].jammed > 0 && report.before[1].jammed == 0, "{name}: {report:?}");
             let found = clearance(&cloth.yarns().unwrap(), 0.0).unwrap();
             assert!(pitch > 1.5 || found.min < 0.99, "{name} at {pitch} diameters: {}", found.min);
@@ -139,7 +139,7 @@ fn flattening_cures_what_it_can() {
         for (ends, picks) in [(1.5, 2.4), (1.4, 3.0), (1.3, 2.2), (1.7, 1.7)] {
             let threads = [ends, picks].map(|pitch: f64| Thread::new(pitch * 0.2, 0.1));
             let mut cloth = cloth(Shape::Round, drawdown.clone(), threads, Section::Circle);
-            let report = cloth.relieve(Jam::Flatten).unwrap();
+            let report = cloth.relieve(Relief::Flatten).unwrap();
             let after = clearance(&cloth.yarns().unwrap(), 0.0).unwrap().min;
             let jammed = report.after.map(|set| set.jammed);
             if jammed == [0, 0] {

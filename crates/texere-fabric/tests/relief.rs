@@ -5,7 +5,7 @@
 mod oracle;
 
 use texere_core::{Material, Origin, Section};
-use texere_fabric::{Crimp, FabricError, Jam, Shape, Thread, Weave, Woven};
+use texere_fabric::{Crimp, FabricError, Relief, Shape, Thread, Weave, Woven};
 
 fn cloth(weave: &str, [end, pick]: [Thread; 2], section: Section) -> Woven {
     let drawdown = Weave::parse(weave).unwrap().drawdown(8, 8).unwrap();
@@ -23,7 +23,7 @@ fn dense(weave: &str, ends: f64, picks: f64) -> Woven {
 #[test]
 fn the_least_pitch_is_peirces() {
     // Two sets of round threads alike: √3 diameters, whatever the weave. A pick of 0.6 ends: 1.386 ends both ways.
-    let report = dense("3/1", 3.0, 1.5).relieve(Jam::Report).unwrap();
+    let report = dense("3/1", 3.0, 1.5).relieve(Relief::Report).unwrap();
     for set in report.before {
         assert!((set.pitch_min_mm / 0.2 - 3f64.sqrt()).abs() < 1e-6, "{set:?}");
     }
@@ -33,13 +33,13 @@ fn the_least_pitch_is_peirces() {
 
     let mut unequal = cloth("plain", [Thread::new(0.6, 0.1), Thread::new(0.6, 0.06)], Section::Circle);
     unequal.set_crimp(Crimp::WarpShare(0.5)).unwrap();
-    for set in unequal.relieve(Jam::Report).unwrap().before {
+    for set in unequal.relieve(Relief::Report).unwrap().before {
         assert!((set.pitch_min_mm / 0.2 - 1.3856).abs() < 1e-4, "{set:?}");
     }
 
     // An ellipse twice as wide as high: 1.3 widths.
     let ellipse = Section::Ellipse { aspect: 2.0 };
-    let report = cloth("plain", [Thread::new(1.0, 0.1); 2], ellipse).relieve(Jam::Report).unwrap();
+    let report = cloth("plain", [Thread::new(1.0, 0.1); 2], ellipse).relieve(Relief::Report).unwrap();
     assert!((report.before[0].pitch_min_mm / (0.2 * 2f64.sqrt()) - 1.299).abs() < 1e-3);
 }
 
@@ -51,14 +51,14 @@ fn nothing_between_two_threads_jams_nothing() {
         [0.5, 0.2].map(|spacing| Thread::new(spacing, 0.1)).into_iter().cycle().take(8).collect();
     let mut cloth =
         Woven::new(drawdown, set.clone(), set, vec![Material::default()], vec![Section::Circle]).unwrap();
-    assert_eq!(cloth.relieve(Jam::Report).unwrap().before.map(|set| set.jammed), [0, 0]);
+    assert_eq!(cloth.relieve(Relief::Report).unwrap().before.map(|set| set.jammed), [0, 0]);
 }
 
 #[test]
 fn crimp_goes_where_the_cloth_is_dense() {
     // Warp-dense: the ends bend, the picks straighten, and no thread is changed.
     let mut cloth = dense("plain", 1.5, 2.4);
-    let (threads, report) = (cloth.clone(), cloth.relieve(Jam::Flatten).unwrap());
+    let (threads, report) = (cloth.clone(), cloth.relieve(Relief::Flatten).unwrap());
     assert_eq!(report.before.map(|set| set.jammed), [7, 0]);
     assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
     assert!(report.warp_share[1] > 0.6 && report.widened == [1.0; 2] && report.scaled == 1.0, "{report:?}");
@@ -71,7 +71,7 @@ fn flattening_keeps_the_area_and_clears_the_surfaces() {
     // A share that is given stays: what passes between the ends has to grow flatter.
     let mut cloth = dense("plain", 1.6, 3.0);
     cloth.set_crimp(Crimp::WarpShare(0.5)).unwrap();
-    let report = cloth.relieve(Jam::Flatten).unwrap();
+    let report = cloth.relieve(Relief::Flatten).unwrap();
     assert_eq!(report.before.map(|set| set.jammed), [7, 0]);
     assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
     assert_eq!((report.warp_share, report.widened[0], report.scaled), ([0.5; 2], 1.0, 1.0));
@@ -86,11 +86,11 @@ fn flattening_keeps_the_area_and_clears_the_surfaces() {
 #[test]
 fn what_can_not_be_flattened_is_told() {
     let mut cloth = dense("plain", 1.2, 1.2);
-    let report = cloth.relieve(Jam::Flatten).unwrap();
+    let report = cloth.relieve(Relief::Flatten).unwrap();
     assert_eq!(report.after.map(|set| set.jammed).into_iter().max(), Some(7));
     let plies = Section::Lobed { plies: 2 };
     let mut lobed = cloth_of(plies.clone());
-    assert_eq!(lobed.relieve(Jam::Flatten).unwrap().widened, [1.0; 2]);
+    assert_eq!(lobed.relieve(Relief::Flatten).unwrap().widened, [1.0; 2]);
     assert_eq!(lobed.sections(), [plies]);
 }
 
@@ -102,14 +102,14 @@ fn cloth_of(section: Section) -> Woven {
 fn shrinking_makes_everything_fit() {
     for (ends, picks) in [(1.2, 1.2), (0.5, 3.0), (1.6, 1.6)] {
         let mut cloth = dense("3/1", ends, picks);
-        let report = cloth.relieve(Jam::Shrink).unwrap();
+        let report = cloth.relieve(Relief::Shrink).unwrap();
         assert_eq!(report.after.map(|set| set.jammed), [0, 0], "{ends}, {picks}");
         assert!(report.scaled < 1.0 && cloth.warnings().is_empty(), "{report:?}");
         assert!((cloth.warp()[3].radius_mm / 0.1 - report.scaled).abs() < 1e-6);
         let clearance = oracle::round_clearance(&cloth.yarns().unwrap(), 32);
         assert!((0.99..1.1).contains(&clearance), "{ends}, {picks}: {clearance}");
         // A second time there is nothing left to do.
-        assert_eq!(cloth.relieve(Jam::Shrink).unwrap().scaled, 1.0);
+        assert_eq!(cloth.relieve(Relief::Shrink).unwrap().scaled, 1.0);
     }
 }
 
@@ -118,7 +118,7 @@ fn threads_too_thin_to_shrink_are_left_alone() {
     let mut cloth =
         cloth("plain", [Thread::new(1e-6f32.into(), 1.0), Thread::new(1.0, 1e-6)], Section::Circle);
     let before = cloth.clone();
-    let error = cloth.relieve(Jam::Shrink).unwrap_err();
+    let error = cloth.relieve(Relief::Shrink).unwrap_err();
     assert!(matches!(error, FabricError::Radius { thread: Origin::End(1), .. }), "{error}");
     assert_eq!(cloth, before);
 }

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use texere_core::Section;
-use texere_fabric::{Crimp, Shape, Woven};
-use texere_formats::{Design, ReadError, Structure, read};
+use texere_fabric::{Crimp, JamReport, Shape, Woven};
+use texere_formats::{Design, ReadError, read};
 
 const DENIM: &str = r##"name = "Denim"
 [weave]
@@ -33,8 +33,7 @@ fn read_text(text: &str) -> Result<Design, ReadError> {
 }
 
 fn cloth(text: &str) -> Woven {
-    let Structure::Woven(woven) = read_text(text).unwrap().structure else { panic!("not woven") };
-    woven
+    read_text(text).unwrap().structure.woven().unwrap().cloth().clone()
 }
 
 /// The refusal of `DENIM` with `from` replaced by `to` has to hold all of `parts`.
@@ -102,13 +101,17 @@ fn threads_lie_as_the_cloth_table_says() {
     assert_eq!((yarns(DENIM), yarns(&format!("{DENIM}{table}"))), (7 + 5, 7 + 1));
 }
 
+fn jams(design: &Design) -> JamReport {
+    *design.structure.woven().unwrap().jam_report()
+}
+
 #[test]
 fn jammed_threads_are_relieved_as_the_design_says() {
     // Ends of 0.3 mm at 0.4 mm: those of 0.25 mm that cross them need more.
     let dense = DENIM.replace("tex = 84.0", "diameter_mm = 0.3").replace("per_cm = 12.5", "spacing_mm = 0.4");
     let read = |jam: &str| read_text(&format!("{dense}[cloth]\n{jam}")).unwrap();
     let report = read("");
-    assert!(report.jam.before[0].jammed > 0 && report.jam.after == report.jam.before);
+    assert!(jams(&report).before[0].jammed > 0 && jams(&report).after == jams(&report).before);
     let told = report.warnings().join("\n");
     assert!(
         told.contains("threads that cross pierce one another") && told.contains("has 0.4000 mm"),
@@ -117,15 +120,15 @@ fn jammed_threads_are_relieved_as_the_design_says() {
     // Plies can't be flattened: crimp goes to the ends, which are dense, and is enough.
     for jam in ["jam = \"flatten\"\n", "jam = \"shrink\"\n"] {
         let relieved = read(jam);
-        assert_eq!(relieved.jam.before, report.jam.before);
-        assert_eq!(relieved.jam.after.map(|set| set.jammed), [0, 0], "{:?}", relieved.jam);
+        assert_eq!(jams(&relieved).before, jams(&report).before);
+        assert_eq!(jams(&relieved).after.map(|set| set.jammed), [0, 0], "{:?}", jams(&relieved));
         assert!(relieved.warnings().is_empty());
     }
     // A share that is given stays, so that threads have to give way.
     let shrunk = read("jam = \"shrink\"\nwarp_crimp = 0.5\n");
-    assert!(shrunk.jam.scaled < 1.0 && shrunk.jam.warp_share == [0.5; 2], "{:?}", shrunk.jam);
-    let Structure::Woven(woven) = &shrunk.structure else { panic!("not woven") };
-    assert!((woven.warp()[0].radius_mm / 0.15 - shrunk.jam.scaled).abs() < 1e-6);
+    assert!(jams(&shrunk).scaled < 1.0 && jams(&shrunk).warp_share == [0.5; 2], "{:?}", jams(&shrunk));
+    let woven = shrunk.structure.woven().unwrap().cloth();
+    assert!((woven.warp()[0].radius_mm / 0.15 - jams(&shrunk).scaled).abs() < 1e-6);
 }
 
 #[test]
@@ -135,11 +138,11 @@ fn another_section_is_relieved_anew() {
     let round = |sections: &[Section]| {
         let mut design = read_text(&text).unwrap();
         for section in sections {
-            design.set_section(section.clone()).unwrap();
+            design.structure.set_section(section.clone()).unwrap();
         }
-        assert!(design.jam.scaled < 1.0, "{:?}", design.jam);
-        let Structure::Woven(woven) = design.structure else { panic!("not woven") };
-        (design.jam, woven.weft()[0].radius_mm)
+        assert!(jams(&design).scaled < 1.0, "{:?}", jams(&design));
+        let woven = design.structure.woven().unwrap().cloth().clone();
+        (jams(&design), woven.weft()[0].radius_mm)
     };
     // From the threads as they were designed, as if nothing had been in between.
     let wide = Section::Ellipse { aspect: 3.0 };
@@ -224,7 +227,7 @@ fn a_draft_from_a_wif_file_beside_it() {
     std::fs::write(folder.path().join("draft.wif"), wif).unwrap();
     let path = folder.path().join("design.toml");
     std::fs::write(&path, "[weave]\nwif = \"draft.wif\"\n[yarns.a]\ndiameter_mm = 0.1\ncolor = \"#010203\"\n[weft]\nyarns = [\"a\"]\nper_cm = 20.0\n").unwrap();
-    let Structure::Woven(woven) = read(&path).unwrap().structure else { panic!("not woven") };
+    let woven = read(&path).unwrap().structure.woven().unwrap().cloth().clone();
     assert!(woven.drawdown().up(0, 0) && !woven.drawdown().up(1, 0));
     assert_eq!((woven.warp()[0].spacing_mm, woven.weft()[0].spacing_mm), (1.0, 0.5));
     assert_eq!(woven.materials()[woven.weft()[1].material as usize].srgb, [1, 2, 3]);

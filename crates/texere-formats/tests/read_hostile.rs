@@ -11,7 +11,7 @@ use image::RgbImage;
 use peak_alloc::PeakAlloc;
 use tempfile::TempDir;
 use texere_fabric::{Drawdown, Shedding, Woven};
-use texere_formats::{Design, ReadError, Structure, read};
+use texere_formats::{Design, ReadError, read};
 
 #[global_allocator]
 static HEAP: PeakAlloc = PeakAlloc;
@@ -44,8 +44,7 @@ fn wif(text: &str) -> Result<Design, ReadError> {
 }
 
 fn woven(design: Design) -> Woven {
-    let Structure::Woven(woven) = design.structure else { panic!("not woven") };
-    woven
+    design.structure.woven().unwrap().cloth().clone()
 }
 
 /// The whole chain of an error, none of whose messages may be longer than two lines of a terminal.
@@ -149,7 +148,7 @@ fn lists_that_repeat() {
          [THREADING]\n1=1\n2={again}\n[TIEUP]\n1={again}\n[TREADLING]\n1={again}\n2=1\n[LIFTPLAN]\n1={again}\n2=1,2\n"
     );
     let design = wif(&text).unwrap();
-    let draft = design.draft.as_ref().unwrap();
+    let draft = design.structure.woven().unwrap().draft().unwrap();
     let Shedding::TieUp { tie_up, treadling } = &draft.shedding else { panic!("no tie-up") };
     assert_eq!((&draft.threading[1], &tie_up[0], &treadling[0]), (&vec![1, 2], &vec![1, 2], &vec![1, 2]));
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use image::{ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
 use tempfile::TempDir;
 use texere_fabric::{Weave, Woven};
-use texere_formats::{Design, ReadError, Structure, read};
+use texere_formats::{Design, ReadError, read};
 
 const BLACK: [u8; 3] = [0, 0, 0];
 const WHITE: [u8; 3] = [255, 255, 255];
@@ -42,8 +42,7 @@ fn design(folder: &Path, weave: &str) -> Result<Design, ReadError> {
 }
 
 fn cloth(folder: &Path, weave: &str) -> Woven {
-    let Structure::Woven(woven) = design(folder, weave).unwrap().structure else { panic!("not woven") };
-    woven
+    design(folder, weave).unwrap().structure.woven().unwrap().cloth().clone()
 }
 
 /// As a weaver draws it, `#` warp up.
@@ -158,10 +157,10 @@ fn a_picture_a_notation_and_a_wif_give_one_drawdown() {
         .unwrap();
     for (name, draft) in [("notation.toml", false), ("draft.wif", true), ("by_wif.toml", true)] {
         let design = read(folder.path().join(name)).unwrap();
-        assert_eq!(design.draft.is_some(), draft, "{name}");
-        let Structure::Woven(woven) = design.structure else { panic!("not woven") };
+        assert_eq!(design.structure.woven().unwrap().draft().is_some(), draft, "{name}");
+        let woven = design.structure.woven().unwrap().cloth().clone();
         assert_eq!(woven.drawdown(), by_picture.drawdown(), "{name}");
-        if let Some(draft) = design.draft {
+        if let Some(draft) = design.structure.woven().unwrap().draft() {
             assert_eq!(draft.drawdown().unwrap(), *woven.drawdown());
         }
     }

@@ -5,7 +5,7 @@ use std::error::Error;
 
 use texere_core::Origin;
 use texere_fabric::Woven;
-use texere_formats::{Design, ReadError, Structure, read};
+use texere_formats::{Design, ReadError, read};
 
 /// A straight 2/2 twill on four shafts, five ends by four picks, in centimetres.
 const TWILL: &str = "[WIF]\nVersion=1.1\n[WEAVING]\nShafts=4\nTreadles=4\nRising Shed=true\n\
@@ -29,8 +29,7 @@ fn read_text(text: impl AsRef<[u8]>) -> Result<Design, ReadError> {
 }
 
 fn cloth(text: &str) -> Woven {
-    let Structure::Woven(woven) = read_text(text).unwrap().structure else { panic!("not woven") };
-    woven
+    read_text(text).unwrap().structure.woven().unwrap().cloth().clone()
 }
 
 fn drawdown(text: &str) -> String {
@@ -211,7 +210,7 @@ fn utf_16_is_read() {
     let big: Vec<u8> = units().flat_map(u16::to_be_bytes).collect();
     for bytes in [[b"\xff\xfe", &little[..]].concat(), [b"\xfe\xff", &big[..]].concat(), little, big] {
         let design = read_text(&bytes).unwrap();
-        let Structure::Woven(woven) = design.structure else { panic!("not woven") };
+        let woven = design.structure.woven().unwrap().cloth().clone();
         assert_eq!((design.name.as_str(), woven.warp().len()), ("Köper 𝄞", 5));
         // Cut anywhere, it is still text.
         let _ = read_text(&bytes[..bytes.len() - 1]);
@@ -249,7 +248,7 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
         read_text(text + more).unwrap()
     };
     let diameters = |design: &Design| {
-        let Structure::Woven(woven) = &design.structure else { panic!("not woven") };
+        let woven = design.structure.woven().unwrap().cloth();
         [woven.warp(), woven.weft()]
             .map(|set| set.iter().map(|thread| 2.0 * thread.radius_mm).collect::<Vec<_>>())
     };

@@ -13,7 +13,7 @@
 mod camera;
 mod error;
 mod extent;
-mod phases;
+mod memory;
 mod renderer;
 mod scene;
 mod screen;
@@ -25,6 +25,5 @@ mod uniform;
 pub use camera::{Camera, Cut};
 pub use error::RenderError;
 pub use extent::Extent;
-pub use phases::Phases;
 pub use renderer::Renderer;
 pub use scene::{Picture, PictureTimings, Quality, Scene};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use texere_core::{BackendError, Chunk, ControlPoint, Limits, Plan, Settings, Topology, Yarns};
+use texere_core::{Chunk, ControlPoint, Limits, Plan, Settings, Topology, Yarns};
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
 
@@ -98,50 +98,6 @@ impl Renderer {
             plan,
         })
     }
-
-    /// A buffer that holds `bytes`, and can be written again.
-    fn filled(
-        &self,
-        what: &'static str,
-        bytes: &[u8],
-        usage: BufferUsages,
-    ) -> Result<wgpu::Buffer, BackendError> {
-        let buffer = self.buffer(what, bytes.len() as u64, usage)?;
-        self.write(&buffer, bytes)?;
-        Ok(buffer)
-    }
-
-    /// A buffer of at least `bytes`, never empty, that can be written.
-    pub(crate) fn buffer(
-        &self,
-        what: &'static str,
-        bytes: u64,
-        usage: BufferUsages,
-    ) -> Result<wgpu::Buffer, BackendError> {
-        self.device.buffer(what, bytes, usage | BufferUsages::COPY_DST)
-    }
-
-    /// Writes `bytes` to the start of `buffer`.
-    pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), BackendError> {
-        self.device.scoped("Queue::write_buffer", || self.device.queue().write_buffer(buffer, 0, bytes))
-    }
-
-    /// Binds `resources` in the order of their numbers.
-    fn bind(
-        &self,
-        layout: &wgpu::BindGroupLayout,
-        resources: &[BindingResource<'_>],
-    ) -> Result<wgpu::BindGroup, BackendError> {
-        let entries: Vec<_> = (0..)
-            .zip(resources)
-            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
-            .collect();
-        let device = &self.device;
-        device.scoped("Device::create_bind_group", || {
-            let descriptor = wgpu::BindGroupDescriptor { label: None, layout, entries: &entries };
-            device.device().create_bind_group(&descriptor)
-        })
-    }
 }
 
 impl Scene<'_> {
@@ -161,15 +117,6 @@ impl Scene<'_> {
     #[must_use]
     pub fn with_limits(self, limits: &Limits) -> Self {
         Self { limits: self.limits.min(limits), ..self }
-    }
-
-    /// Makes the mesh alone, chunk after chunk.
-    pub(crate) fn mesh(&mut self) -> Result<(), RenderError> {
-        let plan = self.plan.clone();
-        for chunk in plan.chunks(&self.limits)? {
-            self.session.mesh(&chunk)?;
-        }
-        Ok(())
     }
 
     /// Makes a picture.
@@ -290,7 +237,7 @@ impl Scene<'_> {
 }
 
 /// The limits that chunks are cut to on any device.
-pub(crate) fn chunk_limits(plan: &Plan) -> Limits {
+fn chunk_limits(plan: &Plan) -> Limits {
     Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..Limits::NONE }
 }
 

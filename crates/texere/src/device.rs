@@ -30,7 +30,7 @@ const FAMILIES: &[Family] = &[
 /// The schedule that a name may end in: the paper's mapping, kept as the yardstick.
 const PER_YARN: &str = "/per-yarn";
 
-/// What there is to work on, and what was looked for in vain.
+/// The devices of this machine, and the families of which it has none.
 #[derive(Debug)]
 pub struct Devices {
     /// All devices that can be opened; the CPU's come last.
@@ -159,7 +159,7 @@ fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
 }
 
 /// Opens a device for pictures by its name: `wgpu`, `wgpu:1`, `wgpu:nvidia`, or `auto`, a discrete GPU, else an
-/// integrated one, else whatever there is, since pictures can't do without.
+/// integrated one, else whatever there is, since pictures need a GPU's interface.
 ///
 /// ```no_run
 /// let design = texere::read("designs/herringbone.wif")?;

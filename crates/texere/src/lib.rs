@@ -39,17 +39,18 @@ pub use texere_core::{
     SectionError, Settings, Topology, Trajectory, Vertex, Yarn, YarnError, Yarns, YarnsBuilder,
 };
 pub use texere_fabric::{
-    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance, Contact,
-    Cover, Crimp, Crowd, Draft, Drawdown, FabricError, FabricWarning, Jam, JamReport, Measures, NO_CROSSING,
-    Pitch, Shape, Shedding, Thread, Tightness, Weave, Woven, YarnPlace, clearance, clearance_with_progress,
-    length_mm, lengths_mm,
+    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
+    ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
+    FabricWarning, FaultKind, Faults, JamReport, Jams, Measures, NO_CROSSING, Pitch, Relief, Remedy, Shape,
+    Shedding, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave,
+    Woven, WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm,
 };
 pub use texere_formats::write::{
     Format, Output, Side, Written, abandon, draft as write_draft, file as write_file, mesh as write,
     picture as write_picture, stream,
 };
-pub use texere_formats::{Design, Place, ReadError, Structure, WriteError, read};
+pub use texere_formats::{Design, Place, ReadError, WriteError, read};
 #[cfg(feature = "render")]
 pub use texere_render::{
-    Camera, Cut, Extent, Phases, Picture, PictureTimings, Quality, RenderError, Renderer, Scene,
+    Camera, Cut, Extent, Picture, PictureTimings, Quality, RenderError, Renderer, Scene,
 };

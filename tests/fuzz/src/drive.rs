@@ -6,7 +6,7 @@ use std::path::Path;
 use texere_core::{Pipeline, PipelineError, PlanError, Section, Topology};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{Measures, Woven, clearance};
-use texere_formats::{Structure, read};
+use texere_formats::read;
 
 /// The most crossings of a cloth whose yarns are made, and the most control points of one whose mesh is.
 const CROSSINGS: usize = 2_000;
@@ -39,19 +39,20 @@ pub fn drive(path: &Path) -> Outcome {
     for warning in design.warnings() {
         assert!(warning.chars().count() < 600, "a warning of {} characters", warning.chars().count());
     }
-    let Structure::Woven(woven) = &design.structure else { return Outcome::Large };
+    let Some(woven) = design.structure.woven() else { return Outcome::Large };
+    let (woven, draft) = (woven.cloth(), woven.draft());
     if woven.warp().len() * woven.weft().len() > CROSSINGS {
         return Outcome::Large;
     }
-    if let Some(draft) = &design.draft {
+    if let Some(draft) = draft {
         assert_eq!(draft.drawdown().as_ref(), Ok(woven.drawdown()), "a draft that is another cloth's");
     }
     let outcome = cloth(woven);
     // Another section instead, and everything again where that is taken.
-    if design.set_section(Section::Ellipse { aspect: 1.5 }).is_ok()
-        && let Structure::Woven(woven) = &design.structure
+    if design.structure.set_section(Section::Ellipse { aspect: 1.5 }).is_ok()
+        && let Some(woven) = design.structure.woven()
     {
-        let _ = cloth(woven);
+        let _ = cloth(woven.cloth());
     }
     outcome
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use texere_core::{Settings, Yarns};
 use texere_fabric::{Drawdown, Thread, Woven};
-use texere_formats::{Design, Structure, read};
+use texere_formats::{Design, read};
 
 use super::{Case, USUAL};
 
@@ -63,9 +63,9 @@ fn gather(root: &Path, within: &Path, paths: &mut Vec<PathBuf>) {
 
 /// The yarns of a design, of which a cloth is cut to a few threads.
 fn small(design: &Design) -> Yarns {
-    match &design.structure {
-        Structure::Woven(cloth) => middle(cloth).yarns().unwrap(),
-        _ => design.yarns().unwrap(),
+    match design.structure.woven() {
+        Some(woven) => middle(woven.cloth()).yarns().unwrap(),
+        None => design.yarns().unwrap(),
     }
 }
 

@@ -32,9 +32,7 @@ fn names(folder: &Path) -> Vec<String> {
 fn no_command_replaces_what_the_design_was_read_from() {
     let folder = by_image();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    for (link, file) in [("link.ply", "motif.png"), ("link.svg", "cloth.toml")] {
-        fs::hard_link(at(file), at(link)).unwrap();
-    }
+    fs::hard_link(at("motif.png"), at("link.ply")).unwrap();
     let contents =
         || names(folder.path()).into_iter().map(|name| fs::read(at(&name)).unwrap()).collect::<Vec<_>>();
     let (before, cloth) = (contents(), at("cloth.toml"));
@@ -43,7 +41,6 @@ fn no_command_replaces_what_the_design_was_read_from() {
         vec!["draft", &cloth, "--text", "-o", &at("motif.png")],
         vec!["mesh", &cloth, "-o", &at("link.ply"), "--device", "cpu"],
         vec!["render", &cloth, "-o", &at("motif.png"), "--size", "8x8"],
-        vec!["render", &cloth, "--timings", &at("link.svg"), "--size", "8x8"],
     ] {
         let output = texere(&args);
         assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
@@ -59,33 +56,12 @@ fn endings_are_looked_at_before_any_work() {
         (["mesh", "no-such.toml", "-o", "cloth.obj"], "glb, ply"),
         (["draft", "no-such.toml", "-o", "cloth.jpg"], "cloth.jpg does not end in .png"),
         (["render", "no-such.toml", "-o", "cloth.glb"], "cloth.glb does not end in .png"),
-        (["render", "no-such.toml", "--timings", "no-such.toml"], "no-such.toml does not end in .svg"),
     ] {
         let output = texere(&args);
         assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(said), "{args:?}: {}", stderr(&output));
     }
     assert!(names(folder.path()).is_empty());
-}
-
-/// The plot of `--timings` is written beside its place, as all files are: a full disk leaves an old one as it was.
-#[cfg(target_os = "linux")]
-#[test]
-fn a_plot_that_can_not_be_finished_leaves_the_old_one() {
-    use std::process::Command;
-    let folder = by_image();
-    let (cloth, plot) = (folder.path().join("cloth.toml"), folder.path().join("plot.svg"));
-    fs::write(&plot, "old").unwrap();
-    // A file may have no byte more than none.
-    let output = Command::new("prlimit")
-        .args(["--fsize=0", "--", "sh", "-c", "trap '' XFSZ; exec \"$@\" >/dev/null", "sh"])
-        .args([env!("CARGO_BIN_EXE_texere"), "render", "--size", "8x8", "--timings"])
-        .args([&plot, &cloth])
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert_eq!(fs::read(&plot).unwrap(), b"old");
-    assert_eq!(names(folder.path()), ["cloth.toml", "motif.png", "plot.svg"]);
 }
 
 #[cfg(unix)]

@@ -4,7 +4,6 @@
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
-mod fill;
 mod instruction_set;
 mod lines;
 mod planar;
@@ -27,7 +26,6 @@ use crate::caps::caps;
 use crate::engine::{ChunkRings, Executor, Work};
 use crate::pages;
 use crate::rolls::Rolls;
-pub use fill::fill;
 use instruction_set::InstructionSet;
 use lines::{IndexLines, IndexTable, Lines, VertexLines};
 use rings::{Rings, Source, Stretch, Walk};

@@ -103,7 +103,7 @@ fn refine_round(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, 
         };
         let ((flat_a, bent_a), (flat_b, bent_b)) = (own(&a, 1.0), own(&b, -1.0));
         // Where the distance is not convex, enough is added on the diagonal, by the measure of the straight lines through
-        // both places, that it becomes so. A hair more holds parallel lines where they are.
+        // both places, that it becomes so. A little more keeps parallel lines where they are.
         let scale = DVec2::new(flat_a, flat_b) + f64::MIN_POSITIVE;
         let short = if bent_a > 0.0 && bent_a * bent_b > across * across {
             0.0
@@ -142,7 +142,7 @@ fn refine_round(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, 
         // A yarn that stands still at a place has no way to go there.
         let step = if step.is_finite() { step } else { DVec2::ZERO };
         let mut step = step * (STRIDE / step.abs().max_element()).min(1.0);
-        // It leads downhill, but it may lead too far: round a sharp bend it would go back and forth for ever.
+        // It leads downhill, but it may lead too far: round a sharp bend it would go back and forth without end.
         let moved = loop {
             let next = held_at(place + step);
             let moved = (next - place).abs().max_element();

@@ -2,9 +2,9 @@
 
 use std::cmp::Ordering;
 
-use super::YarnPlace;
+use super::contact::YarnPlace;
 use super::grid::Bounds;
-use super::search::Part;
+use super::part::Part;
 
 /// A place that is not measured, because its yarns lie in one another many times over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Crowd {
     pub intervals: usize,
     /// The volume of their yarns over that of the box that holds them. Above 1 they can't but pierce one another or
     /// fold, and some come within 1/√fill of touching. Up to 1 it is their number alone that is too high (see
-    /// [`CLEARANCE_BESIDE`](super::CLEARANCE_BESIDE)): control points lie much closer than the yarns are thick, or very
+    /// [`CLEARANCE_BESIDE`](crate::CLEARANCE_BESIDE)): control points lie much closer than the yarns are thick, or very
     /// long intervals side by side.
     pub fill: f64,
 }

@@ -2,10 +2,10 @@
 
 use std::cmp::Ordering;
 
+use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BIN, CONTACTS_LISTED, Contact};
 use super::crowd::Crowd;
-use super::{CLEARANCE_ACCURACY, CLEARANCE_BIN, CONTACTS_LISTED, Contact};
 
-/// Bins from 0 to [`CLEARANCE_NEAR`](super::CLEARANCE_NEAR).
+/// Bins from 0 to [`CLEARANCE_NEAR`](crate::CLEARANCE_NEAR).
 const BINS: usize = 110;
 
 /// What one task has found.

@@ -7,10 +7,10 @@ use glam::{DVec3, Vec3A, Vec4};
 use rayon::prelude::*;
 use texere_core::{ControlPoint, Yarns};
 
+use super::contact::{CLEARANCE_NEAR, YarnPlace};
 use super::grid::Bounds;
 use super::interval::Cubic;
 use super::support::Support;
-use super::{CLEARANCE_NEAR, YarnPlace};
 
 /// Intervals after the first over which a yarn may be seen to lead straight on.
 const LEAD: usize = 3;

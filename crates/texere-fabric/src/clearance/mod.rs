@@ -1,12 +1,14 @@
 //! Clearance: how near yarns come to one another and to themselves, and how tightly they bend.
 
 mod approach;
+mod contact;
 mod crowd;
 mod curvature;
 mod found;
 mod grid;
 mod interval;
 mod line;
+mod part;
 mod passing;
 mod search;
 mod support;
@@ -17,6 +19,10 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use texere_core::Yarns;
 
+pub use self::contact::{
+    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
+    Contact, YarnPlace,
+};
 pub use self::crowd::Crowd;
 pub(crate) use self::line::neighbours;
 
@@ -26,64 +32,13 @@ use self::search::{FULL, Probe, cell_work};
 use self::watch::Watch;
 use crate::FabricError;
 
-/// Contacts further apart than this factor are not looked for.
-pub const CLEARANCE_NEAR: f64 = 1.1;
-
-/// How exact a ratio is where both yarns are round: yarns at 0.999 of touching count as touching.
-///
-/// Of flat yarns it is 0.01: their sections' frames and tangents count, but not how these change along a section's
-/// reach. Of two approaches side by side on one pair of sharply bent intervals the nearer may stay unseen: once in some
-/// 30,000 tangles of random yarns that was 0.003.
-pub const CLEARANCE_ACCURACY: f64 = 1e-3;
-
-/// The most contacts that are listed one by one.
-pub const CONTACTS_LISTED: usize = 100;
-
-/// The most control intervals that one is compared with in a cell of the search, beside each other on one plane through it.
-///
-/// Yarns that are clear of one another come that close where a radius has some 250 control points, or where a thousand
-/// straight yarns of two points lie side by side.
-pub const CLEARANCE_BESIDE: usize = 1024;
-
-/// The most pairs of control intervals that are looked at for each control point: an interval lies in 6 cells on average
-/// at most, and is compared with [`CLEARANCE_BESIDE`] in each. Of cloth it is 20 to 60.
-pub const CLEARANCE_PAIRS: u64 = grid::ENTRIES * CLEARANCE_BESIDE as u64;
-
 const _: () = assert!(FULL / 2 <= CLEARANCE_BESIDE);
-
-/// Width of a bin of the histogram.
-pub const CLEARANCE_BIN: f64 = 0.01;
 
 /// The most control points whose clearance is measured.
 const POINTS_LIMIT: usize = 1 << 29;
 
 /// Cells, and intervals, that one task takes.
 const TASK: usize = 1024;
-
-/// One place of a yarn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct YarnPlace {
-    /// The yarn, from 0.
-    pub yarn: usize,
-    /// The control interval: the number of the control point that it starts from, from 0 within the yarn.
-    pub interval: usize,
-    /// Where in the interval, from 0 to 1.
-    pub t: f64,
-    /// The centreline there, mm.
-    pub position: [f64; 3],
-    /// The source of the nearer of the interval's control points, if the yarns have sources.
-    pub source: Option<u32>,
-}
-
-/// Where two yarns, or two parts of one, are nearer to one another than anywhere close by.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact {
-    /// The two places, the lower yarn first.
-    pub places: [YarnPlace; 2],
-    /// The factor by which both sections could grow until they touch: 1 where they just do, less where they pierce. Of
-    /// round yarns it is the distance of the centrelines over the sum of the radii.
-    pub ratio: f64,
-}
 
 /// How near yarns come to one another and to themselves.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,12 +71,12 @@ pub struct Clearance {
 /// Of each pair of yarn parts within [`CLEARANCE_NEAR`] the nearest approach is found on the spline itself, whose tension is
 /// `tension`; sections stand upright, as untwisted ones do, and count with their hulls. Two places of one yarn count
 /// from an arc length of π/2 times the sum of their radii on: nearer ones can only meet in a bend tighter than the yarn
-/// is thick (Schur's theorem: no curve with that curvature brings its ends closer than the circle does), which the
-/// curvature tells. A loop within one control interval is told by the curvature alone.
+/// is thick (Schur's theorem: no curve with that curvature brings its ends closer than the circle does), which shows in
+/// the curvature. So does a loop within one control interval, which is no contact.
 ///
 /// Where much more yarn lies than there is room for, no pairs are measured: yarns that are several times as thick as they
-/// lie apart are told by [`Clearance::crowd`] at once. So time grows with the control points alone (flat sections take about five times as long as round ones); beside the yarns
-/// it takes about 9 bytes a control point.
+/// lie apart are reported as [`Clearance::crowd`] at once. So time grows with the control points alone; flat sections take
+/// about five times as long as round ones. Memory is about 9 bytes a control point beside the yarns.
 ///
 /// **Errors**: [`FabricError::ClearancePoints`] for more control points than are measured, [`FabricError::Tension`] for
 /// a tension outside \[0, 1), [`FabricError::OutOfMemory`].
@@ -142,7 +97,8 @@ pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> 
     clearance_with_progress(yarns, tension, |_| ControlFlow::Continue(()))
 }
 
-/// [`clearance`] that tells how far it has come, from 0 to 1, from any thread; `Break` ends it.
+/// [`clearance()`] that calls `progress` with the share of the work that is done, from 0 to 1, from any thread. `Break` ends
+/// it.
 ///
 /// **Errors**: those of [`clearance`]; [`FabricError::Cancelled`] where `progress` asked to stop.
 ///
@@ -153,12 +109,12 @@ pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> 
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// let yarns = yarns.build()?;
-/// let mut told = 0.0;
+/// let mut share = 0.0;
 /// clearance_with_progress(&yarns, 0.0, |done| {
-///     told = done;
+///     share = done;
 ///     ControlFlow::Continue(())
 /// })?;
-/// assert_eq!(told, 1.0);
+/// assert_eq!(share, 1.0);
 /// let stopped = clearance_with_progress(&yarns, 0.0, |_| ControlFlow::Break(()));
 /// assert_eq!(stopped, Err(FabricError::Cancelled));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -208,10 +164,4 @@ pub fn clearance_with_progress(
         crowd: found.crowd,
         pairs: found.pairs,
     })
-}
-
-/// Makes sure that `list` can take `count` more.
-fn room_for<T>(list: &mut Vec<T>, count: usize, what: &'static str) -> Result<(), FabricError> {
-    let bytes = (count * size_of::<T>()) as u64;
-    list.try_reserve(count).map_err(|_| FabricError::OutOfMemory { what, bytes })
 }

@@ -4,36 +4,30 @@ use std::cell::OnceCell;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::{ControlFlow, Range};
 
-use glam::{DVec2, UVec3, Vec3A};
+use glam::{DVec2, Vec3A};
 use texere_core::Yarns;
 
 use super::approach::{Side, refine};
+use super::contact::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace};
 use super::crowd::Crowd;
+use super::curvature;
 use super::found::Found;
 use super::grid::{Bounds, Grid};
 use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{self, Line, Span};
+use super::part::Part;
 use super::passing::Passing;
 use super::support::Support;
 use super::watch::Watch;
-use super::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace, curvature, room_for};
 use crate::FabricError;
+use crate::memory::room_for;
 
 /// The most intervals of a cell that are simply compared with one another. Threads that are clear of one another come to
 /// some 60, with one control point a crossing or several.
 pub(super) const FULL: usize = 256;
 
-/// Pairs between two times that progress is told.
-const TOLD: u64 = 1 << 14;
-
-/// One interval in a cell.
-pub(super) struct Part<'a> {
-    pub(super) point: usize,
-    pub(super) line: Line<'a>,
-    bounds: Bounds,
-    /// The first cell that its box reaches into.
-    cell: UVec3,
-}
+/// Pairs between two reports of progress.
+const REPORT_EVERY: u64 = 1 << 14;
 
 /// What is worked out of an interval once it is asked for.
 #[derive(Default)]
@@ -121,7 +115,7 @@ impl<'a> Probe<'a> {
         let mut points = Vec::new();
         let mut parts: Vec<Part<'_>> = Vec::new();
         let mut met: Vec<Met> = Vec::new();
-        let mut untold = 0;
+        let mut unreported = 0;
         for cell in cells {
             points.clear();
             room_for(&mut points, grid.count_in(cell), "a cell's intervals")?;
@@ -145,9 +139,9 @@ impl<'a> Probe<'a> {
                 self.sweep(&mut parts, counts, &mut found, watch)?;
                 continue;
             }
-            untold += cell_work(parts.len());
-            if untold >= TOLD {
-                watch.advance(std::mem::take(&mut untold))?;
+            unreported += cell_work(parts.len());
+            if unreported >= REPORT_EVERY {
+                watch.advance(std::mem::take(&mut unreported))?;
             }
             met.clear();
             met.resize_with(parts.len(), Met::default);
@@ -160,7 +154,7 @@ impl<'a> Probe<'a> {
                 }
             }
         }
-        watch.advance(untold)?;
+        watch.advance(unreported)?;
         Ok(found)
     }
 
@@ -186,16 +180,16 @@ impl<'a> Probe<'a> {
         let axis = (sides / (whole.high - whole.low)).min_position();
         parts.sort_by(|one, other| one.bounds.low[axis].total_cmp(&other.bounds.low[axis]));
         let mut beside: Vec<(&Part<'_>, Box<Met>)> = Vec::new();
-        let (each, mut untold) = (cell_work(parts.len()) / parts.len() as u64, 0);
+        let (each, mut unreported) = (cell_work(parts.len()) / parts.len() as u64, 0);
         for part in &*parts {
             beside.retain(|(other, _)| other.bounds.high[axis] >= part.bounds.low[axis]);
             if beside.len() > CLEARANCE_BESIDE {
                 found.add_crowd(crowd);
                 break;
             }
-            untold += each;
-            if untold >= TOLD {
-                watch.advance(std::mem::take(&mut untold))?;
+            unreported += each;
+            if unreported >= REPORT_EVERY {
+                watch.advance(std::mem::take(&mut unreported))?;
             }
             found.pairs += beside.len() as u64;
             let met = Box::new(Met::default());
@@ -208,7 +202,7 @@ impl<'a> Probe<'a> {
             }
             beside.push((part, met));
         }
-        watch.advance(untold)
+        watch.advance(unreported)
     }
 
     /// The contacts of two intervals, the first one's number being the lower.

@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::FabricError;
 
-/// Tells a caller, from whatever thread is at work, how much is done.
+/// Reports to a caller, from any thread that works, how much is done.
 pub(super) struct Watch<T> {
     total: u64,
     done: AtomicU64,
     stopped: AtomicBool,
-    tell: Mutex<T>,
+    report: Mutex<T>,
 }
 
 impl<T> fmt::Debug for Watch<T> {
@@ -23,8 +23,8 @@ impl<T> fmt::Debug for Watch<T> {
 
 impl<T: FnMut(f64) -> ControlFlow<()> + Send> Watch<T> {
     /// For work of `total` units.
-    pub(super) fn new(total: u64, tell: T) -> Self {
-        Self { total, done: AtomicU64::new(0), stopped: AtomicBool::new(false), tell: Mutex::new(tell) }
+    pub(super) fn new(total: u64, report: T) -> Self {
+        Self { total, done: AtomicU64::new(0), stopped: AtomicBool::new(false), report: Mutex::new(report) }
     }
 
     /// So many units more are done.
@@ -32,10 +32,10 @@ impl<T: FnMut(f64) -> ControlFlow<()> + Send> Watch<T> {
     /// **Errors**: [`FabricError::Cancelled`] once the caller has asked to stop.
     pub(super) fn advance(&self, units: u64) -> Result<(), FabricError> {
         self.done.fetch_add(units, Ordering::Relaxed);
-        // Whoever finds another thread telling goes on with its work.
-        if let Ok(mut tell) = self.tell.try_lock() {
+        // A thread that finds another one reporting goes on with its work.
+        if let Ok(mut report) = self.report.try_lock() {
             let done = self.done.load(Ordering::Relaxed).min(self.total);
-            if tell(done as f64 / self.total.max(1) as f64).is_break() {
+            if report(done as f64 / self.total.max(1) as f64).is_break() {
                 self.stopped.store(true, Ordering::Relaxed);
             }
         }

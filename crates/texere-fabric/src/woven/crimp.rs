@@ -1,6 +1,6 @@
 //! How warp and weft share the way that they swing out of the cloth's middle.
 
-use super::Thread;
+use super::thread::Thread;
 use crate::FabricError;
 
 /// How the distance that crossing threads keep is split between the warp and the weft.

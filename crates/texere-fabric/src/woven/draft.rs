@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::drawdown::WORD;
-use super::zeroed;
+use crate::memory::zeroed;
 use crate::{CROSSINGS_MAX, Drawdown, FabricError};
 
 /// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.

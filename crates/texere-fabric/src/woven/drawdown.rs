@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::FabricError;
+use crate::memory::zeroed;
 
 /// The most ends, and the most picks, of a cloth.
 ///
@@ -36,7 +37,7 @@ pub struct Drawdown {
 }
 
 impl fmt::Debug for Drawdown {
-    /// The size alone: a damask's bits would fill books.
+    /// The size alone: the bits of a damask are too many to print.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Drawdown")
             .field("ends", &self.ends)
@@ -59,7 +60,7 @@ impl Drawdown {
             return Err(FabricError::Crossings { ends, picks, crossings, limit: CROSSINGS_MAX });
         }
         let row = ends.div_ceil(WORD);
-        Ok(Self { ends, picks, row, words: super::zeroed("a drawdown", row as u64 * picks as u64)? })
+        Ok(Self { ends, picks, row, words: zeroed("a drawdown", row as u64 * picks as u64)? })
     }
 
     /// A drawdown whose warp is up where `up(end, pick)` says so.

@@ -4,8 +4,11 @@ use rayon::prelude::*;
 use texere_core::Origin;
 
 use super::shape::Set;
-use super::{ROUNDING, Shape, Woven, crossing};
+use super::{Shape, Woven, crossing};
 use crate::FabricWarning;
+
+/// The share by which room may fall short before it counts: radii are rounded to `f32`.
+pub(super) const ROUNDING: f64 = 1e-6;
 
 /// The least pitch of two threads, in half their widths and twice half the height of a thread that changes sides between
 /// them, all added up; `share` is that thread's share of the crimp.

@@ -1,290 +1,33 @@
 //! Woven cloth: warp and weft that cross at right angles.
 
 mod bend;
-mod course;
+mod cloth;
 mod crimp;
 mod crossing;
+mod design;
 mod draft;
 mod drawdown;
 mod jam;
 mod library;
 mod notation;
+mod path;
 mod pitch;
 mod relief;
 mod selvedge;
 mod shape;
+mod thread;
 mod weave;
 mod yarns;
 
+pub use cloth::{POINTS_MAX, Woven};
 pub use crimp::Crimp;
+pub use design::WovenDesign;
 pub use draft::{Draft, Shedding};
 pub use drawdown::{CROSSINGS_MAX, Drawdown, THREADS_MAX};
+pub use notation::REPEAT_MAX;
 pub use pitch::Pitch;
-pub use relief::{Jam, JamReport, Tightness};
+pub use relief::{JamReport, Relief, Tightness};
 pub use shape::Shape;
-pub use weave::{REPEAT_MAX, Weave};
+pub use thread::{SPACING_MAX, SPACING_MIN, Thread};
+pub use weave::Weave;
 pub use yarns::NO_CROSSING;
-
-use bytemuck::Zeroable;
-use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, TWIST_LIMIT};
-
-use crate::FabricError;
-
-/// The most control points of a cloth: 64 GiB of them.
-pub const POINTS_MAX: u64 = 1 << 32;
-
-/// The least spacing of a thread, mm: the thinnest radius that is taken for a yarn.
-pub const SPACING_MIN: f64 = RADIUS_MIN as f64;
-
-/// The most spacing of a thread, mm: a kilometre.
-pub const SPACING_MAX: f64 = RADIUS_MAX as f64;
-
-/// The share by which room may fall short before it counts: radii are rounded to `f32`.
-const ROUNDING: f64 = 1e-6;
-
-/// One end or one pick: what it is like, and how far it lies from the one before.
-///
-/// ```
-/// use texere_fabric::Thread;
-/// let red = Thread { material: 1, ..Thread::new(0.5, 0.1) };
-/// assert_eq!(red.section, 0);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Thread {
-    /// Distance to the thread before, mm; half of it lies outside the first thread.
-    pub spacing_mm: f64,
-    /// Radius, mm.
-    pub radius_mm: f32,
-    /// Index into the materials.
-    pub material: u32,
-    /// Index into the sections.
-    pub section: u32,
-    /// Twist, rad per mm; positive is Z twist.
-    pub twist: f32,
-}
-
-impl Thread {
-    /// An untwisted thread of the first material and the first section.
-    #[must_use]
-    pub const fn new(spacing_mm: f64, radius_mm: f32) -> Self {
-        Self { spacing_mm, radius_mm, material: 0, section: 0, twist: 0.0 }
-    }
-}
-
-/// A woven cloth, checked: how its threads interlace, and what each of them is like.
-///
-/// ```
-/// use texere_core::{Material, Section};
-/// use texere_fabric::{Thread, Weave, Woven};
-/// let plain = Weave::parse("plain")?;
-/// let thread = Thread::new(1.0, 0.2);
-/// let mut cloth = Woven::new(
-///     plain.drawdown(3, 2)?,
-///     vec![thread; 3],
-///     vec![thread; 2],
-///     vec![Material::default()],
-///     vec![Section::Circle],
-/// )?;
-/// assert_eq!(cloth.size_mm(), [3.0, 2.0]);
-/// let yarns = cloth.yarns()?;
-/// // At each end of a yarn a control point, at each crossing one, and three where the thread changes sides.
-/// assert_eq!(yarns.layout().offsets(), [0, 7, 14, 21, 32, 43]);
-///
-/// // Flat yarns need less room where they cross.
-/// cloth.set_section(Section::Ellipse { aspect: 2.0 })?;
-/// assert!(cloth.yarns()?.points()[1].z < yarns.points()[1].z);
-/// # Ok::<(), texere_fabric::FabricError>(())
-/// ```
-#[derive(Debug, Clone, PartialEq)]
-pub struct Woven {
-    drawdown: Drawdown,
-    warp: Vec<Thread>,
-    weft: Vec<Thread>,
-    materials: Vec<Material>,
-    sections: Vec<Section>,
-    shape: Shape,
-    crimp: Crimp,
-    selvedge: bool,
-}
-
-impl Woven {
-    /// Checks and joins a drawdown, its ends (`warp`) and picks (`weft`), and the materials and sections that they refer
-    /// to.
-    ///
-    /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control points than
-    /// [`POINTS_MAX`], spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii outside \[[`RADIUS_MIN`],
-    /// [`RADIUS_MAX`]\], twists beyond [`TWIST_LIMIT`], unknown materials and sections, sections that are not sound, and
-    /// cloth wider or longer than [`COORDINATE_LIMIT`].
-    pub fn new(
-        drawdown: Drawdown,
-        warp: Vec<Thread>,
-        weft: Vec<Thread>,
-        materials: Vec<Material>,
-        sections: Vec<Section>,
-    ) -> Result<Self, FabricError> {
-        let (ends, picks) = (drawdown.ends(), drawdown.picks());
-        for (set, threads, planned) in [("ends", warp.len(), ends), ("picks", weft.len(), picks)] {
-            if threads != planned {
-                return Err(FabricError::ThreadCount { set, threads, planned });
-            }
-        }
-        for (section, shape) in sections.iter().enumerate() {
-            shape.validate().map_err(|source| FabricError::Section { section, source })?;
-        }
-        let (shape, crimp) = (Shape::default(), Crimp::default());
-        let cloth = Self { drawdown, warp, weft, materials, sections, shape, crimp, selvedge: false };
-        // The least that any shape has: where the cloth's own has more, its yarns are refused.
-        let (longer, wider) = (picks as u64 + 2, ends as u64 + 2);
-        let points = ends as u64 * longer + picks as u64 * wider;
-        if points > POINTS_MAX {
-            return Err(FabricError::Points { ends, picks, points, limit: POINTS_MAX });
-        }
-        cloth.check_threads(&cloth.warp, Origin::End)?;
-        cloth.check_threads(&cloth.weft, Origin::Pick)?;
-        for (set, extent_mm) in ["ends", "picks"].into_iter().zip(cloth.size_mm()) {
-            let limit = f64::from(COORDINATE_LIMIT);
-            if extent_mm > limit {
-                return Err(FabricError::Extent { set, extent_mm, limit });
-            }
-        }
-        Ok(cloth)
-    }
-
-    fn check_threads(&self, threads: &[Thread], origin: fn(u32) -> Origin) -> Result<(), FabricError> {
-        for (number, each) in (1..).zip(threads) {
-            let thread = origin(number);
-            if !(SPACING_MIN..=SPACING_MAX).contains(&each.spacing_mm) {
-                return Err(FabricError::Spacing {
-                    thread,
-                    spacing_mm: each.spacing_mm,
-                    low: SPACING_MIN,
-                    high: SPACING_MAX,
-                });
-            }
-            if !(RADIUS_MIN..=RADIUS_MAX).contains(&each.radius_mm) {
-                return Err(FabricError::Radius {
-                    thread,
-                    radius_mm: each.radius_mm,
-                    low: RADIUS_MIN,
-                    high: RADIUS_MAX,
-                });
-            }
-            if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&each.twist) {
-                return Err(FabricError::Twist { thread, twist: each.twist, limit: TWIST_LIMIT });
-            }
-            if each.material as usize >= self.materials.len() {
-                let materials = self.materials.len();
-                return Err(FabricError::UnknownMaterial { thread, material: each.material, materials });
-            }
-            if each.section as usize >= self.sections.len() {
-                let sections = self.sections.len();
-                return Err(FabricError::UnknownSection { thread, section: each.section, sections });
-            }
-        }
-        Ok(())
-    }
-
-    /// Which thread lies on top at each crossing.
-    #[must_use]
-    pub const fn drawdown(&self) -> &Drawdown {
-        &self.drawdown
-    }
-
-    /// The ends, from the left.
-    #[must_use]
-    pub fn warp(&self) -> &[Thread] {
-        &self.warp
-    }
-
-    /// The picks, from the first one woven.
-    #[must_use]
-    pub fn weft(&self) -> &[Thread] {
-        &self.weft
-    }
-
-    /// The materials that threads refer to.
-    #[must_use]
-    pub fn materials(&self) -> &[Material] {
-        &self.materials
-    }
-
-    /// The sections that threads refer to.
-    #[must_use]
-    pub fn sections(&self) -> &[Section] {
-        &self.sections
-    }
-
-    /// Gives all threads one section.
-    ///
-    /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.
-    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
-        section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
-        self.sections = vec![section];
-        for thread in self.warp.iter_mut().chain(&mut self.weft) {
-            thread.section = 0;
-        }
-        Ok(())
-    }
-
-    /// Width (along the weft) and height (along the warp) of the cloth, mm: the sums of its threads' spacings, but that
-    /// half of the last thread's spacing counts at its outer side.
-    #[must_use]
-    pub fn size_mm(&self) -> [f64; 2] {
-        [&self.warp, &self.weft].map(|threads| {
-            let half = |thread: Option<&Thread>| thread.map_or(0.0, |thread| thread.spacing_mm / 2.0);
-            threads.iter().map(|thread| thread.spacing_mm).sum::<f64>() - half(threads.first())
-                + half(threads.last())
-        })
-    }
-
-    /// How many control points threads get, and where.
-    #[must_use]
-    pub const fn shape(&self) -> Shape {
-        self.shape
-    }
-
-    /// Chooses how many control points threads get, and where.
-    pub const fn set_shape(&mut self, shape: Shape) {
-        self.shape = shape;
-    }
-
-    /// How warp and weft share the crimp.
-    #[must_use]
-    pub const fn crimp(&self) -> Crimp {
-        self.crimp
-    }
-
-    /// Chooses how warp and weft share the crimp.
-    ///
-    /// **Errors**: [`FabricError::Crimp`] for a share outside \[0, 1\]; the cloth is then as it was.
-    pub fn set_crimp(&mut self, crimp: Crimp) -> Result<(), FabricError> {
-        crimp.validate()?;
-        self.crimp = crimp;
-        Ok(())
-    }
-
-    /// The warp's share of the crimp: the number that [`Woven::crimp`] comes to in this cloth.
-    #[must_use]
-    pub fn warp_share(&self) -> f32 {
-        self.crimp.warp_share(&self.warp, &self.weft)
-    }
-
-    /// Whether the weft turns back round the edge ends.
-    #[must_use]
-    pub const fn selvedge(&self) -> bool {
-        self.selvedge
-    }
-
-    /// Chooses whether the weft turns back round the edge ends, or each pick is a yarn of its own, cut at both edges.
-    pub const fn set_selvedge(&mut self, selvedge: bool) {
-        self.selvedge = selvedge;
-    }
-}
-
-/// `count` zeroed values, from pages that are not touched yet.
-fn zeroed<T: Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, FabricError> {
-    let out_of_memory =
-        || FabricError::OutOfMemory { what, bytes: count.saturating_mul(size_of::<T>() as u64) };
-    let length = usize::try_from(count).map_err(|_| out_of_memory())?;
-    bytemuck::allocation::try_zeroed_vec(length).map_err(|()| out_of_memory())
-}

@@ -1,8 +1,12 @@
 //! Reads the notation of weaves; [`super::Weave`] has its grammar.
 
-use super::REPEAT_MAX;
 use super::library::{CREPE, HONEYCOMB, Reversal, drawn};
 use crate::FabricError;
+
+/// The most ends, and the most picks, in the repeat of a weave.
+///
+/// Notation is for weaves that a weaver can name; what repeats over more threads than this is a picture.
+pub const REPEAT_MAX: usize = 4096;
 
 /// A weave as it is written.
 #[derive(Clone)]

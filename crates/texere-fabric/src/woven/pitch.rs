@@ -2,8 +2,8 @@
 
 use texere_core::Origin;
 
-use super::jam::Gap;
-use super::{ROUNDING, Woven};
+use super::Woven;
+use super::jam::{Gap, ROUNDING};
 
 /// How far a thread lies from the one before it, and how far it should.
 ///

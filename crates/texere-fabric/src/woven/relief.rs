@@ -3,14 +3,14 @@
 use texere_core::{Origin, RADIUS_MAX, RADIUS_MIN, Section};
 
 use super::crimp::{Crimp, SHARE_MIN};
-use super::jam::{Gap, reach};
-use super::{ROUNDING, Shape, Thread, Woven};
+use super::jam::{Gap, ROUNDING, reach};
+use super::{Shape, Thread, Woven};
 use crate::FabricError;
 
 /// What to do where threads lie closer together than those that cross them can pass between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
-pub enum Jam {
+pub enum Relief {
     /// Nothing: the numbers alone.
     #[default]
     Report,
@@ -103,14 +103,14 @@ impl Needs {
 }
 
 impl Woven {
-    /// Makes room where threads are jammed, as `jam` says, and tells what there was and what there is.
+    /// Makes room where threads are jammed, as `relief` says, and reports what there was and what there is.
     ///
     /// In this order: first the warp's share of the crimp moves, within 20 and 80 %, as little as it must (a share that
     /// was given as [`Crimp::WarpShare`] stays); it costs nothing, and where one set is dense its threads do the
     /// bending in real cloth too. Only what is still jammed is then flattened or thinned. Flattening goes for the set
-    /// that passes between the jammed threads: a wider thread needs more room beside, so one set's relief is the
-    /// other's load, and what can't be relieved stays and is told. All threads of a set are flattened alike (finishing
-    /// does not pick threads), lobed ones not at all.
+    /// that passes between the jammed threads: a wider thread needs more room beside, so what relieves one set may
+    /// jam the other. What can't be relieved stays and is reported. All threads of a set are flattened alike (finishing
+    /// can't single out threads), lobed ones not at all.
     ///
     /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least one: only there the
     /// spline keeps the threads clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
@@ -120,18 +120,18 @@ impl Woven {
     ///
     /// ```
     /// use texere_core::{Material, Section};
-    /// use texere_fabric::{Jam, Thread, Weave, Woven};
+    /// use texere_fabric::{Relief, Thread, Weave, Woven};
     /// // Denim: ends 1.3 diameters apart.
     /// let twill = Weave::parse("3/1")?.drawdown(20, 20)?;
     /// let (warp, weft) = (vec![Thread::new(0.39, 0.15); 20], vec![Thread::new(0.66, 0.15); 20]);
     /// let mut cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
-    /// let report = cloth.relieve(Jam::Flatten)?;
+    /// let report = cloth.relieve(Relief::Flatten)?;
     /// assert_eq!(report.before.map(|set| set.jammed), [19, 0]);
     /// assert_eq!(report.after.map(|set| set.jammed), [0, 0]);
     /// assert!(report.warp_share[1] > report.warp_share[0]);
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
-    pub fn relieve(&mut self, jam: Jam) -> Result<JamReport, FabricError> {
+    pub fn relieve(&mut self, relief: Relief) -> Result<JamReport, FabricError> {
         let [warp, weft] = self.gaps();
         let share = self.warp_share();
         let before = tightness(&warp, &weft, share);
@@ -144,13 +144,13 @@ impl Woven {
         };
 
         let (mut change, mut scaled) = (now, 1.0);
-        if jam != Jam::Report && worst(&now) > 1.0 {
+        if relief != Relief::Report && worst(&now) > 1.0 {
             change = best(&self.shares(share), &[1.0], &[1.0], now, worst);
             let left = worst(&change);
-            if jam == Jam::Shrink && left > 1.0 {
-                // A hair less, so that rounding does not leave a hair too little.
+            if relief == Relief::Shrink && left > 1.0 {
+                // A little less, so that rounding does not leave too little room.
                 scaled = (1.0 - ROUNDING as f32) / left;
-            } else if jam == Jam::Flatten && left > 1.0 {
+            } else if relief == Relief::Flatten && left > 1.0 {
                 let [ends, picks] = [self.warp(), self.weft()].map(|set| self.widths(set));
                 change = best(&self.shares(share), &ends, &picks, now, worst);
             }

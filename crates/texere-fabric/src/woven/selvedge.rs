@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use texere_core::ControlPoint;
 
-use super::Thread;
+use super::thread::Thread;
 
 /// Control points of a turn, on a half circle.
 pub(super) const TURN_POINTS: usize = 5;

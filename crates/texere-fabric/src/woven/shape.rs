@@ -2,7 +2,7 @@
 
 use texere_core::Section;
 
-use super::Thread;
+use super::thread::Thread;
 
 /// How many control points a thread gets, and where.
 ///

@@ -3,13 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::notation::{self, Notation};
+use super::notation::{self, Notation, REPEAT_MAX};
 use crate::{Drawdown, FabricError};
-
-/// The most ends, and the most picks, in the repeat of a weave.
-///
-/// Notation is for weaves that a weaver can name; what repeats over more threads than this is a picture.
-pub const REPEAT_MAX: usize = 4096;
 
 /// One repeat of a weave, from its usual notation.
 ///

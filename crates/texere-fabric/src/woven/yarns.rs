@@ -4,11 +4,12 @@ use rayon::prelude::*;
 use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns};
 
 use super::bend::Bend;
-use super::course::Course;
+use super::path::ThreadPath;
 use super::selvedge::{self, TURN_POINTS};
 use super::shape::Set;
-use super::{POINTS_MAX, Thread, Woven, zeroed};
+use super::{POINTS_MAX, Thread, Woven};
 use crate::FabricError;
+use crate::memory::zeroed;
 
 /// The source of a control point that is next to no crossing: a yarn's first and last, and its turns at a selvedge.
 pub const NO_CROSSING: u32 = u32::MAX;
@@ -78,8 +79,8 @@ impl Woven {
             let sources = sources_left.split_off_mut(..count).unwrap_or_default();
             Pen { points: points.iter_mut(), sources: sources.iter_mut() }
         });
-        loom.each(&passes, pens, |course, pass, mut pen| {
-            loom.lay(course, pass, &mut |point, source| pen.write(point, source));
+        loom.each(&passes, pens, |path, pass, mut pen| {
+            loom.lay(path, pass, &mut |point, source| pen.write(point, source));
         });
 
         let layout = Layout::new(table, offsets, self.sections().to_vec())?;
@@ -129,12 +130,12 @@ impl Woven {
 }
 
 impl Loom<'_> {
-    /// Calls `work` on all threads for each pass and what there is for it, with the course that passes of its kind take.
+    /// Calls `work` on all threads for each pass and what there is for it, with the path that passes of its kind take.
     fn each<T: Send>(
         &self,
         passes: &[Pass],
         with: impl IntoIterator<Item = T>,
-        work: impl Fn(&Course<'_>, Pass, T) + Sync,
+        work: impl Fn(&ThreadPath<'_>, Pass, T) + Sync,
     ) {
         let kind = |pass: Pass| match pass {
             Pass::End(end) => (false, false, self.warp.half_height[end].to_bits()),
@@ -149,33 +150,33 @@ impl Loom<'_> {
         }
         kinds.into_par_iter().for_each(|passes| {
             let Some(&(first, _)) = passes.first() else { return };
-            let course = match first {
-                Pass::End(end) => Course::new(self.warp_bend(end), false),
-                Pass::Pick(pick, _) => Course::new(self.weft_bend(pick), self.runs_left(pick)),
+            let path = match first {
+                Pass::End(end) => ThreadPath::new(self.warp_bend(end), false),
+                Pass::Pick(pick, _) => ThreadPath::new(self.weft_bend(pick), self.runs_left(pick)),
             };
-            passes.into_par_iter().for_each(|(pass, with)| work(&course, pass, with));
+            passes.into_par_iter().for_each(|(pass, with)| work(&path, pass, with));
         });
     }
 
     /// Control points of each pass.
     fn counts(&self, passes: &[Pass]) -> Vec<usize> {
         let mut counts = vec![0; passes.len()];
-        self.each(passes, &mut counts, |course, pass, count| match course.fixed_count(pass.cut()) {
+        self.each(passes, &mut counts, |path, pass, count| match path.fixed_count(pass.cut()) {
             Some(fixed) => *count = fixed + if pass.turns() { TURN_POINTS } else { 0 },
-            None => self.lay(course, pass, &mut |_, _| *count += 1),
+            None => self.lay(path, pass, &mut |_, _| *count += 1),
         });
         counts
     }
 
     /// Calls `write` with each control point of a pass and its source.
-    fn lay(&self, course: &Course<'_>, pass: Pass, write: &mut impl FnMut(ControlPoint, u32)) {
+    fn lay(&self, path: &ThreadPath<'_>, pass: Pass, write: &mut impl FnMut(ControlPoint, u32)) {
         let (drawdown, ends) = (self.cloth.drawdown(), self.warp.at.len());
         let cut = pass.cut();
         match pass {
             Pass::End(end) => {
                 let (x, radius) = (self.warp.at[end], self.cloth.warp()[end].radius_mm);
                 let above = |pick| drawdown.up(end, pick);
-                course.walk(above, cut, |stop| {
+                path.walk(above, cut, |stop| {
                     let source = stop.crossing.map_or(NO_CROSSING, |pick| (pick * ends + end) as u32);
                     write(ControlPoint::new(x, stop.along, stop.z, radius), source);
                 });
@@ -186,7 +187,7 @@ impl Loom<'_> {
                 }
                 let (y, radius) = (self.weft.at[pick], self.cloth.weft()[pick].radius_mm);
                 let above = |end| !drawdown.up(end, pick);
-                course.walk(above, cut, |stop| {
+                path.walk(above, cut, |stop| {
                     let source = stop.crossing.map_or(NO_CROSSING, |end| (pick * ends + end) as u32);
                     write(ControlPoint::new(stop.along, y, stop.z, radius), source);
                 });

@@ -51,7 +51,7 @@ pub(super) fn said(message: &str) -> String {
     cut(&plain(&words), SAID)
 }
 
-/// A path as errors show it; of a long one the end tells most.
+/// A path as errors show it; of a long one the end, which says most.
 pub(super) fn named(path: &Path) -> String {
     let path = path.to_string_lossy();
     let start = path.char_indices().rev().nth(PATH_SHOWN).map_or(0, |(start, _)| start);

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::ReadError;
 
-/// Opens a regular file of at most `limit` bytes. A pipe that nobody writes to would be waited for without end, and a
-/// device never ends.
+/// Opens a regular file of at most `limit` bytes. Reading a pipe that nothing writes to would never return, and a
+/// device has no end.
 pub(super) fn open(path: &Path, limit: u64) -> Result<File, ReadError> {
     let io = |source| ReadError::Io { file: path.into(), source };
     // Before it is opened, as opening alone can do something to a device. After it, as the name may stand for another
@@ -22,7 +22,7 @@ pub(super) fn open(path: &Path, limit: u64) -> Result<File, ReadError> {
 pub(super) fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let file = open(path, limit)?;
     let mut bytes = Vec::new();
-    // One byte more than the limit tells a file that has grown since.
+    // One byte more than the limit shows that the file has grown since.
     let count = file.take(limit + 1).read_to_end(&mut bytes).map_err(|source| match source.kind() {
         std::io::ErrorKind::OutOfMemory => {
             ReadError::OutOfMemory { what: "a design's file", bytes: bytes.len() as u64 }
@@ -76,4 +76,9 @@ fn kind(metadata: &Metadata) -> &'static str {
         }
     }
     if metadata.is_dir() { "a folder" } else { "something else" }
+}
+
+/// The name of a design that has no title.
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "design".into(), |stem| stem.to_string_lossy().into_owned())
 }

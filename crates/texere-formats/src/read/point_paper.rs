@@ -10,7 +10,8 @@ use serde::Deserialize;
 use texere_fabric::THREADS_MAX;
 
 use super::error::said;
-use super::{ReadError, file, room};
+use super::memory::{filled, room};
+use super::{ReadError, file};
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
 const PIXELS_MAX: u64 = 1 << 28;
@@ -29,7 +30,7 @@ const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
 /// one bit. So a short file takes no memory for pixels that it can't have.
 const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
-/// The most colours of a point paper: what a byte numbers. A weaver tells far fewer apart.
+/// The most colours of a point paper: as many as a byte can number, and far more than a weaver uses.
 const COLORS_MAX: usize = 256;
 
 /// Which pick the first (top) row of an image is.
@@ -191,7 +192,7 @@ impl Image {
         limits.max_alloc = Some(2 * size + ASIDE_MAX);
         decoder.set_limits(limits).map_err(undecodable)?;
 
-        let mut bytes = super::filled("an image", size as usize, 0)?;
+        let mut bytes = filled("an image", size as usize, 0)?;
         // Decoders take up to as much again and do not ask whether it is there.
         drop(room::<u8>("decoding an image", (size + ASIDE_MAX) as usize)?);
         decoder.read_image(&mut bytes).map_err(undecodable)?;

@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 use texere_core::PipelineError;
 use thiserror::Error;
 
-use super::Format;
-
 /// A mesh or a draft that can't be written. After any of these there is no new file, and an old one is as it was.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// The path has no extension of a known format.
-    #[error("{} has no known extension; there are: {}", .path.display(), Format::ALL.map(Format::extension).join(", "))]
+    /// The path ends in no extension that stands for a format. Choose one of those named.
+    #[error("{} has no known extension; there are: {}", .path.display(), .known)]
     UnknownFormat {
         /// The path.
         path: PathBuf,
+        /// All extensions that stand for a format.
+        known: String,
     },
     /// The file system refused: no such folder, no permission, no room. A target that is a folder, a device, a link
     /// that leads nowhere or a file that its user may not write is refused before any work is done.

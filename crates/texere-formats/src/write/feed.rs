@@ -3,23 +3,14 @@
 use std::borrow::Borrow;
 use std::fmt::Debug;
 use std::io::{Seek, Write};
-use std::ops::Range;
 
-use texere_core::{Cap, Chunk, Material, Part, Plan, Vertex};
+use texere_core::{Chunk, Material, Plan, Vertex};
 
 use super::glb::GlbWriter;
+use super::mesh_writer::{MeshWriter, yarn_runs};
 use super::ply::PlyWriter;
 use super::target::Target;
 use super::{Format, WriteError};
-
-/// A format's writer.
-pub(super) trait MeshWriter<W: Write + Seek>: Debug {
-    /// Takes a chunk's vertices from number `first` on. All vertices of all chunks come in order.
-    fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError>;
-
-    /// Completes the file once all vertices have come.
-    fn finish(self: Box<Self>) -> Result<Target<W>, WriteError>;
-}
 
 /// A file under way, and how many of its vertices have come.
 #[derive(Debug)]
@@ -94,25 +85,4 @@ impl<'a, W: Write + Seek + Debug + 'a> Feed<'a, W> {
         }
         self.writer.finish()
     }
-}
-
-/// Which yarn each of `count` vertices of a chunk from number `first` on belongs to: runs of places, counted from
-/// `first`, in order.
-pub(super) fn yarn_runs(
-    chunk: &Chunk,
-    sides: u32,
-    first: u32,
-    count: usize,
-) -> impl Iterator<Item = (u32, Range<usize>)> {
-    let end = u64::from(first) + count as u64;
-    let tube = move |part: &Part| (part.yarn, part.first_vertex..part.first_vertex + part.rings * sides);
-    let cap = move |cap: &Cap| (cap.yarn, cap.first_vertex..cap.first_vertex + sides);
-    // A chunk may hold thousands of parts and be lent in as many pieces.
-    let tubes = &chunk.parts()[chunk.parts().partition_point(|part| tube(part).1.end <= first)..];
-    let caps = &chunk.caps()[chunk.caps().partition_point(|each| cap(each).1.end <= first)..];
-    let runs = tubes.iter().map(tube).chain(caps.iter().map(cap));
-    runs.take_while(move |(_, run)| u64::from(run.start) < end).map(move |(yarn, run)| {
-        let from = run.start.max(first) - first;
-        (yarn, from as usize..((run.end - first) as usize).min(count))
-    })
 }

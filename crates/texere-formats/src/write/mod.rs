@@ -18,7 +18,9 @@ mod draft;
 mod error;
 mod feed;
 mod file;
+mod format;
 mod glb;
+mod mesh_writer;
 mod output;
 mod picture;
 mod ply;
@@ -30,60 +32,16 @@ mod unfinished;
 pub use draft::{SHAFTS_MAX, Side, draft};
 pub use error::WriteError;
 pub use file::file;
+pub use format::Format;
 pub use output::Output;
 pub use picture::picture;
 pub use unfinished::abandon;
 
 use std::ops::ControlFlow;
-use std::path::Path;
 
 use feed::Feed;
 use target::Target;
 use texere_core::{Backend, Mesh, MeshPiece, Pipeline, PipelineError, Plan, Settings, Topology};
-
-/// A kind of mesh file.
-///
-/// ```
-/// use texere_formats::write::Format;
-/// assert_eq!(Format::from_path("damask.GLB")?, Format::Glb);
-/// let error = Format::from_path("damask.obj").unwrap_err();
-/// assert_eq!(error.to_string(), "damask.obj has no known extension; there are: glb, ply");
-/// # Ok::<(), texere_formats::WriteError>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Format {
-    /// glTF 2.0 binary, up to 4 GiB.
-    Glb,
-    /// Binary PLY, up to 2³² - 1 vertices.
-    Ply,
-}
-
-impl Format {
-    /// All formats.
-    pub const ALL: [Self; 2] = [Self::Glb, Self::Ply];
-
-    /// The extension that stands for the format, without its dot.
-    #[must_use]
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Glb => "glb",
-            Self::Ply => "ply",
-        }
-    }
-
-    /// The format of `path` by its extension, in upper or lower case.
-    ///
-    /// **Errors**: [`WriteError::UnknownFormat`], which names those that there are.
-    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, WriteError> {
-        let path = path.as_ref();
-        let given = path.extension().unwrap_or_default();
-        Self::ALL
-            .into_iter()
-            .find(|format| given.eq_ignore_ascii_case(format.extension()))
-            .ok_or_else(|| WriteError::UnknownFormat { path: path.to_owned() })
-    }
-}
 
 /// How much was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use std::io::{Seek, Write};
 use texere_core::{Chunk, Material, Plan, Vertex};
 
 use super::WriteError;
-use super::feed::{MeshWriter, yarn_runs};
+use super::mesh_writer::{MeshWriter, yarn_runs};
 use super::target::Target;
 
 /// Six floats and three colour bytes.

@@ -82,7 +82,7 @@ fn a_panic_leaves_no_trace() {
         });
         let run = std::panic::AssertUnwindSafe(|| stream(panicking, path));
         assert!(std::panic::catch_unwind(run).is_err());
-        WriteError::UnknownFormat { path: path.to_owned() }
+        WriteError::UnknownFormat { path: path.to_owned(), known: String::new() }
     };
     leaves_no_trace(attempt, |_| true);
 }

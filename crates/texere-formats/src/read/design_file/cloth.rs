@@ -1,6 +1,6 @@
 //! The `[cloth]` table: how threads lie in the cloth.
 
-use texere_fabric::{Crimp, Jam, Shape, Woven};
+use texere_fabric::{Crimp, Relief, Shape, Woven};
 use toml::Spanned;
 
 use super::schema::{ClothTable, Source};
@@ -12,7 +12,7 @@ pub(super) struct Cloth {
     shape: Shape,
     crimp: Crimp,
     selvedge: bool,
-    pub(super) jam: Jam,
+    pub(super) relief: Relief,
 }
 
 impl Cloth {
@@ -32,8 +32,9 @@ impl Cloth {
             cloth.selvedge = given.ok_or_else(|| source.odd("cloth.selvedge", selvedge, "true or false"))?;
         }
         if let Some(jam) = &table.jam {
-            let known = [("report", Jam::Report), ("flatten", Jam::Flatten), ("shrink", Jam::Shrink)];
-            cloth.jam = choice(source, "cloth.jam", jam, &known)?;
+            let known =
+                [("report", Relief::Report), ("flatten", Relief::Flatten), ("shrink", Relief::Shrink)];
+            cloth.relief = choice(source, "cloth.jam", jam, &known)?;
         }
         Ok(cloth)
     }

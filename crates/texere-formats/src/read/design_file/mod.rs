@@ -58,7 +58,7 @@
 //! | `shape` | `"round"` ([`Shape::Round`], where not given) or `"crossing"` ([`Shape::Crossing`]: the paper's count) |
 //! | `warp_crimp` | the warp's share of the crimp, 0 to 1 ([`Crimp::WarpShare`]); by stiffness where not given |
 //! | `selvedge` | `true`: the weft turns back round the edge ends, one yarn; `false` where not given |
-//! | `jam` | what is done where threads are jammed: `"report"`, where not given, `"flatten"` or `"shrink"` ([`Jam`]) |
+//! | `jam` | what is done where threads are jammed: `"report"`, where not given, `"flatten"` or `"shrink"` ([`Relief`]) |
 //!
 //! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.
 
@@ -71,11 +71,12 @@ use std::path::Path;
 
 use texere_core::Section;
 #[cfg(doc)]
-use texere_fabric::{Crimp, Jam, Shape, Weave};
-use texere_fabric::{Drawdown, Woven};
+use texere_fabric::{Crimp, Relief, Shape, Weave};
+use texere_fabric::{Drawdown, Structure, Woven, WovenDesign};
 
-use super::file::bytes_of;
-use super::{Design, ReadError, file_name, only_used, wif};
+use super::file::{bytes_of, file_name};
+use super::threads::only_used;
+use super::{Design, ReadError, wif};
 use cloth::Cloth;
 use schema::{DesignFile, Source};
 use threads::YarnTable;
@@ -102,8 +103,8 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let mut woven = threaded(&source, &file, &yarns, drawdown)?;
     laid.lay(&source, &mut woven)?;
     let name = file.name.unwrap_or_else(|| file_name(path));
-    let design =
-        Design::woven(name, woven, None, laid.jam, warnings).map_err(|error| source.fabric(error))?;
+    let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
+    let design = Design::new(name, Structure::Woven(woven), warnings);
     Ok(match &file.weave.image {
         Some(image) => design.noting(&path.parent().unwrap_or(Path::new("")).join(image.as_ref())),
         None => design,
@@ -172,7 +173,6 @@ fn from_wif(
     let mut woven = Woven::new(drawdown, warp, weft, materials, sections).map_err(fabric)?;
     laid.lay(source, &mut woven)?;
     let name = file.name.clone().unwrap_or(draft.name);
-    Design::woven(name, woven, Some(draft.draft), laid.jam, draft.warnings)
-        .map(|design| design.noting(&path))
-        .map_err(fabric)
+    let woven = WovenDesign::new(woven, Some(draft.draft), laid.relief).map_err(fabric)?;
+    Ok(Design::new(name, Structure::Woven(woven), draft.warnings).noting(&path))
 }

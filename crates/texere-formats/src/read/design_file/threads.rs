@@ -7,8 +7,9 @@ use texere_fabric::{COTTON_DENSITY, Thread};
 use toml::Spanned;
 
 use super::schema::{SectionSpec, Source, ThreadSet, YarnSpec, real};
+use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
-use crate::read::{ReadError, room};
+use crate::read::memory::room;
 
 /// Thinnest and thickest diameter, and narrowest and widest spacing, that a design file may ask for, mm.
 const LENGTH_MM: (f64, f64) = (1e-3, 1e3);

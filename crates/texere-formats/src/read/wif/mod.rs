@@ -1,14 +1,14 @@
-//! WIF 1.1, the Weaving Information File: lenient in dialect, firm in substance.
+//! WIF 1.1, the Weaving Information File: lenient about how a file is written, strict about what it says.
 //!
 //! Sections and keys come in any order and case; sparse lists take defaults; 0 or nothing stands for none; what CONTENTS
-//! claims is not trusted. Refused, with section and key: a treadle or shaft that the loom has not got, a colour that no
+//! claims is not trusted. Refused, with section and key: a treadle or shaft that the loom does not have, a colour that no
 //! table holds, a tie-up, treadling or lift plan that the others need.
 //!
 //! A loom has the shafts and treadles that WEAVING declares. Where ends are threaded on more shafts, or the tie-up has rows
 //! for more treadles, it has those too, with a warning; what then lifts a shaft or presses a treadle beyond them is
-//! refused. Without a declaration there is nothing to go beyond.
+//! refused. Without a declaration the loom has as many as the file uses.
 //!
-//! A thickness that leaves threads no room to cross is read as how wide they are drawn: see [`threads::roomy`].
+//! A thickness that leaves threads no room to cross is taken for how wide they are drawn: see [`threads::roomy`].
 
 mod colors;
 mod ini;
@@ -20,13 +20,11 @@ use std::path::Path;
 use texere_core::Section;
 use texere_fabric::{Draft, Drawdown, Shedding, Woven};
 
-use super::file::bytes_of;
-use super::{ReadError, file_name, only_used};
+use super::ReadError;
+use super::file::{bytes_of, file_name};
+use super::threads::only_used;
 use ini::Ini;
-use numbers::{integer, lists};
-
-/// Most shafts or treadles of a loom: a Jacquard machine with a hook for each end, in WIF's clothes.
-const LOOM_LIMIT: u32 = 100_000;
+use numbers::{LOOM_LIMIT, integer, lists};
 
 /// Most threads of a warp or weft.
 const THREAD_LIMIT: u32 = 1_000_000;

@@ -6,7 +6,8 @@ use texere_fabric::{Drawdown, FabricError, Thread, Woven};
 use super::colors::{NO_COLOR, Palette};
 use super::ini::Ini;
 use super::numbers::{bad, length, numbered};
-use crate::read::{ReadError, filled, room};
+use crate::read::ReadError;
+use crate::read::memory::{filled, room};
 
 /// Spacing where the file gives none, mm: 10 threads to the centimetre.
 const DEFAULT_SPACING_MM: f64 = 1.0;
@@ -25,7 +26,7 @@ const ROUNDING: f64 = 1e-6;
 /// By how much a thickness may differ from the spacing and still be the same, rounded.
 const ALIKE: f64 = 0.01;
 
-/// What one of the two sets of threads is told by.
+/// What the file says of the warp's threads, or of the weft's.
 #[derive(Debug, Default)]
 struct Set {
     /// Spacing and thickness of all threads that have none of their own.

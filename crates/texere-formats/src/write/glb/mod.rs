@@ -12,7 +12,7 @@ use document::Document;
 use texere_core::{Chunk, Material, Plan, Vertex};
 
 use super::WriteError;
-use super::feed::MeshWriter;
+use super::mesh_writer::MeshWriter;
 use super::target::Target;
 
 /// The header holds the file's length in a `u32`.

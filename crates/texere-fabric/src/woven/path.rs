@@ -1,11 +1,11 @@
-//! The course of threads over and under those that they cross.
+//! The path of threads over and under those that they cross.
 
 use super::bend::{Bend, STRIDE};
 use super::shape::Shape;
 
-/// The way of all threads of one height across those that they cross: what does not depend on the sides on which they lie
+/// The path of all threads of one height across those that they cross. What does not depend on the sides on which they lie
 /// is worked out once.
-pub(super) struct Course<'a> {
+pub(super) struct ThreadPath<'a> {
     bend: Bend<'a>,
     /// Where the threads come into the cloth and where they leave it, mm.
     edges: [f32; 2],
@@ -34,7 +34,7 @@ const BEFORE: usize = 0;
 const AFTER: usize = 1;
 const BOTH: usize = 2;
 
-/// A control point of a thread's course.
+/// A control point of a thread's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stop {
     /// Place along the thread, mm.
@@ -45,7 +45,7 @@ pub(super) struct Stop {
     pub(super) crossing: Option<usize>,
 }
 
-impl<'a> Course<'a> {
+impl<'a> ThreadPath<'a> {
     /// `back` says whether threads run against the order of those that they cross.
     pub(super) fn new(bend: Bend<'a>, back: bool) -> Self {
         let count = bend.crossed.at.len();
@@ -59,7 +59,7 @@ impl<'a> Course<'a> {
         Self { edges: if back { [edges[1], edges[0]] } else { edges }, stations: stations.collect(), bend }
     }
 
-    /// Control points of a thread, cut as in [`Course::walk`], where their number does not depend on sides.
+    /// Control points of a thread, cut as in [`ThreadPath::walk`], where their number does not depend on sides.
     pub(super) fn fixed_count(&self, cut: [bool; 2]) -> Option<usize> {
         let cuts = cut.into_iter().filter(|cut| *cut).count();
         (self.bend.shape == Shape::Crossing).then_some(self.stations.len() + cuts)
@@ -163,7 +163,7 @@ fn change(bend: &Bend<'_>, from: usize, to: usize) -> [f32; 3] {
     [start, start + share * (end - start), end]
 }
 
-/// A way along which a thread keeps its side.
+/// A stretch along which a thread keeps its side.
 struct Float {
     from: f32,
     to: f32,

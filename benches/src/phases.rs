@@ -1,0 +1,181 @@
+//! The phases of the paper's figure 5, each alone: yarn geometry, buffer creation, rendering.
+
+use std::error::Error;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use texere::{
+    Backend, BackendError, Camera, Chunk, DeviceInfo, Extent, Limits, MeshPiece, Plan, Quality, Renderer,
+    Schedule, Settings, Topology, Vertex, Yarns,
+};
+use texere_core::Session;
+use texere_wgpu::WgpuBackend;
+use wgpu::BufferUsages;
+
+use crate::fill::Gpu;
+
+/// Memory for two chunks of mesh, bytes: what pictures take, too.
+const CHUNK_MEMORY: u64 = 128 << 20;
+
+/// Time of each phase, one after the other, by the host's clock.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Phases {
+    /// Splines and meshes on one core of the CPU: the paper's algorithms 1 and 3, into the host's memory.
+    pub serial_geometry: Duration,
+    /// That mesh, vertices and indices, to the device that draws.
+    pub serial_buffers: Duration,
+    /// Splines and meshes on the device that draws, into its own memory.
+    pub parallel_geometry: Duration,
+    /// Control points and tables to that device: all that has to be sent then.
+    pub parallel_buffers: Duration,
+    /// Drawing and lighting a picture, which is the same for both.
+    pub rendering: Duration,
+}
+
+impl Phases {
+    /// What [`Phases::in_order`] gives, by name.
+    pub const NAMES: [&str; 5] =
+        ["geometry, serial", "buffers, serial", "geometry, parallel", "buffers, parallel", "drawing"];
+
+    /// The times, each geometry before its buffers.
+    #[must_use]
+    pub const fn in_order(&self) -> [Duration; 5] {
+        let Self { serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering } = *self;
+        [serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering]
+    }
+}
+
+/// A device that draws, and the serial backend.
+#[derive(Debug)]
+pub struct PhaseTimer {
+    gpu: WgpuBackend,
+    /// On the same device.
+    renderer: Renderer,
+    serial: Box<dyn Backend>,
+}
+
+impl PhaseTimer {
+    /// Opens a device by a name such as `wgpu:0`.
+    ///
+    /// **Errors**: [`BackendError`] where there is no such device, or it does not draw.
+    pub fn open(device: &str) -> Result<Self, BackendError> {
+        let Gpu::Wgpu(gpu) = Gpu::open(device)? else {
+            return Err(BackendError::NoDevice { wanted: device.into(), found: Vec::new() });
+        };
+        let (own, queue) = (gpu.device().clone(), gpu.queue().clone());
+        let renderer = Renderer::new(WgpuBackend::from_device(own, queue, Schedule::PerRing)?)?;
+        Ok(Self { gpu, renderer, serial: texere::open("cpu-serial")? })
+    }
+
+    /// The device that draws.
+    #[must_use]
+    pub fn info(&self) -> &DeviceInfo {
+        self.gpu.info()
+    }
+
+    /// Times the phases for one fabric and a picture of its face of `size` pixels, each on a device that is warm.
+    ///
+    /// # Errors
+    ///
+    /// Whatever a device says.
+    pub fn phases(
+        &self,
+        yarns: &Yarns,
+        settings: &Settings,
+        size: [u32; 2],
+    ) -> Result<Phases, Box<dyn Error>> {
+        let camera = Camera::face(&Extent::of(yarns), size);
+        // Compiles and allocates what any first picture does.
+        self.renderer.scene(yarns, settings)?.picture(&camera, Quality::default())?;
+
+        let start = Instant::now();
+        let mut scene = self.renderer.scene(yarns, settings)?;
+        self.idle()?;
+        let parallel_buffers = start.elapsed();
+        let parallel_geometry = self.parallel_geometry(yarns, settings)?;
+        scene.picture(&camera, Quality::default())?;
+        let start = Instant::now();
+        scene.picture(&camera, Quality::default())?;
+        // A picture makes its mesh, which is not part of this phase.
+        let rendering = start.elapsed().saturating_sub(parallel_geometry);
+        drop(scene);
+
+        let (serial_geometry, serial_buffers) = self.serial(yarns, settings)?;
+        Ok(Phases { serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering })
+    }
+
+    /// Times the mesh as a scene makes it: vertices alone, with caps.
+    fn parallel_geometry(&self, yarns: &Yarns, settings: &Settings) -> Result<Duration, Box<dyn Error>> {
+        let settings = Settings { topology: Topology::None, caps: true, ..*settings };
+        let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+        let mut session = crate::session(&self.gpu, &plan, yarns)?;
+        let mut mesh = || -> Result<Duration, Box<dyn Error>> {
+            let start = Instant::now();
+            for chunk in plan.chunks(&self.limits(&plan))? {
+                session.mesh(&chunk)?;
+            }
+            self.idle()?;
+            Ok(start.elapsed())
+        };
+        mesh()?;
+        mesh()
+    }
+
+    /// Times geometry and buffers of the serial backend, chunk by chunk, so that any fabric fits the host.
+    fn serial(&self, yarns: &Yarns, settings: &Settings) -> Result<(Duration, Duration), Box<dyn Error>> {
+        // With caps, since the parallel one has them, too.
+        let settings = Settings { topology: Topology::Indexed, caps: true, ..*settings };
+        let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+        let mut session = crate::session(&*self.serial, &plan, yarns)?;
+        let (mut geometry, mut buffers) = (Duration::ZERO, Duration::ZERO);
+        for chunk in plan.chunks(&self.limits(&plan))? {
+            let start = Instant::now();
+            session.mesh(&chunk)?;
+            let _ = session.read_mesh(&chunk, &mut |_| ControlFlow::Continue(()))?;
+            geometry += start.elapsed();
+            let start = Instant::now();
+            self.send(&mut session, &chunk)?;
+            buffers += start.elapsed();
+        }
+        Ok((geometry, buffers))
+    }
+
+    /// Makes buffers of a chunk's mesh, and waits until it is there.
+    fn send(&self, session: &mut Session, chunk: &Chunk) -> Result<(), Box<dyn Error>> {
+        let buffer = |usage, count: u32, each: usize| {
+            self.gpu.buffer("serial mesh", u64::from(count) * each as u64, usage | BufferUsages::COPY_DST)
+        };
+        let vertices = buffer(BufferUsages::VERTEX, chunk.vertices(), size_of::<Vertex>())?;
+        let indices = buffer(BufferUsages::INDEX, chunk.indices(), size_of::<u32>())?;
+        let mut outcome = Ok(());
+        let _ = session.read_mesh(chunk, &mut |piece| {
+            let (buffer, offset, bytes): (_, _, &[u8]) = match piece {
+                MeshPiece::Vertices { first, vertices: piece } => {
+                    (&vertices, u64::from(first) * size_of::<Vertex>() as u64, bytemuck::cast_slice(piece))
+                }
+                MeshPiece::Indices { first, indices: piece } => {
+                    (&indices, u64::from(first) * size_of::<u32>() as u64, bytemuck::cast_slice(piece))
+                }
+                _ => return ControlFlow::Continue(()),
+            };
+            let queue = self.gpu.queue();
+            outcome = self.gpu.scoped("Queue::write_buffer", || queue.write_buffer(buffer, offset, bytes));
+            if outcome.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        })?;
+        outcome?;
+        Ok(self.idle()?)
+    }
+
+    /// What chunks are cut to, as those of pictures are.
+    fn limits(&self, plan: &Plan) -> Limits {
+        let memory_bytes = plan.resident_bytes() + CHUNK_MEMORY;
+        Limits { memory_bytes, ..Limits::NONE }.min(&self.info().limits)
+    }
+
+    /// Waits until the device has done all that it was given.
+    fn idle(&self) -> Result<(), BackendError> {
+        let submission = self.gpu.scoped("Queue::submit", || self.gpu.queue().submit([]))?;
+        self.gpu.wait(submission)
+    }
+}

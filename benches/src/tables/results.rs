@@ -1,0 +1,55 @@
+//! What was measured.
+
+use std::time::Duration;
+
+use texere::{Counts, DeviceInfo, Pipeline, PlanError, Yarns};
+use texere_core::StageTimings;
+
+/// One device's work on one cloth.
+#[derive(Debug)]
+pub(super) struct Run {
+    /// Memory and tables, by the host's clock.
+    pub(super) creation: Duration,
+    /// Control points to the device, by the host's clock.
+    pub(super) upload: Duration,
+    /// From the open device to the first mesh in its memory, by the host's clock.
+    pub(super) first: Duration,
+    /// Stage 1 and stage 2 one after the other, by the device's clock where it has one. None where stages are fused.
+    pub(super) staged: Option<StageTimings>,
+    /// Both stages as fast as the device does them, likewise.
+    pub(super) whole: Duration,
+    /// The mesh to the host, by the host's clock. None where it lies there already.
+    pub(super) readback: Option<Duration>,
+    /// Giving memory back, by the host's clock.
+    pub(super) clean_up: Duration,
+}
+
+/// A device, and its runs on all cloths.
+#[derive(Debug)]
+pub(super) struct Column {
+    pub(super) info: DeviceInfo,
+    /// A context of the device's, by the host's clock; the first of a driver pays for the driver. None for a CPU.
+    pub(super) context: Option<Duration>,
+    /// Compiling the kernels, by the host's clock: opening the device takes so much longer than a context does.
+    pub(super) build: Duration,
+    pub(super) runs: Vec<Run>,
+}
+
+/// A cloth of the tables.
+#[derive(Debug)]
+pub(super) struct Cloth {
+    pub(super) name: String,
+    pub(super) yarns: Yarns,
+    pub(super) counts: Counts,
+}
+
+/// Pixels of the picture that is drawn.
+pub(super) const PICTURE: [u32; 2] = [1600, 1200];
+
+impl Cloth {
+    /// A cloth and its counts at the default settings.
+    pub(super) fn new(name: String, yarns: Yarns) -> Result<Self, PlanError> {
+        let counts = *Pipeline::new(&yarns).plan()?.counts();
+        Ok(Self { name, yarns, counts })
+    }
+}

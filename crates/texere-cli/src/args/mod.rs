@@ -1,0 +1,111 @@
+//! The command line.
+
+mod path;
+mod render;
+mod settings;
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+use path::{file_of, mesh_file};
+pub(crate) use render::{RenderArgs, View};
+pub(crate) use settings::SettingsArgs;
+
+/// Textile designs to yarn-level 3D geometry.
+#[derive(Debug, Parser)]
+#[command(name = "texere", version, after_help = EXIT_CODES)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line or the \
+                          variable TEXERE_SIMD is wrong; 3 the design is wrong; 4 check found that the cloth pierces itself, \
+                          folds or jams.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// List the devices that can do the work
+    Devices(DevicesArgs),
+    /// Say what a design makes: counts, sizes, yarn, weight, clearance, bends, warnings
+    Inspect(InspectArgs),
+    /// Say whether a cloth pierces itself, folds or jams, where, and what would cure it
+    Check(CheckArgs),
+    /// Write a design's mesh to a .glb or .ply file
+    Mesh(MeshArgs),
+    /// Draw a woven design's draft, or print its drawdown
+    Draft(DraftArgs),
+    /// Make a picture of a design's cloth
+    Render(RenderArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct DevicesArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct InspectArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    #[command(flatten)]
+    pub(crate) settings: SettingsArgs,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Count alone, without measures, clearance and bends, which take seconds where there are millions of control points
+    #[arg(long)]
+    pub(crate) counts: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct CheckArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    /// How far short of touching, as a share, yarns may come and still count as touching. Where yarns touch by
+    /// construction the spline between their control points comes out at 0.99 of it
+    #[arg(long, value_name = "SHARE", default_value_t = 0.015, value_parser = share)]
+    pub(crate) accuracy: f64,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct MeshArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    /// The file to write: .glb or .ply
+    #[arg(short, long, value_name = "FILE", value_parser = mesh_file())]
+    pub(crate) output: PathBuf,
+    /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl, wgpu:nvidia, opencl:0/per-yarn
+    #[arg(long, default_value = "auto")]
+    pub(crate) device: String,
+    #[command(flatten)]
+    pub(crate) settings: SettingsArgs,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct DraftArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point paper where there is no
+    /// shaft draft
+    #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
+    pub(crate) output: Option<PathBuf>,
+    /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left
+    #[arg(long, required_unless_present = "output")]
+    pub(crate) text: bool,
+    /// Show the back of the cloth, turned over sideways: end 1 on the right
+    #[arg(long)]
+    pub(crate) back: bool,
+}
+
+/// A number from 0 to below 1.
+fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..1.0).contains(share));
+    share.ok_or_else(|| "expected a number from 0 to below 1".into())
+}

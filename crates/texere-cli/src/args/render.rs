@@ -1,0 +1,92 @@
+//! The command line of `texere render`.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use texere::Quality;
+
+use super::SettingsArgs;
+use super::path::file_of;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct RenderArgs {
+    /// A .wif draft or a .toml design
+    pub(crate) design: PathBuf,
+    /// The picture to write, a .png file; a turntable numbers its pictures: OUT-001.png and so on
+    #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
+    pub(crate) output: PathBuf,
+    /// Width and height, pixels
+    #[arg(long, value_name = "WxH", default_value = "1600x1200", value_parser = size)]
+    pub(crate) size: [u32; 2],
+    /// From where the cloth is seen
+    #[arg(long, value_enum, default_value_t = View::Face)]
+    pub(crate) view: View,
+    /// The point that a close-up or a cut shows, mm from the cloth's left and lower edges; if left out its middle, or for a
+    /// cut the middle of the thread nearest to it
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) at: Option<[f32; 2]>,
+    /// What a close-up or a cut shows, mm across; if left out, forty times a yarn's radius
+    #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
+    pub(crate) width: Option<f32>,
+    /// Show face or back at true scale, so many millimetres to a pixel, in a picture as large as that takes
+    #[arg(long, value_name = "MM", conflicts_with = "size", value_parser = millimetres, allow_negative_numbers = true)]
+    pub(crate) mm_per_pixel: Option<f32>,
+    /// Pictures of a turntable
+    #[arg(long, value_name = "N", default_value_t = 36, value_parser = clap::value_parser!(u32).range(1..=9999))]
+    pub(crate) frames: u32,
+    /// Pixels drawn for each pixel of the picture, each way; each has four samples
+    #[arg(long, value_name = "N", default_value_t = Quality::default().supersampling, value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub(crate) supersampling: u32,
+    /// The device that draws: auto, wgpu, wgpu:1, wgpu:nvidia
+    #[arg(long, default_value = "auto")]
+    pub(crate) device: String,
+    /// Make everything anew so many times, to see how long it takes on a device that is warm
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) repeat: u32,
+    #[command(flatten)]
+    pub(crate) settings: SettingsArgs,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum View {
+    /// Straight onto the face
+    Face,
+    /// Straight onto the back: the cloth is turned over sideways, end 1 at the right
+    Back,
+    /// The whole cloth from above its lower edge
+    Oblique,
+    /// Some yarns, from near
+    CloseUp,
+    /// A cut through the ends, along a pick
+    CutWarp,
+    /// A cut through the picks, along an end
+    CutWeft,
+    /// The oblique view from all sides, as numbered pictures
+    Turntable,
+}
+
+/// A size from its numbers.
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let (width, height) = text.split_once('x').ok_or("expected a width and a height, such as 1600x1200")?;
+    let number = |text: &str| match text.parse() {
+        Ok(number) if number > 0 => Ok(number),
+        _ => Err(format!("\"{text}\" is not a number of pixels")),
+    };
+    Ok([number(width)?, number(height)?])
+}
+
+/// A length from its number.
+fn millimetres(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number: &f32| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "expected a finite number of millimetres above 0".into())
+}
+
+/// A point from its numbers.
+fn point(text: &str) -> Result<[f32; 2], String> {
+    let (x, y) = text.split_once(',').ok_or("expected two numbers, such as 12.5,8")?;
+    let number = |text: &str| match text.trim().parse::<f32>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(format!("\"{text}\" is not a number of millimetres")),
+    };
+    Ok([number(x)?, number(y)?])
+}

@@ -1,0 +1,176 @@
+//! What is said of clearance and bends.
+
+use std::fmt;
+
+use serde::Serialize;
+use texere::{
+    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, ClothClearance, ThreadBend, ThreadContact,
+    ThreadCrowd, ThreadPlace,
+};
+
+/// How near yarns come to one another.
+#[derive(Debug, Serialize)]
+pub(crate) struct ClearanceReport {
+    /// The least ratio of all contacts, 1 where yarns just touch; null where none comes within 1.1. Where it is crowded it is
+    /// no more than this.
+    min: f64,
+    contacts: u64,
+    below_one: u64,
+    pub(crate) worst: Vec<ContactReport>,
+    histogram: Histogram,
+    pub(crate) crowd: Option<CrowdReport>,
+}
+
+/// Yarns that lie in one another many times over, or too many of them together: they are not measured pair by pair.
+#[derive(Debug, Serialize)]
+pub(crate) struct CrowdReport {
+    /// The volume of the yarns over the room that they have.
+    fill: f64,
+    /// Control intervals that lie there.
+    intervals: usize,
+    /// The thickest thread there.
+    yarn: String,
+    thickness_mm: f64,
+    /// Its distance to the thread before.
+    pitch_mm: Option<f64>,
+    place_mm: [f64; 3],
+    crossing: Option<Crossing>,
+}
+
+/// How many contacts have a ratio from 0 on, in bins of this width.
+#[derive(Debug, Serialize)]
+struct Histogram {
+    bin: f64,
+    counts: Vec<u64>,
+}
+
+/// Two yarns that come near one another.
+#[derive(Debug, Serialize)]
+pub(crate) struct ContactReport {
+    pub(crate) ratio: f64,
+    pub(crate) yarns: [String; 2],
+    /// Half way between the two centrelines, mm.
+    pub(crate) place_mm: [f64; 3],
+    /// The crossing next to which each of the two lies; null at a yarn's end and in a turn of the weft.
+    crossings: [Option<Crossing>; 2],
+}
+
+/// The tightest bend: radius of curvature over how far the section reaches into the bend.
+#[derive(Debug, Serialize)]
+pub(crate) struct CurvatureReport {
+    /// Null where all yarns are straight.
+    pub(crate) min: f64,
+    yarn: Option<String>,
+    place_mm: Option<[f64; 3]>,
+    crossing: Option<Crossing>,
+}
+
+/// A crossing, its threads counted from 1.
+#[derive(Debug, Serialize)]
+struct Crossing {
+    end: u32,
+    pick: u32,
+}
+
+impl Crossing {
+    fn of(place: &ThreadPlace) -> Option<Self> {
+        place.crossing.map(|texere::Crossing { end, pick }| Self { end, pick })
+    }
+}
+
+impl From<&ClothClearance> for ClearanceReport {
+    fn from(found: &ClothClearance) -> Self {
+        Self {
+            min: found.min,
+            contacts: found.contacts,
+            below_one: found.below_one,
+            worst: found.worst.iter().map(ContactReport::from).collect(),
+            histogram: Histogram { bin: CLEARANCE_BIN, counts: found.histogram.clone() },
+            crowd: found.crowd.as_ref().map(CrowdReport::from),
+        }
+    }
+}
+
+impl From<&ThreadCrowd> for CrowdReport {
+    fn from(crowd: &ThreadCrowd) -> Self {
+        Self {
+            fill: crowd.fill,
+            intervals: crowd.intervals,
+            yarn: crowd.place.thread.to_string(),
+            thickness_mm: crowd.thickness_mm,
+            pitch_mm: crowd.pitch_mm,
+            place_mm: crowd.place.position_mm,
+            crossing: Crossing::of(&crowd.place),
+        }
+    }
+}
+
+impl From<&ThreadContact> for ContactReport {
+    fn from(contact: &ThreadContact) -> Self {
+        Self {
+            ratio: contact.ratio,
+            yarns: contact.places.map(|place| place.thread.to_string()),
+            place_mm: contact.middle_mm(),
+            crossings: contact.places.map(|place| Crossing::of(&place)),
+        }
+    }
+}
+
+impl From<&ThreadBend> for CurvatureReport {
+    fn from(bend: &ThreadBend) -> Self {
+        let place = bend.place.as_ref();
+        Self {
+            min: bend.radii,
+            yarn: place.map(|place| place.thread.to_string()),
+            place_mm: place.map(|place| place.position_mm),
+            crossing: place.and_then(Crossing::of),
+        }
+    }
+}
+
+impl fmt::Display for ClearanceReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(worst) = self.worst.first() else {
+            return match &self.crowd {
+                None => write!(f, "no yarns come near one another"),
+                Some(_) if self.min.is_finite() => write!(f, "{:.4} of touching at the most", self.min),
+                Some(_) => write!(f, "not measured"),
+            };
+        };
+        let [one, other] = &worst.yarns;
+        let at = place(worst.place_mm);
+        write!(f, "{:.4} of touching at the least: {one} and {other} at {at}; ", worst.ratio)?;
+        write!(f, "{} of {} contacts below {}", self.below_one, self.contacts, 1.0 - CLEARANCE_ACCURACY)?;
+        if self.crowd.is_some() { write!(f, " beside the crowd") } else { Ok(()) }
+    }
+}
+
+impl fmt::Display for CrowdReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { fill, intervals, yarn, thickness_mm, .. } = self;
+        if *fill > 1.0 {
+            write!(f, "{fill:.1} times as much yarn as there is room for: ")?;
+        } else {
+            write!(f, "{intervals} parts of yarns lie together, with over {CLEARANCE_BESIDE} beside one: ")?;
+        }
+        write!(f, "{yarn} is {thickness_mm:.4} mm thick")?;
+        if let Some(pitch) = self.pitch_mm {
+            write!(f, " and {pitch:.4} mm from the one before")?;
+        }
+        write!(f, ", at {}", place(self.place_mm))
+    }
+}
+
+impl fmt::Display for CurvatureReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Some(yarn), Some(at)) = (&self.yarn, self.place_mm) else {
+            return write!(f, "all yarns are straight");
+        };
+        write!(f, "{:.3} yarn radii at the tightest: {yarn} at {}", self.min, place(at))
+    }
+}
+
+/// `x 3.250, y 1.000, z -0.125 mm`
+pub(crate) fn place([x, y, z]: [f64; 3]) -> String {
+    format!("x {x:.3}, y {y:.3}, z {z:.3} mm")
+}

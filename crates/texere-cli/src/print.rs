@@ -1,0 +1,22 @@
+//! Standard output.
+
+use std::io::Write;
+
+use serde::Serialize;
+
+use crate::fail::Fail;
+
+/// Prints `report` as JSON, for programs.
+pub(crate) fn json(report: &impl Serialize) -> Result<(), Fail> {
+    let json = serde_json::to_string_pretty(report).map_err(|error| Fail::output(error.into()))?;
+    text(&(json + "\n"))
+}
+
+/// Prints `text` to standard output. A reader that has seen enough and closed the pipe is no failure.
+pub(crate) fn text(text: &str) -> Result<(), Fail> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Fail::output(error)),
+        _ => Ok(()),
+    }
+}

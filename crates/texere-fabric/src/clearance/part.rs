@@ -1,0 +1,15 @@
+//! Control intervals, as the cells of the search hold them.
+
+use glam::UVec3;
+
+use super::grid::Bounds;
+use super::line::Line;
+
+/// One interval in a cell.
+pub(super) struct Part<'a> {
+    pub(super) point: usize,
+    pub(super) line: Line<'a>,
+    pub(super) bounds: Bounds,
+    /// The first cell that its box reaches into.
+    pub(super) cell: UVec3,
+}

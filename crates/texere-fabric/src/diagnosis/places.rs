@@ -1,0 +1,190 @@
+//! Clearance and bends, at places named as a weaver names them: by thread and crossing.
+
+use std::ops::ControlFlow;
+
+use texere_core::{Origin, Yarns};
+
+use crate::{Clearance, Contact, Crowd, FabricError, NO_CROSSING, Woven, YarnPlace, clearance_with_progress};
+
+/// A crossing of a woven cloth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Crossing {
+    /// The end, from 1.
+    pub end: u32,
+    /// The pick, from 1.
+    pub pick: u32,
+}
+
+/// A place on a thread.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThreadPlace {
+    /// The thread. Of a weft that turns round at selvedges it is the pick, although the yarn is many picks.
+    pub thread: Origin,
+    /// The centreline there, mm.
+    pub position_mm: [f64; 3],
+    /// The nearest crossing. None at a yarn's end and in a turn of the weft.
+    pub crossing: Option<Crossing>,
+}
+
+/// Two threads that come near one another: a [`Contact`] with its threads' names.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThreadContact {
+    /// As [`Contact::ratio`]: 1 where both just touch, less where they pierce.
+    pub ratio: f64,
+    /// The place on each of the two.
+    pub places: [ThreadPlace; 2],
+}
+
+impl ThreadContact {
+    /// Half way between the two centrelines, mm.
+    #[must_use]
+    pub fn middle_mm(&self) -> [f64; 3] {
+        let [one, other] = self.places.map(|place| place.position_mm);
+        std::array::from_fn(|axis| f64::midpoint(one[axis], other[axis]))
+    }
+}
+
+/// Too much yarn in one place to be measured pair by pair: a [`Crowd`] with the name of its thickest thread.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThreadCrowd {
+    /// On the thickest thread there.
+    pub place: ThreadPlace,
+    /// Twice that thread's radius, mm.
+    pub thickness_mm: f64,
+    /// Its distance to the thread before, mm.
+    pub pitch_mm: Option<f64>,
+    /// Control intervals that lie there.
+    pub intervals: usize,
+    /// The volume of the yarns over the room that they have: see [`Crowd::fill`].
+    pub fill: f64,
+}
+
+/// The tightest bend of a cloth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThreadBend {
+    /// Radius of curvature over how far the section reaches into the bend: see [`Clearance::curvature_min`]. Infinite where
+    /// all threads are straight.
+    pub radii: f64,
+    /// Where that is. None where all threads are straight.
+    pub place: Option<ThreadPlace>,
+}
+
+/// [`Clearance`], with places that are named by thread and crossing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClothClearance {
+    /// See [`Clearance::min`].
+    pub min: f64,
+    /// See [`Clearance::contacts`].
+    pub contacts: u64,
+    /// See [`Clearance::below_one`].
+    pub below_one: u64,
+    /// See [`Clearance::worst`].
+    pub worst: Vec<ThreadContact>,
+    /// See [`Clearance::histogram`].
+    pub histogram: Vec<u64>,
+    /// See [`Clearance::crowd`].
+    pub crowd: Option<ThreadCrowd>,
+    /// The tightest bend.
+    pub bend: ThreadBend,
+}
+
+impl Woven {
+    /// Measures how near the cloth's threads come to one another, and how tightly they bend. `yarns` are those of
+    /// [`Woven::yarns`], their splines of `tension`. `progress` gets the share that is done, as in
+    /// [`clearance_with_progress`].
+    ///
+    /// **Errors**: those of [`clearance_with_progress`].
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use texere_core::{Material, Origin, Section};
+    /// use texere_fabric::{Thread, Weave, Woven};
+    /// let plain = Weave::parse("plain")?.drawdown(8, 6)?;
+    /// let (warp, weft) = (vec![Thread::new(0.5, 0.15); 8], vec![Thread::new(0.5, 0.15); 6]);
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let clearance = cloth.clearance(&cloth.yarns()?, 0.0, |_| ControlFlow::Continue(()))?;
+    /// let [one, other] = clearance.worst[0].places;
+    /// assert!(matches!((one.thread, other.thread), (Origin::End(_), Origin::Pick(_))));
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    pub fn clearance(
+        &self,
+        yarns: &Yarns,
+        tension: f32,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<ClothClearance, FabricError> {
+        let found = clearance_with_progress(yarns, tension, progress)?;
+        Ok(Names { cloth: self, yarns }.clearance(found))
+    }
+}
+
+/// A cloth and its yarns, to name places by.
+struct Names<'a> {
+    cloth: &'a Woven,
+    yarns: &'a Yarns,
+}
+
+impl Names<'_> {
+    fn clearance(&self, found: Clearance) -> ClothClearance {
+        ClothClearance {
+            min: found.min,
+            contacts: found.contacts,
+            below_one: found.below_one,
+            worst: found.worst.iter().map(|contact| self.contact(contact)).collect(),
+            crowd: found.crowd.as_ref().map(|crowd| self.crowd(crowd)),
+            bend: ThreadBend {
+                radii: found.curvature_min,
+                place: found.curvature_at.as_ref().map(|place| self.place(place)),
+            },
+            histogram: found.histogram,
+        }
+    }
+
+    fn contact(&self, contact: &Contact) -> ThreadContact {
+        ThreadContact { ratio: contact.ratio, places: contact.places.map(|place| self.place(&place)) }
+    }
+
+    fn crowd(&self, crowd: &Crowd) -> ThreadCrowd {
+        let place = self.place(&crowd.place);
+        let thread = match place.thread {
+            Origin::End(number) => self.cloth.warp().get((number as usize).wrapping_sub(1)),
+            Origin::Pick(number) => self.cloth.weft().get((number as usize).wrapping_sub(1)),
+            _ => None,
+        };
+        ThreadCrowd {
+            place,
+            thickness_mm: crowd.thickness_mm,
+            pitch_mm: thread.map(|thread| thread.spacing_mm),
+            intervals: crowd.intervals,
+            fill: crowd.fill,
+        }
+    }
+
+    fn place(&self, place: &YarnPlace) -> ThreadPlace {
+        let crossing = self.crossing(place);
+        ThreadPlace { thread: self.thread(place, crossing), position_mm: place.position, crossing }
+    }
+
+    fn crossing(&self, place: &YarnPlace) -> Option<Crossing> {
+        let number = place.source.filter(|source| *source != NO_CROSSING)?;
+        let ends = self.cloth.warp().len() as u32;
+        Some(Crossing { end: number % ends + 1, pick: number / ends + 1 })
+    }
+
+    /// The thread that a yarn is at a place: a weft that turns round is many picks.
+    fn thread(&self, place: &YarnPlace, crossing: Option<Crossing>) -> Origin {
+        let origin = self.yarns.layout().yarns()[place.yarn].origin;
+        match (origin, crossing) {
+            (Origin::Pick(_), Some(crossing)) => Origin::Pick(crossing.pick),
+            (Origin::Pick(_), None) if self.cloth.selvedge() => Origin::Pick(self.pick_at(place.position[1])),
+            _ => origin,
+        }
+    }
+
+    /// The pick nearest to height `y` of the cloth, mm.
+    fn pick_at(&self, y: f64) -> u32 {
+        let [_, middles] = self.cloth.middles_mm();
+        let distances = middles.into_iter().map(|middle| (middle - y).abs());
+        (1..).zip(distances).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(1, |(pick, _)| pick)
+    }
+}

@@ -1,0 +1,117 @@
+//! The structure of a fabric, whatever its kind.
+
+use std::ops::ControlFlow;
+
+use texere_core::{Section, Yarns};
+
+use crate::diagnosis::{ClothClearance, Cure, Diagnosis};
+use crate::{FabricError, FabricWarning, Measures, WovenDesign};
+
+/// How the yarns of a fabric interlace. There are methods for what can be asked of any kind.
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign};
+/// let plain = Weave::parse("plain")?.drawdown(8, 6)?;
+/// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 8], vec![Thread::new(1.0, 0.2); 6]);
+/// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+/// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?);
+/// assert_eq!(structure.size_mm(), [8.0, 6.0]);
+/// assert_eq!(structure.yarns()?.layout().yarns().len(), 14);
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Structure {
+    /// Woven cloth.
+    Woven(WovenDesign),
+}
+
+impl Structure {
+    /// The woven design, where the fabric is woven: for what only weaving has, such as a draft.
+    #[must_use]
+    pub const fn woven(&self) -> Option<&WovenDesign> {
+        match self {
+            Self::Woven(design) => Some(design),
+        }
+    }
+
+    /// The yarns of the fabric.
+    ///
+    /// **Errors**: [`FabricError`] where they can't be made: see [`Woven::yarns`](crate::Woven::yarns).
+    pub fn yarns(&self) -> Result<Yarns, FabricError> {
+        match self {
+            Self::Woven(design) => design.cloth().yarns(),
+        }
+    }
+
+    /// Width and height of the fabric, mm.
+    #[must_use]
+    pub fn size_mm(&self) -> [f64; 2] {
+        match self {
+            Self::Woven(design) => design.cloth().size_mm(),
+        }
+    }
+
+    /// Gives every yarn the same section. Where the design says what to do about jammed threads, that is done again.
+    ///
+    /// **Errors**: [`FabricError`] where the section is not sound, or threads can't be thinned so far; the structure is then
+    /// as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
+        match self {
+            Self::Woven(design) => design.set_section(section),
+        }
+    }
+
+    /// What a designer should know before looking at the fabric.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<FabricWarning> {
+        match self {
+            Self::Woven(design) => design.cloth().warnings(),
+        }
+    }
+
+    /// Yarn consumption, crimp, cover, weight and thickness. `yarns` are the structure's own, their splines of `tension`.
+    ///
+    /// **Errors**: [`FabricError::OtherYarns`] where these are not the structure's yarns.
+    pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
+        match self {
+            Self::Woven(design) => Measures::new(design.cloth(), yarns, tension),
+        }
+    }
+
+    /// How near yarns come to one another and how tightly they bend, at places that a designer can find: see
+    /// [`Woven::clearance`](crate::Woven::clearance).
+    ///
+    /// **Errors**: those of [`clearance_with_progress`](crate::clearance_with_progress).
+    pub fn clearance(
+        &self,
+        yarns: &Yarns,
+        tension: f32,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<ClothClearance, FabricError> {
+        match self {
+            Self::Woven(design) => design.cloth().clearance(yarns, tension, progress),
+        }
+    }
+
+    /// What is wrong with the fabric: see [`Woven::diagnose`](crate::Woven::diagnose).
+    ///
+    /// **Errors**: those of [`Structure::yarns`] and of [`Structure::clearance`].
+    pub fn diagnose(
+        &self,
+        touching: f64,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<Diagnosis, FabricError> {
+        match self {
+            Self::Woven(design) => design.cloth().diagnose(touching, progress),
+        }
+    }
+
+    /// Single changes that were tried and help against the faults of `diagnosis`: see [`WovenDesign::cures`].
+    pub fn cures(&self, diagnosis: &Diagnosis, progress: impl FnMut(f64) -> ControlFlow<()>) -> Vec<Cure> {
+        match self {
+            Self::Woven(design) => design.cures(diagnosis, progress),
+        }
+    }
+}

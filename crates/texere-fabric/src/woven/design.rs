@@ -1,0 +1,89 @@
+//! A woven design: a cloth, the draft that it is woven by, and what is done about its jammed threads.
+
+use texere_core::Section;
+
+use super::{Draft, JamReport, Relief, Woven};
+use crate::FabricError;
+
+/// A woven cloth as a designer describes it.
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::{Relief, Thread, Weave, Woven, WovenDesign};
+/// // Denim: ends 1.3 diameters apart.
+/// let twill = Weave::parse("3/1")?.drawdown(20, 20)?;
+/// let (warp, weft) = (vec![Thread::new(0.39, 0.15); 20], vec![Thread::new(0.66, 0.15); 20]);
+/// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+/// let design = WovenDesign::new(cloth, None, Relief::Flatten)?;
+/// assert_eq!(design.jam_report().before[0].jammed, 19);
+/// assert_eq!(design.jam_report().after[0].jammed, 0);
+/// assert!(design.cloth().warp_share() > 0.5);
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct WovenDesign {
+    cloth: Woven,
+    draft: Option<Draft>,
+    relief: Relief,
+    jam_report: JamReport,
+    /// The cloth as it was given, where relief has changed it.
+    given: Option<Woven>,
+}
+
+impl WovenDesign {
+    /// Relieves the jammed threads of `cloth` as `relief` says. `draft` is the shaft draft that it is woven by, if it has
+    /// one: its drawdown is the cloth's.
+    ///
+    /// **Errors**: those of [`Woven::relieve`].
+    pub fn new(mut cloth: Woven, draft: Option<Draft>, relief: Relief) -> Result<Self, FabricError> {
+        let (jam_report, given) = relieve(&mut cloth, relief)?;
+        Ok(Self { cloth, draft, relief, jam_report, given })
+    }
+
+    /// The cloth, its jammed threads relieved.
+    #[must_use]
+    pub const fn cloth(&self) -> &Woven {
+        &self.cloth
+    }
+
+    /// The shaft draft that the cloth is woven by, where the design has one.
+    #[must_use]
+    pub const fn draft(&self) -> Option<&Draft> {
+        self.draft.as_ref()
+    }
+
+    /// Which threads were jammed, and what was done about them.
+    #[must_use]
+    pub const fn jam_report(&self) -> &JamReport {
+        &self.jam_report
+    }
+
+    /// Whether the cloth is another than was given, because jammed threads were relieved.
+    #[must_use]
+    pub const fn is_relieved(&self) -> bool {
+        self.given.is_some()
+    }
+
+    /// Gives all threads of the cloth as it was given one section, and relieves it again.
+    ///
+    /// **Errors**: [`FabricError::Section`] where its numbers are not sound, and those of [`Woven::relieve`]; the design is
+    /// then as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
+        let mut changed = self.given.as_ref().unwrap_or(&self.cloth).clone();
+        changed.set_section(section)?;
+        (self.jam_report, self.given) = relieve(&mut changed, self.relief)?;
+        self.cloth = changed;
+        Ok(())
+    }
+}
+
+/// Relieves jammed threads. Gives the report, and the cloth as it was before, where it was changed.
+fn relieve(cloth: &mut Woven, relief: Relief) -> Result<(JamReport, Option<Woven>), FabricError> {
+    if relief == Relief::Report {
+        return Ok((cloth.relieve(relief)?, None));
+    }
+    let given = cloth.clone();
+    let report = cloth.relieve(relief)?;
+    let changed = given != *cloth;
+    Ok((report, changed.then_some(given)))
+}

@@ -1,0 +1,108 @@
+//! What is wrong with a cloth is named as a weaver names it, and cures are cures.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::ops::ControlFlow;
+
+use texere_core::{Material, Origin, Section};
+use texere_fabric::{
+    Crossing, Diagnosis, FaultKind, Relief, Remedy, Shape, Structure, Thread, Weave, Woven, WovenDesign,
+};
+
+/// Yarns of 0.3 mm at these spacings of ends and picks.
+fn cloth(weave: &str, [ends, picks]: [f64; 2]) -> Woven {
+    let drawdown = Weave::parse(weave).unwrap().drawdown(20, 16).unwrap();
+    let (warp, weft) = (vec![Thread::new(ends, 0.15); 20], vec![Thread::new(picks, 0.15); 16]);
+    Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap()
+}
+
+fn diagnose(cloth: &Woven) -> Diagnosis {
+    cloth.diagnose(0.985, |_| ControlFlow::Continue(())).unwrap()
+}
+
+fn design(cloth: &Woven, relief: Relief) -> WovenDesign {
+    WovenDesign::new(cloth.clone(), None, relief).unwrap()
+}
+
+#[test]
+fn clean_cloth_has_no_faults() {
+    let found = diagnose(&cloth("plain", [0.9, 0.9]));
+    assert!(found.faults.kinds().is_empty(), "{:?}", found.faults);
+    assert!(found.clearance.min >= 0.985 && found.clearance.crowd.is_none());
+}
+
+#[test]
+fn faults_are_named_by_thread_and_crossing() {
+    let jammed = cloth("3/1", [0.4, 0.66]);
+    let faults = diagnose(&jammed).faults;
+    assert_eq!(faults.kinds(), [FaultKind::Pierces, FaultKind::Folds, FaultKind::Jams]);
+    let jams = faults.jams.unwrap();
+    assert_eq!((jams.ends, jams.picks, jams.threads[0].thread), (19, 0, Origin::End(2)));
+    // A contact of an end and a pick lies where the two cross, or next to it.
+    let contact = faults.pierces[0];
+    let [Origin::End(end), Origin::Pick(pick)] = contact.places.map(|place| place.thread) else {
+        panic!("{contact:?}")
+    };
+    let [on_end, on_pick] = contact.places.map(|place| place.crossing.unwrap());
+    assert!(on_end.end == end && on_pick.pick == pick, "{contact:?}");
+    let [middles_x, middles_y] = jammed.middles_mm();
+    let Crossing { end, pick } = on_end;
+    let [x, y, _] = contact.middle_mm();
+    assert!((x - middles_x[end as usize - 1]).abs() < 0.4 && (y - middles_y[pick as usize - 1]).abs() < 0.66);
+}
+
+#[test]
+fn a_weft_that_turns_round_is_named_by_its_picks() {
+    let mut dense = cloth("plain", [0.45, 0.5]);
+    dense.set_selvedge(true);
+    let clearance = dense.clearance(&dense.yarns().unwrap(), 0.0, |_| ControlFlow::Continue(())).unwrap();
+    let picks = clearance.worst.iter().flat_map(|contact| contact.places).filter_map(|place| match place {
+        place if matches!(place.thread, Origin::Pick(_)) => Some(place),
+        _ => None,
+    });
+    let middles = &dense.middles_mm()[1];
+    let mut others = 0;
+    for place in picks {
+        let Origin::Pick(pick) = place.thread else { continue };
+        others += usize::from(pick > 1);
+        let off = (place.position_mm[1] - middles[pick as usize - 1]).abs();
+        assert!(off <= 0.25 + 1e-6, "{place:?}");
+    }
+    assert!(others > 0, "one yarn, but not one name");
+}
+
+#[test]
+fn each_cure_leaves_what_it_says() {
+    let jammed = cloth("3/1", [0.4, 0.66]);
+    let (found, whole) = (diagnose(&jammed), design(&jammed, Relief::Report));
+    let cures = whole.cures(&found, |_| ControlFlow::Continue(()));
+    assert!(cures.len() > 2, "{cures:?}");
+    for cure in cures {
+        let mut changed = jammed.clone();
+        match &cure.remedy {
+            Remedy::Spacing { spacing_mm, .. } => changed = cloth("3/1", *spacing_mm),
+            Remedy::Relief { relief, .. } => drop(changed.relieve(*relief).unwrap()),
+            Remedy::Section(section) => changed.set_section(section.clone()).unwrap(),
+            _ => continue,
+        }
+        assert_eq!(diagnose(&changed).faults.kinds(), cure.leaves, "{:?}", cure.remedy);
+    }
+    // Relief that the design has already is no cure.
+    let relieved = design(&jammed, Relief::Flatten);
+    let left = relieved.cures(&diagnose(relieved.cloth()), |_| ControlFlow::Continue(()));
+    assert!(relieved.is_relieved() && !left.iter().any(|cure| matches!(cure.remedy, Remedy::Relief { .. })));
+}
+
+#[test]
+fn the_search_for_cures_stops_when_it_is_asked_to() {
+    let mut corners = cloth("3/1", [0.59, 0.59]);
+    corners.set_shape(Shape::Crossing);
+    let structure = Structure::Woven(design(&corners, Relief::Report));
+    let found = structure.diagnose(0.985, |_| ControlFlow::Continue(())).unwrap();
+    let mut calls = 0;
+    let cures = structure.cures(&found, |_| {
+        calls += 1;
+        ControlFlow::Break(())
+    });
+    assert_eq!((calls, cures.len()), (1, 1), "{cures:?}");
+    assert_eq!(cures[0].remedy, Remedy::Shape(Shape::Round));
+}

@@ -21,27 +21,20 @@ pub(crate) struct Work {
     pub(crate) rolls: Rolls,
 }
 
-/// Rings of a chunk, and the growth of the radius at each, which a [`Ring`] has no room for.
-#[derive(Debug, Default)]
-pub(crate) struct ChunkRings {
-    pub(crate) rings: Vec<Ring>,
-    pub(crate) slopes: Vec<f32>,
-}
-
 /// One way to run the scan and the two stages on a CPU.
 pub(crate) trait Executor: Copy + Debug + Send + 'static {
     /// Whether `mesh` works out its rings itself.
     const FUSED: bool;
     fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError>;
-    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings);
+    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]);
     /// `rings` are those of `chunk`, unless fused.
-    fn mesh(self, work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>);
+    fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>);
 }
 
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug, Default)]
 struct Room {
-    rings: ChunkRings,
+    rings: Vec<Ring>,
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
 }
@@ -111,8 +104,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let rings = &mut self.rooms[slot.index()].rings;
-        resize("rings", &mut rings.rings, chunk.rings().into())?;
-        resize("slopes", &mut rings.slopes, chunk.rings().into())?;
+        resize("rings", rings, chunk.rings().into())?;
         timed(&mut self.timings.trajectory, || self.executor.trajectory(&self.work, chunk, rings));
         Ok(())
     }
@@ -132,7 +124,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
         _chunk: &Chunk,
         sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        Ok(sink(&self.rooms[slot.index()].rings.rings))
+        Ok(sink(&self.rooms[slot.index()].rings))
     }
 
     fn read_mesh(

@@ -303,6 +303,12 @@ impl Floats for F32x8 {
         // SAFETY: no pointers.
         U32x8(unsafe { _mm256_cvttps_epi32(self.0) })
     }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn to_bits(self) -> U32x8 {
+        // SAFETY: no pointers.
+        U32x8(unsafe { _mm256_castps_si256(self.0) })
+    }
 }
 
 impl Integers for U32x8 {

@@ -311,6 +311,12 @@ impl Floats for F32x16 {
         // SAFETY: no pointers.
         U32x16(unsafe { _mm512_cvttps_epi32(self.0) })
     }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn to_bits(self) -> U32x16 {
+        // SAFETY: no pointers.
+        U32x16(unsafe { _mm512_castps_si512(self.0) })
+    }
 }
 
 impl Integers for U32x16 {

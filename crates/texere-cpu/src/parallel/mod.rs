@@ -23,14 +23,14 @@ use texere_core::{
 };
 
 use crate::caps::caps;
-use crate::engine::{ChunkRings, Executor, Work};
+use crate::engine::{Executor, Work};
 use crate::pages;
 use crate::rolls::Rolls;
 use instruction_set::InstructionSet;
 use lines::{IndexLines, IndexTable, Lines, VertexLines};
 use rings::{Rings, Source, Stretch, Walk};
 use runs::{MeshRun, RingRun, mesh_runs, ring_runs, take};
-use simd::{Floats, Job, LANES_MAX, LINE, Line, Simd};
+use simd::{Job, LANES_MAX, LINE, Line, Simd};
 use spline::Seats;
 use tiles::TileLines;
 use vertices::{Surface, VERTEX};
@@ -68,12 +68,12 @@ impl Executor for Parallel {
         scan::scan(self.0, plan, points, rolls)
     }
 
-    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
+    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]) {
         let (set, maker) = (self.0, Maker::new(work));
         ring_runs(chunk, out).into_par_iter().for_each(|run| set.run(RingJob { maker: &maker, run }));
     }
 
-    fn mesh(self, work: &Work, chunk: &Chunk, _rings: &ChunkRings, mut out: MeshMut<'_>) {
+    fn mesh(self, work: &Work, chunk: &Chunk, _rings: &[Ring], mut out: MeshMut<'_>) {
         let (settings, set) = (work.plan.settings(), self.0);
         let indexed = settings.topology == Topology::Indexed;
         pages::prefer_huge(out.vertices);
@@ -138,8 +138,8 @@ struct RingJob<'a> {
 impl Job for RingJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
-        let RingRun { blocks, first_block, rings, slopes } = self.run;
-        let (mut number, mut sink) = (first_block, RingSink { rings, slopes });
+        let RingRun { blocks, first_block, rings } = self.run;
+        let (mut number, mut sink) = (first_block, RingSink { rings });
         for blocks in blocks.chunk_by(|a, b| a.yarn == b.yarn) {
             self.maker.rings(simd, blocks, number, &mut sink);
             number += blocks.len() as u64;
@@ -150,7 +150,6 @@ impl Job for RingJob<'_> {
 /// Where a trajectory goes.
 struct RingSink<'a> {
     rings: &'a mut [Ring],
-    slopes: &'a mut [f32],
 }
 
 impl Sink for RingSink<'_> {
@@ -159,9 +158,6 @@ impl Sink for RingSink<'_> {
         let mut out = [Ring::default(); LANES_MAX];
         rings.store(simd, roll, &mut out);
         take(&mut self.rings, count).copy_from_slice(&out[..count]);
-        let mut slopes = [0.0; LANES_MAX];
-        rings.slope.store(&mut slopes);
-        take(&mut self.slopes, count).copy_from_slice(&slopes[..count]);
     }
 }
 

@@ -216,6 +216,11 @@ impl Floats for F32x4 {
     fn to_signed(self) -> U32x4 {
         U32x4(each(|lane| (self.0[lane] as i32).cast_unsigned()))
     }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn to_bits(self) -> U32x4 {
+        U32x4(each(|lane| self.0[lane].to_bits()))
+    }
 }
 
 impl Integers for U32x4 {

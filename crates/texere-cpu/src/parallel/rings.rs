@@ -4,10 +4,10 @@
 //! branch for a rare case (a yarn at rest, a tangent along z, a yarn's last ring), the lanes only notice it, and the core's
 //! own functions are called for that ring.
 
-use texere_core::{Basis, ControlPoint, PaddedPoints, Plan, Ring, SLOPE_LIMIT, VERTICAL};
+use texere_core::{Basis, ControlPoint, PaddedPoints, Plan, Ring, VERTICAL};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
-use super::spline::{Cubics, Seats, xyz};
+use super::spline::{Cubics, Seats};
 
 /// What rings are made from.
 #[derive(Debug, Clone, Copy)]
@@ -39,11 +39,18 @@ pub(super) struct Stretch {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rings<S: Simd> {
     pub(super) centre: [S::Floats; 3],
-    pub(super) radius: S::Floats,
+    pub(super) half_width: S::Floats,
+    pub(super) half_height: S::Floats,
     pub(super) tangent: [S::Floats; 3],
-    pub(super) slope: S::Floats,
+    pub(super) width_growth: S::Floats,
+    pub(super) height_growth: S::Floats,
+    /// Whether any of them may be flattened.
+    pub(super) flattened: bool,
+    /// The frame that the section stands in: turned by the roll where the yarn is round, upright where it is flattened.
     pub(super) side: [S::Floats; 3],
     pub(super) up: [S::Floats; 3],
+    /// Sine and cosine of the roll, if there are rolls.
+    pub(super) roll: Option<(S::Floats, S::Floats)>,
     /// Centre relative to the interval's start, and the interval's end: what chords are made of.
     pub(super) offset: [S::Floats; 3],
     pub(super) span: [S::Floats; 3],
@@ -143,7 +150,7 @@ impl<'a, S: Simd> Walk<'a, S> {
 }
 
 /// What a ring that is mended has new.
-const FIELDS: usize = 14;
+const FIELDS: usize = 16;
 
 /// The fields of a vector of rings in memory. They are aligned as vectors are, so that a compiler that finds them on the stack
 /// aligns the stack, and with it all vectors that it puts there for want of registers.
@@ -157,22 +164,35 @@ impl<S: Simd> Rings<S> {
         const FLOATS: usize = size_of::<Ring>() / size_of::<f32>();
         let out: &mut [f32] = bytemuck::cast_slice_mut(out);
         let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);
-        simd.scatter([cx, cy, cz, self.radius], out, FLOATS);
-        simd.scatter([tx, ty, tz, roll.bit_cast()], &mut out[FLOATS / 2..], FLOATS);
+        let sizes = [self.half_height, self.width_growth, self.height_growth, simd.splat(0.0)];
+        simd.scatter([cx, cy, cz, self.half_width], out, FLOATS);
+        simd.scatter([tx, ty, tz, roll.bit_cast()], &mut out[FLOATS / 3..], FLOATS);
+        simd.scatter(sizes, &mut out[FLOATS / 3 * 2..], FLOATS);
+    }
+
+    /// Those that are round, as `Ring::is_round` of the core has it.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn round(&self) -> S::Mask {
+        let apart = (self.half_width - self.half_height).abs();
+        (apart + (self.width_growth - self.height_growth).abs()).is_zero()
     }
 
     #[cfg_attr(optimized, inline(always))]
     fn fields(&self) -> [S::Floats; FIELDS] {
         let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);
         let ([sx, sy, sz], [ux, uy, uz]) = (self.side, self.up);
-        [cx, cy, cz, self.radius, tx, ty, tz, self.slope, sx, sy, sz, ux, uy, uz]
+        let (width, height) = ([self.half_width, self.width_growth], [self.half_height, self.height_growth]);
+        let ([width, width_growth], [height, height_growth]) = (width, height);
+        [cx, cy, cz, width, height, tx, ty, tz, width_growth, height_growth, sx, sy, sz, ux, uy, uz]
     }
 
     #[cfg_attr(optimized, inline(always))]
     fn with_fields(self, fields: [S::Floats; FIELDS]) -> Self {
-        let [cx, cy, cz, radius, tx, ty, tz, slope, sx, sy, sz, ux, uy, uz] = fields;
-        let (centre, tangent) = ([cx, cy, cz], [tx, ty, tz]);
-        Self { centre, radius, tangent, slope, side: [sx, sy, sz], up: [ux, uy, uz], ..self }
+        let [cx, cy, cz, half_width, half_height, tx, ty, tz, width_growth, height_growth, frame @ ..] =
+            fields;
+        let ([sx, sy, sz, ux, uy, uz], centre, tangent) = (frame, [cx, cy, cz], [tx, ty, tz]);
+        let (side, up) = ([sx, sy, sz], [ux, uy, uz]);
+        Self { centre, half_width, half_height, tangent, width_growth, height_growth, side, up, ..self }
     }
 }
 
@@ -187,8 +207,11 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
             let sample = plan.sampling().sample(padded, ring, rings, closed).sample;
             let (c, t, basis) = (sample.centre, sample.tangent, Basis::upright(sample.tangent));
             let (s, u) = (basis.side, basis.up);
-            let new =
-                [c.x, c.y, c.z, sample.radius, t.x, t.y, t.z, sample.slope, s.x, s.y, s.z, u.x, u.y, u.z];
+            let (halves, growths) =
+                ([sample.half_width, sample.half_height], [sample.width_growth, sample.height_growth]);
+            let ([width, height], [width_growth, height_growth]) = (halves, growths);
+            let sizes = [c.x, c.y, c.z, width, height, t.x, t.y, t.z, width_growth, height_growth];
+            let new = sizes.into_iter().chain([s.x, s.y, s.z, u.x, u.y, u.z]);
             for (field, value) in lanes.0.iter_mut().zip(new) {
                 field[lane] = value;
             }
@@ -202,16 +225,17 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
 fn upright<S: Simd>(simd: S, cubics: &Cubics<S>, interval: S::Integers, t: S::Floats) -> (Rings<S>, u32) {
     let (one, zero) = (simd.splat(1.0), simd.splat(0.0));
     let sampled = cubics.sample(simd, interval, t);
-    let (offset, velocity) = (xyz(sampled.offset), xyz(sampled.velocity));
+    let (offset, velocity) = (sampled.offset, sampled.velocity);
 
     let speed_squared = dot(velocity, velocity);
     let moves = sampled.at_rest.less(speed_squared);
     let inverse = one / speed_squared.sqrt();
     let tangent = scale(velocity, inverse);
-    let limit = simd.splat(SLOPE_LIMIT);
-    let slope = (sampled.velocity[3] * inverse).max(-limit).min(limit);
-    let radius = sampled.start[3] + sampled.offset[3];
-    let held = radius.less(sampled.floor);
+    let (half_width, width_growth) = cubics.half_width.sample(simd, interval, t, inverse);
+    let (half_height, height_growth) = match &cubics.half_height {
+        Some(sizes) => sizes.sample(simd, interval, t, inverse),
+        None => (half_width, width_growth),
+    };
 
     let [x, y, z] = tangent;
     let level = x * x + y * y;
@@ -219,12 +243,16 @@ fn upright<S: Simd>(simd: S, cubics: &Cubics<S>, interval: S::Integers, t: S::Fl
     let inverse = one / level.sqrt();
     let (side_x, side_y) = (-y * inverse, x * inverse);
     let rings = Rings {
-        centre: plus(xyz(sampled.start), offset),
-        radius: held.select(sampled.floor, radius),
+        centre: plus(sampled.start, offset),
+        half_width,
+        half_height,
         tangent,
-        slope: held.select(zero, slope),
+        width_growth,
+        height_growth,
+        flattened: cubics.half_height.is_some(),
         side: [side_x, side_y, zero],
         up: [-z * side_y, z * side_x, x * side_y - y * side_x],
+        roll: None,
         offset,
         span: sampled.span,
         t,

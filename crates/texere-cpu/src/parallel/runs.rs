@@ -2,8 +2,6 @@
 
 use texere_core::{Block, Chunk, MeshMut, Ring, Vertex};
 
-use crate::engine::ChunkRings;
-
 /// Blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. Enough to make the hand-over cheap, few enough
 /// that a fabric of a few thousand rings still feeds several cores.
 const RUN_BLOCKS: usize = 32;
@@ -14,7 +12,6 @@ pub(super) struct RingRun<'a> {
     /// Number of the first block among all of the plan.
     pub(super) first_block: u64,
     pub(super) rings: &'a mut [Ring],
-    pub(super) slopes: &'a mut [f32],
 }
 
 /// A run of blocks and where their mesh goes.
@@ -32,13 +29,11 @@ fn runs(chunk: &Chunk) -> impl Iterator<Item = (&[Block], u64)> {
     chunk.blocks().chunks(RUN_BLOCKS).zip(numbers)
 }
 
-pub(super) fn ring_runs<'a>(chunk: &'a Chunk, out: &'a mut ChunkRings) -> Vec<RingRun<'a>> {
-    let (mut rings_left, mut slopes_left) = (&mut out.rings[..], &mut out.slopes[..]);
+pub(super) fn ring_runs<'a>(chunk: &'a Chunk, mut rings_left: &'a mut [Ring]) -> Vec<RingRun<'a>> {
     runs(chunk)
         .map(|(blocks, first_block)| {
             let count = blocks.iter().map(|block| block.rings as usize).sum();
-            let rings = take(&mut rings_left, count);
-            RingRun { blocks, first_block, rings, slopes: take(&mut slopes_left, count) }
+            RingRun { blocks, first_block, rings: take(&mut rings_left, count) }
         })
         .collect()
 }

@@ -141,6 +141,9 @@ pub(super) trait Floats:
 
     /// Lanes that are whole numbers within the range of `i32`, as such.
     fn to_signed(self) -> Self::Integers;
+
+    /// The lanes' bits.
+    fn to_bits(self) -> Self::Integers;
 }
 
 /// A vector of `u32`; sums and differences wrap.

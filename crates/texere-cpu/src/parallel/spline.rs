@@ -1,8 +1,8 @@
 //! The spline in lanes: the cubics of consecutive intervals, and where on them rings lie.
 
-use texere_core::{NO_LENGTH, Plan, RADIUS_FLOOR, ZERO_VELOCITY};
+use texere_core::{NO_LENGTH, Plan, RADIUS_FLOOR, SLOPE_LIMIT, ZERO_VELOCITY};
 
-use super::simd::{Floats, LANES_MAX, Simd, dot};
+use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, difference, dot};
 
 /// Where on their cubics a vector of consecutive rings lies: each one's interval, counted from the first one's, and its
 /// parameter.
@@ -27,55 +27,54 @@ impl Seats {
 /// The coefficients of `Segment` in the core, an interval in each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cubics<S: Simd> {
-    /// Position and radius at t = 0.
-    start: [S::Floats; 4],
+    /// Position at t = 0.
+    start: [S::Floats; 3],
     /// Position at t = 1, relative to the start.
     span: [S::Floats; 3],
     /// What goes with t, t² and t³.
-    terms: [[S::Floats; 4]; 3],
+    terms: [[S::Floats; 3]; 3],
     /// A squared velocity that counts as none.
     at_rest: S::Floats,
-    /// The least radius.
-    floor: S::Floats,
+    pub(super) half_width: Sizes<S>,
+    /// None where all points are round, so that half heights are half widths.
+    pub(super) half_height: Option<Sizes<S>>,
 }
 
-/// The cubics of rings, a ring in each lane, at its own parameter.
+/// The positions of rings, a ring in each lane, at its own parameter.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sampled<S: Simd> {
-    pub(super) start: [S::Floats; 4],
-    /// From the start, and the derivative there: position and radius.
-    pub(super) offset: [S::Floats; 4],
-    pub(super) velocity: [S::Floats; 4],
+    pub(super) start: [S::Floats; 3],
+    /// From the start, and the derivative there.
+    pub(super) offset: [S::Floats; 3],
+    pub(super) velocity: [S::Floats; 3],
     pub(super) span: [S::Floats; 3],
     pub(super) at_rest: S::Floats,
-    pub(super) floor: S::Floats,
 }
 
 impl<S: Simd> Cubics<S> {
     /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> Self {
-        let [before, start, end, after] = neighbours(simd, points, first);
-        let (doubled, rest, less) = (simd.splat(2.0 * s), simd.splat(3.0 - 2.0 * s), simd.splat(s - 2.0));
-        let (s, zero) = (simd.splat(s), simd.splat(0.0));
-        let (mut a, mut b, mut c) = ([zero; 4], [zero; 4], [zero; 4]);
-        let mut terms = [[zero; 4]; 3];
-        for k in 0..4 {
-            a[k] = before[k] - start[k];
-            b[k] = end[k] - start[k];
-            c[k] = after[k] - start[k];
-            terms[0][k] = (b[k] - a[k]) * s;
-            terms[1][k] = a[k] * doubled + b[k] * rest - c[k] * s;
-            terms[2][k] = (c[k] - a[k]) * s + b[k] * less;
+        let points = neighbours(simd, points, first);
+        let [before, start, end, after] = [xyz(points[0]), xyz(points[1]), xyz(points[2]), xyz(points[3])];
+        let (a, b, c) = (difference(before, start), difference(end, start), difference(after, start));
+        let mut terms = [[simd.splat(0.0); 3]; 3];
+        for axis in 0..3 {
+            let [c1, c2, c3] = coefficients(simd, a[axis], b[axis], c[axis], s);
+            (terms[0][axis], terms[1][axis], terms[2][axis]) = (c1, c2, c3);
         }
-        let ([a, b, c], radii) = ([xyz(a), xyz(b), xyz(c)], start[3].min(end[3]));
+        let sizes =
+            [points[0][3].to_bits(), points[1][3].to_bits(), points[2][3].to_bits(), points[3][3].to_bits()];
+        // The first points and the last ones are all that there are.
+        let all_round = round(sizes[0]) & round(sizes[3]) == S::ALL;
         Self {
             start,
             span: b,
             terms,
             at_rest: (simd.splat(ZERO_VELOCITY) * (dot(a, a) + dot(b, b) + dot(c, c)))
                 .max(simd.splat(NO_LENGTH)),
-            floor: radii * simd.splat(RADIUS_FLOOR),
+            half_width: Sizes::new(simd, sizes, s),
+            half_height: if all_round { None } else { Some(Sizes::new(simd, high_halves(sizes), s)) },
         }
     }
 
@@ -83,21 +82,106 @@ impl<S: Simd> Cubics<S> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn sample(&self, simd: S, interval: S::Integers, t: S::Floats) -> Sampled<S> {
         let zero = simd.splat(0.0);
-        let thrice = simd.splat(3.0) * t;
-        let (mut start, mut offset, mut velocity) = ([zero; 4], [zero; 4], [zero; 4]);
-        for k in 0..4 {
-            let c1 = self.terms[0][k].permute(interval);
-            let c2 = self.terms[1][k].permute(interval);
-            let c3 = self.terms[2][k].permute(interval);
-            start[k] = self.start[k].permute(interval);
-            offset[k] = (c1 + (c2 + c3 * t) * t) * t;
-            velocity[k] = c1 + (c2 * simd.splat(2.0) + c3 * thrice) * t;
+        let (mut start, mut span) = ([zero; 3], [zero; 3]);
+        let (mut offset, mut velocity) = ([zero; 3], [zero; 3]);
+        for axis in 0..3 {
+            start[axis] = self.start[axis].permute(interval);
+            span[axis] = self.span[axis].permute(interval);
+            let terms = [self.terms[0][axis], self.terms[1][axis], self.terms[2][axis]];
+            (offset[axis], velocity[axis]) = cubic(simd, terms, interval, t);
         }
-        let [x, y, z] = self.span;
-        let span = [x.permute(interval), y.permute(interval), z.permute(interval)];
-        let (at_rest, floor) = (self.at_rest.permute(interval), self.floor.permute(interval));
-        Sampled { start, offset, velocity, span, at_rest, floor }
+        Sampled { start, offset, velocity, span, at_rest: self.at_rest.permute(interval) }
     }
+}
+
+/// The coefficients of `Size` in the core, an interval in each lane.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sizes<S: Simd> {
+    /// At t = 0.
+    start: S::Floats,
+    /// What goes with t, t² and t³.
+    terms: [S::Floats; 3],
+    /// The least size.
+    floor: S::Floats,
+}
+
+impl<S: Simd> Sizes<S> {
+    /// From the half floats in the low 16 bits of four points each.
+    #[cfg_attr(optimized, inline(always))]
+    fn new(simd: S, [before, start, end, after]: [S::Integers; 4], s: f32) -> Self {
+        let (before, start) = (from_half(simd, before), from_half(simd, start));
+        let (end, after) = (from_half(simd, end), from_half(simd, after));
+        let terms = coefficients(simd, before - start, end - start, after - start, s);
+        Self { start, terms, floor: start.min(end) * simd.splat(RADIUS_FLOOR) }
+    }
+
+    /// The size at `t` of each lane's interval, and its growth along the yarn, where `inverse` is one over the speed.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn sample(
+        &self,
+        simd: S,
+        interval: S::Integers,
+        t: S::Floats,
+        inverse: S::Floats,
+    ) -> (S::Floats, S::Floats) {
+        let (offset, velocity) = cubic(simd, self.terms, interval, t);
+        let limit = simd.splat(SLOPE_LIMIT);
+        let growth = (velocity * inverse).max(-limit).min(limit);
+        let (size, floor) = (self.start.permute(interval) + offset, self.floor.permute(interval));
+        let held = size.less(floor);
+        (held.select(floor, size), held.select(simd.splat(0.0), growth))
+    }
+}
+
+/// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at `a` and the one after
+/// next at `c`.
+#[cfg_attr(optimized, inline(always))]
+fn coefficients<S: Simd>(simd: S, a: S::Floats, b: S::Floats, c: S::Floats, s: f32) -> [S::Floats; 3] {
+    let (doubled, rest, less) = (simd.splat(2.0 * s), simd.splat(3.0 - 2.0 * s), simd.splat(s - 2.0));
+    let s = simd.splat(s);
+    [(b - a) * s, a * doubled + b * rest - c * s, (c - a) * s + b * less]
+}
+
+/// A cubic without its constant term, and its derivative, at `t` of each lane's interval.
+#[cfg_attr(optimized, inline(always))]
+fn cubic<S: Simd>(
+    simd: S,
+    [c1, c2, c3]: [S::Floats; 3],
+    interval: S::Integers,
+    t: S::Floats,
+) -> (S::Floats, S::Floats) {
+    let (c1, c2, c3) = (c1.permute(interval), c2.permute(interval), c3.permute(interval));
+    let value = (c1 + (c2 + c3 * t) * t) * t;
+    (value, c1 + (c2 * simd.splat(2.0) + c3 * (simd.splat(3.0) * t)) * t)
+}
+
+/// A bit for each lane whose two half floats are the same.
+#[cfg_attr(optimized, inline(always))]
+fn round<I: Integers<Mask: Mask, Floats: Floats<Mask = I::Mask>>>(sizes: I) -> u32 {
+    let difference = sizes.shift_right::<16>() - sizes.shift_left::<16>().shift_right::<16>();
+    difference.signed_to_floats().is_zero().bits()
+}
+
+/// The high 16 bits of each lane.
+#[cfg_attr(optimized, inline(always))]
+fn high_halves<I: Integers>([before, start, end, after]: [I; 4]) -> [I; 4] {
+    [
+        before.shift_right::<16>(),
+        start.shift_right::<16>(),
+        end.shift_right::<16>(),
+        after.shift_right::<16>(),
+    ]
+}
+
+/// The half floats in the lanes' low 16 bits, exactly; they are neither NaN nor infinite.
+#[cfg_attr(optimized, inline(always))]
+fn from_half<S: Simd>(simd: S, half: S::Integers) -> S::Floats {
+    /// By how much a float's exponent is counted from further down.
+    const BIAS: f32 = (1u128 << 112) as f32;
+    let sign = half.shift_right::<15>().shift_left::<31>();
+    // Exponent and fraction where a float has them. Halves that are subnormal are so here, too, until they are multiplied.
+    let size = half.shift_left::<17>().shift_right::<4>();
+    (size + sign).bit_cast() * simd.splat(BIAS)
 }
 
 /// The first three components.

@@ -68,17 +68,24 @@ impl<S: Simd> Steps<S> {
 }
 
 impl<S: Simd> Rings<S> {
-    /// These rings with their bases turned by `roll`.
+    /// These rings turned by `roll`: round ones with their frame, flattened ones inside theirs.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn turned(&self, simd: S, roll: S::Integers) -> Self {
         let (sin, cos) = sin_cos(simd, roll);
         let level = roll.signed_to_floats().is_zero();
         let (side, up) = (self.side, self.up);
-        Self {
+        let mut turned = Self {
             side: select(level, side, plus(scale(side, cos), scale(up, sin))),
             up: select(level, up, difference(scale(up, cos), scale(side, sin))),
+            roll: Some((sin, cos)),
             ..*self
+        };
+        if self.flattened {
+            let round = self.round();
+            turned.side = select(round, turned.side, side);
+            turned.up = select(round, turned.up, up);
         }
+        turned
     }
 }
 

@@ -17,19 +17,32 @@ pub(super) struct Surface<'a> {
     outline: &'a [SectionPoint],
     /// Whether each normal is its point, as on a circle.
     round: bool,
+    /// Whether a turn by zero leaves each point as it is: it may change the sign of a zero.
+    still: bool,
 }
 
 impl<'a> Surface<'a> {
     pub(super) fn new(outline: &'a [SectionPoint]) -> Self {
         let round = outline.iter().all(|point| [point.x, point.y] == [point.normal_x, point.normal_y]);
-        Self { outline, round }
+        let negative_zero = |value: &f32| value.to_bits() == (-0.0f32).to_bits();
+        let still = !bytemuck::cast_slice(outline).iter().any(negative_zero);
+        Self { outline, round, still }
     }
 
     /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as the `COLUMNS` that
     /// [`TileLines`](super::tiles::TileLines) wants.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn write<S: Simd, const COLUMNS: bool>(&self, simd: S, rings: &Rings<S>, out: &mut [f32]) {
-        if rings.slope.is_zero().bits() != S::ALL {
+        let round = if rings.flattened { rings.round().bits() } else { S::ALL };
+        if round != S::ALL {
+            if round != 0 || !(self.still || rings.roll.is_some()) {
+                vertices::<S, MIXED, COLUMNS>(simd, rings, self.outline, out);
+            } else if rings.roll.is_some() {
+                vertices::<S, TURNED, COLUMNS>(simd, rings, self.outline, out);
+            } else {
+                vertices::<S, FLATTENED, COLUMNS>(simd, rings, self.outline, out);
+            }
+        } else if rings.width_growth.is_zero().bits() != S::ALL {
             vertices::<S, SLOPED, COLUMNS>(simd, rings, self.outline, out);
         } else if !self.round {
             vertices::<S, PLAIN, COLUMNS>(simd, rings, self.outline, out);
@@ -42,12 +55,18 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// The radius grows or shrinks, so that normals lean.
+/// The yarn is round, and its radius grows or shrinks, so that normals lean.
 const SLOPED: u8 = 0;
 /// It does not.
 const PLAIN: u8 = 1;
 /// Nor do the section's normals differ from its points.
 const ROUND: u8 = 2;
+/// The yarn is flattened, and the section stands upright.
+const FLATTENED: u8 = 3;
+/// The section is turned.
+const TURNED: u8 = 4;
+/// Some of the rings are round.
+const MIXED: u8 = 5;
 
 #[cfg_attr(optimized, inline(always))]
 fn vertices<S: Simd, const KIND: u8, const COLUMNS: bool>(
@@ -117,25 +136,76 @@ fn scattered<S: Simd, const KIND: u8>(simd: S, rings: &Rings<S>, outline: &[Sect
 /// A vertex of each of `rings`: rows of x, y, z and of the normal's, a ring in each lane.
 #[cfg_attr(optimized, inline(always))]
 fn vertex<S: Simd, const KIND: u8>(simd: S, rings: &Rings<S>, point: &SectionPoint) -> [S::Floats; VERTEX] {
+    match KIND {
+        FLATTENED => flattened(simd, rings, point, None),
+        TURNED => flattened(simd, rings, point, rings.roll),
+        MIXED => {
+            let roll = rings.roll.unwrap_or((simd.splat(0.0), simd.splat(1.0)));
+            let (flat, round) = (flattened(simd, rings, point, Some(roll)), rings.round());
+            let mut rows = round_vertex::<S, SLOPED>(simd, rings, point);
+            for (row, flat) in rows.iter_mut().zip(flat) {
+                *row = round.select(*row, flat);
+            }
+            rows
+        }
+        _ => round_vertex::<S, KIND>(simd, rings, point),
+    }
+}
+
+/// That of a flattened yarn, by sine and cosine of the roll; none of a section that stands upright.
+#[cfg_attr(optimized, inline(always))]
+fn flattened<S: Simd>(
+    simd: S,
+    rings: &Rings<S>,
+    point: &SectionPoint,
+    roll: Option<(S::Floats, S::Floats)>,
+) -> [S::Floats; VERTEX] {
+    let (mut x, mut y) = (simd.splat(point.x), simd.splat(point.y));
+    let (mut normal_x, mut normal_y) = (simd.splat(point.normal_x), simd.splat(point.normal_y));
+    if let Some((sin, cos)) = roll {
+        (x, y) = (cos * x - sin * y, sin * x + cos * y);
+        (normal_x, normal_y) = (cos * normal_x - sin * normal_y, sin * normal_x + cos * normal_y);
+    }
+    let (across_x, across_y) = (normal_x * rings.half_height, normal_y * rings.half_width);
+    let lean = rings.width_growth * x * across_x + rings.height_growth * y * across_y;
+    let length_squared = across_x * across_x + across_y * across_y + lean * lean;
+    let inverse = simd.splat(1.0) / length_squared.sqrt();
+    let (x, y) = (x * rings.half_width, y * rings.half_height);
+    let mut rows = [simd.splat(0.0); VERTEX];
+    for axis in 0..3 {
+        let across = rings.side[axis] * across_x + rings.up[axis] * across_y;
+        rows[axis] = rings.centre[axis] + (rings.side[axis] * x + rings.up[axis] * y);
+        rows[3 + axis] = (across - rings.tangent[axis] * lean) * inverse;
+    }
+    rows
+}
+
+/// That of a round yarn.
+#[cfg_attr(optimized, inline(always))]
+fn round_vertex<S: Simd, const KIND: u8>(
+    simd: S,
+    rings: &Rings<S>,
+    point: &SectionPoint,
+) -> [S::Floats; VERTEX] {
     let (x, y) = (simd.splat(point.x), simd.splat(point.y));
     let (normal_x, normal_y) = (simd.splat(point.normal_x), simd.splat(point.normal_y));
     let (lean, steep) = if KIND == SLOPED {
-        let lean = rings.slope * simd.splat(point.reach());
+        let lean = rings.width_growth * simd.splat(point.reach());
         (lean, simd.splat(1.0) / (simd.splat(1.0) + lean * lean).sqrt())
     } else {
-        (rings.slope, rings.slope)
+        (rings.width_growth, rings.width_growth)
     };
     let mut rows = [simd.splat(0.0); VERTEX];
     for axis in 0..3 {
         let outward = rings.side[axis] * x + rings.up[axis] * y;
-        rows[axis] = rings.centre[axis] + outward * rings.radius;
+        rows[axis] = rings.centre[axis] + outward * rings.half_width;
         let across = match KIND {
             ROUND => outward,
             _ => rings.side[axis] * normal_x + rings.up[axis] * normal_y,
         };
         rows[3 + axis] = if KIND == SLOPED {
             let leaning = (across - rings.tangent[axis] * lean) * steep;
-            rings.slope.is_zero().select(across, leaning)
+            rings.width_growth.is_zero().select(across, leaning)
         } else {
             across
         };

@@ -4,9 +4,9 @@ mod mesh;
 mod scan;
 mod trajectory;
 
-use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan};
+use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan, Ring};
 
-use crate::engine::{ChunkRings, Executor, Work};
+use crate::engine::{Executor, Work};
 use crate::rolls::Rolls;
 
 #[derive(Debug, Clone, Copy)]
@@ -20,11 +20,11 @@ impl Executor for Serial {
         Ok(())
     }
 
-    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut ChunkRings) {
+    fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]) {
         trajectory::trajectory(work, chunk, out);
     }
 
-    fn mesh(self, work: &Work, chunk: &Chunk, rings: &ChunkRings, out: MeshMut<'_>) {
+    fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>) {
         mesh::mesh(work, chunk, rings, out);
     }
 }

@@ -51,19 +51,25 @@ const NOT_NUMBERS: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
 #[test]
 fn control_points_that_are_not_finite() {
     for bad in NOT_NUMBERS {
-        for field in ["x", "y", "z", "radius"] {
+        for field in ["x", "y", "z"] {
             let mut point = ControlPoint::new(2.0, 0.0, 0.0, 0.1);
             match field {
                 "x" => point.x = bad,
                 "y" => point.y = bad,
-                "z" => point.z = bad,
-                _ => point.radius = bad,
+                _ => point.z = bad,
             }
             let YarnError::NotFinite { yarn: 1, point: 2, field: named, value } = with_point(point) else {
                 panic!("{field} = {bad}");
             };
             assert_eq!((named, value.to_bits()), (field, bad.to_bits()));
         }
+    }
+    for (field, width, height) in [("half width", f32::NAN, 0.1), ("half height", 0.1, f32::NAN)] {
+        let error = with_point(ControlPoint::new(2.0, 0.0, 0.0, 0.1).flattened(width, height));
+        let YarnError::NotFinite { yarn: 1, point: 2, field: named, value } = error else {
+            panic!("{error}")
+        };
+        assert!(named == field && value.is_nan(), "{named}: {value}");
     }
 }
 
@@ -73,9 +79,19 @@ fn control_points_out_of_range() {
         let error = with_point(ControlPoint::new(2.0, far, 0.0, 0.1));
         assert!(matches!(error, YarnError::TooFar { yarn: 1, point: 2, field: "y", .. }), "{error:?}");
     }
-    for radius in [0.0, -0.0, -0.1, 1e-7, f32::MIN_POSITIVE, 1.1e6] {
-        let error = with_point(ControlPoint::new(2.0, 0.0, 0.0, radius));
-        assert!(matches!(error, YarnError::Size { yarn: 1, point: 2, .. }), "{radius}: {error:?}");
+    for half in
+        [0.0, -0.0, -0.1, 1e-7, 9.9e-5, f32::MIN_POSITIVE, 3.01e4, 1.1e6, f32::INFINITY, f32::NEG_INFINITY]
+    {
+        for (named, width, height) in [("half width", half, 0.1), ("half height", 0.1, half)] {
+            let error = with_point(ControlPoint::new(2.0, 0.0, 0.0, 0.1).flattened(width, height));
+            let YarnError::Size { yarn: 1, point: 2, field, .. } = error else { panic!("{half}: {error:?}") };
+            assert_eq!(field, named, "{half}");
+        }
+    }
+    for half in [1e-4, 3e4] {
+        let mut yarns = Yarns::builder();
+        yarns.yarn(Yarn::default(), &[0.0, 1.0].map(|x| ControlPoint::new(x * half, 0.0, 0.0, half)));
+        yarns.build().unwrap();
     }
 }
 

@@ -50,7 +50,7 @@ pub use plan::{
     BLOCK_RINGS, Block, Cap, Chunk, Chunks, Counts, Limits, Part, Plan, RINGS_MAX, Settings, WINDOW_POINTS,
     YARN_RINGS_MAX,
 };
-pub use point::{COORDINATE_LIMIT, ControlPoint, RADIUS_MAX, RADIUS_MIN};
+pub use point::{COORDINATE_LIMIT, ControlPoint, Halves, RADIUS_MAX, RADIUS_MIN};
 pub use ring::{Ring, Stance, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};

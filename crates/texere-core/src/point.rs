@@ -24,7 +24,7 @@ use half::f16;
 /// assert_eq!(bytemuck::bytes_of(&flat).len(), 16);
 /// ```
 #[repr(C)]
-#[derive(Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ControlPoint {
     /// Along the weft or the course, mm.
     pub x: f32,
@@ -32,17 +32,19 @@ pub struct ControlPoint {
     pub y: f32,
     /// Out of the technical face, mm.
     pub z: f32,
-    /// The bits of a half float: half the yarn's width, mm.
-    half_width: u16,
-    /// Half the yarn's height, likewise.
-    half_height: u16,
+    /// Half the yarn's width and half its height.
+    pub halves: Halves,
 }
+
+/// Half width and half height of a yarn at a control point, mm, as two half floats.
+#[repr(transparent)]
+#[derive(Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct Halves([u16; 2]);
 
 const _: () = assert!(
     size_of::<ControlPoint>() == 16
         && align_of::<ControlPoint>() == 4
-        && std::mem::offset_of!(ControlPoint, half_width) == 12
-        && std::mem::offset_of!(ControlPoint, half_height) == 14
+        && std::mem::offset_of!(ControlPoint, halves) == 12
 );
 
 /// The furthest that a coordinate may lie from the origin, mm (a thousand kilometres).
@@ -64,15 +66,14 @@ impl ControlPoint {
     #[must_use]
     #[inline]
     pub fn new(x: f32, y: f32, z: f32, radius: f32) -> Self {
-        Self { x, y, z, half_width: 0, half_height: 0 }.flattened(radius, radius)
+        Self { x, y, z, halves: Halves::new(radius, radius) }
     }
 
     /// The same point of a yarn that is flattened there, mm: rounded as [`ControlPoint::new`] does.
     #[must_use]
     #[inline]
     pub fn flattened(self, half_width: f32, half_height: f32) -> Self {
-        let [half_width, half_height] = [half_width, half_height].map(|half| f16::from_f32(half).to_bits());
-        Self { half_width, half_height, ..self }
+        Self { halves: Halves::new(half_width, half_height), ..self }
     }
 
     /// The position alone, mm.
@@ -86,14 +87,14 @@ impl ControlPoint {
     #[must_use]
     #[inline]
     pub fn half_width(&self) -> f32 {
-        f16::from_bits(self.half_width).to_f32()
+        self.halves.width()
     }
 
     /// Half the yarn's height, out of the cloth, mm.
     #[must_use]
     #[inline]
     pub fn half_height(&self) -> f32 {
-        f16::from_bits(self.half_height).to_f32()
+        self.halves.height()
     }
 
     /// `2 self - other` in all five components: the paper's virtual ends (equations 3 and 4). Sizes are worked out in `f32`
@@ -110,13 +111,31 @@ impl ControlPoint {
     }
 }
 
-impl fmt::Debug for ControlPoint {
+impl Halves {
+    /// Both sizes, mm, rounded to the nearest half floats, to the even one of two.
+    #[must_use]
+    #[inline]
+    pub fn new(width: f32, height: f32) -> Self {
+        Self([width, height].map(|half| f16::from_f32(half).to_bits()))
+    }
+
+    /// Half the width, mm.
+    #[must_use]
+    #[inline]
+    pub fn width(self) -> f32 {
+        f16::from_bits(self.0[0]).to_f32()
+    }
+
+    /// Half the height, mm.
+    #[must_use]
+    #[inline]
+    pub fn height(self) -> f32 {
+        f16::from_bits(self.0[1]).to_f32()
+    }
+}
+
+impl fmt::Debug for Halves {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { x, y, z, .. } = self;
-        let (half_width, half_height) = (self.half_width(), self.half_height());
-        write!(
-            f,
-            "ControlPoint {{ x: {x}, y: {y}, z: {z}, half_width: {half_width}, half_height: {half_height} }}"
-        )
+        write!(f, "{} x {}", self.width(), self.height())
     }
 }

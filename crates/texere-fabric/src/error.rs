@@ -162,6 +162,32 @@ pub enum FabricError {
         /// Thickest taken, mm.
         high: f32,
     },
+    /// A flatness outside its limits, or not a number.
+    #[error("{thread} has a flatness of {flatness}, outside {low} to {high}")]
+    Flatness {
+        /// Which thread.
+        thread: Origin,
+        /// Its flatness: width over height.
+        flatness: f32,
+        /// Least taken.
+        low: f32,
+        /// Most taken.
+        high: f32,
+    },
+    /// A thread that flattening makes too thin or too wide.
+    #[error("{thread} has half a {side} of {half_mm} mm once it is flattened, outside {low} to {high} mm")]
+    Half {
+        /// Which thread.
+        thread: Origin,
+        /// `width` or `height`.
+        side: &'static str,
+        /// Half of it, mm.
+        half_mm: f32,
+        /// Least taken, mm.
+        low: f32,
+        /// Most taken, mm.
+        high: f32,
+    },
     /// A twist that is not finite or too steep.
     #[error("twist of {thread} is {twist} rad/mm, beyond ±{limit}")]
     Twist {

@@ -53,8 +53,9 @@ pub use measures::{Cover, Measures, lengths_by_material, thickness_mm, weight_g}
 pub use structure::Structure;
 pub use warning::FabricWarning;
 pub use woven::{
-    CROSSINGS_MAX, Crimp, Draft, Drawdown, JamReport, NO_CROSSING, POINTS_MAX, Pitch, REPEAT_MAX, Relief,
-    SPACING_MAX, SPACING_MIN, Shape, Shedding, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign,
+    CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, NO_CROSSING, POINTS_MAX,
+    Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, Shape, Shedding, THREADS_MAX, Thread, Tightness,
+    Weave, Woven, WovenDesign,
 };
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,

@@ -1,7 +1,7 @@
 //! What designers and mills ask of a fabric: yarn consumption, crimp, cover, weight, thickness.
 
 use rayon::prelude::*;
-use texere_core::{Material, Section, Segment, Yarns};
+use texere_core::{Material, Section, SectionPoint, Segment, Yarns};
 
 use crate::clearance::neighbours;
 use crate::{FabricError, Thread, Woven, lengths_mm, tex_from_cotton_count};
@@ -102,7 +102,8 @@ impl Cover {
         let widths: Vec<f64> =
             cloth.sections().iter().map(|section| f64::from(section.half_width())).collect();
         let fraction = sets.map(|(threads, across)| {
-            let width = |thread: &Thread| 2.0 * f64::from(thread.radius_mm) * widths[thread.section as usize];
+            let width =
+                |thread: &Thread| 2.0 * f64::from(thread.halves_mm()[0]) * widths[thread.section as usize];
             (threads.iter().map(width).sum::<f64>() / across).min(1.0)
         });
         // n / √N added up thread by thread: each has its own count.
@@ -144,14 +145,15 @@ pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
 }
 
 /// From the lowest point of the yarns' surfaces to the highest, mm: centrelines and, above and below, half the height of
-/// the upright sections.
+/// the upright sections, or of twisted ones, which turn through every direction, the furthest that they reach.
 #[must_use]
 pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
-    let heights: Vec<[f32; 2]> = yarns.layout().sections().iter().map(reach).collect();
+    let reaches: Vec<Reach> = yarns.layout().sections().iter().map(Reach::new).collect();
     let s = (1.0 - tension) / 2.0;
     let extent = |yarn: usize| {
         let what = yarns.layout().yarns()[yarn];
-        let [below, above] = heights[what.section as usize];
+        let reach = &reaches[what.section as usize];
+        let [below, above] = if what.twist == 0.0 { reach.level } else { reach.turning };
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         let count = points.len();
         let intervals = if what.closed { count } else { count.saturating_sub(1) };
@@ -160,7 +162,7 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
             let four = neighbours(points, what.closed, first);
             // Nothing lies beyond the Bézier polygon: most intervals can't be the lowest or the highest.
             let heights = bezier(&four.map(|point| point.z), s);
-            let thickest = bezier(&four.map(|point| point.radius), s).into_iter().fold(0.0, f32::max);
+            let thickest = bezier(&four.map(|point| point.half_height()), s).into_iter().fold(0.0, f32::max);
             let lowest = heights.into_iter().fold(f32::INFINITY, f32::min) - thickest * below;
             let highest = heights.into_iter().fold(f32::NEG_INFINITY, f32::max) + thickest * above;
             if f64::from(lowest) >= extent[0] && f64::from(highest) <= extent[1] {
@@ -170,7 +172,7 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
             for k in 0..=SAMPLES {
                 let sample = segment.sample(k as f32 / SAMPLES as f32);
                 // A section stands on the centreline: where that climbs, it reaches less far up.
-                let level = sample.tangent.truncate().length() * sample.radius;
+                let level = sample.tangent.truncate().length() * sample.half_height;
                 extent[0] = extent[0].min(f64::from(sample.centre.z - level * below));
                 extent[1] = extent[1].max(f64::from(sample.centre.z + level * above));
             }
@@ -189,9 +191,19 @@ fn bezier([before, start, end, after]: &[f32; 4], s: f32) -> [f32; 4] {
     [*start, start + (end - before) * s / 3.0, end - (after - start) * s / 3.0, *end]
 }
 
-/// How far a section reaches below and above the centreline, in radii.
-fn reach(section: &Section) -> [f32; 2] {
-    let outline = section.outline(1024);
-    let most = |sign: f32| outline.iter().fold(0.0f32, |most, point| most.max(sign * point.y));
-    [most(-1.0), most(1.0)]
+/// How far a section reaches below and above the centreline, in halves of the yarn's height.
+struct Reach {
+    /// As it stands untwisted.
+    level: [f32; 2],
+    /// Twist turns it through every direction: the furthest of them.
+    turning: [f32; 2],
+}
+
+impl Reach {
+    fn new(section: &Section) -> Self {
+        let outline = section.outline(1024);
+        let most = |size: &dyn Fn(&SectionPoint) -> f32| outline.iter().map(size).fold(0.0, f32::max);
+        let furthest = most(&|point| point.x.hypot(point.y));
+        Self { level: [most(&|point| -point.y), most(&|point| point.y)], turning: [furthest; 2] }
+    }
 }

@@ -11,7 +11,7 @@ pub struct Extent {
     pub low: [f32; 3],
     /// The greatest, mm.
     pub high: [f32; 3],
-    /// The mean radius of its yarns, mm.
+    /// The mean radius of its yarns, mm: of flattened ones that of a round yarn of the same area.
     pub radius: f32,
 }
 
@@ -26,9 +26,13 @@ impl Extent {
             let reach = section.half_width().max(section.half_height());
             let points = yarns.yarn_points(number).unwrap_or_default();
             points.iter().fold(nothing, |(low, high, radii), point| {
-                let (centre, reach) =
-                    (Vec3::new(point.x, point.y, point.z), Vec3::splat(point.radius * reach));
-                (low.min(centre - reach), high.max(centre + reach), radii + f64::from(point.radius))
+                let (width, height) = (point.half_width(), point.half_height());
+                let (centre, reach) = (point.position(), Vec3::splat(width.max(height) * reach));
+                (
+                    low.min(centre - reach),
+                    high.max(centre + reach),
+                    radii + f64::from((width * height).sqrt()),
+                )
             })
         });
         // In order, so that the sum is the same every time.

@@ -48,11 +48,10 @@ impl HostEngine {
         let (plan, padded) = (&self.plan, self.points.yarn(&self.plan, yarn));
         plan.sampling().sample(padded, ring, plan.rings(yarn), plan.yarn(yarn).closed)
     }
-    /// A ring, and the slope of the radius there.
-    fn ring(&self, yarn: u32, ring: u32) -> (Ring, f32) {
+    fn ring(&self, yarn: u32, ring: u32) -> Ring {
         let sample = self.sample(yarn as usize, ring).sample;
         let roll = self.rolls.get(self.plan.ring_offsets()[yarn as usize] as usize + ring as usize);
-        (Ring::new(&sample, roll.copied().unwrap_or(Turn::ZERO)), sample.slope)
+        Ring::new(&sample, roll.copied().unwrap_or(Turn::ZERO))
     }
 }
 
@@ -90,7 +89,7 @@ impl Engine for HostEngine {
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Done {
         let (start, mut rings) = (Instant::now(), zeroed("rings", chunk.rings().into())?);
         for block in chunk.blocks() {
-            let ring = |k| self.ring(block.yarn, block.first_ring + k).0;
+            let ring = |k| self.ring(block.yarn, block.first_ring + k);
             put(&mut rings, block.chunk_ring, (0..block.rings).map(ring));
         }
         self.rings[slot.index()] = rings;
@@ -105,9 +104,9 @@ impl Engine for HostEngine {
         for block in chunk.blocks() {
             let outline = plan.outline(plan.yarn(block.yarn as usize).section as usize);
             for k in 0..block.rings {
-                let (ring, slope) = self.ring(block.yarn, block.first_ring + k);
-                let (basis, first) = (ring.basis(), block.first_vertex + k * sides);
-                put(&mut vertices, first, outline.iter().map(|point| ring.vertex(&basis, slope, point)));
+                let ring = self.ring(block.yarn, block.first_ring + k);
+                let (stance, first) = (ring.stance(), block.first_vertex + k * sides);
+                put(&mut vertices, first, outline.iter().map(|point| ring.vertex(&stance, point)));
                 if k < block.quads {
                     put(&mut indices, block.first_index + k * sides * 6, pattern.iter().map(|i| first + i));
                 }
@@ -116,7 +115,7 @@ impl Engine for HostEngine {
         for cap in chunk.caps() {
             let yarn = cap.yarn as usize;
             let (end, sign) = if cap.end == End::Start { (0, -1.0) } else { (plan.rings(yarn) - 1, 1.0) };
-            let normal = self.ring(cap.yarn, end).0.tangent.map(|along| along * sign);
+            let normal = self.ring(cap.yarn, end).tangent.map(|along| along * sign);
             let (rim, own) = ((cap.chunk_ring * sides) as usize, cap.first_vertex as usize);
             vertices.copy_within(rim..rim + sides as usize, own);
             vertices[own..own + sides as usize].iter_mut().for_each(|vertex| vertex.normal = normal);

@@ -72,7 +72,7 @@ impl Side<'_> {
 /// The nearest approach close to parameters `start`: its parameters, and the factor by which both sections could grow
 /// until they touch. None where it belongs to other intervals.
 pub(super) fn refine(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
-    let round = one.support.is_circle() && other.support.is_circle();
+    let round = [one, other].iter().all(|side| side.support.is_circle() && side.cubic.is_round());
     let found = if round { refine_round(one, other, start) } else { refine_flat(one, other, start) };
     let (place, ratio) = found?;
     Some((DVec2::new(one.own(place.x)?, other.own(place.y)?), ratio))
@@ -81,24 +81,24 @@ pub(super) fn refine(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DV
 /// Newton's method on (distance / sum of radii)², by way of |Δ|² - λ² (r₁ + r₂)², whose least value at the least λ is 0
 /// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967).
 fn refine_round(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
-    let ratio = |a: &At, b: &At| (a.position - b.position).length() / (a.radius[0] + b.radius[0]);
+    let ratio = |a: &At, b: &At| (a.position - b.position).length() / (a.radius()[0] + b.radius()[0]);
     let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
     let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));
     let mut place = held_at(start);
     let (mut a, mut b) = at(place);
     let mut lambda = ratio(&a, &b);
     for _ in 0..STEPS {
-        let (apart, radii) = (a.position - b.position, a.radius[0] + b.radius[0]);
+        let (apart, radii) = (a.position - b.position, a.radius()[0] + b.radius()[0]);
         let held = lambda * lambda;
         let gradient = DVec2::new(
-            apart.dot(a.velocity) - held * radii * a.radius[1],
-            -apart.dot(b.velocity) - held * radii * b.radius[1],
+            apart.dot(a.velocity) - held * radii * a.radius()[1],
+            -apart.dot(b.velocity) - held * radii * b.radius()[1],
         );
-        let across = -a.velocity.dot(b.velocity) - held * a.radius[1] * b.radius[1];
+        let across = -a.velocity.dot(b.velocity) - held * a.radius()[1] * b.radius()[1];
         let own = |at: &At, towards: f64| {
             let flat = at.velocity.length_squared();
             let bent = flat + towards * apart.dot(at.acceleration)
-                - held * (at.radius[1] * at.radius[1] + radii * at.radius[2]);
+                - held * (at.radius()[1] * at.radius()[1] + radii * at.radius()[2]);
             (flat, bent)
         };
         let ((flat_a, bent_a), (flat_b, bent_b)) = (own(&a, 1.0), own(&b, -1.0));
@@ -204,8 +204,8 @@ fn touch(one: Side<'_>, other: Side<'_>, place: DVec2) -> Option<Touch> {
     let speeds = DVec2::new(a.velocity.length(), b.velocity.length());
     let frames = [upright(tangent_a), upright(tangent_b)];
     let meet = |normal: DVec3| {
-        let on_a = one.support.furthest_upright(frames[0], normal) * a.radius[0];
-        let on_b = other.support.furthest_upright(frames[1], -normal) * b.radius[0];
+        let on_a = one.support.furthest(frames[0], a.sizes(), normal);
+        let on_b = other.support.furthest(frames[1], b.sizes(), -normal);
         let reach = normal.dot(on_a) - normal.dot(on_b);
         (normal.dot(apart) / reach, on_a, on_b)
     };

@@ -11,7 +11,7 @@ use super::part::Part;
 pub struct Crowd {
     /// On the thickest yarn there, nearest to the middle.
     pub place: YarnPlace,
-    /// How thick that yarn is, mm: twice its radius.
+    /// How thick that yarn is, mm: its diameter, or the larger of width and height.
     pub thickness_mm: f64,
     /// Control intervals that lie there.
     pub intervals: usize,
@@ -36,16 +36,19 @@ impl Crowd {
             let cubic = line.cubic(part.point);
             room = room.joined(line.bounds(part.point, 1.0));
             // No less than the interval's: it is no shorter than its chord, and nowhere thinner.
-            let thinnest = cubic.radii().into_iter().fold(f64::INFINITY, f64::min).max(cubic.radius_floor());
+            let [width, height] = std::array::from_fn(|side| {
+                let bounds = cubic.half_bounds()[side];
+                bounds.into_iter().fold(f64::INFINITY, f64::min).max(cubic.floors()[side])
+            });
             let chord = cubic.position(0.0).distance(cubic.position(1.0));
-            volume += line.support.area() * thinnest * thinnest * chord;
-            thickest = thickest.max(cubic.at(0.0).radius[0]);
+            volume += line.support.area() * width * height * chord;
+            thickest = thickest.max(cubic.at(0.0).sizes().max_element());
         }
         let size = (room.high - room.low).as_dvec3();
         let middle = ((room.high + room.low) / 2.0).as_dvec3();
         let off_middle = |part: &Part<'_>| {
             let start = part.line.cubic(part.point).at(0.0);
-            (start.radius[0] == thickest).then(|| start.position.distance_squared(middle))
+            (start.sizes().max_element() == thickest).then(|| start.position.distance_squared(middle))
         };
         let nearest = parts
             .iter()

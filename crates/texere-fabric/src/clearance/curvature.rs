@@ -1,9 +1,9 @@
 //! How tightly yarns bend: branch and bound over parts of an interval.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::interval::Cubic;
-use super::support::Support;
+use super::support::{Support, upright};
 
 /// The share by which a yarn may bend tighter somewhere than where it is said to bend tightest.
 const ACCURACY: f64 = 1e-3;
@@ -22,13 +22,14 @@ struct Part {
     length: f64,
     halvings: u32,
     velocity: [DVec3; 3],
-    radius: [f64; 4],
+    /// Half width and half height.
+    halves: [[f64; 4]; 2],
 }
 
 impl Part {
     fn whole(cubic: &Cubic) -> Self {
-        let (velocity, radius) = (cubic.velocities(), cubic.radii());
-        Self { from: 0.0, length: 1.0, halvings: 0, velocity, radius }
+        let (velocity, halves) = (cubic.velocities(), cubic.half_bounds());
+        Self { from: 0.0, length: 1.0, halvings: 0, velocity, halves }
     }
 
     /// De Casteljau's algorithm.
@@ -36,19 +37,27 @@ impl Part {
         let [u, v, w] = self.velocity;
         let (uv, vw) = ((u + v) / 2.0, (v + w) / 2.0);
         let middle = (uv + vw) / 2.0;
-        let [a, b, c, d] = self.radius;
-        let [ab, bc, cd] = [(a + b) / 2.0, (b + c) / 2.0, (c + d) / 2.0];
-        let [abc, bcd] = [(ab + bc) / 2.0, (bc + cd) / 2.0];
-        let radius = (abc + bcd) / 2.0;
+        let split = self.halves.map(|[a, b, c, d]| {
+            let [ab, bc, cd] = [(a + b) / 2.0, (b + c) / 2.0, (c + d) / 2.0];
+            let [abc, bcd] = [(ab + bc) / 2.0, (bc + cd) / 2.0];
+            let middle = (abc + bcd) / 2.0;
+            [[a, ab, abc, middle], [middle, bcd, cd, d]]
+        });
         let (length, halvings) = (self.length / 2.0, self.halvings + 1);
         [
-            Self { velocity: [u, uv, middle], radius: [a, ab, abc, radius], length, halvings, ..*self },
+            Self {
+                velocity: [u, uv, middle],
+                halves: split.map(|[half, _]| half),
+                length,
+                halvings,
+                ..*self
+            },
             Self {
                 from: self.from + length,
                 length,
                 halvings,
                 velocity: [middle, vw, w],
-                radius: [radius, bcd, cd, d],
+                halves: split.map(|[_, half]| half),
             },
         ]
     }
@@ -96,17 +105,16 @@ impl Part {
     /// Where the part begins, its middle, and where it ends.
     fn places(&self) -> [Place; 3] {
         let [u, v, w] = self.velocity;
-        let [a, b, c, d] = self.radius;
-        let place = |share: f64, velocity, change: DVec3, radius| Place {
+        let place = |share: f64, velocity, change: DVec3, half: fn([f64; 4]) -> f64| Place {
             t: self.from + share * self.length,
             velocity,
             acceleration: change / self.length,
-            radius,
+            sizes: DVec2::from_array(self.halves.map(half)),
         };
         [
-            place(0.0, u, 2.0 * (v - u), a),
-            place(0.5, (u + 2.0 * v + w) / 4.0, w - u, (a + 3.0 * (b + c) + d) / 8.0),
-            place(1.0, w, 2.0 * (w - v), d),
+            place(0.0, u, 2.0 * (v - u), |[a, ..]| a),
+            place(0.5, (u + 2.0 * v + w) / 4.0, w - u, |[a, b, c, d]| (a + 3.0 * (b + c) + d) / 8.0),
+            place(1.0, w, 2.0 * (w - v), |[.., d]| d),
         ]
     }
 }
@@ -116,13 +124,14 @@ struct Place {
     t: f64,
     velocity: DVec3,
     acceleration: DVec3,
-    radius: f64,
+    /// Half width and half height, which the floors may hold.
+    sizes: DVec2,
 }
 
 /// The search for an interval's tightest bend.
 struct Search<'a> {
     support: &'a Support,
-    radius_floor: f64,
+    floors: DVec2,
     /// Whether the interval runs along one line.
     straight: bool,
     /// The least ratio so far, and where it is.
@@ -139,8 +148,14 @@ impl Search<'_> {
                 return;
             }
         } else {
-            let furthest = if part.halvings < HALVINGS_FLAT { self.support.extent() } else { reach };
-            let thickest = part.radius.into_iter().fold(self.radius_floor, f64::max) * furthest;
+            let sizes = middle.sizes.max(self.floors);
+            let furthest = if part.halvings < HALVINGS_FLAT {
+                self.support.extent()
+            } else {
+                reach / sizes.max_element()
+            };
+            let bounds = part.halves.into_iter().flatten();
+            let thickest = bounds.fold(self.floors.max_element(), f64::max) * furthest;
             let least = (1.0 - ACCURACY) * self.best.0 * thickest;
             if part.bends_less(least, middle.velocity.length_squared()) {
                 return;
@@ -160,21 +175,21 @@ impl Search<'_> {
 
     fn compare(&mut self, place: &Place) {
         let turn = place.velocity.cross(place.acceleration).length();
-        let thick = self.reach(place) * place.radius.max(self.radius_floor);
-        let ratio = place.velocity.length().powi(3) / (turn * thick);
+        let ratio = place.velocity.length().powi(3) / (turn * self.reach(place));
         if ratio < self.best.0 {
             self.best = (ratio, Some(place.t));
         }
     }
 
-    /// How far the section reaches into the bend, in radii.
+    /// How far the section reaches into the bend, mm.
     fn reach(&self, place: &Place) -> f64 {
-        if self.support.is_circle() {
-            return 1.0;
+        let sizes = place.sizes.max(self.floors);
+        if self.support.is_circle() && sizes.x == sizes.y {
+            return sizes.x;
         }
         let velocity = place.velocity;
         let inwards = velocity.cross(place.acceleration).cross(velocity).normalize_or_zero();
-        self.support.furthest(velocity.normalize_or_zero(), inwards).dot(inwards)
+        self.support.furthest(upright(velocity.normalize_or_zero()), sizes, inwards).dot(inwards)
     }
 }
 
@@ -183,7 +198,7 @@ impl Search<'_> {
 pub(super) fn tightest(cubic: &Cubic, support: &Support, within: f64) -> Option<(f64, f64)> {
     let whole = Part::whole(cubic);
     let [u, v, w] = whole.velocity;
-    let least = (1.0 - ACCURACY) * within * cubic.radius_bound() * support.extent();
+    let least = (1.0 - ACCURACY) * within * cubic.half_bound() * support.extent();
     // Most intervals bend so little that this is all.
     if whole.bends_less(least, (u + 2.0 * v + w).length_squared() / 16.0)
         || whole.velocity == [DVec3::ZERO; 3]
@@ -192,8 +207,8 @@ pub(super) fn tightest(cubic: &Cubic, support: &Support, within: f64) -> Option<
     }
     // Rounding of a straight line's derivatives is no bend.
     let straight = whole.turn().iter().all(|turn| turn.length() <= 1e-9 * whole.size());
-    let radius_floor = cubic.radius_floor();
-    let mut search = Search { support, radius_floor, straight, best: (within, None) };
+    let floors = DVec2::from_array(cubic.floors());
+    let mut search = Search { support, floors, straight, best: (within, None) };
     search.visit(&whole);
     search.best.1.map(|t| (search.best.0, t))
 }

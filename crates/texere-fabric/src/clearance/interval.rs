@@ -14,17 +14,30 @@ pub(super) const SAGITTA: f64 = 0.1;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cubic {
     position: [DVec3; 4],
-    radius: [f64; 4],
-    radius_floor: f64,
+    /// Half width and half height.
+    halves: [[f64; 4]; 2],
+    floors: [f64; 2],
 }
 
-/// The cubic at one parameter: position, first and second derivative, and the radius with its derivatives.
+/// The cubic at one parameter: position, first and second derivative, and half width and half height with theirs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct At {
     pub(super) position: DVec3,
     pub(super) velocity: DVec3,
     pub(super) acceleration: DVec3,
-    pub(super) radius: [f64; 3],
+    pub(super) halves: [[f64; 3]; 2],
+}
+
+impl At {
+    /// Half width and half height.
+    pub(super) fn sizes(&self) -> DVec2 {
+        DVec2::new(self.halves[0][0], self.halves[1][0])
+    }
+
+    /// The radius of a round yarn, with its derivatives.
+    pub(super) const fn radius(&self) -> [f64; 3] {
+        self.halves[0]
+    }
 }
 
 impl Cubic {
@@ -32,14 +45,16 @@ impl Cubic {
     pub(super) fn new([before, start, end, after]: [ControlPoint; 4], s: f64) -> Self {
         let place = |point: ControlPoint| point.position().as_dvec3();
         let (p, q, r, u) = (place(before), place(start), place(end), place(after));
-        let radius = |point: ControlPoint| f64::from(point.radius);
-        let (pr, qr, rr, ur) = (radius(before), radius(start), radius(end), radius(after));
         let (m0, m1) = ((r - p) * s, (u - q) * s);
-        let (n0, n1) = ((rr - pr) * s, (ur - qr) * s);
+        let sizes = [ControlPoint::half_width, ControlPoint::half_height]
+            .map(|half| [before, start, end, after].map(|point| f64::from(half(&point))));
         Self {
             position: [q, m0, 3.0 * (r - q) - 2.0 * m0 - m1, 2.0 * (q - r) + m0 + m1],
-            radius: [qr, n0, 3.0 * (rr - qr) - 2.0 * n0 - n1, 2.0 * (qr - rr) + n0 + n1],
-            radius_floor: qr.min(rr) * f64::from(RADIUS_FLOOR),
+            halves: sizes.map(|[p, q, r, u]| {
+                let (m0, m1) = ((r - p) * s, (u - q) * s);
+                [q, m0, 3.0 * (r - q) - 2.0 * m0 - m1, 2.0 * (q - r) + m0 + m1]
+            }),
+            floors: sizes.map(|[_, start, end, _]| start.min(end) * f64::from(RADIUS_FLOOR)),
         }
     }
 
@@ -50,18 +65,20 @@ impl Cubic {
 
     pub(super) fn at(&self, t: f64) -> At {
         let [_, c1, c2, c3] = self.position;
-        let [r0, r1, r2, r3] = self.radius;
-        let radius = r0 + (r1 + (r2 + r3 * t) * t) * t;
-        let radius = if radius < self.radius_floor {
-            [self.radius_floor, 0.0, 0.0]
-        } else {
-            [radius, r1 + (2.0 * r2 + 3.0 * r3 * t) * t, 2.0 * r2 + 6.0 * r3 * t]
+        let half = |side: usize| {
+            let ([r0, r1, r2, r3], floor) = (self.halves[side], self.floors[side]);
+            let half = r0 + (r1 + (r2 + r3 * t) * t) * t;
+            if half < floor {
+                [floor, 0.0, 0.0]
+            } else {
+                [half, r1 + (2.0 * r2 + 3.0 * r3 * t) * t, 2.0 * r2 + 6.0 * r3 * t]
+            }
         };
         At {
             position: self.position(t),
             velocity: c1 + (2.0 * c2 + 3.0 * c3 * t) * t,
             acceleration: 2.0 * c2 + 6.0 * c3 * t,
-            radius,
+            halves: [half(0), half(1)],
         }
     }
 
@@ -78,26 +95,32 @@ impl Cubic {
         [c1, c1 + c2, c1 + 2.0 * c2 + 3.0 * c3]
     }
 
-    /// Whether the radius stays what it is.
+    /// Whether the yarn is round all along the interval.
+    pub(super) fn is_round(&self) -> bool {
+        self.halves[0] == self.halves[1]
+    }
+
+    /// Whether it is round and of one radius.
     pub(super) fn is_even(&self) -> bool {
-        self.radius[1..] == [0.0; 3]
+        self.is_round() && self.halves[0][1..] == [0.0; 3]
     }
 
-    /// The radius as Bernstein coefficients, before it is held at [`Self::radius_floor`].
-    pub(super) fn radii(&self) -> [f64; 4] {
-        let [r0, r1, r2, r3] = self.radius;
-        let end = r0 + r1 + r2 + r3;
-        [r0, r0 + r1 / 3.0, end - (r1 + 2.0 * r2 + 3.0 * r3) / 3.0, end]
+    /// Half width and half height as Bernstein coefficients, before they are held at [`Self::floors`].
+    pub(super) fn half_bounds(&self) -> [[f64; 4]; 2] {
+        self.halves.map(|[r0, r1, r2, r3]| {
+            let end = r0 + r1 + r2 + r3;
+            [r0, r0 + r1 / 3.0, end - (r1 + 2.0 * r2 + 3.0 * r3) / 3.0, end]
+        })
     }
 
-    /// The least radius that the interval may have.
-    pub(super) const fn radius_floor(&self) -> f64 {
-        self.radius_floor
+    /// The least half width and half height that the interval may have.
+    pub(super) const fn floors(&self) -> [f64; 2] {
+        self.floors
     }
 
-    /// No less than the radius anywhere in the interval.
-    pub(super) fn radius_bound(&self) -> f64 {
-        self.radii().into_iter().fold(self.radius_floor, f64::max)
+    /// No less than half width and half height anywhere in the interval.
+    pub(super) fn half_bound(&self) -> f64 {
+        self.half_bounds().into_iter().flatten().chain(self.floors).fold(0.0, f64::max)
     }
 
     /// How far the interval lies from the straight line between its ends at most, mm.
@@ -132,7 +155,7 @@ impl Cubic {
 
     /// Chords that lie within [`SAGITTA`] of the curve (as far as [`CHORDS_MAX`] of them do).
     pub(super) fn chords(&self) -> Chords {
-        let sagitta = SAGITTA * self.radius_floor.max(f64::MIN_POSITIVE);
+        let sagitta = SAGITTA * self.floors[0].min(self.floors[1]).max(f64::MIN_POSITIVE);
         let mut count = 1;
         while count < CHORDS_MAX {
             // n chords lie 1/n² as far from a curve as one does, or little more.

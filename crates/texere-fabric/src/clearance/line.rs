@@ -106,14 +106,18 @@ impl<'a> Line<'a> {
     pub(super) fn bounds(&self, point: usize, margin: f64) -> Bounds {
         let [before, start, end, after] = neighbours(self.points, self.closed, point - self.first);
         // One by one: a map over the array stays a call, in the innermost of loops.
-        let whole = |point: ControlPoint| Vec4::new(point.x, point.y, point.z, point.radius);
+        let whole = |point: ControlPoint| Vec4::new(point.x, point.y, point.z, point.half_width());
+        let heights = [before, start, end, after].map(|point| point.half_height());
         let (before, start, end, after) = (whole(before), whole(start), whole(end), whole(after));
-        // The Bézier polygon, of radii too; the inner two of its corners may lie on either side.
+        // The Bézier polygon, of half widths too; the inner two of its corners may lie on either side.
         let s = self.s as f32 / 3.0;
         let (leaving, arriving) = (start + (end - before) * s, end - (after - start) * s);
         let (low, high) =
             (start.min(end).min(leaving).min(arriving), start.max(end).max(leaving).max(arriving));
-        let margin = (margin * self.support.extent()) as f32 * high.w * (1.0 + 8.0 * f32::EPSILON);
+        let [before, start, end, after] = heights;
+        let highest = start.max(end).max(start + (end - before) * s).max(end - (after - start) * s);
+        let margin =
+            (margin * self.support.extent()) as f32 * high.w.max(highest) * (1.0 + 8.0 * f32::EPSILON);
         let margin = Vec4::splat(margin) + 8.0 * f32::EPSILON * low.abs().max(high.abs());
         Bounds { low: Vec3A::from_vec4(low - margin), high: Vec3A::from_vec4(high + margin) }
     }

@@ -59,7 +59,7 @@ struct Curve {
 impl Curve {
     fn new(part: &Part<'_>) -> Self {
         let (cubic, support) = (part.line.cubic(part.point), part.line.support);
-        let reach = cubic.radius_bound() * support.extent();
+        let reach = cubic.half_bound() * support.extent();
         let even = support.is_circle() && cubic.is_even();
         Self { passing: Passing::new(&cubic), reach, even, cubic }
     }
@@ -241,8 +241,9 @@ impl<'a> Probe<'a> {
                 return;
             }
             // Two places so close along a yarn can only meet in a fold.
-            let radii = a.cubic.at(place.x).radius[0] + b.cubic.at(place.y).radius[0];
-            let window = FRAC_PI_2 * radii * one.line.support.extent();
+            let reach =
+                [(a, place.x), (b, place.y)].map(|(curve, t)| curve.cubic.at(t).sizes().max_element());
+            let window = FRAC_PI_2 * (reach[0] + reach[1]) * one.line.support.extent();
             if same && one.line.within(window, (one.point, place.x), (other.point, place.y)) {
                 return;
             }

@@ -58,14 +58,11 @@ impl Support {
         }
     }
 
-    /// The section's furthest point in `direction`, on a yarn whose unit tangent is `tangent`, in radii of the yarn.
-    pub(super) fn furthest(&self, tangent: DVec3, direction: DVec3) -> DVec3 {
-        self.furthest_upright(upright(tangent), direction)
-    }
-
-    /// The same with the tangent's upright frame, for more than one direction.
-    pub(super) fn furthest_upright(&self, [side, up]: [DVec3; 2], direction: DVec3) -> DVec3 {
-        let across = DVec2::new(direction.dot(side), direction.dot(up));
+    /// The section's furthest point in `direction` where a yarn has the upright frame `[side, up]` and half width and half
+    /// height `sizes`: from the centre, mm.
+    pub(super) fn furthest(&self, [side, up]: [DVec3; 2], sizes: DVec2, direction: DVec3) -> DVec3 {
+        // What flattening does to the points it does to directions the other way round.
+        let across = DVec2::new(direction.dot(side), direction.dot(up)) * sizes;
         let point = match self {
             Self::Circle => across.normalize_or_zero(),
             Self::Table { furthest, .. } => {
@@ -74,7 +71,7 @@ impl Support {
                 furthest[nearest]
             }
         };
-        side * point.x + up * point.y
+        side * (point.x * sizes.x) + up * (point.y * sizes.y)
     }
 }
 

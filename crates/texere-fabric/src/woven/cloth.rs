@@ -2,7 +2,7 @@
 
 use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, TWIST_LIMIT};
 
-use super::thread::{SPACING_MAX, SPACING_MIN, Thread};
+use super::thread::{FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, Thread};
 use super::{Crimp, Drawdown, Shape};
 use crate::FabricError;
 
@@ -106,6 +106,26 @@ impl Woven {
                     low: RADIUS_MIN,
                     high: RADIUS_MAX,
                 });
+            }
+            if !(FLATNESS_MIN..=FLATNESS_MAX).contains(&each.flatness) {
+                return Err(FabricError::Flatness {
+                    thread,
+                    flatness: each.flatness,
+                    low: FLATNESS_MIN,
+                    high: FLATNESS_MAX,
+                });
+            }
+            let [half_width, half_height] = each.halves_mm();
+            for (side, half_mm) in [("width", half_width), ("height", half_height)] {
+                if !(RADIUS_MIN..=RADIUS_MAX).contains(&half_mm) {
+                    return Err(FabricError::Half {
+                        thread,
+                        side,
+                        half_mm,
+                        low: RADIUS_MIN,
+                        high: RADIUS_MAX,
+                    });
+                }
             }
             if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&each.twist) {
                 return Err(FabricError::Twist { thread, twist: each.twist, limit: TWIST_LIMIT });

@@ -28,6 +28,6 @@ pub use notation::REPEAT_MAX;
 pub use pitch::Pitch;
 pub use relief::{JamReport, Relief, Tightness};
 pub use shape::Shape;
-pub use thread::{SPACING_MAX, SPACING_MIN, Thread};
+pub use thread::{FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, Thread};
 pub use weave::Weave;
 pub use yarns::NO_CROSSING;

@@ -1,10 +1,10 @@
 //! What can be done for threads that are jammed: share the crimp otherwise, flatten them, or thin them.
 
-use texere_core::{Origin, RADIUS_MAX, RADIUS_MIN, Section};
+use texere_core::{Origin, RADIUS_MAX, RADIUS_MIN};
 
 use super::crimp::{Crimp, SHARE_MIN};
 use super::jam::{Gap, ROUNDING, reach};
-use super::{Shape, Thread, Woven};
+use super::{FLATNESS_MAX, Shape, Thread, Woven};
 use crate::FabricError;
 
 /// What to do where threads lie closer together than those that cross them can pass between.
@@ -14,7 +14,7 @@ pub enum Relief {
     /// Nothing: the numbers alone.
     #[default]
     Report,
-    /// Share the crimp otherwise, then flatten: a thread keeps its section's area and grows wider, as far as the
+    /// Share the crimp otherwise, then flatten: a thread keeps its area and grows wider ([`Thread::flatness`]), as far as the
     /// threads beside it allow, so that those that cross it have less to climb.
     Flatten,
     /// Share the crimp otherwise, then scale all diameters down until everything fits. Materials keep their tex.
@@ -109,8 +109,8 @@ impl Woven {
     /// was given as [`Crimp::WarpShare`] stays); it costs nothing, and where one set is dense its threads do the
     /// bending in real cloth too. Only what is still jammed is then flattened or thinned. Flattening goes for the set
     /// that passes between the jammed threads: a wider thread needs more room beside, so what relieves one set may
-    /// jam the other. What can't be relieved stays and is reported. All threads of a set are flattened alike (finishing
-    /// can't single out threads), lobed ones not at all.
+    /// jam the other. What can't be relieved stays and is reported. All threads of a set are flattened alike: finishing
+    /// can't single out threads. Their sections, and what turns with the twist, stay inside the flattened outline.
     ///
     /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least one: only there the
     /// spline keeps the threads clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
@@ -151,7 +151,7 @@ impl Woven {
                 // A little less, so that rounding does not leave too little room.
                 scaled = (1.0 - ROUNDING as f32) / left;
             } else if relief == Relief::Flatten && left > 1.0 {
-                let [ends, picks] = [self.warp(), self.weft()].map(|set| self.widths(set));
+                let [ends, picks] = [self.warp(), self.weft()].map(Self::widths);
                 change = best(&self.shares(share), &ends, &picks, now, worst);
             }
         }
@@ -175,24 +175,12 @@ impl Woven {
     }
 
     /// The factors that the widths of a set may be tried with.
-    fn widths(&self, set: &[Thread]) -> Vec<f32> {
+    fn widths(set: &[Thread]) -> Vec<f32> {
         let steps = ((WIDENED_MAX - 1.0) / WIDTH_STEP).round() as u32;
-        let used = self.used(set);
-        let fits = |factor: &f32| {
-            let mut sections = self.sections().iter().zip(&used).filter(|(_, used)| **used);
-            sections.all(|(section, _)| widened(section, *factor).is_some())
-        };
+        let flattest = set.iter().map(|thread| thread.flatness).fold(0.0, f32::max);
+        let fits = |factor: &f32| flattest * factor * factor <= FLATNESS_MAX;
         let factors = (1..=steps).map(|step| 1.0 + step as f32 * WIDTH_STEP).filter(fits);
         std::iter::once(1.0).chain(factors).collect()
-    }
-
-    /// Which sections the threads of a set have.
-    fn used(&self, set: &[Thread]) -> Vec<bool> {
-        let mut used = vec![false; self.sections().len()];
-        for thread in set {
-            used[thread.section as usize] = true;
-        }
-        used
     }
 
     fn apply(&mut self, change: Change, scaled: f32) -> Result<(), FabricError> {
@@ -206,23 +194,8 @@ impl Woven {
         if change.share != self.warp_share() {
             self.crimp = Crimp::WarpShare(change.share);
         }
-        let used = [self.used(&self.warp), self.used(&self.weft)];
-        for ((threads, factor), used) in
-            [&mut self.warp, &mut self.weft].into_iter().zip(change.widened).zip(used)
-        {
-            if factor == 1.0 {
-                continue;
-            }
-            let mut wider: Vec<u32> = (0..used.len() as u32).collect();
-            for (number, _) in used.iter().enumerate().filter(|(_, used)| **used) {
-                if let Some(section) = widened(&self.sections[number], factor) {
-                    wider[number] = self.sections.len() as u32;
-                    self.sections.push(section);
-                }
-            }
-            for thread in threads {
-                thread.section = wider[thread.section as usize];
-            }
+        for (threads, factor) in [&mut self.warp, &mut self.weft].into_iter().zip(change.widened) {
+            threads.iter_mut().for_each(|thread| thread.flatness *= factor * factor);
         }
         for thread in self.warp.iter_mut().chain(&mut self.weft) {
             thread.radius_mm *= scaled;
@@ -252,26 +225,6 @@ fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn
         }
     }
     found.1
-}
-
-/// A section `factor` times as wide, and as much less high; none where no such section is taken.
-fn widened(section: &Section, factor: f32) -> Option<Section> {
-    let square = factor * factor;
-    let wider = match section {
-        Section::Circle => Section::Ellipse { aspect: square },
-        Section::Ellipse { aspect } => Section::Ellipse { aspect: aspect * square },
-        Section::Lenticular { aspect, distortion } => {
-            Section::Lenticular { aspect: aspect * square, distortion: *distortion }
-        }
-        Section::PowerEllipse { aspect, exponent } => {
-            Section::PowerEllipse { aspect: aspect * square, exponent: *exponent }
-        }
-        Section::Polygon(corners) => {
-            Section::Polygon(corners.iter().map(|[x, y]| [x * factor, y / factor]).collect())
-        }
-        _ => return None,
-    };
-    wider.validate().is_ok().then_some(wider)
 }
 
 /// How close ends and picks lie; `share` is the warp's.

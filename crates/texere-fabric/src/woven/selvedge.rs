@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use texere_core::ControlPoint;
+use texere_core::{ControlPoint, Halves};
 
 use super::thread::Thread;
 
@@ -29,7 +29,7 @@ pub(super) const fn runs_left(pick: usize, selvedge: bool) -> bool {
 }
 
 /// A half circle in the plane of the cloth `from` one pick `to` the next, both at `x`; `outwards` is +1 at the right
-/// edge, -1 at the left. On its way it passes evenly from one pick's height and radius to the other's.
+/// edge, -1 at the left. On its way it passes evenly from one pick's height and sizes to the other's.
 ///
 /// Where the two picks lie on different sides of the edge end, the turn is level with that end half way round, as far
 /// from it as anywhere.
@@ -48,12 +48,10 @@ pub(super) fn turn(
     std::array::from_fn(|step| {
         let done = (1.0 - COS[step]) / 2.0;
         let between = |from: f32, to: f32| from + done * (to - from);
-        ControlPoint {
-            x: x + reach * SIN[step],
-            y: between(from.y, to.y),
-            z: between(from.z, to.z),
-            radius: between(from.radius, to.radius),
-        }
+        let (x, y, z) = (x + reach * SIN[step], between(from.y, to.y), between(from.z, to.z));
+        let width = between(from.half_width(), to.half_width());
+        let height = between(from.half_height(), to.half_height());
+        ControlPoint { x, y, z, halves: Halves::new(width, height) }
     })
 }
 
@@ -79,7 +77,7 @@ mod tests {
             }
             assert_eq!((turn[0].y, turn[0].z, turn[4].y, turn[4].z), (1.0, 0.2, 3.0, -0.2));
             assert_eq!((turn[2].x, turn[2].z), (10.0 + outwards, 0.0));
-            assert!((turn[2].radius - 0.2).abs() < 1e-6);
+            assert!((turn[2].half_width() - 0.2).abs() < 1e-4);
         }
     }
 }

@@ -59,13 +59,13 @@ impl Set {
         let at = at.collect();
         let last = threads.last().map_or(0.0, |thread| thread.spacing_mm);
         let after = threads.iter().skip(1).map(|thread| thread.spacing_mm).chain([last]);
-        let size = |of: &[f32]| {
-            threads.iter().map(|thread| thread.radius_mm * of[thread.section as usize]).collect()
+        let size = |of: &[f32], half: usize| {
+            threads.iter().map(|thread| thread.halves_mm()[half] * of[thread.section as usize]).collect()
         };
         Self {
             at,
-            half_width: size(&widths),
-            half_height: size(&heights),
+            half_width: size(&widths, 0),
+            half_height: size(&heights, 1),
             pitch: threads
                 .iter()
                 .zip(after)

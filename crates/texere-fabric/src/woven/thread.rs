@@ -1,12 +1,18 @@
 //! Threads of a cloth, as they are given.
 
-use texere_core::{RADIUS_MAX, RADIUS_MIN};
+use texere_core::Halves;
 
-/// The least spacing of a thread, mm: the thinnest radius that is taken for a yarn.
-pub const SPACING_MIN: f64 = RADIUS_MIN as f64;
+/// The least spacing of a thread, mm: a nanometre.
+pub const SPACING_MIN: f64 = 1e-6;
 
 /// The most spacing of a thread, mm: a kilometre.
-pub const SPACING_MAX: f64 = RADIUS_MAX as f64;
+pub const SPACING_MAX: f64 = 1e6;
+
+/// The least flatness of a thread: ten times as high as wide.
+pub const FLATNESS_MIN: f32 = 0.1;
+
+/// The most flatness of a thread: ten times as wide as high.
+pub const FLATNESS_MAX: f32 = 10.0;
 
 /// One end or one pick: what it is like, and how far it lies from the one before.
 ///
@@ -19,8 +25,11 @@ pub const SPACING_MAX: f64 = RADIUS_MAX as f64;
 pub struct Thread {
     /// Distance to the thread before, mm; half of it lies outside the first thread.
     pub spacing_mm: f64,
-    /// Radius, mm.
+    /// Radius of the yarn where it is round, mm.
     pub radius_mm: f32,
+    /// Width over height in the cloth, of the same area as the round yarn: 1 for a round one. The section, and what turns with
+    /// the twist, is inside that outline.
+    pub flatness: f32,
     /// Index into the materials.
     pub material: u32,
     /// Index into the sections.
@@ -30,9 +39,22 @@ pub struct Thread {
 }
 
 impl Thread {
-    /// An untwisted thread of the first material and the first section.
+    /// A round, untwisted thread of the first material and the first section.
     #[must_use]
     pub const fn new(spacing_mm: f64, radius_mm: f32) -> Self {
-        Self { spacing_mm, radius_mm, material: 0, section: 0, twist: 0.0 }
+        Self { spacing_mm, radius_mm, flatness: 1.0, material: 0, section: 0, twist: 0.0 }
+    }
+
+    /// Half its width and half its height in the cloth, mm, of a circular section.
+    #[must_use]
+    pub fn halves_mm(&self) -> [f32; 2] {
+        let flatter = self.flatness.sqrt();
+        [self.radius_mm * flatter, self.radius_mm / flatter]
+    }
+
+    /// The same as control points have it.
+    pub(super) fn halves(&self) -> Halves {
+        let [width, height] = self.halves_mm();
+        Halves::new(width, height)
     }
 }

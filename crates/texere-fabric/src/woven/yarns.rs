@@ -174,22 +174,22 @@ impl Loom<'_> {
         let cut = pass.cut();
         match pass {
             Pass::End(end) => {
-                let (x, radius) = (self.warp.at[end], self.cloth.warp()[end].radius_mm);
+                let (x, halves) = (self.warp.at[end], self.cloth.warp()[end].halves());
                 let above = |pick| drawdown.up(end, pick);
                 path.walk(above, cut, |stop| {
                     let source = stop.crossing.map_or(NO_CROSSING, |pick| (pick * ends + end) as u32);
-                    write(ControlPoint::new(x, stop.along, stop.z, radius), source);
+                    write(ControlPoint { x, y: stop.along, z: stop.z, halves }, source);
                 });
             }
             Pass::Pick(pick, _) => {
                 if pass.turns() {
                     self.turn(pick).into_iter().for_each(|point| write(point, NO_CROSSING));
                 }
-                let (y, radius) = (self.weft.at[pick], self.cloth.weft()[pick].radius_mm);
+                let (y, halves) = (self.weft.at[pick], self.cloth.weft()[pick].halves());
                 let above = |end| !drawdown.up(end, pick);
                 path.walk(above, cut, |stop| {
                     let source = stop.crossing.map_or(NO_CROSSING, |end| (pick * ends + end) as u32);
-                    write(ControlPoint::new(stop.along, y, stop.z, radius), source);
+                    write(ControlPoint { x: stop.along, y, z: stop.z, halves }, source);
                 });
             }
         }
@@ -221,7 +221,7 @@ impl Loom<'_> {
         let x = self.warp.at[end] + outwards * touching.max(apart / 4.0);
         let [from, to] = [pick - 1, pick].map(|pick| {
             let z = self.weft_bend(pick).leaving_z(end, |end| !self.cloth.drawdown().up(end, pick));
-            ControlPoint::new(x, self.weft.at[pick], z, self.cloth.weft()[pick].radius_mm)
+            ControlPoint { x, y: self.weft.at[pick], z, halves: self.cloth.weft()[pick].halves() }
         });
         selvedge::turn(x, outwards, &from, &to)
     }

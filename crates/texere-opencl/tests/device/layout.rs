@@ -89,8 +89,7 @@ fn tables() -> Vec<Table> {
             "values[1].x" = x,
             "values[1].y" = y,
             "values[1].z" = z,
-            // Both half floats.
-            "values[1].w" = z + 1
+            "values[1].w" = halves
         }),
         vectors!("float4", SectionPoint {
             "values[1].x" = x,

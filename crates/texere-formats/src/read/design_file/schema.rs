@@ -56,6 +56,7 @@ pub(super) struct YarnSpec {
     pub(super) color: Option<Spanned<String>>,
     pub(super) section: Option<Spanned<SectionSpec>>,
     pub(super) plies: Option<Spanned<i64>>,
+    pub(super) flatness: Option<Spanned<f64>>,
     pub(super) twist_per_m: Option<Spanned<f64>>,
 }
 

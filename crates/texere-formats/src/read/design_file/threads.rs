@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use texere_core::{Material, Section, SectionPoint};
-use texere_fabric::{COTTON_DENSITY, Thread};
+use texere_fabric::{COTTON_DENSITY, FLATNESS_MAX, FLATNESS_MIN, Thread};
 use toml::Spanned;
 
 use super::schema::{SectionSpec, Source, ThreadSet, YarnSpec, real};
@@ -50,6 +50,15 @@ impl YarnTable {
                     });
                 }
             };
+            let flatness = spec
+                .flatness
+                .as_ref()
+                .map(|flatness| {
+                    let (low, high) = (f64::from(FLATNESS_MIN), f64::from(FLATNESS_MAX));
+                    source.number(&field("flatness"), flatness, low, high)
+                })
+                .transpose()?
+                .unwrap_or(1.0);
             let twist_per_m = spec
                 .twist_per_m
                 .as_ref()
@@ -70,6 +79,7 @@ impl YarnTable {
                 Thread {
                     spacing_mm: 0.0,
                     radius_mm: (diameter_mm / 2.0) as f32,
+                    flatness: flatness as f32,
                     material: number,
                     section: number,
                     twist: (twist_per_m * std::f64::consts::TAU / 1000.0) as f32,

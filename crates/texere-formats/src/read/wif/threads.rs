@@ -193,6 +193,7 @@ impl Set {
         threads.extend(each.map(|((own_spacing, thickness), material)| Thread {
             spacing_mm: own_spacing.unwrap_or(spacing),
             radius_mm: (thickness.unwrap_or(diameter) / 2.0) as f32,
+            flatness: 1.0,
             material: material.unwrap_or(NO_COLOR),
             section: 0,
             twist: 0.0,

@@ -38,7 +38,7 @@ fn found(report: &Report) -> Vec<Fault> {
         Fault::NotFinite,
         Fault::Position,
         Fault::Normal,
-        Fault::Radius,
+        Fault::Size,
         Fault::Tangent,
         Fault::Roll,
         Fault::Index,

@@ -9,7 +9,8 @@ use std::f64::consts::TAU;
 use proptest::prelude::*;
 use texere_core::{ControlPoint, Material, Section, Segment, Yarn, Yarns};
 use texere_fabric::{
-    CLEARANCE_ACCURACY, CLEARANCE_NEAR, FabricError, NO_CROSSING, Shape, Thread, Weave, Woven, clearance,
+    CLEARANCE_ACCURACY, CLEARANCE_NEAR, CONTACTS_LISTED, Contact, FabricError, NO_CROSSING, Shape, Thread,
+    Weave, Woven, clearance,
 };
 
 use oracle::{ellipse, refined_clearance, round_clearance, surface_clearance};
@@ -84,7 +85,7 @@ fn bend(points: &[ControlPoint], closed: bool, interval: usize, t: f64) -> f64 {
     let velocity =
         0.5 * ((r - p) + 2.0 * t * (2.0 * p - 5.0 * q + 4.0 * r - u) + 3.0 * t * t * (u - p + 3.0 * (q - r)));
     let acceleration = (2.0 * p - 5.0 * q + 4.0 * r - u) + 3.0 * t * (u - p + 3.0 * (q - r));
-    let radius = f64::from(Segment::new(&four, 0.5).sample(t as f32).radius);
+    let radius = f64::from(Segment::new(&four, 0.5).sample(t as f32).half_width);
     velocity.length().powi(3) / velocity.cross(acceleration).length() / radius
 }
 
@@ -105,7 +106,7 @@ proptest! {
                     let closed = tangle.layout().yarns()[place.yarn].closed;
                     Segment::new(&four(points, closed, place.interval), 0.5).sample(place.t as f32)
                 });
-                let [a, b] = [there[0], there[1]].map(|sample| (sample.centre.as_dvec3(), f64::from(sample.radius)));
+                let [a, b] = [there[0], there[1]].map(|sample| (sample.centre.as_dvec3(), f64::from(sample.half_width)));
                 let ratio = a.0.distance(b.0) / (a.1 + b.1);
                 prop_assert!((contact.ratio - ratio).abs() < 1e-4, "{} but {ratio} there", contact.ratio);
             }
@@ -115,17 +116,25 @@ proptest! {
 
     #[test]
     fn no_contact_is_lost_where_even_yarns_pass_by(tangle in even_tangles()) {
-        // A millionth of its thickness makes a yarn uneven, so that nothing is left out beforehand.
+        // The least step of a size, a thousandth, makes a yarn uneven, so that nothing is left out beforehand.
         let mut uneven = tangle.clone();
         for yarn in 0..tangle.layout().yarns().len() {
             let mut points = tangle.yarn_points(yarn).unwrap().to_vec();
-            points.iter_mut().step_by(2).for_each(|point| point.radius *= 1.000_001);
+            let thicker = |point: &ControlPoint| 1.001 * point.half_width();
+            points.iter_mut().step_by(2).for_each(|point| *point = point.flattened(thicker(point), thicker(point)));
             uneven.set_points(yarn, &points).unwrap();
         }
         let [left_out, whole] = [&tangle, &uneven].map(|yarns| clearance(yarns, 0.0).unwrap());
-        prop_assert_eq!(left_out.contacts, whole.contacts);
-        for (one, other) in left_out.worst.iter().zip(&whole.worst) {
-            prop_assert!((one.ratio - other.ratio).abs() < 1e-4, "{one:?}, {other:?}");
+        // Thicker yarns are as much nearer; what just comes within reach by that is left alone.
+        let clear = |contact: &&Contact| contact.ratio < 0.99 * CLEARANCE_NEAR;
+        for one in left_out.worst.iter().chain(&whole.worst).filter(clear) {
+            for all in [&left_out, &whole] {
+                let found = all.worst.iter().any(|other| {
+                    (one.ratio / other.ratio - 1.0).abs() < 2e-3
+                        && one.places.map(|place| place.yarn) == other.places.map(|place| place.yarn)
+                });
+                prop_assert!(found || all.worst.len() == CONTACTS_LISTED, "{one:?}");
+            }
         }
     }
 

@@ -135,7 +135,8 @@ fn one_crowd_does_not_hide_the_rest() {
 fn a_fine_cloth_within_a_coarse_one_is_measured_like_each_of_them() {
     let scaled = |size: usize, scale: f32| -> Vec<(bool, Vec<[f32; 4]>)> {
         let yarns = plain(Shape::Round, size, 0.25);
-        let whole = |point: &ControlPoint| [point.x, point.y, point.z, point.radius].map(|each| each * scale);
+        let whole =
+            |point: &ControlPoint| [point.x, point.y, point.z, point.half_width()].map(|each| each * scale);
         let points = |yarn| (false, yarns.yarn_points(yarn).unwrap().iter().map(whole).collect());
         (0..yarns.layout().yarns().len()).map(points).collect()
     };

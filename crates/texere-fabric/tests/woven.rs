@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use proptest::prelude::*;
-use texere_core::{Material, Origin, Section, YarnError, Yarns};
+use texere_core::{ControlPoint, Material, Origin, Section, YarnError, Yarns};
 use texere_fabric::{Drawdown, FabricError, FabricWarning, NO_CROSSING, Shape, Thread, Weave, Woven};
 
 fn woven(drawdown: Drawdown, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Woven, FabricError> {
@@ -14,11 +14,10 @@ fn woven(drawdown: Drawdown, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Wov
 fn threads() -> impl Strategy<Value = Vec<Thread>> {
     let thread = (0.3..2.0f64, 0.02..0.2f32, 0..2u32, 0..2u32, -5.0..5.0f32).prop_map(
         |(spacing_mm, radius_mm, material, section, twist)| Thread {
-            spacing_mm,
-            radius_mm,
             material,
             section,
             twist,
+            ..Thread::new(spacing_mm, radius_mm)
         },
     );
     prop::collection::vec(thread, 1..14)
@@ -47,7 +46,7 @@ fn places(threads: &[Thread]) -> Vec<f64> {
 }
 
 /// The control points of `yarn` that come from crossing `number`.
-fn at_crossing(yarns: &Yarns, yarn: usize, number: usize) -> Vec<texere_core::ControlPoint> {
+fn at_crossing(yarns: &Yarns, yarn: usize, number: usize) -> Vec<ControlPoint> {
     let sources = &yarns.sources().unwrap()[yarns.range(yarn).unwrap()];
     let points = yarns.yarn_points(yarn).unwrap();
     points
@@ -108,7 +107,9 @@ proptest! {
             prop_assert!(across, "{} is not straight", origin);
             prop_assert_eq!((yarn.origin, yarn.material, yarn.section), (origin, thread.material, thread.section));
             prop_assert_eq!((yarn.closed, yarn.twist), (false, thread.twist));
-            prop_assert!(points.iter().all(|point| point.radius == thread.radius_mm));
+            let radius = |point: &ControlPoint| point.half_width() / thread.radius_mm;
+            prop_assert!(points.iter().all(|point| (radius(point) - 1.0).abs() <= 1.0 / 2048.0));
+            prop_assert!(points.iter().all(|point| point.half_width() == point.half_height()));
             prop_assert_eq!((first.z, last.z), (0.0, 0.0));
             let open: Vec<_> = (0..sources.len()).filter(|&k| sources[k] == NO_CROSSING).collect();
             prop_assert_eq!(open, [0, sources.len() - 1]);
@@ -148,10 +149,7 @@ fn what_is_wrong_with_a_thread_is_named() {
         );
     }
     let error = with(|thread| thread.spacing_mm = f64::NAN);
-    assert_eq!(
-        error.to_string(),
-        "spacing of pick 2 is NaN mm, outside 0.0000009999999974752427 to 1000000 mm"
-    );
+    assert_eq!(error.to_string(), "spacing of pick 2 is NaN mm, outside 0.000001 to 1000000 mm");
     assert!(matches!(with(|t| t.radius_mm = f32::NAN), FabricError::Radius { thread: t, .. } if t == thread));
     assert!(matches!(with(|t| t.radius_mm = 0.0), FabricError::Radius { thread: t, .. } if t == thread));
     assert!(matches!(with(|t| t.twist = f32::NAN), FabricError::Twist { thread: t, .. } if t == thread));

@@ -11,7 +11,8 @@ use texere_core::{ControlPoint, Section, Segment, Yarns};
 pub(crate) struct Place {
     pub(crate) centre: DVec3,
     pub(crate) tangent: DVec3,
-    pub(crate) radius: f64,
+    /// Half width and half height.
+    pub(crate) halves: DVec2,
 }
 
 impl Place {
@@ -53,7 +54,7 @@ pub(crate) fn stretches(yarns: &Yarns, samples: usize) -> Vec<Stretch> {
                     Place {
                         centre: sample.centre.as_dvec3(),
                         tangent: sample.tangent.as_dvec3().normalize(),
-                        radius: f64::from(sample.radius),
+                        halves: DVec2::new(sample.half_width.into(), sample.half_height.into()),
                     }
                 })
                 .collect();
@@ -77,15 +78,18 @@ fn near<'a>(
     })
 }
 
-/// The least distance between the centrelines of two different yarns over the sum of their radii; at most 2.
+/// The least distance between the centrelines of two different yarns over the sum of their radii, of round yarns; at most 2.
 pub(crate) fn round_clearance(yarns: &Yarns, samples: usize) -> f64 {
-    let thickest = yarns.points().iter().fold(0.0f32, |most, point| most.max(point.radius));
+    let thickest = yarns
+        .points()
+        .iter()
+        .fold(0.0f32, |most, point| most.max(point.half_width()).max(point.half_height()));
     let mut least = 2.0f64;
     let stretches = stretches(yarns, samples);
     for (one, other) in near(&stretches, 4.0 * f64::from(thickest)) {
         for a in &one.places {
             for b in &other.places {
-                least = least.min(a.centre.distance(b.centre) / (a.radius + b.radius));
+                least = least.min(a.centre.distance(b.centre) / (a.halves.x + b.halves.x));
             }
         }
     }
@@ -94,19 +98,22 @@ pub(crate) fn round_clearance(yarns: &Yarns, samples: usize) -> f64 {
 
 /// The same, with the nearest samples of each two intervals moved to where they come nearest.
 pub(crate) fn refined_clearance(yarns: &Yarns, samples: usize) -> f64 {
-    let thickest = yarns.points().iter().fold(0.0f32, |most, point| most.max(point.radius));
+    let thickest = yarns
+        .points()
+        .iter()
+        .fold(0.0f32, |most, point| most.max(point.half_width()).max(point.half_height()));
     let stretches = stretches(yarns, samples);
     let ratio = |one: &Stretch, other: &Stretch, [s, t]: [f64; 2]| {
         let [a, b] = [(one, s), (other, t)].map(|(stretch, at)| stretch.segment.sample(at as f32));
         let apart = a.centre.as_dvec3().distance(b.centre.as_dvec3());
-        apart / (f64::from(a.radius) + f64::from(b.radius))
+        apart / (f64::from(a.half_width) + f64::from(b.half_width))
     };
     let mut least = 2.0f64;
     for (one, other) in near(&stretches, 4.0 * f64::from(thickest)) {
         let mut best = (f64::INFINITY, [0.0; 2]);
         for (i, a) in one.places.iter().enumerate() {
             for (j, b) in other.places.iter().enumerate() {
-                let found = a.centre.distance(b.centre) / (a.radius + b.radius);
+                let found = a.centre.distance(b.centre) / (a.halves.x + b.halves.x);
                 if found < best.0 {
                     best = (found, [i, j].map(|k| k as f64 / samples as f64));
                 }
@@ -150,14 +157,18 @@ pub(crate) fn pierce(yarns: &Yarns, samples: usize, sides: u32, scale: f64) -> b
         .collect();
     let outline = |yarn: usize| &outlines[yarns.layout().yarns()[yarn].section as usize];
     let widest = outlines.iter().flatten().map(|point| point.length()).fold(0.0, f64::max);
-    let thickest = yarns.points().iter().fold(0.0f32, |most, point| most.max(point.radius));
+    let thickest = yarns
+        .points()
+        .iter()
+        .fold(0.0f32, |most, point| most.max(point.half_width()).max(point.half_height()));
     let stretches = stretches(yarns, samples);
     near(&stretches, 2.0 * widest * f64::from(thickest)).any(|(one, other)| {
         [(one, other), (other, one)].into_iter().any(|(surface, body)| {
             surface.places.iter().any(|place| {
                 let (side, up) = place.frame();
                 outline(surface.yarn).iter().any(|point| {
-                    let point = place.centre + place.radius * (point.x * side + point.y * up);
+                    let point = *point * place.halves;
+                    let point = place.centre + point.x * side + point.y * up;
                     body.places.windows(2).any(|pair| inside(point, pair, outline(body.yarn)))
                 })
             })
@@ -173,10 +184,11 @@ fn inside(point: DVec3, pair: &[Place], outline: &[DVec2]) -> bool {
     }
     let share = along[0] / (along[0] - along[1]).max(1e-12);
     let centre = pair[0].centre.lerp(pair[1].centre, share);
-    let place = Place { centre, tangent: pair[0].tangent.lerp(pair[1].tangent, share), ..pair[0] };
+    let tangent = pair[0].tangent.lerp(pair[1].tangent, share);
+    let place = Place { centre, tangent, halves: pair[0].halves.lerp(pair[1].halves, share) };
     let (side, up) = place.frame();
-    let offset = (point - centre) / place.radius;
-    let at = DVec2::new(offset.dot(side), offset.dot(up));
+    let offset = point - centre;
+    let at = DVec2::new(offset.dot(side), offset.dot(up)) / place.halves;
     // Convex outlines: inside is left of every edge.
     outline.iter().zip(outline.iter().cycle().skip(1)).all(|(a, b)| (*b - *a).perp_dot(at - *a) > 0.0)
 }

@@ -83,10 +83,10 @@ pub struct Clearance {
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
-/// // Two straight yarns of radius 0.1, crossing 0.15 apart: they pierce.
+/// // Two straight yarns of radius 0.125, crossing 0.1875 apart: they pierce.
 /// let mut yarns = Yarns::builder();
-/// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
-/// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|y| ControlPoint::new(0.5, y, 0.15, 0.1)));
+/// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
+/// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|y| ControlPoint::new(0.5, y, 0.1875, 0.125)));
 /// let clearance = texere_fabric::clearance(&yarns.build()?, 0.0)?;
 /// assert!((clearance.min - 0.75).abs() < 1e-6);
 /// assert_eq!((clearance.below_one, clearance.worst[0].places[0].yarn), (1, 0));

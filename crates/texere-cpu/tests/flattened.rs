@@ -112,7 +112,6 @@ fn flattened_yarns_have_the_bits_of_the_reference() {
             frame: [Frame::Upright, Frame::RotationMinimizing][round / 2 % 2],
             topology: [Topology::Indexed, Topology::Shared][round / 3 % 2],
             caps: round / 4 % 2 == 0,
-            ..Settings::default()
         };
         let pipeline = || Pipeline::new(&yarns).settings(settings);
         let mesh_bits = |mesh: &texere_core::Mesh| bytemuck::cast_slice::<_, u32>(&mesh.vertices).to_vec();
@@ -124,6 +123,27 @@ fn flattened_yarns_have_the_bits_of_the_reference() {
             let mesh = pipeline().mesh(device).unwrap();
             assert!(mesh_bits(&gold) == mesh_bits(&mesh), "{name}: vertices, round {round}, {settings:?}");
             assert!(gold.indices == mesh.indices, "{name}: indices, round {round}, {settings:?}");
+        }
+    }
+}
+
+#[test]
+fn a_yarn_may_flatten_right_after_a_run_of_rings_ends() {
+    // A run has 2,048 rings: with one inserted, the last lies half-way from point 1,023 on, and depends on point 1,025.
+    for last_round in 1020..1028 {
+        let points = (0..1100u16).map(|k| {
+            let point = ControlPoint::new(k.into(), 0.0, 0.0, 0.25);
+            if usize::from(k) <= last_round { point } else { point.flattened(0.5, 0.125) }
+        });
+        let mut yarns = Yarns::builder();
+        yarns.yarn(Yarn::default(), &points.collect::<Vec<_>>());
+        let yarns = yarns.build().unwrap();
+        let rings = |device: &dyn texere_core::Backend| {
+            ring_bits(&Pipeline::new(&yarns).subdivisions(1).trajectory(device).unwrap().rings)
+        };
+        let gold = rings(&SerialBackend::new());
+        for device in ParallelBackend::each() {
+            assert!(gold == rings(&device), "round up to point {last_round}");
         }
     }
 }

@@ -92,22 +92,44 @@ impl Executor for Parallel {
 struct Maker<'a> {
     work: &'a Work,
     seats: Vec<Seats>,
+    /// One for each section.
+    surfaces: Vec<Surface<'a>>,
 }
 
 impl<'a> Maker<'a> {
     fn new(work: &'a Work) -> Self {
-        Self { work, seats: Seats::at_each_place(&work.plan) }
+        let plan = &work.plan;
+        let sections = 0..plan.layout().sections().len();
+        let surfaces = sections.map(|section| Surface::new(plan.outline(section))).collect();
+        Self { work, seats: Seats::at_each_place(plan), surfaces }
     }
 
     /// Calls `take` with the rings of `blocks`, which are one yarn's and follow each other, the first of them number `number`
     /// among all of the plan: a vector of rings at a time, with their rolls, and how many of them there are.
     #[cfg_attr(optimized, inline(always))]
     fn rings<S: Simd>(&self, simd: S, blocks: &[Block], number: u64, sink: &mut impl Sink) {
-        let Work { plan, points, rolls } = self.work;
+        let Work { plan, points, .. } = self.work;
         let source = Source { plan, points, seats: &self.seats };
         let (yarn, first) = (blocks[0].yarn as usize, blocks[0].first_ring);
         let stretch = Stretch { yarn, first, count: blocks.iter().map(|block| block.rings).sum() };
-        let mut walk = Walk::new(simd, source, stretch);
+        if source.all_round(stretch) {
+            self.along::<S, false>(simd, source, stretch, number, sink);
+        } else {
+            self.along::<S, true>(simd, source, stretch, number, sink);
+        }
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn along<S: Simd, const FLATTENED: bool>(
+        &self,
+        simd: S,
+        source: Source<'_>,
+        stretch: Stretch,
+        number: u64,
+        sink: &mut impl Sink,
+    ) {
+        let (Work { plan, rolls, .. }, Stretch { yarn, first, .. }) = (self.work, stretch);
+        let mut walk = Walk::<S, FLATTENED>::new(simd, source, stretch);
         if plan.settings().frame.is_level(plan.twist_turns(yarn)) {
             while let count @ 1.. = walk.left() {
                 sink.take(simd, &walk.next(), simd.splat_integer(0), count);
@@ -197,7 +219,7 @@ impl Job for MeshJob<'_> {
                 IndexLines::new(own, streams, table, blocks[0].first_vertex)
             });
             let section = plan.yarn(blocks[0].yarn as usize).section as usize;
-            let surface = Surface::new(plan.outline(section));
+            let surface = maker.surfaces[section];
             let mut sink = MeshSink { surface, floats, vertices, indices };
             maker.rings(simd, blocks, number, &mut sink);
             match sink.vertices {

@@ -7,7 +7,7 @@
 use texere_core::{Basis, ControlPoint, PaddedPoints, Plan, Ring, VERTICAL};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
-use super::spline::{Cubics, Seats};
+use super::spline::{Cubics, Seats, all_round};
 
 /// What rings are made from.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +24,16 @@ impl<'a> Source<'a> {
     pub(super) fn yarn(&self, yarn: usize) -> &'a [[f32; 4]] {
         let points = &self.points.points()[self.plan.padded_offsets()[yarn] as usize..];
         bytemuck::cast_slice::<ControlPoint, _>(points)
+    }
+
+    /// Whether no ring of `stretch` can be flattened.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn all_round(&self, stretch: Stretch) -> bool {
+        let (points, per_interval) = (self.yarn(stretch.yarn), self.seats.len());
+        let first = stretch.first as usize / per_interval;
+        // The last ring's interval, and the three points after it; an open yarn's last ring has no interval of its own.
+        let end = (stretch.first + stretch.count - 1) as usize / per_interval + 4;
+        all_round(&points[first..end.min(points.len())])
     }
 }
 
@@ -44,7 +54,7 @@ pub(super) struct Rings<S: Simd> {
     pub(super) tangent: [S::Floats; 3],
     pub(super) width_growth: S::Floats,
     pub(super) height_growth: S::Floats,
-    /// Whether any of them may be flattened.
+    /// Whether any of them may be flattened: the same for all of a walk.
     pub(super) flattened: bool,
     /// The frame that the section stands in: turned by the roll where the yarn is round, upright where it is flattened.
     pub(super) side: [S::Floats; 3],
@@ -58,9 +68,9 @@ pub(super) struct Rings<S: Simd> {
     pub(super) t: S::Floats,
 }
 
-/// Goes along a stretch, a vector of upright rings at a time.
+/// Goes along a stretch, a vector of upright rings at a time. Without `FLATTENED` all are taken for round.
 #[derive(Debug)]
-pub(super) struct Walk<'a, S: Simd> {
+pub(super) struct Walk<'a, S: Simd, const FLATTENED: bool> {
     simd: S,
     source: Source<'a>,
     stretch: Stretch,
@@ -76,7 +86,7 @@ pub(super) struct Walk<'a, S: Simd> {
     first_cubic: usize,
 }
 
-impl<'a, S: Simd> Walk<'a, S> {
+impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(simd: S, source: Source<'a>, stretch: Stretch) -> Self {
         let Source { plan, seats, .. } = source;
@@ -92,7 +102,7 @@ impl<'a, S: Simd> Walk<'a, S> {
             interval,
             place: stretch.first as usize % per_interval,
             stride: (S::LANES / per_interval, S::LANES % per_interval),
-            cubics: Cubics::new(simd, points, interval, plan.sampling().s()),
+            cubics: Cubics::new::<FLATTENED>(simd, points, interval, plan.sampling().s()),
             first_cubic: interval,
         }
     }
@@ -110,12 +120,12 @@ impl<'a, S: Simd> Walk<'a, S> {
         let seats = &at_place[self.place];
         if self.interval + seats.interval[S::LANES - 1] as usize >= self.first_cubic + S::LANES {
             self.first_cubic = self.interval;
-            self.cubics = Cubics::new(simd, self.points, self.interval, plan.sampling().s());
+            self.cubics = Cubics::new::<FLATTENED>(simd, self.points, self.interval, plan.sampling().s());
         }
         let behind = simd.splat_integer((self.interval - self.first_cubic) as u32);
         let interval = simd.load_integers(&seats.interval) + behind;
         let t = simd.load(&seats.t);
-        let (mut rings, rare) = upright(simd, &self.cubics, interval, t);
+        let (mut rings, rare) = upright::<S, FLATTENED>(simd, &self.cubics, interval, t);
         if rare != 0 || self.stretch.count - self.done <= S::LANES as u32 {
             rings = self.mended(rings, rare);
         }
@@ -222,7 +232,12 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
 /// Upright rings at `t` of each lane's interval, which is number `interval` of `cubics`, and a bit for each that the core
 /// has to mend.
 #[cfg_attr(optimized, inline(always))]
-fn upright<S: Simd>(simd: S, cubics: &Cubics<S>, interval: S::Integers, t: S::Floats) -> (Rings<S>, u32) {
+fn upright<S: Simd, const FLATTENED: bool>(
+    simd: S,
+    cubics: &Cubics<S>,
+    interval: S::Integers,
+    t: S::Floats,
+) -> (Rings<S>, u32) {
     let (one, zero) = (simd.splat(1.0), simd.splat(0.0));
     let sampled = cubics.sample(simd, interval, t);
     let (offset, velocity) = (sampled.offset, sampled.velocity);
@@ -232,9 +247,10 @@ fn upright<S: Simd>(simd: S, cubics: &Cubics<S>, interval: S::Integers, t: S::Fl
     let inverse = one / speed_squared.sqrt();
     let tangent = scale(velocity, inverse);
     let (half_width, width_growth) = cubics.half_width.sample(simd, interval, t, inverse);
-    let (half_height, height_growth) = match &cubics.half_height {
-        Some(sizes) => sizes.sample(simd, interval, t, inverse),
-        None => (half_width, width_growth),
+    let (half_height, height_growth) = if FLATTENED {
+        cubics.half_height.sample(simd, interval, t, inverse)
+    } else {
+        (half_width, width_growth)
     };
 
     let [x, y, z] = tangent;
@@ -249,7 +265,7 @@ fn upright<S: Simd>(simd: S, cubics: &Cubics<S>, interval: S::Integers, t: S::Fl
         tangent,
         width_growth,
         height_growth,
-        flattened: cubics.half_height.is_some(),
+        flattened: FLATTENED,
         side: [side_x, side_y, zero],
         up: [-z * side_y, z * side_x, x * side_y - y * side_x],
         roll: None,

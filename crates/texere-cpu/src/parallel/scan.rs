@@ -109,7 +109,8 @@ impl Job for ScanRun<'_> {
 /// Adds up the steps between the rings of `stretch`: `rings`, and perhaps the one after them.
 #[cfg_attr(optimized, inline(always))]
 fn sums<S: Simd>(simd: S, source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], rings: &mut [Turn]) {
-    let mut walk = Walk::new(simd, source, stretch);
+    // Rolls do not depend on sizes.
+    let mut walk = Walk::<S, false>::new(simd, source, stretch);
     let mut steps = Steps::new(simd, &source, stretch.yarn);
     for (number, rings) in rings.chunks_mut(BLOCK_RINGS as usize).enumerate() {
         let mut sum = simd.splat_integer(0);

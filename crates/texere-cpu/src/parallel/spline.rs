@@ -36,8 +36,7 @@ pub(super) struct Cubics<S: Simd> {
     /// A squared velocity that counts as none.
     at_rest: S::Floats,
     pub(super) half_width: Sizes<S>,
-    /// None where all points are round, so that half heights are half widths.
-    pub(super) half_height: Option<Sizes<S>>,
+    pub(super) half_height: Sizes<S>,
 }
 
 /// The positions of rings, a ring in each lane, at its own parameter.
@@ -52,9 +51,10 @@ pub(super) struct Sampled<S: Simd> {
 }
 
 impl<S: Simd> Cubics<S> {
-    /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on.
+    /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on. Without
+    /// `FLATTENED` half heights are half widths.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn new(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> Self {
+    pub(super) fn new<const FLATTENED: bool>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> Self {
         let points = neighbours(simd, points, first);
         let [before, start, end, after] = [xyz(points[0]), xyz(points[1]), xyz(points[2]), xyz(points[3])];
         let (a, b, c) = (difference(before, start), difference(end, start), difference(after, start));
@@ -65,16 +65,15 @@ impl<S: Simd> Cubics<S> {
         }
         let sizes =
             [points[0][3].to_bits(), points[1][3].to_bits(), points[2][3].to_bits(), points[3][3].to_bits()];
-        // The first points and the last ones are all that there are.
-        let all_round = round(sizes[0]) & round(sizes[3]) == S::ALL;
+        let half_width = Sizes::new(simd, sizes, s);
         Self {
             start,
             span: b,
             terms,
             at_rest: (simd.splat(ZERO_VELOCITY) * (dot(a, a) + dot(b, b) + dot(c, c)))
                 .max(simd.splat(NO_LENGTH)),
-            half_width: Sizes::new(simd, sizes, s),
-            half_height: if all_round { None } else { Some(Sizes::new(simd, high_halves(sizes), s)) },
+            half_width,
+            half_height: if FLATTENED { Sizes::new(simd, high_halves(sizes), s) } else { half_width },
         }
     }
 
@@ -155,13 +154,6 @@ fn cubic<S: Simd>(
     (value, c1 + (c2 * simd.splat(2.0) + c3 * (simd.splat(3.0) * t)) * t)
 }
 
-/// A bit for each lane whose two half floats are the same.
-#[cfg_attr(optimized, inline(always))]
-fn round<I: Integers<Mask: Mask, Floats: Floats<Mask = I::Mask>>>(sizes: I) -> u32 {
-    let difference = sizes.shift_right::<16>() - sizes.shift_left::<16>().shift_right::<16>();
-    difference.signed_to_floats().is_zero().bits()
-}
-
 /// The high 16 bits of each lane.
 #[cfg_attr(optimized, inline(always))]
 fn high_halves<I: Integers>([before, start, end, after]: [I; 4]) -> [I; 4] {
@@ -188,6 +180,16 @@ fn from_half<S: Simd>(simd: S, half: S::Integers) -> S::Floats {
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn xyz<F: Floats>([x, y, z, _]: [F; 4]) -> [F; 3] {
     [x, y, z]
+}
+
+/// Whether none of `points` is flattened.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn all_round(points: &[[f32; 4]]) -> bool {
+    let mut apart = 0;
+    for [_, _, _, sizes] in points {
+        apart |= sizes.to_bits() ^ sizes.to_bits().rotate_left(16);
+    }
+    apart == 0
 }
 
 /// The points from number `first` on, one in each lane, and those from the next three numbers on.

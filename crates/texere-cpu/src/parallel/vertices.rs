@@ -17,15 +17,18 @@ pub(super) struct Surface<'a> {
     outline: &'a [SectionPoint],
     /// Whether each normal is its point, as on a circle.
     round: bool,
-    /// Whether a turn by zero leaves each point as it is: it may change the sign of a zero.
+    /// Whether a turn by zero leaves all points as they are: it can change the sign of a zero.
     still: bool,
 }
 
 impl<'a> Surface<'a> {
     pub(super) fn new(outline: &'a [SectionPoint]) -> Self {
         let round = outline.iter().all(|point| [point.x, point.y] == [point.normal_x, point.normal_y]);
-        let negative_zero = |value: &f32| value.to_bits() == (-0.0f32).to_bits();
-        let still = !bytemuck::cast_slice(outline).iter().any(negative_zero);
+        let stays = |x: f32, y: f32| {
+            let turned = [1.0 * x - 0.0 * y, 0.0 * x + 1.0 * y];
+            turned.map(f32::to_bits) == [x, y].map(f32::to_bits)
+        };
+        let still = outline.iter().all(|p| stays(p.x, p.y) && stays(p.normal_x, p.normal_y));
         Self { outline, round, still }
     }
 
@@ -33,9 +36,8 @@ impl<'a> Surface<'a> {
     /// [`TileLines`](super::tiles::TileLines) wants.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn write<S: Simd, const COLUMNS: bool>(&self, simd: S, rings: &Rings<S>, out: &mut [f32]) {
-        let round = if rings.flattened { rings.round().bits() } else { S::ALL };
-        if round != S::ALL {
-            if round != 0 || !(self.still || rings.roll.is_some()) {
+        if rings.flattened {
+            if rings.round().bits() != 0 || !(self.still || rings.roll.is_some()) {
                 vertices::<S, MIXED, COLUMNS>(simd, rings, self.outline, out);
             } else if rings.roll.is_some() {
                 vertices::<S, TURNED, COLUMNS>(simd, rings, self.outline, out);
@@ -65,7 +67,7 @@ const ROUND: u8 = 2;
 const FLATTENED: u8 = 3;
 /// The section is turned.
 const TURNED: u8 = 4;
-/// Some of the rings are round.
+/// Some of the rings are round, or all of them.
 const MIXED: u8 = 5;
 
 #[cfg_attr(optimized, inline(always))]

@@ -84,12 +84,33 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     opencl("kernels/src/mesh.cl", "mesh_odd", "share.across = min(stores, lanes);", "share.across = stores;"),
     // Caps look inwards.
     opencl("kernels/src/caps.cl", "caps", "cap.end == 0u ? -1.0f : 1.0f", "cap.end == 0u ? 1.0f : -1.0f"),
-    // Radii grow, but normals don't tilt.
+    // The width grows, normals don't lean.
     opencl(
         "kernels/src/per_yarn.cl",
         "trajectory_per_yarn",
-        "slopes[at] = sample.slope;",
-        "slopes[at] = 0.0f;",
+        "(float4)(sample.half_height, sample.width_growth, sample.height_growth, 0.0f)",
+        "(float4)(sample.half_height, 0.0f, sample.height_growth, 0.0f)",
+    ),
+    // A flattened yarn's section does not turn.
+    opencl(
+        "kernels/src/common.cl",
+        "stance_new",
+        "        stance.sin_cos = turn_sin_cos(roll);",
+        "        stance.sin_cos = turn_sin_cos(0u);",
+    ),
+    // A flattened section's normals are stretched as its points are.
+    wgpu(
+        "shaders/src/common.wgsl",
+        "normal_at",
+        "(stance.sin_cos.y * point.z - stance.sin_cos.x * point.w) * stance.half_height;",
+        "(stance.sin_cos.y * point.z - stance.sin_cos.x * point.w) * stance.centre.w;",
+    ),
+    // Heights are held at the least half width.
+    wgpu(
+        "shaders/src/common.wgsl",
+        "segment_sample",
+        "segment.height.yzw, segment.floors.y, t, inverse);",
+        "segment.height.yzw, segment.floors.x, t, inverse);",
     ),
     // The last quads of each part are missing.
     opencl("kernels/src/per_yarn.cl", "mesh_per_yarn", "ring < part.quads", "ring + 1u < part.quads"),

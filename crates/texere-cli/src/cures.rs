@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use serde::Serialize;
-use texere::{Cure, FaultKind, JamReport, Relief, Remedy, Section, Shape};
+use texere::{Cure, FaultKind, JamReport, Relief, Remedy, Shape};
 
 /// Spacings and diameters that a design file may have, mm.
 const LENGTHS_MM: RangeInclusive<f64> = 0.001..=1000.0;
@@ -57,14 +57,12 @@ fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
             let value = if *relief == Relief::Shrink { "\"shrink\"" } else { "\"flatten\"" };
             ("cloth.jam", value.into(), relieved(report, *thickest_mm))
         }
-        Remedy::Section(Section::Circle) => {
+        Remedy::Circle => {
             ("section of every yarn", "{ shape = \"circle\" }".into(), "round yarns of the same area".into())
         }
-        Remedy::Section(Section::Ellipse { aspect }) => (
-            "section of every yarn",
-            format!("{{ shape = \"ellipse\", aspect = {aspect} }}"),
-            "flatter yarns of the same area".into(),
-        ),
+        Remedy::Flatness(flatness) => {
+            ("flatness of every yarn", flatness.to_string(), "flatter yarns of the same area".into())
+        }
         Remedy::Spacing { spacing_mm, factor } if spacing_mm.iter().all(|mm| LENGTHS_MM.contains(mm)) => {
             let ([warp, weft], [ends, picks]) = (*spacing_mm, spacing_mm.map(|mm| 10.0 / mm));
             (

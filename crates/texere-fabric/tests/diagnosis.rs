@@ -81,7 +81,8 @@ fn each_cure_leaves_what_it_says() {
         match &cure.remedy {
             Remedy::Spacing { spacing_mm, .. } => changed = cloth("3/1", *spacing_mm),
             Remedy::Relief { relief, .. } => drop(changed.relieve(*relief).unwrap()),
-            Remedy::Section(section) => changed.set_section(section.clone()).unwrap(),
+            Remedy::Circle => changed.set_section(Section::Circle).unwrap(),
+            Remedy::Flatness(flatness) => changed.set_flatness(*flatness).unwrap(),
             _ => continue,
         }
         assert_eq!(diagnose(&changed).faults.kinds(), cure.leaves, "{:?}", cure.remedy);

@@ -15,8 +15,8 @@ const AROUND: usize = 12;
 const WIDER: f64 = 1.05;
 const WIDER_TIMES: i32 = 22;
 
-/// Widths over heights that are tried: what real yarns are pressed to, and ribbons.
-const ASPECTS: [f32; 7] = [1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0];
+/// Flatnesses of all yarns that are tried.
+const FLATNESSES: [f32; 7] = [1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0];
 
 /// Shares of the crimp that are tried: [`Woven::relieve`] goes no further either.
 const SHARES: Range<u8> = 4..17;
@@ -57,8 +57,10 @@ pub enum Remedy {
         /// Diameter of the thickest thread before and after, mm.
         thickest_mm: [f64; 2],
     },
-    /// One section for all threads, as by [`Woven::set_section`].
-    Section(Section),
+    /// Circular sections for all threads, as by [`Woven::set_section`].
+    Circle,
+    /// All threads flattened alike, as by [`Woven::set_flatness`]: width over height.
+    Flatness(f32),
     /// All threads further apart.
     Spacing {
         /// Mean spacing of ends and of picks, mm.
@@ -105,7 +107,7 @@ impl WovenDesign {
             &|| trial.round().into_iter().collect(),
             &|| trial.share().into_iter().collect(),
             &|| relief(Relief::Flatten).into_iter().collect(),
-            &|| trial.section().into_iter().collect(),
+            &|| trial.flatter().into_iter().collect(),
             &|| trial.room(),
             &|| relief(Relief::Shrink).into_iter().collect(),
         ];
@@ -223,17 +225,17 @@ impl Trial<'_> {
         Some(self.better(&changed)?.by(Remedy::Relief { relief, report, thickest_mm }))
     }
 
-    /// The roundest section for all yarns that cures: flatter ones where all are round, else round ones.
-    fn section(&self) -> Option<Cure> {
-        let with = |section: Section| {
-            let mut changed = self.cloth.clone();
-            changed.set_section(section.clone()).ok()?;
-            Some(self.clean(&changed)?.by(Remedy::Section(section)))
-        };
+    /// Circular sections where there are others, else the least flatness of all yarns that cures.
+    fn flatter(&self) -> Option<Cure> {
+        let mut changed = self.cloth.clone();
         if self.cloth.sections().iter().any(|section| *section != Section::Circle) {
-            return with(Section::Circle);
+            changed.set_section(Section::Circle).ok()?;
+            return Some(self.clean(&changed)?.by(Remedy::Circle));
         }
-        ASPECTS.into_iter().find_map(|aspect| with(Section::Ellipse { aspect }))
+        FLATNESSES.into_iter().find_map(|flatness| {
+            changed.set_flatness(flatness).ok()?;
+            Some(self.clean(&changed)?.by(Remedy::Flatness(flatness)))
+        })
     }
 
     /// The least spacing of all threads that cures; and the greatest diameters, which are the same cloth in small.

@@ -172,6 +172,21 @@ impl Woven {
         &self.sections
     }
 
+    /// Flattens all threads alike: width over height of each, with its area.
+    ///
+    /// **Errors**: [`FabricError::Flatness`] outside \[[`FLATNESS_MIN`], [`FLATNESS_MAX`]\], and [`FabricError::Half`] for a thread
+    /// that would be too thin or too wide; the cloth is then as it was.
+    pub fn set_flatness(&mut self, flatness: f32) -> Result<(), FabricError> {
+        let mut changed = self.clone();
+        for thread in changed.warp.iter_mut().chain(&mut changed.weft) {
+            thread.flatness = flatness;
+        }
+        changed.check_threads(&changed.warp, Origin::End)?;
+        changed.check_threads(&changed.weft, Origin::Pick)?;
+        *self = changed;
+        Ok(())
+    }
+
     /// Gives all threads one section.
     ///
     /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.

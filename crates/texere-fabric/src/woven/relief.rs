@@ -115,7 +115,7 @@ impl Woven {
     /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least one: only there the
     /// spline keeps the threads clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
     ///
-    /// **Errors**: [`FabricError::Radius`] where a thread would have to be thinner than [`RADIUS_MIN`]; the cloth is
+    /// **Errors**: [`FabricError::Radius`] or [`FabricError::Half`] where a thread would have to be thinner than [`RADIUS_MIN`]; the cloth is
     /// then as it was.
     ///
     /// ```
@@ -184,11 +184,17 @@ impl Woven {
     }
 
     fn apply(&mut self, change: Change, scaled: f32) -> Result<(), FabricError> {
-        let ends = (1..).map(Origin::End).zip(&self.warp);
-        for (thread, each) in ends.chain((1..).map(Origin::Pick).zip(&self.weft)) {
+        let ends = (1..).map(Origin::End).zip(&self.warp).map(|thread| (thread, change.widened[0]));
+        let picks = (1..).map(Origin::Pick).zip(&self.weft).map(|thread| (thread, change.widened[1]));
+        let (low, high) = (RADIUS_MIN, RADIUS_MAX);
+        for ((thread, each), wider) in ends.chain(picks) {
             let radius_mm = each.radius_mm * scaled;
             if radius_mm < RADIUS_MIN {
-                return Err(FabricError::Radius { thread, radius_mm, low: RADIUS_MIN, high: RADIUS_MAX });
+                return Err(FabricError::Radius { thread, radius_mm, low, high });
+            }
+            let half_mm = each.halves_mm()[1] * scaled / wider;
+            if half_mm < RADIUS_MIN {
+                return Err(FabricError::Half { thread, side: "height", half_mm, low, high });
             }
         }
         if change.share != self.warp_share() {

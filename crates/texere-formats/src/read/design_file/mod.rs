@@ -17,6 +17,7 @@
 //! tex = 60.0                      # or diameter_mm
 //! color = "#26406e"
 //! section = { shape = "ellipse", aspect = 1.4 }
+//! flatness = 1.8                  # width over height in the cloth
 //! twist_per_m = 550.0             # turns per metre; Z is positive, S negative
 //!
 //! [yarns.ecru]

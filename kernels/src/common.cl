@@ -392,28 +392,34 @@ typedef struct {
 // What says that a yarn is round, in the place of its half height.
 #define IS_ROUND -1.0f
 
-// `side` is as `side_of` gives it.
-Stance stance_new(float4 centre, float4 tangent, float4 side, float height_growth, uint roll) {
+// `side` is as `side_of` gives it, with the half height as `height_of` does.
+Stance stance_round(float4 centre, float4 tangent, float4 side) {
     Stance stance;
     stance.centre = centre;
     stance.tangent = tangent;
     stance.half_height = side.w;
-    stance.height_growth = height_growth;
+    stance.height_growth = 0.0f;
     stance.side = side.xyz;
     stance.up = up_of(tangent.xyz, side.xyz);
     stance.sin_cos = (float2)(0.0f, 1.0f);
-    if (side.w >= 0.0f) {
-        stance.sin_cos = turn_sin_cos(roll);
-    }
     return stance;
 }
 
-// The side that a stance takes, and the half height, or that the yarn is round.
-float4 side_of(const Sample *sample, uint roll) {
-    if (sample->half_width == sample->half_height && sample->width_growth == sample->height_growth) {
-        return (float4)(side_standing(sample->tangent, roll), IS_ROUND);
-    }
-    return (float4)(basis_upright(sample->tangent).side, sample->half_height);
+// Adds what only a flattened yarn needs.
+void stance_flatten(Stance *stance, float height_growth, uint roll) {
+    stance->height_growth = height_growth;
+    stance->sin_cos = turn_sin_cos(roll);
+}
+
+// The half height at a sample, or that the yarn is round there.
+float height_of(const Sample *sample) {
+    bool is_round = sample->half_width == sample->half_height && sample->width_growth == sample->height_growth;
+    return is_round ? IS_ROUND : sample->half_height;
+}
+
+// The side that a stance takes: a flattened yarn's does not turn.
+float3 side_of(float3 tangent, float half_height, uint roll) {
+    return side_standing(tangent, half_height < 0.0f ? roll : 0u);
 }
 
 // Where the vertex at `point` of a section lies.

@@ -105,6 +105,8 @@ mod tests {
     fn no_function_of_lower_accuracy_is_called() {
         for program in [PER_RING, PER_YARN] {
             let source = program.sources.concat();
+            // Half widths and half heights are no functions.
+            let source = source.replace("half_width", "").replace("half_height", "");
             for word in ["native_", "half_", "fast_", "mad("] {
                 assert!(!source.contains(word), "{word} in {}", program.name);
             }

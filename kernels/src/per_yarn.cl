@@ -53,7 +53,11 @@ Stance stance_at(__global const uint4 *ring) {
     sample.half_height = size.x;
     sample.width_growth = size.y;
     sample.height_growth = size.z;
-    return stance_new(centre, (float4)(tangent.xyz, size.y), side_of(&sample, 0u), size.z, 0u);
+    float half_height = height_of(&sample);
+    float4 side = (float4)(side_of(tangent.xyz, half_height, 0u), half_height);
+    Stance stance = stance_round(centre, (float4)(tangent.xyz, size.y), side);
+    stance_flatten(&stance, size.z, 0u);
+    return stance;
 }
 
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.

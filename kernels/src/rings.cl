@@ -9,7 +9,7 @@ typedef struct {
     float4 centre[BLOCK_RINGS];
     // Unit tangent, growth of the half width.
     float4 tangent[BLOCK_RINGS];
-    // As `side_of` gives it.
+    // As `side_of` gives it, and the half height as `height_of` does.
     float4 side[BLOCK_RINGS];
     float height_growth[BLOCK_RINGS];
     uint roll[BLOCK_RINGS];
@@ -26,9 +26,12 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
     uint roll = 0u;
     if (lane < block->rings) {
         here = ring_sample(points, params, yarn, block, lane);
+        // Stored at once, so that fewer registers are taken until the roll is known.
+        rings->centre[lane] = (float4)(here.sample.centre, here.sample.half_width);
         rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.width_growth);
+        rings->height_growth[lane] = here.sample.height_growth;
         // The step from the ring before wants the offset; the side takes its place afterwards.
-        rings->side[lane] = (float4)(here.sample.offset, 0.0f);
+        rings->side[lane] = (float4)(here.sample.offset, height_of(&here.sample));
     }
     if (params->rolled != 0u) {
         barrier(CLK_LOCAL_MEM_FENCE);
@@ -61,9 +64,9 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
         }
     }
     if (lane < block->rings) {
-        rings->centre[lane] = (float4)(here.sample.centre, here.sample.half_width);
-        rings->side[lane] = side_of(&here.sample, roll);
-        rings->height_growth[lane] = here.sample.height_growth;
+        float half_height = rings->side[lane].w;
+        float3 side = side_of(rings->tangent[lane].xyz, half_height, roll);
+        rings->side[lane] = (float4)(side, half_height);
         rings->roll[lane] = roll;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -71,6 +74,10 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
 
 // How a section stands on ring `ring`.
 Stance stance_of(__local const BlockRings *rings, uint ring) {
-    return stance_new(rings->centre[ring], rings->tangent[ring], rings->side[ring], rings->height_growth[ring],
-                      rings->roll[ring]);
+    float4 side = rings->side[ring];
+    Stance stance = stance_round(rings->centre[ring], rings->tangent[ring], side);
+    if (side.w >= 0.0f) {
+        stance_flatten(&stance, rings->height_growth[ring], rings->roll[ring]);
+    }
+    return stance;
 }

@@ -391,28 +391,34 @@ struct Stance {
 // What says that a yarn is round, in the place of its half height.
 const IS_ROUND = -1.0;
 
-// `side` is as `side_of` gives it.
-fn stance_new(centre: vec4<f32>, tangent: vec4<f32>, side: vec4<f32>, height_growth: f32, roll: u32) -> Stance {
+// `side` is as `side_of` gives it, with the half height as `height_of` does.
+fn stance_round(centre: vec4<f32>, tangent: vec4<f32>, side: vec4<f32>) -> Stance {
     var stance: Stance;
     stance.centre = centre;
     stance.tangent = tangent;
     stance.half_height = side.w;
-    stance.height_growth = height_growth;
+    stance.height_growth = 0.0;
     stance.side = side.xyz;
     stance.up = up_of(tangent.xyz, side.xyz);
     stance.sin_cos = vec2(0.0, 1.0);
-    if side.w >= 0.0 {
-        stance.sin_cos = turn_sin_cos(roll);
-    }
     return stance;
 }
 
-// The side that a stance takes, and the half height, or that the yarn is round.
-fn side_of(sample: Sample, roll: u32) -> vec4<f32> {
-    if sample.half_width == sample.half_height && sample.width_growth == sample.height_growth {
-        return vec4(side_standing(sample.tangent, roll), IS_ROUND);
-    }
-    return vec4(basis_upright(sample.tangent).side, sample.half_height);
+// Adds what only a flattened yarn needs.
+fn stance_flatten(stance: ptr<function, Stance>, height_growth: f32, roll: u32) {
+    (*stance).height_growth = height_growth;
+    (*stance).sin_cos = turn_sin_cos(roll);
+}
+
+// The half height at a sample, or that the yarn is round there.
+fn height_of(sample: Sample) -> f32 {
+    let is_round = sample.half_width == sample.half_height && sample.width_growth == sample.height_growth;
+    return select(sample.half_height, IS_ROUND, is_round);
+}
+
+// The side that a stance takes: a flattened yarn's does not turn.
+fn side_of(tangent: vec3<f32>, half_height: f32, roll: u32) -> vec3<f32> {
+    return side_standing(tangent, select(0u, roll, half_height < 0.0));
 }
 
 // Where the vertex at `point` of a section lies.

@@ -64,7 +64,11 @@ fn stance_at(at: u32) -> Stance {
     sample.half_height = size.x;
     sample.width_growth = size.y;
     sample.height_growth = size.z;
-    return stance_new(centre, vec4(sample.tangent, size.y), side_of(sample, 0u), size.z, 0u);
+    let half_height = height_of(sample);
+    let side = vec4(side_of(sample.tangent, half_height, 0u), half_height);
+    var stance = stance_round(centre, vec4(sample.tangent, size.y), side);
+    stance_flatten(&stance, size.z, 0u);
+    return stance;
 }
 
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.

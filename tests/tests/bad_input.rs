@@ -274,11 +274,16 @@ fn the_edges_of_what_is_taken() {
     let line = |points: &[(f32, f32)]| -> Vec<ControlPoint> {
         points.iter().map(|&(at, radius)| ControlPoint::new(at, -at, at, radius)).collect()
     };
-    let vast = line(&[(1e9, 1e6), (-1e9, 1e6), (1e9, 1e-6), (1e9, 1e6), (-1e9, 1e6)]);
-    let tiny = line(&[(0.0, 1e-6), (1e-30, 1e-6), (1e-20, 1e-6), (1.0, 1e-6)]);
-    // A cliff: dr/ds of 1e21, whose square f32 can't hold.
-    let steep = line(&[(0.0, 1e-6), (1e-15, 1e6), (2e-15, 1e-6), (3e-15, 1e6)]);
-    for points in [vast, tiny, steep] {
+    let vast = line(&[(1e9, 3e4), (-1e9, 3e4), (1e9, 1e-4), (1e9, 3e4), (-1e9, 3e4)]);
+    let tiny = line(&[(0.0, 1e-4), (1e-30, 1e-4), (1e-20, 1e-4), (1.0, 1e-4)]);
+    // A cliff: a growth of 1e19, whose square f32 can't hold.
+    let steep = line(&[(0.0, 1e-4), (1e-15, 3e4), (2e-15, 1e-4), (3e-15, 3e4)]);
+    // As flat as can be, and on edge.
+    let flat = |points: &[ControlPoint], height: f32| -> Vec<ControlPoint> {
+        points.iter().map(|point| point.flattened(point.half_width(), height)).collect()
+    };
+    let flattened = [&vast, &tiny, &steep].map(|points| [flat(points, 1e-4), flat(points, 3e4)]);
+    for points in [vast, tiny, steep].into_iter().chain(flattened.into_iter().flatten()) {
         for twist in [1e3, -1e3] {
             let yarns = one_yarn(Yarn { twist, ..Yarn::default() }, &points).unwrap();
             let settings = Settings {

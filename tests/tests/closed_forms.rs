@@ -161,3 +161,86 @@ fn a_rotation_minimising_frame_unwinds_the_torsion_of_a_helix() {
         }
     }
 }
+
+/// A yarn along `at` with these half widths and half heights at its points.
+fn flattened_yarn(
+    closed: bool,
+    count: u32,
+    at: impl Fn(f64) -> DVec3,
+    halves: impl Fn(f64) -> [f64; 2],
+) -> Yarns {
+    let point = |k| {
+        let (at, [width, height]) = (at(f64::from(k)).as_vec3(), halves(f64::from(k)));
+        ControlPoint::new(at.x, at.y, at.z, 0.5).flattened(width as f32, height as f32)
+    };
+    let points: Vec<_> = (0..count).map(point).collect();
+    let mut yarns = Yarns::builder();
+    yarns.yarn(Yarn { closed, ..Yarn::default() }, &points);
+    yarns.build().unwrap()
+}
+
+/// How far a half float may be off, in shares of it, and the spline between two of them.
+const HALF_FLOAT: f64 = 1e-3;
+
+/// Round a level circle of radius R the upright side points at the middle and the up along z. So with half width a and half
+/// height b the surface is ((ρ - R)/a)² + (z/b)² = 1 at each angle, ρ being the distance from the axis, and the normal has the
+/// direction of that function's gradient, where a and b grow by so much along the yarn's own arc.
+#[test]
+fn a_flattened_circle_makes_a_torus_of_ellipses() {
+    let turned = |k: f64| TAU * k / f64::from(POINTS);
+    let halves = |k: f64| [0.6 + 0.15 * turned(k).cos(), 0.3 + 0.08 * (2.0 * turned(k)).sin()];
+    let growths = |k: f64| [-0.15 * turned(k).sin() / AROUND, 0.16 * (2.0 * turned(k)).cos() / AROUND];
+    let yarns =
+        flattened_yarn(true, POINTS, |k| DVec3::new(turned(k).cos(), turned(k).sin(), 0.0) * AROUND, halves);
+    for (who, rings, _) in tubes(&yarns, Settings { subdivisions: 5, ..Settings::default() }) {
+        for (number, ring) in rings.iter().enumerate() {
+            let k = number as f64 / 6.0;
+            let (outward, along) = (
+                DVec3::new(turned(k).cos(), turned(k).sin(), 0.0),
+                DVec3::new(-turned(k).sin(), turned(k).cos(), 0.0),
+            );
+            let ([a, b], [a_growth, b_growth]) = (halves(k), growths(k));
+            for (vertex, normal) in &ring.vertices {
+                let (x, y) = ((vertex.dot(outward) - AROUND) / a, vertex.z / b);
+                let off = x.hypot(y) - 1.0;
+                let place = format!("{who}, ring {number}");
+                assert!(off.abs() < 2.0 * HALF_FLOAT, "{place}: {off} off the torus");
+                let gradient = outward * (x / a) + DVec3::Z * (y / b)
+                    - along * (x * x * a_growth / a + y * y * b_growth / b);
+                let away = (gradient.normalize() - *normal).length();
+                // A spline's derivative is less near than the spline.
+                assert!(away < 6.0 * HALF_FLOAT, "{place}: {normal} is {away} off the gradient");
+            }
+        }
+    }
+}
+
+/// Along a helix about z the upright side points at the axis, and the up at right angles to it and to the tangent.
+#[test]
+fn a_flattened_helix_has_an_ellipse_in_each_of_its_normal_planes() {
+    let (out, rise, per_turn) = (2.0, 0.6, 48.0);
+    let turned = |k: f64| TAU * k / per_turn;
+    let halves = |k: f64| [0.5 + 0.1 * (1.5 * turned(k)).sin(), 0.25 + 0.05 * turned(k).cos()];
+    let yarns = flattened_yarn(
+        false,
+        120,
+        |k| DVec3::new(out * turned(k).cos(), out * turned(k).sin(), rise * turned(k)),
+        halves,
+    );
+    for (who, rings, _) in tubes(&yarns, Settings { subdivisions: 5, ..Settings::default() }) {
+        // Off the yarn's ends, where the virtual points bend the spline away from the helix.
+        for (number, ring) in rings.iter().enumerate().take(rings.len() - 18).skip(18) {
+            let k = number as f64 / 6.0;
+            let tangent = DVec3::new(-out * turned(k).sin(), out * turned(k).cos(), rise) / out.hypot(rise);
+            let side = -DVec3::new(turned(k).cos(), turned(k).sin(), 0.0);
+            let (up, [a, b]) = (tangent.cross(side), halves(k));
+            for (vertex, _) in &ring.vertices {
+                let arm = *vertex - ring.centre;
+                let off = (arm.dot(side) / a).hypot(arm.dot(up) / b) - 1.0;
+                let place = format!("{who}, ring {number}");
+                assert!(off.abs() < 2.0 * HALF_FLOAT, "{place}: {off} off the ellipse");
+                assert!(arm.dot(tangent).abs() < HALF_FLOAT * a, "{place}: not in the normal plane");
+            }
+        }
+    }
+}

@@ -94,9 +94,9 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     // A flattened yarn's section does not turn.
     opencl(
         "kernels/src/common.cl",
-        "stance_new",
-        "        stance.sin_cos = turn_sin_cos(roll);",
-        "        stance.sin_cos = turn_sin_cos(0u);",
+        "stance_flatten",
+        "stance->sin_cos = turn_sin_cos(roll);",
+        "stance->sin_cos = turn_sin_cos(0u);",
     ),
     // A flattened section's normals are stretched as its points are.
     wgpu(

@@ -4,7 +4,7 @@
 //! branch for a rare case (a yarn at rest, a tangent along z, a yarn's last ring), the lanes only notice it, and the core's
 //! own functions are called for that ring.
 
-use texere_core::{Basis, ControlPoint, PaddedPoints, Plan, Ring, VERTICAL};
+use texere_core::{Basis, Block, ControlPoint, PaddedPoints, Plan, Ring, VERTICAL};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
 use super::spline::{Cubics, Seats, all_round};
@@ -45,22 +45,29 @@ pub(super) struct Stretch {
     pub(super) count: u32,
 }
 
-/// A vector of consecutive rings, with all that their vertices need.
+impl Stretch {
+    /// The rings of `blocks`, which are one yarn's and follow each other.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn of(blocks: &[Block]) -> Self {
+        let (yarn, first) = (blocks[0].yarn as usize, blocks[0].first_ring);
+        Self { yarn, first, count: blocks.iter().map(|block| block.rings).sum() }
+    }
+}
+
+/// A vector of consecutive rings, with all that their vertices need. Without `FLATTENED` all are taken for round.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rings<S: Simd> {
+pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) centre: [S::Floats; 3],
     pub(super) half_width: S::Floats,
     pub(super) half_height: S::Floats,
     pub(super) tangent: [S::Floats; 3],
     pub(super) width_growth: S::Floats,
     pub(super) height_growth: S::Floats,
-    /// Whether any of them may be flattened: the same for all of a walk.
-    pub(super) flattened: bool,
     /// The frame that the section stands in: turned by the roll where the yarn is round, upright where it is flattened.
     pub(super) side: [S::Floats; 3],
     pub(super) up: [S::Floats; 3],
-    /// Sine and cosine of the roll, if there are rolls.
-    pub(super) roll: Option<(S::Floats, S::Floats)>,
+    /// Sine and cosine of the roll.
+    pub(super) roll: (S::Floats, S::Floats),
     /// Centre relative to the interval's start, and the interval's end: what chords are made of.
     pub(super) offset: [S::Floats; 3],
     pub(super) span: [S::Floats; 3],
@@ -68,7 +75,7 @@ pub(super) struct Rings<S: Simd> {
     pub(super) t: S::Floats,
 }
 
-/// Goes along a stretch, a vector of upright rings at a time. Without `FLATTENED` all are taken for round.
+/// Goes along a stretch, a vector of upright rings at a time.
 #[derive(Debug)]
 pub(super) struct Walk<'a, S: Simd, const FLATTENED: bool> {
     simd: S,
@@ -115,19 +122,26 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
 
     /// The next vector of rings. Past the end of the stretch its lanes hold nothing of meaning.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn next(&mut self) -> Rings<S> {
+    pub(super) fn next(&mut self) -> Rings<S, FLATTENED> {
         let (simd, Source { plan, seats: at_place, .. }) = (self.simd, self.source);
         let seats = &at_place[self.place];
+        let last = (self.stretch.count - self.done <= S::LANES as u32)
+            .then(|| seats_at_end(plan, self.stretch, self.done, seats));
         if self.interval + seats.interval[S::LANES - 1] as usize >= self.first_cubic + S::LANES {
             self.first_cubic = self.interval;
             self.cubics = Cubics::new::<FLATTENED>(simd, self.points, self.interval, plan.sampling().s());
         }
         let behind = simd.splat_integer((self.interval - self.first_cubic) as u32);
-        let interval = simd.load_integers(&seats.interval) + behind;
-        let t = simd.load(&seats.t);
+        let (mut taken, mut first_rare) = (seats, 0);
+        if let Some((at_end, rare)) = &last {
+            (taken, first_rare) = (at_end, *rare);
+        }
+        let interval = simd.load_integers(&taken.interval) + behind;
+        let t = simd.load(&taken.t);
         let (mut rings, rare) = upright::<S, FLATTENED>(simd, &self.cubics, interval, t);
-        if rare != 0 || self.stretch.count - self.done <= S::LANES as u32 {
-            rings = self.mended(rings, rare);
+        rings.t = simd.load(&seats.t);
+        if rare | first_rare != 0 {
+            rings = self.mended(rings, rare | first_rare);
         }
 
         self.done += self.left() as u32;
@@ -141,9 +155,9 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
         rings
     }
 
-    /// Has the core make those of the next rings whose bits are set in `rare`, and an open yarn's last ring.
+    /// Has the core make those of the next rings whose bits are set in `rare`.
     #[cfg_attr(optimized, inline(always))]
-    fn mended(&self, rings: Rings<S>, rare: u32) -> Rings<S> {
+    fn mended(&self, rings: Rings<S, FLATTENED>, rare: u32) -> Rings<S, FLATTENED> {
         let mut fields = rings.fields();
         let mut lanes = Lanes([[0.0; LANES_MAX]; FIELDS]);
         for (field, lane) in fields.iter().zip(&mut lanes.0) {
@@ -167,7 +181,7 @@ const FIELDS: usize = 16;
 #[repr(align(64))]
 struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
-impl<S: Simd> Rings<S> {
+impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     /// Writes them to the first `LANES` places of a slice.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn store(&self, simd: S, roll: S::Integers, out: &mut [Ring]) {
@@ -206,6 +220,24 @@ impl<S: Simd> Rings<S> {
     }
 }
 
+/// The seats of a stretch's last rings, whose others are `seats`: an open yarn's last ring lies at the end of the interval
+/// before. There is none where that ring is a vector's first: a bit for it that the core has to mend.
+#[cold]
+#[inline(never)]
+fn seats_at_end(plan: &Plan, stretch: Stretch, done: u32, seats: &Seats) -> (Seats, u32) {
+    let mut seats = Seats { ..*seats };
+    if plan.yarn(stretch.yarn).closed || stretch.first + stretch.count < plan.rings(stretch.yarn) {
+        return (seats, 0);
+    }
+    let lane = (stretch.count - done - 1) as usize;
+    if lane == 0 {
+        return (seats, 1);
+    }
+    seats.interval[lane] -= 1;
+    seats.t[lane] = 1.0;
+    (seats, 0)
+}
+
 #[cold]
 #[inline(never)]
 fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut Lanes) {
@@ -213,7 +245,7 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
     let (yarn, rings) = (stretch.yarn, plan.rings(stretch.yarn));
     let (padded, closed) = (points.yarn(plan, yarn), plan.yarn(yarn).closed);
     for (lane, ring) in (done..stretch.count).take(LANES_MAX).map(|k| stretch.first + k).enumerate() {
-        if rare >> lane & 1 == 1 || (!closed && ring + 1 == rings) {
+        if rare >> lane & 1 == 1 {
             let sample = plan.sampling().sample(padded, ring, rings, closed).sample;
             let (c, t, basis) = (sample.centre, sample.tangent, Basis::upright(sample.tangent));
             let (s, u) = (basis.side, basis.up);
@@ -237,7 +269,7 @@ fn upright<S: Simd, const FLATTENED: bool>(
     cubics: &Cubics<S>,
     interval: S::Integers,
     t: S::Floats,
-) -> (Rings<S>, u32) {
+) -> (Rings<S, FLATTENED>, u32) {
     let (one, zero) = (simd.splat(1.0), simd.splat(0.0));
     let sampled = cubics.sample(simd, interval, t);
     let (offset, velocity) = (sampled.offset, sampled.velocity);
@@ -265,10 +297,9 @@ fn upright<S: Simd, const FLATTENED: bool>(
         tangent,
         width_growth,
         height_growth,
-        flattened: FLATTENED,
         side: [side_x, side_y, zero],
         up: [-z * side_y, z * side_x, x * side_y - y * side_x],
-        roll: None,
+        roll: (zero, one),
         offset,
         span: sampled.span,
         t,

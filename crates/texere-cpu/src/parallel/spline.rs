@@ -52,7 +52,7 @@ pub(super) struct Sampled<S: Simd> {
 
 impl<S: Simd> Cubics<S> {
     /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on. Without
-    /// `FLATTENED` half heights are half widths.
+    /// `FLATTENED` half widths are half heights.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new<const FLATTENED: bool>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> Self {
         let points = neighbours(simd, points, first);
@@ -63,17 +63,19 @@ impl<S: Simd> Cubics<S> {
             let [c1, c2, c3] = coefficients(simd, a[axis], b[axis], c[axis], s);
             (terms[0][axis], terms[1][axis], terms[2][axis]) = (c1, c2, c3);
         }
-        let sizes =
-            [points[0][3].to_bits(), points[1][3].to_bits(), points[2][3].to_bits(), points[3][3].to_bits()];
-        let half_width = Sizes::new(simd, sizes, s);
+        let half_height = Sizes::new(simd, [points[0][3], points[3][3]], s);
         Self {
             start,
             span: b,
             terms,
             at_rest: (simd.splat(ZERO_VELOCITY) * (dot(a, a) + dot(b, b) + dot(c, c)))
                 .max(simd.splat(NO_LENGTH)),
-            half_width,
-            half_height: if FLATTENED { Sizes::new(simd, high_halves(sizes), s) } else { half_width },
+            half_width: if FLATTENED {
+                Sizes::new(simd, low_halves([points[0][3], points[3][3]]), s)
+            } else {
+                half_height
+            },
+            half_height,
         }
     }
 
@@ -105,11 +107,14 @@ pub(super) struct Sizes<S: Simd> {
 }
 
 impl<S: Simd> Sizes<S> {
-    /// From the half floats in the low 16 bits of four points each.
+    /// From the half floats in the high 16 bits of the points from a first one on, and of those from the next but two on.
     #[cfg_attr(optimized, inline(always))]
-    fn new(simd: S, [before, start, end, after]: [S::Integers; 4], s: f32) -> Self {
-        let (before, start) = (from_half(simd, before), from_half(simd, start));
-        let (end, after) = (from_half(simd, end), from_half(simd, after));
+    fn new(simd: S, [before, after]: [S::Floats; 2], s: f32) -> Self {
+        let (before, after) = (from_half(simd, before), from_half(simd, after));
+        let mut sizes = [0.0; LANES_MAX + 3];
+        before.store(&mut sizes);
+        after.store(&mut sizes[3..]);
+        let (start, end) = (simd.load(&sizes[1..]), simd.load(&sizes[2..]));
         let terms = coefficients(simd, before - start, end - start, after - start, s);
         Self { start, terms, floor: start.min(end) * simd.splat(RADIUS_FLOOR) }
     }
@@ -154,26 +159,21 @@ fn cubic<S: Simd>(
     (value, c1 + (c2 * simd.splat(2.0) + c3 * (simd.splat(3.0) * t)) * t)
 }
 
-/// The high 16 bits of each lane.
+/// The low 16 bits of each lane, where the high ones were.
 #[cfg_attr(optimized, inline(always))]
-fn high_halves<I: Integers>([before, start, end, after]: [I; 4]) -> [I; 4] {
-    [
-        before.shift_right::<16>(),
-        start.shift_right::<16>(),
-        end.shift_right::<16>(),
-        after.shift_right::<16>(),
-    ]
+fn low_halves<F: Floats<Integers: Integers<Floats = F>>>([before, after]: [F; 2]) -> [F; 2] {
+    [before.to_bits().shift_left::<16>().bit_cast(), after.to_bits().shift_left::<16>().bit_cast()]
 }
 
-/// The half floats in the lanes' low 16 bits, exactly; they are neither NaN nor infinite.
+/// The half floats in the lanes' high 16 bits, exactly; they are neither NaN nor infinite.
 #[cfg_attr(optimized, inline(always))]
-fn from_half<S: Simd>(simd: S, half: S::Integers) -> S::Floats {
+fn from_half<S: Simd>(simd: S, half: S::Floats) -> S::Floats {
     /// By how much a float's exponent is counted from further down.
     const BIAS: f32 = (1u128 << 112) as f32;
-    let sign = half.shift_right::<15>().shift_left::<31>();
+    /// The bits of a float that a half has, too.
+    const SIGN_AND_SIZE: u32 = 0x8fff_e000;
     // Exponent and fraction where a float has them. Halves that are subnormal are so here, too, until they are multiplied.
-    let size = half.shift_left::<17>().shift_right::<4>();
-    (size + sign).bit_cast() * simd.splat(BIAS)
+    half.to_bits().shift_right_signed::<3>().masked(SIGN_AND_SIZE).bit_cast() * simd.splat(BIAS)
 }
 
 /// The first three components.

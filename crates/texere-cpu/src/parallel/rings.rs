@@ -4,10 +4,10 @@
 //! branch for a rare case (a yarn at rest, a tangent along z, a yarn's last ring), the lanes only notice it, and the core's
 //! own functions are called for that ring.
 
-use texere_core::{Basis, Block, ControlPoint, PaddedPoints, Plan, Ring, VERTICAL};
+use texere_core::{Basis, Block, ControlPoint, PaddedPoints, Plan, Ring, SLOPE_LIMIT, VERTICAL};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
-use super::spline::{Cubics, Seats, all_round};
+use super::spline::{Cubics, Seats, all_round, xyz};
 
 /// What rings are made from.
 #[derive(Debug, Clone, Copy)]
@@ -216,6 +216,8 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
             fields;
         let ([sx, sy, sz, ux, uy, uz], centre, tangent) = (frame, [cx, cy, cz], [tx, ty, tz]);
         let (side, up) = ([sx, sy, sz], [ux, uy, uz]);
+        let (half_height, height_growth) =
+            if FLATTENED { (half_height, height_growth) } else { (half_width, width_growth) };
         Self { centre, half_width, half_height, tangent, width_growth, height_growth, side, up, ..self }
     }
 }
@@ -272,31 +274,29 @@ fn upright<S: Simd, const FLATTENED: bool>(
 ) -> (Rings<S, FLATTENED>, u32) {
     let (one, zero) = (simd.splat(1.0), simd.splat(0.0));
     let sampled = cubics.sample(simd, interval, t);
-    let (offset, velocity) = (sampled.offset, sampled.velocity);
+    let (offset, velocity) = (xyz(sampled.offset), xyz(sampled.velocity));
 
     let speed_squared = dot(velocity, velocity);
     let moves = sampled.at_rest.less(speed_squared);
-    let inverse = one / speed_squared.sqrt();
-    let tangent = scale(velocity, inverse);
-    let (half_width, width_growth) = cubics.half_width.sample(simd, interval, t, inverse);
-    let (half_height, height_growth) = if FLATTENED {
-        cubics.half_height.sample(simd, interval, t, inverse)
-    } else {
-        (half_width, width_growth)
-    };
+    let speed_inverse = one / speed_squared.sqrt();
+    let tangent = scale(velocity, speed_inverse);
+    let limit = simd.splat(SLOPE_LIMIT);
+    let growth = (sampled.velocity[3] * speed_inverse).max(-limit).min(limit);
+    let size = sampled.start[3] + sampled.offset[3];
+    let held = size.less(sampled.floor);
 
     let [x, y, z] = tangent;
     let level = x * x + y * y;
     let vertical = level.less(simd.splat(VERTICAL));
     let inverse = one / level.sqrt();
     let (side_x, side_y) = (-y * inverse, x * inverse);
-    let rings = Rings {
-        centre: plus(sampled.start, offset),
-        half_width,
-        half_height,
+    let mut rings = Rings {
+        centre: plus(xyz(sampled.start), offset),
+        half_width: held.select(sampled.floor, size),
+        half_height: held.select(sampled.floor, size),
         tangent,
-        width_growth,
-        height_growth,
+        width_growth: held.select(zero, growth),
+        height_growth: held.select(zero, growth),
         side: [side_x, side_y, zero],
         up: [-z * side_y, z * side_x, x * side_y - y * side_x],
         roll: (zero, one),
@@ -304,5 +304,8 @@ fn upright<S: Simd, const FLATTENED: bool>(
         span: sampled.span,
         t,
     };
+    if FLATTENED {
+        (rings.half_width, rings.width_growth) = cubics.half_width.sample(simd, interval, t, speed_inverse);
+    }
     (rings, (moves.bits() ^ S::ALL) | vertical.bits())
 }

@@ -34,7 +34,9 @@ impl<'a> Surface<'a> {
         rings: &Rings<S, FLATTENED>,
         out: &mut [f32],
     ) {
-        if FLATTENED {
+        if FLATTENED && rings.round().bits() == 0 {
+            vertices::<S, FLATTENED, FLAT, COLUMNS>(simd, rings, self.outline, out);
+        } else if FLATTENED {
             vertices::<S, FLATTENED, MIXED, COLUMNS>(simd, rings, self.outline, out);
         } else if rings.width_growth.is_zero().bits() != S::ALL {
             vertices::<S, FLATTENED, SLOPED, COLUMNS>(simd, rings, self.outline, out);
@@ -55,8 +57,10 @@ const SLOPED: u8 = 0;
 const PLAIN: u8 = 1;
 /// Nor do the section's normals differ from its points.
 const ROUND: u8 = 2;
-/// Some of the rings are flattened, or all of them.
-const MIXED: u8 = 3;
+/// All of the rings are flattened.
+const FLAT: u8 = 3;
+/// Some of them are.
+const MIXED: u8 = 4;
 
 #[cfg_attr(optimized, inline(always))]
 fn vertices<S: Simd, const FLATTENED: bool, const KIND: u8, const COLUMNS: bool>(
@@ -140,6 +144,9 @@ fn vertex<S: Simd, const FLATTENED: bool, const KIND: u8>(
     rings: &Rings<S, FLATTENED>,
     point: &SectionPoint,
 ) -> [S::Floats; VERTEX] {
+    if KIND == FLAT {
+        return flattened_vertex(simd, rings, point);
+    }
     if KIND != MIXED {
         return round_vertex::<S, FLATTENED, KIND>(simd, rings, point);
     }

@@ -10,9 +10,9 @@ use std::arch::x86_64::{
     _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permute2f128_ps, _mm256_permute2x128_si256,
     _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps, _mm256_set_m128, _mm256_set1_epi32,
     _mm256_set1_ps, _mm256_setzero_ps, _mm256_setzero_si256, _mm256_shuffle_epi32, _mm256_shuffle_ps,
-    _mm256_slli_epi32, _mm256_slli_si256, _mm256_sqrt_ps, _mm256_srli_epi32, _mm256_storeu_ps,
-    _mm256_storeu_si256, _mm256_stream_ps, _mm256_stream_si256, _mm256_sub_epi32, _mm256_sub_ps,
-    _mm256_unpackhi_ps, _mm256_unpacklo_ps, _mm256_xor_ps,
+    _mm256_slli_epi32, _mm256_slli_si256, _mm256_sqrt_ps, _mm256_srai_epi32, _mm256_srli_epi32,
+    _mm256_storeu_ps, _mm256_storeu_si256, _mm256_stream_ps, _mm256_stream_si256, _mm256_sub_epi32,
+    _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps, _mm256_xor_ps,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -85,6 +85,7 @@ impl Simd for Avx2 {
     type Mask = Mask8;
 
     fn run(self, job: impl Job) {
+        #[inline(never)]
         #[target_feature(enable = "avx2")]
         fn with_avx2(simd: Avx2, job: impl Job) {
             job.run(simd);
@@ -363,6 +364,18 @@ impl Integers for U32x8 {
     fn shift_right<const BY: i32>(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_srli_epi32::<BY>(self.0) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn shift_right_signed<const BY: i32>(self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_srai_epi32::<BY>(self.0) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn masked(self, mask: u32) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_and_si256(self.0, _mm256_set1_epi32(mask.cast_signed())) })
     }
 
     #[cfg_attr(optimized, inline(always))]

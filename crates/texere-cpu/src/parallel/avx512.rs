@@ -3,16 +3,16 @@
 
 use std::arch::x86_64::{
     __m512, __m512i, __mmask16, _CMP_EQ_OQ, _CMP_LT_OQ, _mm_sfence, _mm_storeu_ps, _mm256_storeu_ps,
-    _mm512_abs_ps, _mm512_add_epi32, _mm512_add_ps, _mm512_alignr_epi32, _mm512_castps_si512,
-    _mm512_castps512_ps256, _mm512_castsi512_ps, _mm512_cmp_ps_mask, _mm512_cvtepi32_ps,
+    _mm512_abs_ps, _mm512_add_epi32, _mm512_add_ps, _mm512_alignr_epi32, _mm512_and_si512,
+    _mm512_castps_si512, _mm512_castps512_ps256, _mm512_castsi512_ps, _mm512_cmp_ps_mask, _mm512_cvtepi32_ps,
     _mm512_cvtsi512_si32, _mm512_cvttps_epi32, _mm512_div_ps, _mm512_extractf32x4_ps, _mm512_extractf32x8_ps,
     _mm512_loadu_ps, _mm512_loadu_si512, _mm512_mask_blend_ps, _mm512_maskz_mov_epi32, _mm512_max_ps,
     _mm512_min_ps, _mm512_mul_ps, _mm512_permutex2var_ps, _mm512_permutexvar_epi32, _mm512_permutexvar_ps,
     _mm512_roundscale_ps, _mm512_set1_epi32, _mm512_set1_ps, _mm512_setr_epi32, _mm512_setzero_ps,
     _mm512_setzero_si512, _mm512_shuffle_f32x4, _mm512_shuffle_ps, _mm512_sllv_epi32, _mm512_sqrt_ps,
-    _mm512_srlv_epi32, _mm512_storeu_ps, _mm512_storeu_si512, _mm512_stream_ps, _mm512_stream_si512,
-    _mm512_sub_epi32, _mm512_sub_ps, _mm512_test_epi32_mask, _mm512_unpackhi_ps, _mm512_unpacklo_ps,
-    _mm512_xor_si512,
+    _mm512_srav_epi32, _mm512_srlv_epi32, _mm512_storeu_ps, _mm512_storeu_si512, _mm512_stream_ps,
+    _mm512_stream_si512, _mm512_sub_epi32, _mm512_sub_ps, _mm512_test_epi32_mask, _mm512_unpackhi_ps,
+    _mm512_unpacklo_ps, _mm512_xor_si512,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -81,6 +81,7 @@ impl Simd for Avx512 {
     type Mask = Mask16;
 
     fn run(self, job: impl Job) {
+        #[inline(never)]
         #[target_feature(enable = "avx512f,avx512dq")]
         fn with_avx512(simd: Avx512, job: impl Job) {
             job.run(simd);
@@ -371,6 +372,18 @@ impl Integers for U32x16 {
     fn shift_right<const BY: i32>(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_srlv_epi32(self.0, _mm512_set1_epi32(BY)) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn shift_right_signed<const BY: i32>(self) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm512_srav_epi32(self.0, _mm512_set1_epi32(BY)) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn masked(self, mask: u32) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm512_and_si512(self.0, _mm512_set1_epi32(mask.cast_signed())) })
     }
 
     #[cfg_attr(optimized, inline(always))]

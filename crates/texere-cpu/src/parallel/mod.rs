@@ -104,43 +104,66 @@ impl<'a> Maker<'a> {
         Self { work, seats: Seats::at_each_place(plan), surfaces }
     }
 
-    /// Calls `take` with the rings of `blocks`, which are one yarn's and follow each other, the first of them number `number`
-    /// among all of the plan: a vector of rings at a time, with their rolls, and how many of them there are.
+    /// Makes `piece`, a function of its own if any of its rings may be flattened: so the loops of round yarns stay small.
     #[cfg_attr(optimized, inline(always))]
-    fn rings<S: Simd>(&self, simd: S, blocks: &[Block], number: u64, sink: &mut impl Sink) {
-        let Work { plan, points, .. } = self.work;
-        let source = Source { plan, points, seats: &self.seats };
-        let (yarn, first) = (blocks[0].yarn as usize, blocks[0].first_ring);
-        let stretch = Stretch { yarn, first, count: blocks.iter().map(|block| block.rings).sum() };
-        if source.all_round(stretch) {
-            self.along::<S, false>(simd, source, stretch, number, sink);
+    fn make<S: Simd>(&self, simd: S, piece: impl Piece, blocks: &[Block]) {
+        if self.source().all_round(Stretch::of(blocks)) {
+            piece.make::<S, false>(simd);
         } else {
-            self.along::<S, true>(simd, source, stretch, number, sink);
+            simd.run(Flattened(piece));
         }
     }
 
+    fn source(&self) -> Source<'_> {
+        Source { plan: &self.work.plan, points: &self.work.points, seats: &self.seats }
+    }
+
+    /// Gives `sink` the rings of `blocks`, which are one yarn's and follow each other, the first of them number `number`
+    /// among all of the plan: a vector of rings at a time, with their rolls, and how many of them there are. Without
+    /// `FLATTENED` all are taken for round.
     #[cfg_attr(optimized, inline(always))]
-    fn along<S: Simd, const FLATTENED: bool>(
+    fn rings<S: Simd, const FLATTENED: bool>(
         &self,
         simd: S,
-        source: Source<'_>,
-        stretch: Stretch,
+        blocks: &[Block],
         number: u64,
         sink: &mut impl Sink,
     ) {
-        let (Work { plan, rolls, .. }, Stretch { yarn, first, .. }) = (self.work, stretch);
-        let mut walk = Walk::<S, FLATTENED>::new(simd, source, stretch);
-        if plan.settings().frame.is_level(plan.twist_turns(yarn)) {
+        let (Work { plan, rolls, .. }, stretch) = (self.work, Stretch::of(blocks));
+        let mut walk = Walk::<S, FLATTENED>::new(simd, self.source(), stretch);
+        let level = plan.settings().frame.is_level(plan.twist_turns(stretch.yarn));
+        if !FLATTENED && level {
             while let count @ 1.. = walk.left() {
-                sink.take(simd, &walk.next(), simd.splat_integer(0), count);
+                sink.take::<S, FLATTENED>(simd, &walk.next(), simd.splat_integer(0), count);
             }
-        } else {
-            while let count @ 1.. = walk.left() {
-                let block = number + u64::from(walk.done / BLOCK_RINGS);
-                let roll = turns::rolls(simd, plan, rolls, yarn, first + walk.done, block);
-                sink.take(simd, &walk.next().turned(simd, roll), roll, count);
-            }
+            return;
         }
+        while let count @ 1.. = walk.left() {
+            let block = number + u64::from(walk.done / BLOCK_RINGS);
+            // Loops for flattened yarns are too large to have one without rolls, too.
+            let roll = if FLATTENED && level {
+                simd.splat_integer(0)
+            } else {
+                turns::rolls(simd, plan, rolls, stretch.yarn, stretch.first + walk.done, block)
+            };
+            sink.take::<S, FLATTENED>(simd, &walk.next().turned(simd, roll), roll, count);
+        }
+    }
+}
+
+/// What is made of consecutive blocks of one yarn.
+trait Piece {
+    /// Makes it. It must be inlined, so that it is compiled for the instructions of `simd`.
+    fn make<S: Simd, const FLATTENED: bool>(self, simd: S);
+}
+
+/// A piece of a yarn that is flattened somewhere.
+struct Flattened<P>(P);
+
+impl<P: Piece> Job for Flattened<P> {
+    #[cfg_attr(optimized, inline(always))]
+    fn run<S: Simd>(self, simd: S) {
+        self.0.make::<S, true>(simd);
     }
 }
 
@@ -148,7 +171,13 @@ impl<'a> Maker<'a> {
 trait Sink {
     /// Takes the first `count` rings of a vector. It must be inlined, so that it is compiled for the instructions of its
     /// path.
-    fn take<S: Simd>(&mut self, simd: S, rings: &Rings<S>, roll: S::Integers, count: usize);
+    fn take<S: Simd, const FLATTENED: bool>(
+        &mut self,
+        simd: S,
+        rings: &Rings<S, FLATTENED>,
+        roll: S::Integers,
+        count: usize,
+    );
 }
 
 /// Stage 1 for a run of blocks.
@@ -160,12 +189,28 @@ struct RingJob<'a> {
 impl Job for RingJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
-        let RingRun { blocks, first_block, rings } = self.run;
-        let (mut number, mut sink) = (first_block, RingSink { rings });
+        let Self { maker, run: RingRun { blocks, first_block: mut number, rings: mut rings_left } } = self;
         for blocks in blocks.chunk_by(|a, b| a.yarn == b.yarn) {
-            self.maker.rings(simd, blocks, number, &mut sink);
+            let count = blocks.iter().map(|block| block.rings as usize).sum();
+            let rings = take(&mut rings_left, count);
+            maker.make(simd, RingPiece { maker, blocks, number, sink: RingSink { rings } }, blocks);
             number += blocks.len() as u64;
         }
+    }
+}
+
+struct RingPiece<'a> {
+    maker: &'a Maker<'a>,
+    blocks: &'a [Block],
+    /// Of the first block.
+    number: u64,
+    sink: RingSink<'a>,
+}
+
+impl Piece for RingPiece<'_> {
+    #[cfg_attr(optimized, inline(always))]
+    fn make<S: Simd, const FLATTENED: bool>(mut self, simd: S) {
+        self.maker.rings::<S, FLATTENED>(simd, self.blocks, self.number, &mut self.sink);
     }
 }
 
@@ -176,7 +221,13 @@ struct RingSink<'a> {
 
 impl Sink for RingSink<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn take<S: Simd>(&mut self, simd: S, rings: &Rings<S>, roll: S::Integers, count: usize) {
+    fn take<S: Simd, const FLATTENED: bool>(
+        &mut self,
+        simd: S,
+        rings: &Rings<S, FLATTENED>,
+        roll: S::Integers,
+        count: usize,
+    ) {
         let mut out = [Ring::default(); LANES_MAX];
         rings.store(simd, roll, &mut out);
         take(&mut self.rings, count).copy_from_slice(&out[..count]);
@@ -197,8 +248,7 @@ impl Job for MeshJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
         let Self { maker, table, streams, run } = self;
-        let plan = &maker.work.plan;
-        let sides = plan.settings().sides as usize;
+        let sides = maker.work.plan.settings().sides as usize;
         let floats = sides * VERTEX;
         let room = VertexLines::scratch(floats).max(TileLines::scratch(floats));
         let mut scratch = vec![Line([0.0; LINE]); room];
@@ -209,29 +259,49 @@ impl Job for MeshJob<'_> {
             let quads: usize = blocks.iter().map(|block| block.quads as usize).sum();
             let own: &mut [Vertex] = take(&mut vertices_left, rings * sides);
             let out = Lines::new(bytemuck::cast_slice_mut(own), streams);
-            let vertices = if TileLines::fit(&out, floats) {
-                Way::Tiles(TileLines::new(out, floats, &mut scratch))
-            } else {
-                Way::Scratch(VertexLines::new(out, &mut scratch))
-            };
             let indices = table.map(|table| {
                 let own = take(&mut indices_left, quads * sides * 6);
                 IndexLines::new(own, streams, table, blocks[0].first_vertex)
             });
-            let section = plan.yarn(blocks[0].yarn as usize).section as usize;
-            let surface = maker.surfaces[section];
-            let mut sink = MeshSink { surface, floats, vertices, indices };
-            maker.rings(simd, blocks, number, &mut sink);
-            match sink.vertices {
-                Way::Tiles(tiles) => tiles.finish(simd),
-                Way::Scratch(lines) => lines.finish(simd),
-            }
-            if let Some(indices) = sink.indices {
-                indices.finish(simd);
-            }
+            let scratch = &mut scratch[..];
+            maker.make(simd, MeshPiece { maker, blocks, number, floats, out, scratch, indices }, blocks);
             number += blocks.len() as u64;
         }
         simd.fence();
+    }
+}
+
+struct MeshPiece<'a> {
+    maker: &'a Maker<'a>,
+    blocks: &'a [Block],
+    /// Of the first block.
+    number: u64,
+    /// Floats of the vertices of a ring, as many as it has indices.
+    floats: usize,
+    out: Lines<'a>,
+    scratch: &'a mut [Line],
+    indices: Option<IndexLines<'a>>,
+}
+
+impl Piece for MeshPiece<'_> {
+    #[cfg_attr(optimized, inline(always))]
+    fn make<S: Simd, const FLATTENED: bool>(self, simd: S) {
+        let Self { maker, blocks, number, floats, out, scratch, indices } = self;
+        let vertices = if TileLines::fit(&out, floats) {
+            Way::Tiles(TileLines::new(out, floats, scratch))
+        } else {
+            Way::Scratch(VertexLines::new(out, scratch))
+        };
+        let section = maker.work.plan.yarn(blocks[0].yarn as usize).section as usize;
+        let mut sink = MeshSink { surface: maker.surfaces[section], floats, vertices, indices };
+        maker.rings::<S, FLATTENED>(simd, blocks, number, &mut sink);
+        match sink.vertices {
+            Way::Tiles(tiles) => tiles.finish(simd),
+            Way::Scratch(lines) => lines.finish(simd),
+        }
+        if let Some(indices) = sink.indices {
+            indices.finish(simd);
+        }
     }
 }
 
@@ -246,15 +316,21 @@ struct MeshSink<'a> {
 
 impl Sink for MeshSink<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn take<S: Simd>(&mut self, simd: S, rings: &Rings<S>, _roll: S::Integers, count: usize) {
+    fn take<S: Simd, const FLATTENED: bool>(
+        &mut self,
+        simd: S,
+        rings: &Rings<S, FLATTENED>,
+        _roll: S::Integers,
+        count: usize,
+    ) {
         match &mut self.vertices {
             Way::Tiles(tiles) => {
-                self.surface.write::<S, true>(simd, rings, tiles.next(simd));
+                self.surface.write::<S, FLATTENED, true>(simd, rings, tiles.next(simd));
                 tiles.send(simd, count);
             }
             Way::Scratch(lines) => {
                 lines.send_waiting(simd);
-                self.surface.write::<S, false>(simd, rings, lines.next());
+                self.surface.write::<S, FLATTENED, false>(simd, rings, lines.next());
                 lines.send(simd, count * self.floats);
             }
         }

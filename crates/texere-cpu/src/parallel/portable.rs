@@ -84,6 +84,7 @@ impl Simd for Portable {
     type Integers = U32x4;
     type Mask = Mask4;
 
+    #[inline(never)]
     fn run(self, job: impl Job) {
         job.run(self);
     }
@@ -263,6 +264,16 @@ impl Integers for U32x4 {
     #[cfg_attr(optimized, inline(always))]
     fn shift_right<const BY: i32>(self) -> Self {
         Self(each(|lane| self.0[lane] >> BY))
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn shift_right_signed<const BY: i32>(self) -> Self {
+        Self(each(|lane| (self.0[lane].cast_signed() >> BY).cast_unsigned()))
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn masked(self, mask: u32) -> Self {
+        Self(each(|lane| self.0[lane] & mask))
     }
 
     #[cfg_attr(optimized, inline(always))]

@@ -4,10 +4,10 @@
 //! branch for a rare case (a yarn at rest, a tangent along z, a yarn's last ring), the lanes only notice it, and the core's
 //! own functions are called for that ring.
 
-use texere_core::{Basis, ControlPoint, PaddedPoints, Plan, Ring, VERTICAL};
+use texere_core::{Basis, Block, ControlPoint, PaddedPoints, Plan, Ring, SLOPE_LIMIT, VERTICAL};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
-use super::spline::{Cubics, Seats, all_round};
+use super::spline::{Cubics, Seats, all_round, xyz};
 
 /// What rings are made from.
 #[derive(Debug, Clone, Copy)]
@@ -45,22 +45,29 @@ pub(super) struct Stretch {
     pub(super) count: u32,
 }
 
-/// A vector of consecutive rings, with all that their vertices need.
+impl Stretch {
+    /// The rings of `blocks`, which are one yarn's and follow each other.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn of(blocks: &[Block]) -> Self {
+        let (yarn, first) = (blocks[0].yarn as usize, blocks[0].first_ring);
+        Self { yarn, first, count: blocks.iter().map(|block| block.rings).sum() }
+    }
+}
+
+/// A vector of consecutive rings, with all that their vertices need. Without `FLATTENED` all are taken for round.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rings<S: Simd> {
+pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) centre: [S::Floats; 3],
     pub(super) half_width: S::Floats,
     pub(super) half_height: S::Floats,
     pub(super) tangent: [S::Floats; 3],
     pub(super) width_growth: S::Floats,
     pub(super) height_growth: S::Floats,
-    /// Whether any of them may be flattened: the same for all of a walk.
-    pub(super) flattened: bool,
     /// The frame that the section stands in: turned by the roll where the yarn is round, upright where it is flattened.
     pub(super) side: [S::Floats; 3],
     pub(super) up: [S::Floats; 3],
-    /// Sine and cosine of the roll, if there are rolls.
-    pub(super) roll: Option<(S::Floats, S::Floats)>,
+    /// Sine and cosine of the roll.
+    pub(super) roll: (S::Floats, S::Floats),
     /// Centre relative to the interval's start, and the interval's end: what chords are made of.
     pub(super) offset: [S::Floats; 3],
     pub(super) span: [S::Floats; 3],
@@ -68,7 +75,7 @@ pub(super) struct Rings<S: Simd> {
     pub(super) t: S::Floats,
 }
 
-/// Goes along a stretch, a vector of upright rings at a time. Without `FLATTENED` all are taken for round.
+/// Goes along a stretch, a vector of upright rings at a time.
 #[derive(Debug)]
 pub(super) struct Walk<'a, S: Simd, const FLATTENED: bool> {
     simd: S,
@@ -115,19 +122,26 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
 
     /// The next vector of rings. Past the end of the stretch its lanes hold nothing of meaning.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn next(&mut self) -> Rings<S> {
+    pub(super) fn next(&mut self) -> Rings<S, FLATTENED> {
         let (simd, Source { plan, seats: at_place, .. }) = (self.simd, self.source);
         let seats = &at_place[self.place];
+        let last = (self.stretch.count - self.done <= S::LANES as u32)
+            .then(|| seats_at_end(plan, self.stretch, self.done, seats));
         if self.interval + seats.interval[S::LANES - 1] as usize >= self.first_cubic + S::LANES {
             self.first_cubic = self.interval;
             self.cubics = Cubics::new::<FLATTENED>(simd, self.points, self.interval, plan.sampling().s());
         }
         let behind = simd.splat_integer((self.interval - self.first_cubic) as u32);
-        let interval = simd.load_integers(&seats.interval) + behind;
-        let t = simd.load(&seats.t);
+        let (mut taken, mut first_rare) = (seats, 0);
+        if let Some((at_end, rare)) = &last {
+            (taken, first_rare) = (at_end, *rare);
+        }
+        let interval = simd.load_integers(&taken.interval) + behind;
+        let t = simd.load(&taken.t);
         let (mut rings, rare) = upright::<S, FLATTENED>(simd, &self.cubics, interval, t);
-        if rare != 0 || self.stretch.count - self.done <= S::LANES as u32 {
-            rings = self.mended(rings, rare);
+        rings.t = simd.load(&seats.t);
+        if rare | first_rare != 0 {
+            rings = self.mended(rings, rare | first_rare);
         }
 
         self.done += self.left() as u32;
@@ -141,9 +155,9 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
         rings
     }
 
-    /// Has the core make those of the next rings whose bits are set in `rare`, and an open yarn's last ring.
+    /// Has the core make those of the next rings whose bits are set in `rare`.
     #[cfg_attr(optimized, inline(always))]
-    fn mended(&self, rings: Rings<S>, rare: u32) -> Rings<S> {
+    fn mended(&self, rings: Rings<S, FLATTENED>, rare: u32) -> Rings<S, FLATTENED> {
         let mut fields = rings.fields();
         let mut lanes = Lanes([[0.0; LANES_MAX]; FIELDS]);
         for (field, lane) in fields.iter().zip(&mut lanes.0) {
@@ -167,7 +181,7 @@ const FIELDS: usize = 16;
 #[repr(align(64))]
 struct Lanes([[f32; LANES_MAX]; FIELDS]);
 
-impl<S: Simd> Rings<S> {
+impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     /// Writes them to the first `LANES` places of a slice.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn store(&self, simd: S, roll: S::Integers, out: &mut [Ring]) {
@@ -202,8 +216,28 @@ impl<S: Simd> Rings<S> {
             fields;
         let ([sx, sy, sz, ux, uy, uz], centre, tangent) = (frame, [cx, cy, cz], [tx, ty, tz]);
         let (side, up) = ([sx, sy, sz], [ux, uy, uz]);
+        let (half_height, height_growth) =
+            if FLATTENED { (half_height, height_growth) } else { (half_width, width_growth) };
         Self { centre, half_width, half_height, tangent, width_growth, height_growth, side, up, ..self }
     }
+}
+
+/// The seats of a stretch's last rings, whose others are `seats`: an open yarn's last ring lies at the end of the interval
+/// before. There is none where that ring is a vector's first: a bit for it that the core has to mend.
+#[cold]
+#[inline(never)]
+fn seats_at_end(plan: &Plan, stretch: Stretch, done: u32, seats: &Seats) -> (Seats, u32) {
+    let mut seats = Seats { ..*seats };
+    if plan.yarn(stretch.yarn).closed || stretch.first + stretch.count < plan.rings(stretch.yarn) {
+        return (seats, 0);
+    }
+    let lane = (stretch.count - done - 1) as usize;
+    if lane == 0 {
+        return (seats, 1);
+    }
+    seats.interval[lane] -= 1;
+    seats.t[lane] = 1.0;
+    (seats, 0)
 }
 
 #[cold]
@@ -213,7 +247,7 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
     let (yarn, rings) = (stretch.yarn, plan.rings(stretch.yarn));
     let (padded, closed) = (points.yarn(plan, yarn), plan.yarn(yarn).closed);
     for (lane, ring) in (done..stretch.count).take(LANES_MAX).map(|k| stretch.first + k).enumerate() {
-        if rare >> lane & 1 == 1 || (!closed && ring + 1 == rings) {
+        if rare >> lane & 1 == 1 {
             let sample = plan.sampling().sample(padded, ring, rings, closed).sample;
             let (c, t, basis) = (sample.centre, sample.tangent, Basis::upright(sample.tangent));
             let (s, u) = (basis.side, basis.up);
@@ -237,41 +271,41 @@ fn upright<S: Simd, const FLATTENED: bool>(
     cubics: &Cubics<S>,
     interval: S::Integers,
     t: S::Floats,
-) -> (Rings<S>, u32) {
+) -> (Rings<S, FLATTENED>, u32) {
     let (one, zero) = (simd.splat(1.0), simd.splat(0.0));
     let sampled = cubics.sample(simd, interval, t);
-    let (offset, velocity) = (sampled.offset, sampled.velocity);
+    let (offset, velocity) = (xyz(sampled.offset), xyz(sampled.velocity));
 
     let speed_squared = dot(velocity, velocity);
     let moves = sampled.at_rest.less(speed_squared);
-    let inverse = one / speed_squared.sqrt();
-    let tangent = scale(velocity, inverse);
-    let (half_width, width_growth) = cubics.half_width.sample(simd, interval, t, inverse);
-    let (half_height, height_growth) = if FLATTENED {
-        cubics.half_height.sample(simd, interval, t, inverse)
-    } else {
-        (half_width, width_growth)
-    };
+    let speed_inverse = one / speed_squared.sqrt();
+    let tangent = scale(velocity, speed_inverse);
+    let limit = simd.splat(SLOPE_LIMIT);
+    let growth = (sampled.velocity[3] * speed_inverse).max(-limit).min(limit);
+    let size = sampled.start[3] + sampled.offset[3];
+    let held = size.less(sampled.floor);
 
     let [x, y, z] = tangent;
     let level = x * x + y * y;
     let vertical = level.less(simd.splat(VERTICAL));
     let inverse = one / level.sqrt();
     let (side_x, side_y) = (-y * inverse, x * inverse);
-    let rings = Rings {
-        centre: plus(sampled.start, offset),
-        half_width,
-        half_height,
+    let mut rings = Rings {
+        centre: plus(xyz(sampled.start), offset),
+        half_width: held.select(sampled.floor, size),
+        half_height: held.select(sampled.floor, size),
         tangent,
-        width_growth,
-        height_growth,
-        flattened: FLATTENED,
+        width_growth: held.select(zero, growth),
+        height_growth: held.select(zero, growth),
         side: [side_x, side_y, zero],
         up: [-z * side_y, z * side_x, x * side_y - y * side_x],
-        roll: None,
+        roll: (zero, one),
         offset,
         span: sampled.span,
         t,
     };
+    if FLATTENED {
+        (rings.half_width, rings.width_growth) = cubics.half_width.sample(simd, interval, t, speed_inverse);
+    }
     (rings, (moves.bits() ^ S::ALL) | vertical.bits())
 }

@@ -38,7 +38,7 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// Yes or no in each lane.
     type Mask: Mask<Floats = Self::Floats>;
 
-    /// Runs `job`, compiled for these instructions.
+    /// Runs `job`, compiled for these instructions, as a function of its own.
     fn run(self, job: impl Job);
 
     /// One value in all lanes.
@@ -174,6 +174,12 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
 
     /// `self >> BY`
     fn shift_right<const BY: i32>(self) -> Self;
+
+    /// `self >> BY`, of lanes taken as `i32`: copies of the sign come in.
+    fn shift_right_signed<const BY: i32>(self) -> Self;
+
+    /// `self & mask`
+    fn masked(self, mask: u32) -> Self;
 
     /// `self & bit != 0`, of one bit.
     fn has_bit(self, bit: u32) -> Self::Mask;

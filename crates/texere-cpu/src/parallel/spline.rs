@@ -2,7 +2,7 @@
 
 use texere_core::{NO_LENGTH, Plan, RADIUS_FLOOR, SLOPE_LIMIT, ZERO_VELOCITY};
 
-use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, difference, dot};
+use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot};
 
 /// Where on their cubics a vector of consecutive rings lies: each one's interval, counted from the first one's, and its
 /// parameter.
@@ -27,53 +27,61 @@ impl Seats {
 /// The coefficients of `Segment` in the core, an interval in each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cubics<S: Simd> {
-    /// Position at t = 0.
-    start: [S::Floats; 3],
+    /// Position and half height at t = 0.
+    start: [S::Floats; 4],
     /// Position at t = 1, relative to the start.
     span: [S::Floats; 3],
     /// What goes with t, t² and t³.
-    terms: [[S::Floats; 3]; 3],
+    terms: [[S::Floats; 4]; 3],
     /// A squared velocity that counts as none.
     at_rest: S::Floats,
-    pub(super) half_width: Sizes<S>,
-    pub(super) half_height: Sizes<S>,
+    /// The least half height.
+    floor: S::Floats,
+    /// That of a round yarn means nothing: its half width is its half height.
+    pub(super) half_width: Widths<S>,
 }
 
-/// The positions of rings, a ring in each lane, at its own parameter.
+/// The cubics of rings, a ring in each lane, at its own parameter.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sampled<S: Simd> {
-    pub(super) start: [S::Floats; 3],
-    /// From the start, and the derivative there.
-    pub(super) offset: [S::Floats; 3],
-    pub(super) velocity: [S::Floats; 3],
+    pub(super) start: [S::Floats; 4],
+    /// From the start, and the derivative there: position and half height.
+    pub(super) offset: [S::Floats; 4],
+    pub(super) velocity: [S::Floats; 4],
     pub(super) span: [S::Floats; 3],
     pub(super) at_rest: S::Floats,
+    pub(super) floor: S::Floats,
 }
 
 impl<S: Simd> Cubics<S> {
-    /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on. Without
-    /// `FLATTENED` half heights are half widths.
+    /// The cubics of the intervals from number `first` on; interval j reads the padded points from number j on.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new<const FLATTENED: bool>(simd: S, points: &[[f32; 4]], first: usize, s: f32) -> Self {
-        let points = neighbours(simd, points, first);
-        let [before, start, end, after] = [xyz(points[0]), xyz(points[1]), xyz(points[2]), xyz(points[3])];
-        let (a, b, c) = (difference(before, start), difference(end, start), difference(after, start));
-        let mut terms = [[simd.splat(0.0); 3]; 3];
-        for axis in 0..3 {
-            let [c1, c2, c3] = coefficients(simd, a[axis], b[axis], c[axis], s);
-            (terms[0][axis], terms[1][axis], terms[2][axis]) = (c1, c2, c3);
+        let [mut before, mut start, mut end, mut after] = neighbours(simd, points, first);
+        let half_width = if FLATTENED {
+            Widths::new(simd, sizes(simd, low_halves(before[3]), low_halves(after[3])), s)
+        } else {
+            Widths { start: start[3], terms: [start[3]; 3], floor: start[3] }
+        };
+        [before[3], start[3], end[3], after[3]] = sizes(simd, before[3], after[3]);
+        let zero = simd.splat(0.0);
+        let (mut a, mut b, mut c) = ([zero; 4], [zero; 4], [zero; 4]);
+        let mut terms = [[zero; 4]; 3];
+        for k in 0..4 {
+            a[k] = before[k] - start[k];
+            b[k] = end[k] - start[k];
+            c[k] = after[k] - start[k];
+            [terms[0][k], terms[1][k], terms[2][k]] = coefficients(simd, a[k], b[k], c[k], s);
         }
-        let sizes =
-            [points[0][3].to_bits(), points[1][3].to_bits(), points[2][3].to_bits(), points[3][3].to_bits()];
-        let half_width = Sizes::new(simd, sizes, s);
+        let ([a, b, c], least) = ([xyz(a), xyz(b), xyz(c)], start[3].min(end[3]));
         Self {
             start,
             span: b,
             terms,
             at_rest: (simd.splat(ZERO_VELOCITY) * (dot(a, a) + dot(b, b) + dot(c, c)))
                 .max(simd.splat(NO_LENGTH)),
+            floor: least * simd.splat(RADIUS_FLOOR),
             half_width,
-            half_height: if FLATTENED { Sizes::new(simd, high_halves(sizes), s) } else { half_width },
         }
     }
 
@@ -81,35 +89,30 @@ impl<S: Simd> Cubics<S> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn sample(&self, simd: S, interval: S::Integers, t: S::Floats) -> Sampled<S> {
         let zero = simd.splat(0.0);
-        let (mut start, mut span) = ([zero; 3], [zero; 3]);
-        let (mut offset, mut velocity) = ([zero; 3], [zero; 3]);
-        for axis in 0..3 {
-            start[axis] = self.start[axis].permute(interval);
-            span[axis] = self.span[axis].permute(interval);
-            let terms = [self.terms[0][axis], self.terms[1][axis], self.terms[2][axis]];
-            (offset[axis], velocity[axis]) = cubic(simd, terms, interval, t);
+        let (mut start, mut offset, mut velocity) = ([zero; 4], [zero; 4], [zero; 4]);
+        for k in 0..4 {
+            let terms = [self.terms[0][k], self.terms[1][k], self.terms[2][k]];
+            start[k] = self.start[k].permute(interval);
+            (offset[k], velocity[k]) = cubic(simd, terms, interval, t);
         }
-        Sampled { start, offset, velocity, span, at_rest: self.at_rest.permute(interval) }
+        let [x, y, z] = self.span;
+        let span = [x.permute(interval), y.permute(interval), z.permute(interval)];
+        let (at_rest, floor) = (self.at_rest.permute(interval), self.floor.permute(interval));
+        Sampled { start, offset, velocity, span, at_rest, floor }
     }
 }
 
-/// The coefficients of `Size` in the core, an interval in each lane.
+/// The coefficients of `Size` in the core for half widths, an interval in each lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sizes<S: Simd> {
-    /// At t = 0.
+pub(super) struct Widths<S: Simd> {
     start: S::Floats,
-    /// What goes with t, t² and t³.
     terms: [S::Floats; 3],
-    /// The least size.
     floor: S::Floats,
 }
 
-impl<S: Simd> Sizes<S> {
-    /// From the half floats in the low 16 bits of four points each.
+impl<S: Simd> Widths<S> {
     #[cfg_attr(optimized, inline(always))]
-    fn new(simd: S, [before, start, end, after]: [S::Integers; 4], s: f32) -> Self {
-        let (before, start) = (from_half(simd, before), from_half(simd, start));
-        let (end, after) = (from_half(simd, end), from_half(simd, after));
+    fn new(simd: S, [before, start, end, after]: [S::Floats; 4], s: f32) -> Self {
         let terms = coefficients(simd, before - start, end - start, after - start, s);
         Self { start, terms, floor: start.min(end) * simd.splat(RADIUS_FLOOR) }
     }
@@ -154,26 +157,32 @@ fn cubic<S: Simd>(
     (value, c1 + (c2 * simd.splat(2.0) + c3 * (simd.splat(3.0) * t)) * t)
 }
 
-/// The high 16 bits of each lane.
+/// The low 16 bits of each lane, where the high ones were.
 #[cfg_attr(optimized, inline(always))]
-fn high_halves<I: Integers>([before, start, end, after]: [I; 4]) -> [I; 4] {
-    [
-        before.shift_right::<16>(),
-        start.shift_right::<16>(),
-        end.shift_right::<16>(),
-        after.shift_right::<16>(),
-    ]
+fn low_halves<F: Floats<Integers: Integers<Floats = F>>>(halves: F) -> F {
+    halves.to_bits().shift_left::<16>().bit_cast()
 }
 
-/// The half floats in the lanes' low 16 bits, exactly; they are neither NaN nor infinite.
+/// The sizes at an interval's four points, which are half floats in the high 16 bits of `before` and `after`: each is worked
+/// out once, since the points between are other lanes of these.
 #[cfg_attr(optimized, inline(always))]
-fn from_half<S: Simd>(simd: S, half: S::Integers) -> S::Floats {
+fn sizes<S: Simd>(simd: S, before: S::Floats, after: S::Floats) -> [S::Floats; 4] {
+    let (before, after) = (from_half(simd, before), from_half(simd, after));
+    let mut sizes = [0.0; LANES_MAX + 3];
+    before.store(&mut sizes);
+    after.store(&mut sizes[3..]);
+    [before, simd.load(&sizes[1..]), simd.load(&sizes[2..]), after]
+}
+
+/// The half floats in the lanes' high 16 bits, exactly; they are neither NaN nor infinite.
+#[cfg_attr(optimized, inline(always))]
+fn from_half<S: Simd>(simd: S, half: S::Floats) -> S::Floats {
     /// By how much a float's exponent is counted from further down.
     const BIAS: f32 = (1u128 << 112) as f32;
-    let sign = half.shift_right::<15>().shift_left::<31>();
+    /// The bits of a float that a half has, too.
+    const SIGN_AND_SIZE: u32 = 0x8fff_e000;
     // Exponent and fraction where a float has them. Halves that are subnormal are so here, too, until they are multiplied.
-    let size = half.shift_left::<17>().shift_right::<4>();
-    (size + sign).bit_cast() * simd.splat(BIAS)
+    half.to_bits().shift_right_signed::<3>().masked(SIGN_AND_SIZE).bit_cast() * simd.splat(BIAS)
 }
 
 /// The first three components.

@@ -40,7 +40,7 @@ impl<S: Simd> Steps<S> {
 
     /// The step to each of the next rings from the one before it. That to the very first means nothing.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn next(&mut self, rings: &Rings<S>) -> S::Integers {
+    pub(super) fn next(&mut self, rings: &Rings<S, false>) -> S::Integers {
         let here =
             Traces { offset: rings.offset, span: rings.span, tangent: rings.tangent, side: rings.side };
         let before = self.before.replace(here).unwrap_or(here);
@@ -48,7 +48,7 @@ impl<S: Simd> Steps<S> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn between(&self, before: &Traces<S>, rings: &Rings<S>) -> S::Integers {
+    fn between(&self, before: &Traces<S>, rings: &Rings<S, false>) -> S::Integers {
         let simd = self.simd;
         let offset = preceding(before.offset, rings.offset);
         let span = preceding(before.span, rings.span);
@@ -67,7 +67,7 @@ impl<S: Simd> Steps<S> {
     }
 }
 
-impl<S: Simd> Rings<S> {
+impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     /// These rings turned by `roll`: round ones with their frame, flattened ones inside theirs.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn turned(&self, simd: S, roll: S::Integers) -> Self {
@@ -77,10 +77,10 @@ impl<S: Simd> Rings<S> {
         let mut turned = Self {
             side: select(level, side, plus(scale(side, cos), scale(up, sin))),
             up: select(level, up, difference(scale(up, cos), scale(side, sin))),
-            roll: Some((sin, cos)),
+            roll: (sin, cos),
             ..*self
         };
-        if self.flattened {
+        if FLATTENED {
             let round = self.round();
             turned.side = select(round, turned.side, side);
             turned.up = select(round, turned.up, up);
@@ -124,7 +124,7 @@ fn preceding<F: Floats>(before: [F; 3], here: [F; 3]) -> [F; 3] {
 fn transport<S: Simd>(
     simd: S,
     before: &Traces<S>,
-    rings: &Rings<S>,
+    rings: &Rings<S, false>,
     chord: [S::Floats; 3],
     length_squared: S::Floats,
 ) -> S::Floats {

@@ -40,7 +40,7 @@ pub(crate) trait Executor: Copy + Debug + Send + 'static {
 
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug, Default)]
-struct Room {
+struct ChunkMemory {
     rings: ChunkRings,
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
@@ -50,7 +50,7 @@ struct Room {
 pub(crate) struct CpuEngine<E> {
     work: Work,
     /// One for each [`Slot`].
-    rooms: [Room; 2],
+    memory: [ChunkMemory; 2],
     timings: StageTimings,
     executor: E,
 }
@@ -61,7 +61,7 @@ impl<E: Executor> CpuEngine<E> {
         pages::prefer_huge(points.points());
         Ok(Self {
             work: Work { plan, points, rolls: Rolls::default() },
-            rooms: Default::default(),
+            memory: Default::default(),
             timings: StageTimings::default(),
             executor,
         })
@@ -110,7 +110,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        let rings = &mut self.rooms[slot.index()].rings;
+        let rings = &mut self.memory[slot.index()].rings;
         resize("rings", &mut rings.rings, chunk.rings().into())?;
         resize("slopes", &mut rings.slopes, chunk.rings().into())?;
         timed(&mut self.timings.trajectory, || self.executor.trajectory(&self.work, chunk, rings));
@@ -118,7 +118,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        let Room { rings, vertices, indices } = &mut self.rooms[slot.index()];
+        let ChunkMemory { rings, vertices, indices } = &mut self.memory[slot.index()];
         resize("vertices", vertices, chunk.vertices().into())?;
         resize("indices", indices, chunk.indices().into())?;
         let out = MeshMut { vertices, indices };
@@ -132,7 +132,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
         _chunk: &Chunk,
         sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        Ok(sink(&self.rooms[slot.index()].rings.rings))
+        Ok(sink(&self.memory[slot.index()].rings.rings))
     }
 
     fn read_mesh(
@@ -141,7 +141,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
         _chunk: &Chunk,
         sink: MeshSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Room { vertices, indices, .. } = &self.rooms[slot.index()];
+        let ChunkMemory { vertices, indices, .. } = &self.memory[slot.index()];
         let mut flow = sink(MeshPiece::Vertices { first: 0, vertices });
         if flow.is_continue() && !indices.is_empty() {
             flow = sink(MeshPiece::Indices { first: 0, indices });
@@ -150,7 +150,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
-        let rings = &self.rooms[slot.index()].rings;
+        let rings = &self.memory[slot.index()].rings;
         timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out));
         Ok(())
     }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
 //! | control points with virtual ends, written straight to the memory that is sent | [`YarnEnds`], [`PaddedUpload`] |
-//! | the constants that kernels and shaders share with the core | [`prelude`] |
+//! | the constants that kernels and shaders share with the core | [`prelude()`] |
 //! | which chunk's tables lie in a slot, so that no kernel has to check a bound | [`LoadedChunk`] |
 //! | what the paper's schedule leaves out | [`check_schedule`] |
 //! | the memory that a plan's work takes | [`device_buffers`], [`host_bytes_beside_gpu`] |

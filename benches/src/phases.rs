@@ -7,16 +7,13 @@ use std::time::{Duration, Instant};
 
 use texere::{
     Backend, BackendError, Camera, Chunk, DeviceInfo, Extent, Limits, MeshPiece, Plan, Quality, Renderer,
-    Schedule, Settings, Topology, Vertex, Yarns,
+    Schedule, Settings, Topology, Vertex, Yarns, chunk_limits,
 };
 use texere_core::Session;
 use texere_wgpu::WgpuBackend;
 use wgpu::BufferUsages;
 
 use crate::fill::Gpu;
-
-/// Memory for two chunks of mesh, bytes: what pictures take, too.
-const CHUNK_MEMORY: u64 = 128 << 20;
 
 /// Time of each phase, one after the other, by the host's clock.
 #[derive(Debug, Clone, Copy, Default)]
@@ -169,8 +166,7 @@ impl PhaseTimer {
 
     /// What chunks are cut to, as those of pictures are.
     fn limits(&self, plan: &Plan) -> Limits {
-        let memory_bytes = plan.resident_bytes() + CHUNK_MEMORY;
-        Limits { memory_bytes, ..Limits::NONE }.min(&self.info().limits)
+        chunk_limits(plan).min(&self.info().limits)
     }
 
     /// Waits until the device has done all that it was given.

@@ -11,7 +11,7 @@
 
 /// An entry point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Entry {
+pub struct EntryPoint {
     /// The kernel function.
     pub name: &'static str,
     /// Lanes in a workgroup. The source requires exactly this many, except for `mesh` and `mesh_odd`, which also run with 64.
@@ -19,32 +19,32 @@ pub struct Entry {
 }
 
 /// Turns of all blocks: a workgroup a block. The first half of the scan.
-pub const BLOCK_TURNS: Entry = Entry { name: "block_turns", group: 64 };
+pub const BLOCK_TURNS: EntryPoint = EntryPoint { name: "block_turns", group: 64 };
 
 /// Rolls from turns, in place: a workgroup a yarn. The second half of the scan.
-pub const YARN_ROLLS: Entry = Entry { name: "yarn_rolls", group: 256 };
+pub const YARN_ROLLS: EntryPoint = EntryPoint { name: "yarn_rolls", group: 256 };
 
 /// Stage 1: a workgroup a row of the chunk's block table.
-pub const TRAJECTORY: Entry = Entry { name: "trajectory", group: 64 };
+pub const TRAJECTORY: EntryPoint = EntryPoint { name: "trajectory", group: 64 };
 
 /// Stage 2 with stage 1 in it, for an even number of sides: a workgroup a row of the chunk's block table. It runs with any
 /// workgroup of 64 lanes, a ring each, or more; see [`UNINDEXED_GROUP`].
-pub const MESH: Entry = Entry { name: "mesh", group: 128 };
+pub const MESH: EntryPoint = EntryPoint { name: "mesh", group: 128 };
 
 /// The same for an odd number of sides.
-pub const MESH_ODD: Entry = Entry { name: "mesh_odd", ..MESH };
+pub const MESH_ODD: EntryPoint = EntryPoint { name: "mesh_odd", ..MESH };
 
 /// The workgroup of [`MESH`] where it writes no indices: with less to write for each ring, lanes without a ring cost more.
 pub const UNINDEXED_GROUP: usize = 64;
 
 /// The chunk's caps, after [`MESH`]: a lane a cap vertex.
-pub const CAPS: Entry = Entry { name: "caps", group: 64 };
+pub const CAPS: EntryPoint = EntryPoint { name: "caps", group: 64 };
 
 /// The paper's algorithm 2: a lane a part of the chunk.
-pub const TRAJECTORY_PER_YARN: Entry = Entry { name: "trajectory_per_yarn", group: 64 };
+pub const TRAJECTORY_PER_YARN: EntryPoint = EntryPoint { name: "trajectory_per_yarn", group: 64 };
 
 /// The paper's algorithm 4, on what [`TRAJECTORY_PER_YARN`] left: a lane a part of the chunk.
-pub const MESH_PER_YARN: Entry = Entry { name: "mesh_per_yarn", group: 64 };
+pub const MESH_PER_YARN: EntryPoint = EntryPoint { name: "mesh_per_yarn", group: 64 };
 
 /// Sources that are compiled together, and the entry points in them.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +54,7 @@ pub struct Program {
     /// The files, in order.
     pub sources: &'static [&'static str],
     /// The entry points.
-    pub entries: &'static [Entry],
+    pub entries: &'static [EntryPoint],
 }
 
 /// The schedule per-ring: does everything.

@@ -9,7 +9,7 @@ use texere_core::{
 };
 use thiserror::Error;
 
-use crate::compare::{Fault, Place, Report};
+use crate::compare::{Fault, Report, RingPlace};
 use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
 /// An error that keeps a case from running.
@@ -37,7 +37,7 @@ pub enum Way {
 
 /// A backend's whole output, chunk by chunk.
 #[derive(Debug)]
-pub struct Output {
+pub struct DeviceOutput {
     /// The plan.
     pub plan: Arc<Plan>,
     /// The chunks.
@@ -86,7 +86,7 @@ pub fn drive(
     limits: &Limits,
     way: Way,
     report: &mut Report,
-) -> Result<Output, DriveError> {
+) -> Result<DeviceOutput, DriveError> {
     let mut session = Session::new(device, plan.clone())?;
     upload(&mut session, yarns, way)?;
     if plan.needs_scan() {
@@ -120,7 +120,7 @@ pub fn drive(
             }
         }
     }
-    Ok(Output { plan: plan.clone(), chunks, meshes })
+    Ok(DeviceOutput { plan: plan.clone(), chunks, meshes })
 }
 
 fn upload(session: &mut Session, yarns: &Yarns, way: Way) -> Result<(), SessionError> {
@@ -145,7 +145,7 @@ fn take<T: Copy>(
 ) -> bool {
     let follows = report.note_count(
         &format!("{what} before the next piece"),
-        Place::default(),
+        RingPlace::default(),
         *done as u64,
         at as u64,
     );
@@ -153,7 +153,12 @@ fn take<T: Copy>(
         return false;
     }
     let Some(room) = out.get_mut(at..at + piece.len()) else {
-        report.note(Fault::Count, Place::default(), format_args!("{} {what}", out.len()), at + piece.len());
+        report.note(
+            Fault::Count,
+            RingPlace::default(),
+            format_args!("{} {what}", out.len()),
+            at + piece.len(),
+        );
         return false;
     };
     room.copy_from_slice(piece);
@@ -186,7 +191,7 @@ fn read_mesh(
     let (mut vertices_done, mut indices_done) = (0, 0);
     let answer = session.read_mesh(chunk, &mut |piece| match piece {
         MeshPiece::Vertices { first, vertices } => {
-            report.note_count("indices before the last vertex", Place::default(), 0, indices_done as u64);
+            report.note_count("indices before the last vertex", RingPlace::default(), 0, indices_done as u64);
             let (done, at) = (&mut vertices_done, first as usize);
             proceed(take("vertices", done, at, vertices, all_vertices, report))
         }
@@ -234,6 +239,6 @@ fn proceed(fits: bool) -> ControlFlow<()> {
 /// Reports missing output, unless the sink itself broke off.
 fn note_end(what: &str, answer: ControlFlow<()>, done: usize, planned: usize, report: &mut Report) {
     if answer.is_continue() && done < planned {
-        report.note(Fault::Missing, Place::default(), format_args!("{planned} {what}"), done);
+        report.note(Fault::Missing, RingPlace::default(), format_args!("{planned} {what}"), done);
     }
 }

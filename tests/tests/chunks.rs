@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use texere_conformance::cases::{mixed, winding};
 use texere_conformance::compare::Report;
-use texere_conformance::drive::{Output, Way, drive};
+use texere_conformance::drive::{DeviceOutput, Way, drive};
 use texere_conformance::limits::least;
 use texere_conformance::schedule::able_devices;
 use texere_core::{
@@ -225,7 +225,7 @@ fn the_block_table_says_the_same_as_the_parts() {
     });
 }
 
-fn run(yarns: &Yarns, plan: &Arc<Plan>, limits: &Limits) -> Output {
+fn run(yarns: &Yarns, plan: &Arc<Plan>, limits: &Limits) -> DeviceOutput {
     let mut report = Report::default();
     let output = drive(&SerialBackend::new(), plan, yarns, limits, Way::Into, &mut report).unwrap();
     assert!(report.is_clean(), "{report}");

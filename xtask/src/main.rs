@@ -15,11 +15,12 @@ use demo::vulkan;
 use steps::{Steps, root};
 
 /// Crates that go to crates.io.
-const PUBLISHED: [&str; 11] = [
+const PUBLISHED: [&str; 12] = [
     "texere-core",
     "texere-fabric",
     "texere-formats",
     "texere-cpu",
+    "texere-gpu",
     "texere-kernels",
     "texere-opencl",
     "texere-render",

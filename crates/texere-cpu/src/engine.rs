@@ -33,7 +33,7 @@ pub(crate) trait Executor: Copy + Debug + Send + 'static {
 
 /// Memory of a chunk in flight, which serves the next chunk but one again.
 #[derive(Debug, Default)]
-struct Room {
+struct ChunkMemory {
     rings: Vec<Ring>,
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
@@ -43,7 +43,7 @@ struct Room {
 pub(crate) struct CpuEngine<E> {
     work: Work,
     /// One for each [`Slot`].
-    rooms: [Room; 2],
+    memory: [ChunkMemory; 2],
     timings: StageTimings,
     executor: E,
 }
@@ -54,7 +54,7 @@ impl<E: Executor> CpuEngine<E> {
         pages::prefer_huge(points.points());
         Ok(Self {
             work: Work { plan, points, rolls: Rolls::default() },
-            rooms: Default::default(),
+            memory: Default::default(),
             timings: StageTimings::default(),
             executor,
         })
@@ -103,14 +103,14 @@ impl<E: Executor> Engine for CpuEngine<E> {
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        let rings = &mut self.rooms[slot.index()].rings;
+        let rings = &mut self.memory[slot.index()].rings;
         resize("rings", rings, chunk.rings().into())?;
         timed(&mut self.timings.trajectory, || self.executor.trajectory(&self.work, chunk, rings));
         Ok(())
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        let Room { rings, vertices, indices } = &mut self.rooms[slot.index()];
+        let ChunkMemory { rings, vertices, indices } = &mut self.memory[slot.index()];
         resize("vertices", vertices, chunk.vertices().into())?;
         resize("indices", indices, chunk.indices().into())?;
         let out = MeshMut { vertices, indices };
@@ -124,7 +124,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
         _chunk: &Chunk,
         sink: RingSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        Ok(sink(&self.rooms[slot.index()].rings))
+        Ok(sink(&self.memory[slot.index()].rings))
     }
 
     fn read_mesh(
@@ -133,7 +133,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
         _chunk: &Chunk,
         sink: MeshSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        let Room { vertices, indices, .. } = &self.rooms[slot.index()];
+        let ChunkMemory { vertices, indices, .. } = &self.memory[slot.index()];
         let mut flow = sink(MeshPiece::Vertices { first: 0, vertices });
         if flow.is_continue() && !indices.is_empty() {
             flow = sink(MeshPiece::Indices { first: 0, indices });
@@ -142,7 +142,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
-        let rings = &self.rooms[slot.index()].rings;
+        let rings = &self.memory[slot.index()].rings;
         timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out));
         Ok(())
     }

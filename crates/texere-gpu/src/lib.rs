@@ -4,9 +4,9 @@
 //! |---|---|
 //! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
 //! | control points with virtual ends, written straight to the memory that is sent | [`YarnEnds`], [`PaddedUpload`] |
-//! | the constants that kernels and shaders share with the core | [`prelude`] |
+//! | the constants that kernels and shaders share with the core | [`prelude()`] |
 //! | which chunk's tables lie in a slot, so that no kernel has to check a bound | [`LoadedChunk`] |
-//! | what the paper's schedule leaves out | [`check_schedule`] |
+//! | what a device is called under a schedule, and what the schedule leaves out | [`device_name`], [`check_schedule`], [`serial_unsupported`] |
 //! | the memory that a plan's work takes | [`device_buffers`], [`host_bytes_beside_gpu`] |
 //!
 //! ```
@@ -32,6 +32,6 @@ mod upload;
 pub use loaded::LoadedChunk;
 pub use memory::{device_buffers, host_bytes_beside_gpu};
 pub use prelude::{CONSTANTS, Constant, Language, Value, prelude};
-pub use schedule::check_schedule;
+pub use schedule::{check_schedule, device_name, serial_unsupported};
 pub use tables::{CapRow, Params, YarnRow, cap_pattern, part_rows};
 pub use upload::{PaddedUpload, YarnEnds};

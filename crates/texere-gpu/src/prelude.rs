@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     /// The core's values, each written here once more: a number in place of a name above is found.
-    const OF_THE_CORE: [(&str, &[f32]); 13] = [
+    const OF_THE_CORE: [(&str, &[f32]); 14] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
         ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
@@ -113,6 +113,7 @@ mod tests {
         ("RADIUS_FLOOR", &[RADIUS_FLOOR]),
         ("VERTICAL", &[VERTICAL]),
         ("NO_MIRROR", &[NO_MIRROR]),
+        ("ROTATION_MINIMIZING", &[1.0]),
     ];
 
     /// The texts are read again as their compilers do, and must have the core's bits.

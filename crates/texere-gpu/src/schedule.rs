@@ -1,6 +1,27 @@
-//! What the paper's schedule leaves out.
+//! Schedules: what a device is called under each, and what each leaves out.
 
 use texere_core::{BackendError, Frame, Plan, Schedule};
+
+/// The name of device `index` of `interface` under `schedule`, or of the caller's own device where there is no index.
+///
+/// ```
+/// use texere_core::Schedule;
+/// use texere_gpu::device_name;
+/// assert_eq!(device_name("opencl", Some(1), Schedule::PerRing), "opencl:1");
+/// assert_eq!(device_name("wgpu", None, Schedule::PerYarn), "wgpu/per-yarn");
+/// ```
+#[must_use]
+pub fn device_name(interface: &str, index: Option<usize>, schedule: Schedule) -> String {
+    let index = index.map_or_else(String::new, |index| format!(":{index}"));
+    let of_schedule = if schedule == Schedule::PerYarn { "/per-yarn" } else { "" };
+    format!("{interface}{index}{of_schedule}")
+}
+
+/// The error for [`Schedule::Serial`], which is a host's: no GPU has it. `name` is the device's.
+#[must_use]
+pub fn serial_unsupported(name: &str) -> BackendError {
+    BackendError::Unsupported { schedule: name.into(), what: "the serial schedule".into() }
+}
 
 /// Makes sure that a GPU has `schedule`, and that it does all that `plan` asks for: [`Schedule::PerYarn`] does upright,
 /// untwisted, open yarns without caps. `name` is the device's, for the error.
@@ -20,16 +41,18 @@ use texere_core::{BackendError, Frame, Plan, Schedule};
 ///
 /// **Errors**: [`BackendError::Unsupported`] with the first thing that it leaves out.
 pub fn check_schedule(schedule: Schedule, plan: &Plan, name: &str) -> Result<(), BackendError> {
-    match left_out(schedule, plan) {
+    let left_out = match schedule {
+        Schedule::Serial => return Err(serial_unsupported(name)),
+        Schedule::PerRing => None,
+        Schedule::PerYarn => left_out_per_yarn(plan),
+    };
+    match left_out {
         Some(what) => Err(BackendError::Unsupported { schedule: name.into(), what }),
         None => Ok(()),
     }
 }
 
-fn left_out(schedule: Schedule, plan: &Plan) -> Option<String> {
-    if schedule == Schedule::PerRing {
-        return None;
-    }
+fn left_out_per_yarn(plan: &Plan) -> Option<String> {
     if plan.settings().frame != Frame::Upright {
         return Some("rotation-minimising frames".into());
     }
@@ -78,6 +101,7 @@ mod tests {
         ] {
             assert_eq!(asked(Schedule::PerYarn, yarn, settings).as_deref(), left_out);
             assert_eq!(asked(Schedule::PerRing, yarn, settings), None);
+            assert_eq!(asked(Schedule::Serial, yarn, settings).as_deref(), Some("the serial schedule"));
         }
     }
 }

@@ -13,6 +13,7 @@ use opencl3::device::Device;
 use opencl3::error_codes::ClError;
 use opencl3::platform::Platform;
 use texere_core::{Backend, BackendError, DeviceInfo, Engine, Limits, Plan, Session};
+use texere_gpu::device_name;
 
 use crate::device::{self, listed};
 use crate::faults::failed;
@@ -60,7 +61,7 @@ impl OpenClBackend {
         let mut devices = listed(schedule)?;
         if index >= devices.len() {
             return Err(BackendError::NoDevice {
-                wanted: device::name(Some(index), schedule),
+                wanted: device_name("opencl", Some(index), schedule),
                 found: devices.into_iter().map(|device| device.info.name).collect(),
             });
         }
@@ -88,7 +89,7 @@ impl OpenClBackend {
     ///
     /// `queue` is a valid `cl_command_queue`.
     pub unsafe fn on_queue(queue: *mut c_void, schedule: Schedule) -> Result<Self, BackendError> {
-        let name = device::name(None, schedule);
+        let name = device_name("opencl", None, schedule);
         let ask = |what| get_command_queue_info(queue, what).map_err(failed(&name, "clGetCommandQueueInfo"));
         let properties = ask(CL_QUEUE_PROPERTIES)?.to_ulong();
         if properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE != 0 {

@@ -7,6 +7,7 @@ use opencl3::device::{CL_DEVICE_TYPE_ALL, CL_DEVICE_TYPE_CPU, CL_DEVICE_TYPE_GPU
 use opencl3::error_codes::{CL_DEVICE_NOT_FOUND, CL_PLATFORM_NOT_FOUND_KHR, ClError};
 use opencl3::platform::{Platform, get_platforms};
 use texere_core::{BackendError, DeviceInfo, DeviceKind, Limits};
+use texere_gpu::device_name;
 
 use crate::Schedule;
 use crate::faults::failed;
@@ -31,7 +32,7 @@ pub(crate) fn listed(schedule: Schedule) -> Result<Vec<Listed>, BackendError> {
             Err(ClError(code)) => return Err(failed("opencl", "clGetDeviceIDs")(code)),
         };
         for id in ids {
-            let name = name(Some(devices.len()), schedule);
+            let name = device_name("opencl", Some(devices.len()), schedule);
             devices.push(Listed { id, info: info(&Device::new(id), &platform, name, schedule)? });
         }
     }
@@ -45,13 +46,6 @@ fn platforms() -> Result<Vec<Platform>, i32> {
         Ok(platforms) => Ok(platforms),
         Err(ClError(code)) => Err(code),
     }
-}
-
-/// `opencl:0`, `opencl:0/per-yarn`.
-pub(crate) fn name(index: Option<usize>, schedule: Schedule) -> String {
-    let index = index.map_or_else(String::new, |index| format!(":{index}"));
-    let of_schedule = if schedule == Schedule::PerYarn { "/per-yarn" } else { "" };
-    format!("opencl{index}{of_schedule}")
 }
 
 /// What `device`, opened by `name`, says of itself.

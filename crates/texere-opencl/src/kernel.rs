@@ -8,7 +8,7 @@ use opencl3::command_queue::enqueue_nd_range_kernel;
 use opencl3::error_codes::CL_INVALID_KERNEL_NAME;
 use opencl3::kernel::{create_kernel, set_kernel_arg};
 use texere_core::BackendError;
-use texere_kernels::Entry;
+use texere_kernels::EntryPoint;
 
 use crate::buffers::Buffer;
 use crate::handles::Handle;
@@ -35,7 +35,7 @@ pub(crate) enum Arg<'a> {
 pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
 
 impl Kernel {
-    pub(crate) fn new(opened: &Opened, entry: Entry) -> Result<Self, BackendError> {
+    pub(crate) fn new(opened: &Opened, entry: EntryPoint) -> Result<Self, BackendError> {
         let failed = opened.failed("clCreateKernel");
         let name = CString::new(entry.name).map_err(|_| failed(CL_INVALID_KERNEL_NAME))?;
         let handle = Handle::kernel(create_kernel(opened.program.raw(), &name)).map_err(failed)?;

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use bytemuck::bytes_of;
 use texere_core::{BackendError, Chunk, Plan, Topology};
 use texere_gpu::Params;
-use texere_kernels::{BLOCK_TURNS, CAPS, Entry, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS};
+use texere_kernels::{
+    BLOCK_TURNS, CAPS, EntryPoint, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS,
+};
 
 use crate::chunk_memory::ChunkMemory;
 use crate::handles::Handle;
@@ -90,7 +92,7 @@ impl PerRing {
             block_turns: Kernel::new(opened, BLOCK_TURNS)?,
             yarn_rolls: Kernel::new(opened, YARN_ROLLS)?,
             trajectory: Kernel::new(opened, TRAJECTORY)?,
-            mesh: Kernel::new(opened, Entry { group, ..mesh })?,
+            mesh: Kernel::new(opened, EntryPoint { group, ..mesh })?,
             caps: Kernel::new(opened, CAPS)?,
         })
     }

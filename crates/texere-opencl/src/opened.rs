@@ -8,7 +8,7 @@ use opencl3::program::{
     CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
 };
 use texere_core::{BackendError, Schedule};
-use texere_gpu::{Language, prelude};
+use texere_gpu::{Language, prelude, serial_unsupported};
 use texere_kernels::{PER_RING, PER_YARN, Program};
 
 use crate::faults::failed;
@@ -41,9 +41,7 @@ pub(crate) fn program(schedule: Schedule, name: &str) -> Result<Program, Backend
     match schedule {
         Schedule::PerRing => Ok(PER_RING),
         Schedule::PerYarn => Ok(PER_YARN),
-        Schedule::Serial => {
-            Err(BackendError::Unsupported { schedule: name.into(), what: "the schedule serial".into() })
-        }
+        Schedule::Serial => Err(serial_unsupported(name)),
     }
 }
 

@@ -26,4 +26,4 @@ pub use camera::{Camera, Cut};
 pub use error::RenderError;
 pub use extent::Extent;
 pub use renderer::Renderer;
-pub use scene::{Picture, PictureTimings, Quality, Scene};
+pub use scene::{Picture, PictureTimings, Quality, Scene, chunk_limits};

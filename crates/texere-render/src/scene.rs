@@ -236,8 +236,18 @@ impl Scene<'_> {
     }
 }
 
-/// The limits that chunks are cut to on any device.
-fn chunk_limits(plan: &Plan) -> Limits {
+/// The limits that chunks of a picture's mesh are cut to, on any device.
+///
+/// ```
+/// # use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let plan = Plan::new(yarns.build()?.layout().clone(), Settings::default())?;
+/// assert_eq!(plan.chunks(&texere_render::chunk_limits(&plan))?.count(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn chunk_limits(plan: &Plan) -> Limits {
     Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..Limits::NONE }
 }
 

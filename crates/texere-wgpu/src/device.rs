@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Session};
+use texere_gpu::device_name;
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
 use crate::Schedule;
@@ -43,7 +44,7 @@ impl WgpuBackend {
             .iter()
             .enumerate()
             .map(|(index, adapter)| {
-                let name = name(index, Schedule::PerRing);
+                let name = device_name("wgpu", Some(index), Schedule::PerRing);
                 let timed = has_clock(adapter.features());
                 describe(name, &adapter.get_info(), &adapter.limits(), timed, Schedule::PerRing)
             })
@@ -57,7 +58,8 @@ impl WgpuBackend {
     /// can't be opened; [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let adapters = adapters();
-        let adapter = adapters.get(index).ok_or_else(|| none(name(index, schedule), &adapters))?;
+        let adapter =
+            adapters.get(index).ok_or_else(|| none(device_name("wgpu", Some(index), schedule), &adapters))?;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("texere"),
             required_features: adapter.features() & Features::TIMESTAMP_QUERY,
@@ -65,7 +67,7 @@ impl WgpuBackend {
             ..Default::default()
         }))
         .map_err(|source| BackendError::Driver { call: "Adapter::request_device", source: source.into() })?;
-        Self::new(Gpu::owned(name(index, schedule), device, queue), schedule)
+        Self::new(Gpu::owned(device_name("wgpu", Some(index), schedule), device, queue), schedule)
     }
 
     /// Opens the first device whose maker's name contains `part`, in whatever case.
@@ -91,8 +93,7 @@ impl WgpuBackend {
         queue: wgpu::Queue,
         schedule: Schedule,
     ) -> Result<Self, BackendError> {
-        let name = if schedule == Schedule::PerYarn { "wgpu/per-yarn" } else { "wgpu" };
-        Self::new(Gpu::borrowed(name.into(), device, queue), schedule)
+        Self::new(Gpu::borrowed(device_name("wgpu", None, schedule), device, queue), schedule)
     }
 
     fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
@@ -182,11 +183,6 @@ fn adapters() -> Vec<wgpu::Adapter> {
         adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::COMPUTE_SHADERS)
     });
     adapters
-}
-
-fn name(index: usize, schedule: Schedule) -> String {
-    let of_schedule = if schedule == Schedule::PerYarn { "/per-yarn" } else { "" };
-    format!("wgpu:{index}{of_schedule}")
 }
 
 fn none(wanted: String, adapters: &[wgpu::Adapter]) -> BackendError {

@@ -1,7 +1,7 @@
 //! The compiled shaders of a schedule, and how they are launched.
 
 use texere_core::{BackendError, Schedule};
-use texere_gpu::{Language, prelude};
+use texere_gpu::{Language, prelude, serial_unsupported};
 use texere_shaders::{Access, Resource, Shader, grid};
 use wgpu::{
     BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ShaderStages,
@@ -68,10 +68,7 @@ impl Kernels {
                 trajectory: kernel(&texere_shaders::TRAJECTORY_PER_YARN)?,
                 mesh: kernel(&texere_shaders::MESH_PER_YARN)?,
             })),
-            Schedule::Serial => {
-                let what = "the schedule serial".into();
-                return Err(BackendError::Unsupported { schedule: gpu.name.clone(), what });
-            }
+            Schedule::Serial => return Err(serial_unsupported(&gpu.name)),
         })
     }
 }

@@ -49,6 +49,12 @@ fn a_device_that_is_not_there_is_named_with_those_that_are() {
 }
 
 #[test]
+fn the_serial_schedule_is_a_hosts() {
+    let refused = WgpuBackend::open(0, Schedule::Serial).unwrap_err();
+    assert_eq!(refused.to_string(), "wgpu:0 does not do the serial schedule");
+}
+
+#[test]
 fn a_callers_device_does_as_well() {
     let (device, queue) = callers_device(wgpu::Limits::default());
     let backend = WgpuBackend::from_device(device.clone(), queue, Schedule::PerRing).unwrap();

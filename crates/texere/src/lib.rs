@@ -52,5 +52,5 @@ pub use texere_formats::write::{
 pub use texere_formats::{Design, Place, ReadError, WriteError, read};
 #[cfg(feature = "render")]
 pub use texere_render::{
-    Camera, Cut, Extent, Picture, PictureTimings, Quality, RenderError, Renderer, Scene,
+    Camera, Cut, Extent, Picture, PictureTimings, Quality, RenderError, Renderer, Scene, chunk_limits,
 };

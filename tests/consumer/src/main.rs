@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     for file in ["twill.toml", "damask.toml"] {
         let mut design = texere::read(format!("{designs}/{file}"))?;
-        design.set_section(Section::Lobed { plies: 2 })?;
+        design.structure.set_section(Section::Lobed { plies: 2 })?;
         let yarns = design.yarns()?;
         on_little_stack(&yarns, &SerialBackend::new())?;
         for device in ParallelBackend::each() {

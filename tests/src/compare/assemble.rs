@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use texere_core::{Cap, Chunk, End, Part, Ring, Topology, Vertex};
 
-use super::{Fault, Place, Report, same_bits};
-use crate::drive::{ChunkOutput, Output};
+use super::{Fault, Report, RingPlace, same_bits};
+use crate::drive::{ChunkOutput, DeviceOutput};
 use crate::oracle::{Oracle, cap_flaw, quad_indices};
 use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 
@@ -39,7 +39,7 @@ pub struct AssembledCap {
 ///
 /// Rings that two chunks share must be equal to the bit.
 #[must_use]
-pub fn assemble(oracle: &Oracle, output: &Output, report: &mut Report) -> Assembled {
+pub fn assemble(oracle: &Oracle, output: &DeviceOutput, report: &mut Report) -> Assembled {
     let mut whole = Assembly::new(oracle);
     for (chunk, mesh) in output.chunks.iter().zip(&output.meshes) {
         for part in chunk.parts() {
@@ -78,7 +78,7 @@ impl<'a> Assembly<'a> {
 
     fn take_part(&mut self, part: &Part, mesh: &ChunkOutput, report: &mut Report) {
         let (yarn, first, rings) = (part.yarn as usize, part.first_ring as usize, part.rings as usize);
-        let place = Place { yarn: yarn as u64, ring: first as u64, point: None };
+        let place = RingPlace { yarn: yarn as u64, ring: first as u64, point: None };
         let Some(done) = self.done.get(yarn).copied() else {
             return report.note(Fault::Count, place, self.oracle.yarns.len(), "a yarn more");
         };
@@ -91,7 +91,8 @@ impl<'a> Assembly<'a> {
         self.done[yarn] = first + rings;
         let from = self.assembled.offsets[yarn] + first;
         let vertex = part.first_vertex as usize;
-        let place_of = |at: usize, per_ring: usize| Place { ring: (first + at / per_ring) as u64, ..place };
+        let place_of =
+            |at: usize, per_ring: usize| RingPlace { ring: (first + at / per_ring) as u64, ..place };
         merge(
             &mut self.assembled.rings[from..from + rings],
             mesh.rings.get(vertex / self.sides..vertex / self.sides + rings),
@@ -115,7 +116,8 @@ impl<'a> Assembly<'a> {
     fn check_quads(&self, part: &Part, mesh: &ChunkOutput, report: &mut Report) {
         let (sides, base) = (self.sides as u64, u64::from(part.first_vertex));
         for gap in 0..u64::from(part.rings) - 1 {
-            let place = Place { yarn: part.yarn.into(), ring: u64::from(part.first_ring) + gap, point: None };
+            let place =
+                RingPlace { yarn: part.yarn.into(), ring: u64::from(part.first_ring) + gap, point: None };
             for side in 0..sides {
                 let at = part.first_index as usize + ((gap * sides + side) * 6) as usize;
                 let Some(actual) = mesh.indices.get(at..at + 6) else {
@@ -130,7 +132,7 @@ impl<'a> Assembly<'a> {
                 if !actual.iter().zip(expected).all(|(&actual, expected)| u64::from(actual) == expected) {
                     let unwritten = actual.contains(&POISONED_INDEX);
                     let fault = if unwritten { Fault::Missing } else { Fault::Index };
-                    report.note(fault, Place { point: Some(side), ..place }, expected, actual);
+                    report.note(fault, RingPlace { point: Some(side), ..place }, expected, actual);
                 }
             }
         }
@@ -139,7 +141,7 @@ impl<'a> Assembly<'a> {
     fn take_cap(&mut self, chunk: &Chunk, cap: &Cap, mesh: &ChunkOutput, report: &mut Report) {
         let yarn = cap.yarn as usize;
         let ring = if cap.end == End::Start { 0 } else { self.oracle.yarns[yarn].rings.len() as u64 - 1 };
-        let place = Place { yarn: yarn as u64, ring, point: None };
+        let place = RingPlace { yarn: yarn as u64, ring, point: None };
         let tube_vertices = chunk.parts().iter().map(|part| part.rings as usize * self.sides).sum();
         let first = cap.first_vertex as usize;
         let vertices = mesh.vertices.get(first..first + self.sides).filter(|_| first >= tube_vertices);
@@ -173,7 +175,7 @@ impl<'a> Assembly<'a> {
 
     fn finish(mut self, report: &mut Report) -> Assembled {
         for (number, (yarn, &done)) in self.oracle.yarns.iter().zip(&self.done).enumerate() {
-            let place = Place { yarn: number as u64, ring: done as u64, point: None };
+            let place = RingPlace { yarn: number as u64, ring: done as u64, point: None };
             report.note_count("rings", place, yarn.rings.len() as u64, done as u64);
         }
         // Chunks hold the caps of their own yarns; in the whole they follow the yarns.
@@ -185,7 +187,7 @@ impl<'a> Assembly<'a> {
             .collect();
         let actual: Vec<_> = self.assembled.caps.iter().map(|cap| (cap.yarn, cap.end)).collect();
         if expected != actual {
-            report.note(Fault::Count, Place::default(), expected, actual);
+            report.note(Fault::Count, RingPlace::default(), expected, actual);
         }
         self.assembled
     }
@@ -204,7 +206,7 @@ fn merge<T: bytemuck::Pod + std::fmt::Debug>(
     to: &mut [T],
     from: Option<&[T]>,
     shared: usize,
-    place: impl Fn(usize) -> Place,
+    place: impl Fn(usize) -> RingPlace,
     report: &mut Report,
 ) {
     let Some(from) = from else {

@@ -9,7 +9,7 @@ pub use bounds::{
     COORDINATE_ULPS, DIRECTION, INTERVAL_TWIST, NEAR_VERTICAL, POSITION, ROLL_DRIFT, ROLL_FLOOR,
     SURELY_VERTICAL,
 };
-pub use report::{Fault, Mismatch, Place, Quantity, Report, Worst};
+pub use report::{Fault, Mismatch, Quantity, Report, RingPlace, Worst};
 
 use std::f64::consts::TAU;
 
@@ -67,7 +67,7 @@ pub fn compare_counts(oracle: &Oracle, plan: &Plan, report: &mut Report) {
         ("triangles", expected.triangles, actual.triangles),
         ("indices", expected.indices, actual.indices),
     ] {
-        report.note_count(what, Place::default(), expected, actual);
+        report.note_count(what, RingPlace::default(), expected, actual);
     }
 }
 
@@ -129,7 +129,7 @@ pub fn compare_with_gold(oracle: &Oracle, gold: &Assembled, output: &Assembled, 
     compare(oracle, &Gold { oracle, output: gold }, output, report);
     for (old, new) in gold.caps.iter().zip(&output.caps) {
         if !same_triangles(old, new) {
-            let place = Place { yarn: old.yarn as u64, ..Place::default() };
+            let place = RingPlace { yarn: old.yarn as u64, ..RingPlace::default() };
             report.note(Fault::Index, place, &old.triangles, &new.triangles);
         }
     }
@@ -139,13 +139,13 @@ fn compare(oracle: &Oracle, expected: &impl Expected, output: &Assembled, report
     let sides = oracle.settings.sides as usize;
     for yarn in 0..oracle.yarns.len() {
         for (number, at) in output.rings_of(yarn).enumerate() {
-            let place = Place { yarn: yarn as u64, ring: number as u64, point: None };
+            let place = RingPlace { yarn: yarn as u64, ring: number as u64, point: None };
             let ring = expected.ring(yarn, number);
             let allowed = Allowance::new(&ring, number);
             compare_ring(oracle, &ring, &output.rings[at], &allowed, place, report);
             for (point, vertex) in output.vertices[at * sides..(at + 1) * sides].iter().enumerate() {
                 let (place, vertex_expected) =
-                    (Place { point: Some(point as u64), ..place }, expected.vertex(yarn, number, point));
+                    (RingPlace { point: Some(point as u64), ..place }, expected.vertex(yarn, number, point));
                 compare_vertex(&ring, vertex_expected, vertex, &allowed, place, report);
             }
         }
@@ -156,7 +156,7 @@ fn compare(oracle: &Oracle, expected: &impl Expected, output: &Assembled, report
 }
 
 /// Reports NaN and infinity, and distinguishes memory that was never written from results that are wrong.
-fn is_finite(values: &[f32], place: Place, report: &mut Report) -> bool {
+fn is_finite(values: &[f32], place: RingPlace, report: &mut Report) -> bool {
     let finite = values.iter().all(|value| value.is_finite());
     if !finite {
         let unwritten = values.iter().any(|&value| is_poison(value));
@@ -170,7 +170,7 @@ fn compare_ring(
     expected: &OracleRing,
     actual: &Ring,
     allowed: &Allowance,
-    place: Place,
+    place: RingPlace,
     report: &mut Report,
 ) {
     let [x, y, z] = actual.centre;
@@ -234,7 +234,7 @@ fn compare_vertex(
     (position, normal): (DVec3, DVec3),
     actual: &Vertex,
     allowed: &Allowance,
-    place: Place,
+    place: RingPlace,
     report: &mut Report,
 ) {
     let ([x, y, z], [nx, ny, nz]) = (actual.position, actual.normal);
@@ -281,7 +281,7 @@ fn compare_cap(oracle: &Oracle, expected: &impl Expected, cap: &AssembledCap, re
     let ring = expected.ring(cap.yarn, number);
     let allowed = Allowance::new(&ring, number);
     for (point, vertex) in cap.vertices.iter().enumerate() {
-        let place = Place { yarn: cap.yarn as u64, ring: number as u64, point: Some(point as u64) };
+        let place = RingPlace { yarn: cap.yarn as u64, ring: number as u64, point: Some(point as u64) };
         let (position, _) = expected.vertex(cap.yarn, number, point);
         compare_vertex(&ring, (position, ring.tangent * sign), vertex, &allowed, place, report);
     }
@@ -298,7 +298,7 @@ pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Rep
     for yarn in (0..oracle.yarns.len()).filter(|&yarn| oracle.yarns[yarn].closed) {
         let rings = output.rings_of(yarn);
         let (first, last) = (rings.start, rings.end - 1);
-        let place = Place { yarn: yarn as u64, ring: (last - first) as u64, point: None };
+        let place = RingPlace { yarn: yarn as u64, ring: (last - first) as u64, point: None };
         let (old, new) = (&output.rings[first], &output.rings[last]);
         if !same_bits(old, new) {
             report.note(Fault::Bits, place, old, new);
@@ -307,7 +307,7 @@ pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Rep
             let (old, new) =
                 (&output.vertices[first * sides + point], &output.vertices[last * sides + point]);
             if !same_bits(old, new) {
-                report.note(Fault::Bits, Place { point: Some(point as u64), ..place }, old, new);
+                report.note(Fault::Bits, RingPlace { point: Some(point as u64), ..place }, old, new);
             }
         }
     }
@@ -319,7 +319,7 @@ pub fn compare_bits(oracle: &Oracle, expected: &Assembled, actual: &Assembled, r
     for yarn in 0..oracle.yarns.len() {
         let range = expected.rings_of(yarn);
         for (ring, at) in range.enumerate() {
-            let place = Place { yarn: yarn as u64, ring: ring as u64, point: None };
+            let place = RingPlace { yarn: yarn as u64, ring: ring as u64, point: None };
             let (old, new) = (&expected.rings[at], &actual.rings[at]);
             if !same_bits(old, new) {
                 report.note(Fault::Bits, place, old, new);
@@ -328,7 +328,7 @@ pub fn compare_bits(oracle: &Oracle, expected: &Assembled, actual: &Assembled, r
                 let (old, new) =
                     (&expected.vertices[at * sides + point], &actual.vertices[at * sides + point]);
                 if !same_bits(old, new) {
-                    report.note(Fault::Bits, Place { point: Some(point as u64), ..place }, old, new);
+                    report.note(Fault::Bits, RingPlace { point: Some(point as u64), ..place }, old, new);
                 }
             }
         }
@@ -336,7 +336,7 @@ pub fn compare_bits(oracle: &Oracle, expected: &Assembled, actual: &Assembled, r
     for (old, new) in expected.caps.iter().zip(&actual.caps) {
         let same = old.vertices.iter().zip(&new.vertices).all(|(old, new)| same_bits(old, new));
         if !same || !same_triangles(old, new) {
-            report.note(Fault::Bits, Place { yarn: old.yarn as u64, ..Place::default() }, old, new);
+            report.note(Fault::Bits, RingPlace { yarn: old.yarn as u64, ..RingPlace::default() }, old, new);
         }
     }
 }

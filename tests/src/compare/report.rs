@@ -33,7 +33,7 @@ pub enum Fault {
 
 /// A place in a fabric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Place {
+pub struct RingPlace {
     /// The yarn, from 0.
     pub yarn: u64,
     /// The ring, from the yarn's start.
@@ -42,7 +42,7 @@ pub struct Place {
     pub point: Option<u64>,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for RingPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "yarn {}, ring {}", self.yarn, self.ring)?;
         self.point.map_or(Ok(()), |point| write!(f, ", point {point}"))
@@ -55,7 +55,7 @@ pub struct Mismatch {
     /// The kind of fault.
     pub fault: Fault,
     /// Its place.
-    pub place: Place,
+    pub place: RingPlace,
     /// The expected value.
     pub expected: String,
     /// The value found.
@@ -170,7 +170,13 @@ impl Report {
     }
 
     /// Adds a fault.
-    pub fn note(&mut self, fault: Fault, place: Place, expected: impl fmt::Debug, actual: impl fmt::Debug) {
+    pub fn note(
+        &mut self,
+        fault: Fault,
+        place: RingPlace,
+        expected: impl fmt::Debug,
+        actual: impl fmt::Debug,
+    ) {
         *self.counts.entry(fault).or_default() += 1;
         if self.first.len() < KEPT {
             let (expected, actual) = (format!("{expected:?}"), format!("{actual:?}"));
@@ -179,7 +185,7 @@ impl Report {
     }
 
     /// Adds a fault if two counts differ, and gives back whether they agree.
-    pub fn note_count(&mut self, what: &str, place: Place, expected: u64, actual: u64) -> bool {
+    pub fn note_count(&mut self, what: &str, place: RingPlace, expected: u64, actual: u64) -> bool {
         if expected != actual {
             self.note(Fault::Count, place, format_args!("{expected} {what}"), actual);
         }
@@ -200,7 +206,7 @@ impl Report {
     pub(super) fn check(
         &mut self,
         quantity: Quantity,
-        place: Place,
+        place: RingPlace,
         [error, allowed, unit]: [f64; 3],
         values: (impl fmt::Debug, impl fmt::Debug),
     ) -> bool {

@@ -159,6 +159,8 @@ fn devices_have_names_that_open_them() {
         assert!(info.limits.binding_bytes <= info.memory_bytes.unwrap());
         assert_eq!(OpenClBackend::open(index, Schedule::PerRing).unwrap().info(), info);
     }
+    let refused = OpenClBackend::open(0, Schedule::Serial).unwrap_err();
+    assert_eq!(refused.to_string(), "opencl:0 does not do the serial schedule");
     let missing = OpenClBackend::open(devices.len(), Schedule::PerYarn).map(|_| ());
     let Err(BackendError::NoDevice { wanted, found }) = missing else { panic!("{missing:?}") };
     assert_eq!(wanted, format!("opencl:{}/per-yarn", devices.len()));

@@ -2,7 +2,8 @@
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs, spline.rs, sampling.rs,
 // frame.rs, ring.rs), and common.wgsl is the twin of this file. OpenCL C 1.2, no extension.
-// Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before this file.
+// Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before this file, and FLATTENED: false where all yarns
+// are round, as wide as high everywhere.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -129,12 +130,11 @@ typedef struct {
     float4 c1;
     float4 c2;
     float4 c3;
-    // Half height of P[j], and its coefficients.
+    // The least half width.
+    float width_floor;
+    // Half height of P[j] with its coefficients, and the least one: where yarns are FLATTENED.
     float4 height;
-    // Whether all four control points are round: the height is the width then.
-    bool is_round;
-    // The least half width and half height.
-    float2 floors;
+    float height_floor;
     // A squared velocity up to this counts as zero.
     float at_rest;
 } Segment;
@@ -163,10 +163,6 @@ float point_height(uint4 point) {
     return vload_half(1, (const half *)&halves);
 }
 
-bool point_is_round(uint4 point) {
-    return (point.w & 0xffffu) == point.w >> 16;
-}
-
 // Coefficients of t (x), t^2 (y) and t^3 (z) for a size with these differences from its start.
 float3 size_terms(float a, float b, float c, float s) {
     return (float3)((b - a) * s, a * (2.0f * s) + b * (3.0f - 2.0f * s) - c * s, (c - a) * s + b * (s - 2.0f));
@@ -187,12 +183,14 @@ Segment segment_new(__global const uint4 *points, float s) {
     segment.c1 = (b - a) * s;
     segment.c2 = a * (2.0f * s) + b * (3.0f - 2.0f * s) - c * s;
     segment.c3 = (c - a) * s + b * (s - 2.0f);
-    float start = point_height(here);
-    float end = point_height(next);
-    segment.height = (float4)(start, size_terms(point_height(before) - start, end - start, point_height(after) - start, s));
-    segment.is_round =
-        point_is_round(before) && point_is_round(here) && point_is_round(next) && point_is_round(after);
-    segment.floors = (float2)(min(segment.start.w, point_wide(next).w), min(start, end)) * RADIUS_FLOOR;
+    segment.width_floor = min(segment.start.w, point_wide(next).w) * RADIUS_FLOOR;
+    if (FLATTENED) {
+        float start = point_height(here);
+        float end = point_height(next);
+        segment.height =
+            (float4)(start, size_terms(point_height(before) - start, end - start, point_height(after) - start, s));
+        segment.height_floor = min(start, end) * RADIUS_FLOOR;
+    }
     segment.at_rest =
         max(ZERO_VELOCITY * (dot3(a.xyz, a.xyz) + dot3(b.xyz, b.xyz) + dot3(c.xyz, c.xyz)), NO_LENGTH);
     return segment;
@@ -235,10 +233,10 @@ Sample segment_sample(const Segment *segment, float t) {
         sample.tangent = direction_at_rest(segment, t);
     }
     float3 width_terms = (float3)(segment->c1.w, segment->c2.w, segment->c3.w);
-    float2 width = size_sample(segment->start.w, width_terms, segment->floors.x, t, inverse);
+    float2 width = size_sample(segment->start.w, width_terms, segment->width_floor, t, inverse);
     float2 height = width;
-    if (!segment->is_round) {
-        height = size_sample(segment->height.x, segment->height.yzw, segment->floors.y, t, inverse);
+    if (FLATTENED) {
+        height = size_sample(segment->height.x, segment->height.yzw, segment->height_floor, t, inverse);
     }
     sample.offset = offset;
     sample.centre = segment->start.xyz + offset;
@@ -379,79 +377,63 @@ typedef struct {
     float4 centre;
     // Unit tangent, growth of the half width.
     float4 tangent;
-    // Half height, and its growth; the half height is below zero where the yarn is round, and the same as the width.
-    float half_height;
-    float height_growth;
-    // Of a round yarn the frame turned by the roll, else the upright frame.
     float3 side;
     float3 up;
-    // Sine and cosine of the roll, for a flattened yarn.
+    // Half height and its growth, sine and cosine of the roll: where yarns are FLATTENED.
+    float2 height;
     float2 sin_cos;
 } Stance;
 
-// What says that a yarn is round, in the place of its half height.
-#define IS_ROUND -1.0f
+// The side that a section stands with. It turns with the roll, but where yarns are FLATTENED: there the section turns inside
+// its outline.
+float3 side_of(float3 tangent, uint roll) {
+    return FLATTENED ? basis_upright(tangent).side : side_standing(tangent, roll);
+}
 
-// `side` is as `side_of` gives it, with the half height as `height_of` does.
-Stance stance_round(float4 centre, float4 tangent, float4 side) {
+// `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the roll's.
+Stance stance_new(float4 centre, float4 tangent, float3 side, float2 height, float2 sin_cos) {
     Stance stance;
     stance.centre = centre;
     stance.tangent = tangent;
-    stance.half_height = side.w;
-    stance.height_growth = 0.0f;
-    stance.side = side.xyz;
-    stance.up = up_of(tangent.xyz, side.xyz);
-    stance.sin_cos = (float2)(0.0f, 1.0f);
+    stance.side = side;
+    stance.up = up_of(tangent.xyz, side);
+    stance.height = height;
+    stance.sin_cos = sin_cos;
     return stance;
 }
 
-// Adds what only a flattened yarn needs.
-void stance_flatten(Stance *stance, float height_growth, uint roll) {
-    stance->height_growth = height_growth;
-    stance->sin_cos = turn_sin_cos(roll);
-}
-
-// The half height at a sample, or that the yarn is round there.
-float height_of(const Sample *sample) {
-    bool is_round = sample->half_width == sample->half_height && sample->width_growth == sample->height_growth;
-    return is_round ? IS_ROUND : sample->half_height;
-}
-
-// The side that a stance takes: a flattened yarn's does not turn.
-float3 side_of(float3 tangent, float half_height, uint roll) {
-    return side_standing(tangent, half_height < 0.0f ? roll : 0u);
+// `q` turned by the roll.
+float2 rolled(const Stance *stance, float2 q) {
+    return (float2)(stance->sin_cos.y * q.x - stance->sin_cos.x * q.y, stance->sin_cos.x * q.x + stance->sin_cos.y * q.y);
 }
 
 // Where the vertex at `point` of a section lies.
 float3 position_at(const Stance *stance, float4 point) {
-    if (stance->half_height < 0.0f) {
-        float3 outward = stance->side * point.x + stance->up * point.y;
-        return stance->centre.xyz + outward * stance->centre.w;
+    if (FLATTENED) {
+        float2 q = rolled(stance, point.xy);
+        return stance->centre.xyz + (stance->side * (q.x * stance->centre.w) + stance->up * (q.y * stance->height.x));
     }
-    float x = stance->sin_cos.y * point.x - stance->sin_cos.x * point.y;
-    float y = stance->sin_cos.x * point.x + stance->sin_cos.y * point.y;
-    return stance->centre.xyz + (stance->side * (x * stance->centre.w) + stance->up * (y * stance->half_height));
+    float3 outward = stance->side * point.x + stance->up * point.y;
+    return stance->centre.xyz + outward * stance->centre.w;
 }
 
 // Its normal.
 float3 normal_at(const Stance *stance, float4 point) {
     float4 tangent = stance->tangent;
-    if (stance->half_height < 0.0f) {
-        float3 across = stance->side * point.z + stance->up * point.w;
-        // Most yarns are as thick here as there, and need no square root.
-        if (tangent.w == 0.0f) {
-            return across;
-        }
-        float lean = tangent.w * (point.x * point.z + point.y * point.w);
-        return (across - tangent.xyz * lean) * (1.0f / sqrt(1.0f + lean * lean));
+    if (FLATTENED) {
+        float2 q = rolled(stance, point.xy);
+        // Each times the other's half: the inverse transpose, times the product of both halves.
+        float2 normal = rolled(stance, point.zw) * (float2)(stance->height.x, stance->centre.w);
+        float lean = tangent.w * q.x * normal.x + stance->height.y * q.y * normal.y;
+        float3 across = stance->side * normal.x + stance->up * normal.y;
+        float length_squared = normal.x * normal.x + normal.y * normal.y + lean * lean;
+        return (across - tangent.xyz * lean) * (1.0f / sqrt(length_squared));
     }
-    float x = stance->sin_cos.y * point.x - stance->sin_cos.x * point.y;
-    float y = stance->sin_cos.x * point.x + stance->sin_cos.y * point.y;
-    // Each times the other's half: the inverse transpose, times the product of both halves.
-    float across_x = (stance->sin_cos.y * point.z - stance->sin_cos.x * point.w) * stance->half_height;
-    float across_y = (stance->sin_cos.x * point.z + stance->sin_cos.y * point.w) * stance->centre.w;
-    float lean = tangent.w * x * across_x + stance->height_growth * y * across_y;
-    float3 across = stance->side * across_x + stance->up * across_y;
-    float length_squared = across_x * across_x + across_y * across_y + lean * lean;
-    return (across - tangent.xyz * lean) * (1.0f / sqrt(length_squared));
+    float3 across = stance->side * point.z + stance->up * point.w;
+    // Most yarns are as thick here as there, and need no square root.
+    if (tangent.w == 0.0f) {
+        return across;
+    }
+    float lean = tangent.w * (point.x * point.z + point.y * point.w);
+    return (across - tangent.xyz * lean) * (1.0f / sqrt(1.0f + lean * lean));
 }

@@ -47,17 +47,7 @@ Stance stance_at(__global const uint4 *ring) {
     float4 centre = as_float4(ring[0]);
     float4 tangent = as_float4(ring[1]);
     float4 size = as_float4(ring[2]);
-    Sample sample;
-    sample.tangent = tangent.xyz;
-    sample.half_width = centre.w;
-    sample.half_height = size.x;
-    sample.width_growth = size.y;
-    sample.height_growth = size.z;
-    float half_height = height_of(&sample);
-    float4 side = (float4)(side_of(tangent.xyz, half_height, 0u), half_height);
-    Stance stance = stance_round(centre, (float4)(tangent.xyz, size.y), side);
-    stance_flatten(&stance, size.z, 0u);
-    return stance;
+    return stance_new(centre, (float4)(tangent.xyz, size.y), side_of(tangent.xyz, 0u), size.xz, (float2)(0.0f, 1.0f));
 }
 
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.

@@ -9,9 +9,11 @@ typedef struct {
     float4 centre[BLOCK_RINGS];
     // Unit tangent, growth of the half width.
     float4 tangent[BLOCK_RINGS];
-    // As `side_of` gives it, and the half height as `height_of` does.
+    // As `side_of` gives it, and the half height.
     float4 side[BLOCK_RINGS];
     float height_growth[BLOCK_RINGS];
+    // Sine and cosine of the roll: where yarns are FLATTENED.
+    float2 sin_cos[BLOCK_RINGS];
     uint roll[BLOCK_RINGS];
     // The turns of each eight rings.
     uint eights[BLOCK_RINGS / 8];
@@ -26,12 +28,9 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
     uint roll = 0u;
     if (lane < block->rings) {
         here = ring_sample(points, params, yarn, block, lane);
-        // Stored at once, so that fewer registers are taken until the roll is known.
-        rings->centre[lane] = (float4)(here.sample.centre, here.sample.half_width);
         rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.width_growth);
-        rings->height_growth[lane] = here.sample.height_growth;
-        // The step from the ring before wants the offset; the side takes its place afterwards.
-        rings->side[lane] = (float4)(here.sample.offset, height_of(&here.sample));
+        // The step from the ring before needs the offset; the side takes its place afterwards.
+        rings->side[lane] = (float4)(here.sample.offset, 0.0f);
     }
     if (params->rolled != 0u) {
         barrier(CLK_LOCAL_MEM_FENCE);
@@ -64,10 +63,13 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
         }
     }
     if (lane < block->rings) {
-        float half_height = rings->side[lane].w;
-        float3 side = side_of(rings->tangent[lane].xyz, half_height, roll);
-        rings->side[lane] = (float4)(side, half_height);
+        rings->centre[lane] = (float4)(here.sample.centre, here.sample.half_width);
+        rings->side[lane] = (float4)(side_of(here.sample.tangent, roll), here.sample.half_height);
+        rings->height_growth[lane] = here.sample.height_growth;
         rings->roll[lane] = roll;
+        if (FLATTENED) {
+            rings->sin_cos[lane] = turn_sin_cos(roll);
+        }
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 }
@@ -75,9 +77,6 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
 // How a section stands on ring `ring`.
 Stance stance_of(__local const BlockRings *rings, uint ring) {
     float4 side = rings->side[ring];
-    Stance stance = stance_round(rings->centre[ring], rings->tangent[ring], side);
-    if (side.w >= 0.0f) {
-        stance_flatten(&stance, rings->height_growth[ring], rings->roll[ring]);
-    }
-    return stance;
+    float2 height = (float2)(side.w, rings->height_growth[ring]);
+    return stance_new(rings->centre[ring], rings->tangent[ring], side.xyz, height, rings->sin_cos[ring]);
 }

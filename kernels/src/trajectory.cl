@@ -27,9 +27,7 @@ void trajectory(const Params params, const ulong window, __global const uint4 *p
         } else if (piece % 3u == 1u) {
             out[piece] = (uint4)(as_uint(tangent.x), as_uint(tangent.y), as_uint(tangent.z), standing.roll[ring]);
         } else {
-            float half_height = standing.side[ring].w;
-            half_height = half_height < 0.0f ? centre.w : half_height;
-            out[piece] = (uint4)(as_uint(half_height), as_uint(tangent.w), as_uint(standing.height_growth[ring]), 0u);
+            out[piece] = as_uint4((float4)(standing.side[ring].w, tangent.w, standing.height_growth[ring], 0.0f));
         }
     }
 }

@@ -2,7 +2,8 @@
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (turn.rs, spline.rs, sampling.rs,
 // frame.rs, ring.rs), and common.cl is the twin of this file. Core WGSL, no feature required.
-// Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before this file.
+// Constants such as BLOCK_RINGS are the core's; texere-gpu writes them before this file, and FLATTENED: false where all yarns
+// are round, as wide as high everywhere.
 
 // Rust: texere_core::Block, 32 bytes.
 struct Block {
@@ -129,12 +130,11 @@ struct Segment {
     c1: vec4<f32>,
     c2: vec4<f32>,
     c3: vec4<f32>,
-    // Half height of P[j], and its coefficients.
+    // The least half width.
+    width_floor: f32,
+    // Half height of P[j] with its coefficients, and the least one: where yarns are FLATTENED.
     height: vec4<f32>,
-    // Whether all four control points are round: the height is the width then.
-    is_round: bool,
-    // The least half width and half height.
-    floors: vec2<f32>,
+    height_floor: f32,
     // A squared velocity up to this counts as zero.
     at_rest: f32,
 }
@@ -161,10 +161,6 @@ fn point_height(point: vec4<u32>) -> f32 {
     return unpack2x16float(point.w).y;
 }
 
-fn point_is_round(point: vec4<u32>) -> bool {
-    return (point.w & 0xffffu) == point.w >> 16u;
-}
-
 // Coefficients of t (x), t^2 (y) and t^3 (z) for a size with these differences from its start.
 fn size_terms(a: f32, b: f32, c: f32, s: f32) -> vec3<f32> {
     return vec3((b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0));
@@ -185,12 +181,14 @@ fn segment_new(first: u32, s: f32) -> Segment {
     segment.c1 = (b - a) * s;
     segment.c2 = a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s;
     segment.c3 = (c - a) * s + b * (s - 2.0);
-    let start = point_height(here);
-    let end = point_height(next);
-    segment.height = vec4(start, size_terms(point_height(before) - start, end - start, point_height(after) - start, s));
-    segment.is_round =
-        point_is_round(before) && point_is_round(here) && point_is_round(next) && point_is_round(after);
-    segment.floors = vec2(min(segment.start.w, point_wide(next).w), min(start, end)) * RADIUS_FLOOR;
+    segment.width_floor = min(segment.start.w, point_wide(next).w) * RADIUS_FLOOR;
+    if FLATTENED {
+        let start = point_height(here);
+        let end = point_height(next);
+        segment.height =
+            vec4(start, size_terms(point_height(before) - start, end - start, point_height(after) - start, s));
+        segment.height_floor = min(start, end) * RADIUS_FLOOR;
+    }
     segment.at_rest =
         max(ZERO_VELOCITY * (dot(a.xyz, a.xyz) + dot(b.xyz, b.xyz) + dot(c.xyz, c.xyz)), NO_LENGTH);
     return segment;
@@ -233,10 +231,10 @@ fn segment_sample(segment: Segment, t: f32) -> Sample {
         sample.tangent = direction_at_rest(segment, t);
     }
     let width_terms = vec3(segment.c1.w, segment.c2.w, segment.c3.w);
-    let width = size_sample(segment.start.w, width_terms, segment.floors.x, t, inverse);
+    let width = size_sample(segment.start.w, width_terms, segment.width_floor, t, inverse);
     var height = width;
-    if !segment.is_round {
-        height = size_sample(segment.height.x, segment.height.yzw, segment.floors.y, t, inverse);
+    if FLATTENED {
+        height = size_sample(segment.height.x, segment.height.yzw, segment.height_floor, t, inverse);
     }
     sample.offset = offset;
     sample.centre = segment.start.xyz + offset;
@@ -378,79 +376,66 @@ struct Stance {
     centre: vec4<f32>,
     // Unit tangent, growth of the half width.
     tangent: vec4<f32>,
-    // Half height, and its growth; the half height is below zero where the yarn is round, and the same as the width.
-    half_height: f32,
-    height_growth: f32,
-    // Of a round yarn the frame turned by the roll, else the upright frame.
     side: vec3<f32>,
     up: vec3<f32>,
-    // Sine and cosine of the roll, for a flattened yarn.
+    // Half height and its growth, sine and cosine of the roll: where yarns are FLATTENED.
+    height: vec2<f32>,
     sin_cos: vec2<f32>,
 }
 
-// What says that a yarn is round, in the place of its half height.
-const IS_ROUND = -1.0;
+// The side that a section stands with. It turns with the roll, but where yarns are FLATTENED: there the section turns inside
+// its outline.
+fn side_of(tangent: vec3<f32>, roll: u32) -> vec3<f32> {
+    if FLATTENED {
+        return basis_upright(tangent).side;
+    }
+    return side_standing(tangent, roll);
+}
 
-// `side` is as `side_of` gives it, with the half height as `height_of` does.
-fn stance_round(centre: vec4<f32>, tangent: vec4<f32>, side: vec4<f32>) -> Stance {
+// `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the roll's.
+fn stance_new(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, height: vec2<f32>, sin_cos: vec2<f32>) -> Stance {
     var stance: Stance;
     stance.centre = centre;
     stance.tangent = tangent;
-    stance.half_height = side.w;
-    stance.height_growth = 0.0;
-    stance.side = side.xyz;
-    stance.up = up_of(tangent.xyz, side.xyz);
-    stance.sin_cos = vec2(0.0, 1.0);
+    stance.side = side;
+    stance.up = up_of(tangent.xyz, side);
+    stance.height = height;
+    stance.sin_cos = sin_cos;
     return stance;
 }
 
-// Adds what only a flattened yarn needs.
-fn stance_flatten(stance: ptr<function, Stance>, height_growth: f32, roll: u32) {
-    (*stance).height_growth = height_growth;
-    (*stance).sin_cos = turn_sin_cos(roll);
-}
-
-// The half height at a sample, or that the yarn is round there.
-fn height_of(sample: Sample) -> f32 {
-    let is_round = sample.half_width == sample.half_height && sample.width_growth == sample.height_growth;
-    return select(sample.half_height, IS_ROUND, is_round);
-}
-
-// The side that a stance takes: a flattened yarn's does not turn.
-fn side_of(tangent: vec3<f32>, half_height: f32, roll: u32) -> vec3<f32> {
-    return side_standing(tangent, select(0u, roll, half_height < 0.0));
+// `q` turned by the roll.
+fn rolled(stance: Stance, q: vec2<f32>) -> vec2<f32> {
+    return vec2(stance.sin_cos.y * q.x - stance.sin_cos.x * q.y, stance.sin_cos.x * q.x + stance.sin_cos.y * q.y);
 }
 
 // Where the vertex at `point` of a section lies.
 fn position_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
-    if stance.half_height < 0.0 {
-        let outward = stance.side * point.x + stance.up * point.y;
-        return stance.centre.xyz + outward * stance.centre.w;
+    if FLATTENED {
+        let q = rolled(stance, point.xy);
+        return stance.centre.xyz + (stance.side * (q.x * stance.centre.w) + stance.up * (q.y * stance.height.x));
     }
-    let x = stance.sin_cos.y * point.x - stance.sin_cos.x * point.y;
-    let y = stance.sin_cos.x * point.x + stance.sin_cos.y * point.y;
-    return stance.centre.xyz + (stance.side * (x * stance.centre.w) + stance.up * (y * stance.half_height));
+    let outward = stance.side * point.x + stance.up * point.y;
+    return stance.centre.xyz + outward * stance.centre.w;
 }
 
 // Its normal.
 fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
     let tangent = stance.tangent;
-    if stance.half_height < 0.0 {
-        let across = stance.side * point.z + stance.up * point.w;
-        // Most yarns are as thick here as there, and need no square root.
-        if tangent.w == 0.0 {
-            return across;
-        }
-        let lean = tangent.w * (point.x * point.z + point.y * point.w);
-        return (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
+    if FLATTENED {
+        let q = rolled(stance, point.xy);
+        // Each times the other's half: the inverse transpose, times the product of both halves.
+        let normal = rolled(stance, point.zw) * vec2(stance.height.x, stance.centre.w);
+        let lean = tangent.w * q.x * normal.x + stance.height.y * q.y * normal.y;
+        let across = stance.side * normal.x + stance.up * normal.y;
+        let length_squared = normal.x * normal.x + normal.y * normal.y + lean * lean;
+        return (across - tangent.xyz * lean) * (1.0 / sqrt(length_squared));
     }
-    let x = stance.sin_cos.y * point.x - stance.sin_cos.x * point.y;
-    let y = stance.sin_cos.x * point.x + stance.sin_cos.y * point.y;
-    // Each times the other's half: the inverse transpose, times the product of both halves.
-    let across_x = (stance.sin_cos.y * point.z - stance.sin_cos.x * point.w) * stance.half_height;
-    let across_y = (stance.sin_cos.x * point.z + stance.sin_cos.y * point.w) * stance.centre.w;
-    let lean = tangent.w * x * across_x + stance.height_growth * y * across_y;
-    let across = stance.side * across_x + stance.up * across_y;
-    let length_squared = across_x * across_x + across_y * across_y + lean * lean;
-    return (across - tangent.xyz * lean) * (1.0 / sqrt(length_squared));
+    let across = stance.side * point.z + stance.up * point.w;
+    // Most yarns are as thick here as there, and need no square root.
+    if tangent.w == 0.0 {
+        return across;
+    }
+    let lean = tangent.w * (point.x * point.z + point.y * point.w);
+    return (across - tangent.xyz * lean) * (1.0 / sqrt(1.0 + lean * lean));
 }

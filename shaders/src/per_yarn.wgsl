@@ -58,17 +58,8 @@ fn trajectory_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_wor
 fn stance_at(at: u32) -> Stance {
     let centre = bitcast<vec4<f32>>(rings[at]);
     let size = bitcast<vec3<f32>>(rings[at + 2u].xyz);
-    var sample: Sample;
-    sample.tangent = bitcast<vec3<f32>>(rings[at + 1u].xyz);
-    sample.half_width = centre.w;
-    sample.half_height = size.x;
-    sample.width_growth = size.y;
-    sample.height_growth = size.z;
-    let half_height = height_of(sample);
-    let side = vec4(side_of(sample.tangent, half_height, 0u), half_height);
-    var stance = stance_round(centre, vec4(sample.tangent, size.y), side);
-    stance_flatten(&stance, size.z, 0u);
-    return stance;
+    let tangent = bitcast<vec3<f32>>(rings[at + 1u].xyz);
+    return stance_new(centre, vec4(tangent, size.y), side_of(tangent, 0u), size.xz, vec2(0.0, 1.0));
 }
 
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.

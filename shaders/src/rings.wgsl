@@ -12,9 +12,11 @@ struct BlockRings {
     centre: array<vec4<f32>, BLOCK_RINGS>,
     // Unit tangent, growth of the half width.
     tangent: array<vec4<f32>, BLOCK_RINGS>,
-    // As `side_of` gives it, and the half height as `height_of` does.
+    // As `side_of` gives it, and the half height.
     side: array<vec4<f32>, BLOCK_RINGS>,
     height_growth: array<f32, BLOCK_RINGS>,
+    // Sine and cosine of the roll: where yarns are FLATTENED.
+    sin_cos: array<vec2<f32>, BLOCK_RINGS>,
     roll: array<u32, BLOCK_RINGS>,
     // The turns of each eight rings.
     eights: array<u32, BLOCK_RINGS / 8u>,
@@ -29,12 +31,9 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
     var roll = 0u;
     if lane < block.rings {
         here = ring_sample(yarn, block, lane);
-        // Stored at once, so that fewer registers are taken until the roll is known.
-        standing.centre[lane] = vec4(here.sample.centre, here.sample.half_width);
         standing.tangent[lane] = vec4(here.sample.tangent, here.sample.width_growth);
-        standing.height_growth[lane] = here.sample.height_growth;
-        // The step from the ring before wants the offset; the side takes its place afterwards.
-        standing.side[lane] = vec4(here.sample.offset, height_of(here.sample));
+        // The step from the ring before needs the offset; the side takes its place afterwards.
+        standing.side[lane] = vec4(here.sample.offset, 0.0);
     }
     if params.rolled != 0u {
         workgroupBarrier();
@@ -67,10 +66,13 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
         }
     }
     if lane < block.rings {
-        let half_height = standing.side[lane].w;
-        let side = side_of(standing.tangent[lane].xyz, half_height, roll);
-        standing.side[lane] = vec4(side, half_height);
+        standing.centre[lane] = vec4(here.sample.centre, here.sample.half_width);
+        standing.side[lane] = vec4(side_of(here.sample.tangent, roll), here.sample.half_height);
+        standing.height_growth[lane] = here.sample.height_growth;
         standing.roll[lane] = roll;
+        if FLATTENED {
+            standing.sin_cos[lane] = turn_sin_cos(roll);
+        }
     }
     workgroupBarrier();
 }
@@ -78,9 +80,6 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
 // How a section stands on ring `ring`.
 fn stance_of(ring: u32) -> Stance {
     let side = standing.side[ring];
-    var stance = stance_round(standing.centre[ring], standing.tangent[ring], side);
-    if side.w >= 0.0 {
-        stance_flatten(&stance, standing.height_growth[ring], standing.roll[ring]);
-    }
-    return stance;
+    let height = vec2(side.w, standing.height_growth[ring]);
+    return stance_new(standing.centre[ring], standing.tangent[ring], side.xyz, height, standing.sin_cos[ring]);
 }

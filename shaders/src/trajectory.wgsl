@@ -29,9 +29,8 @@ fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
         } else if piece % 3u == 1u {
             rings[out + piece] = vec4(bitcast<vec3<u32>>(tangent.xyz), standing.roll[ring]);
         } else {
-            let half_height = standing.side[ring].w;
-            let sizes = vec3(select(half_height, centre.w, half_height < 0.0), tangent.w, standing.height_growth[ring]);
-            rings[out + piece] = vec4(bitcast<vec3<u32>>(sizes), 0u);
+            let sizes = vec4(standing.side[ring].w, tangent.w, standing.height_growth[ring], 0.0);
+            rings[out + piece] = bitcast<vec4<u32>>(sizes);
         }
     }
 }

@@ -12,7 +12,7 @@ use texere_gpu::{CapRow, Language, Params, YarnRow, prelude};
 use texere_shaders::{ALL, Access, Shader, picture};
 
 fn parse(shader: &Shader) -> (Module, ModuleInfo) {
-    parse_source(&(prelude(Language::Wgsl) + shader.source))
+    parse_source(&(prelude(Language::Wgsl, true) + shader.source))
 }
 
 fn parse_source(source: &str) -> (Module, ModuleInfo) {

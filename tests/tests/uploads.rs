@@ -31,8 +31,10 @@ fn plan(yarns: &[(usize, bool)]) -> Plan {
 
 fn point() -> impl Strategy<Value = ControlPoint> {
     let number = -1e6f32..1e6;
-    (number.clone(), number.clone(), number, 1e-6f32..1e6)
-        .prop_map(|(x, y, z, r)| ControlPoint::new(x, y, z, r))
+    let flatness = prop_oneof![9 => Just(1.0f32), 1 => 0.1f32..10.0];
+    (number.clone(), number.clone(), number, 1e-3f32..1e3, flatness).prop_map(|(x, y, z, r, flatness)| {
+        ControlPoint::new(x, y, z, r).flattened(r * flatness, r / flatness)
+    })
 }
 
 /// Ranges among `total` points: single points, few, any.
@@ -58,13 +60,14 @@ fn bits(points: &[ControlPoint]) -> &[u32] {
 
 proptest! {
     /// However little each piece has, memory that starts as zeros holds after each upload what `PaddedPoints` holds; what
-    /// is written beside the points sent is a virtual end that hangs on them.
+    /// is written beside the points sent is a virtual end that hangs on them. A point that is not round is seen.
     #[test]
     fn uploads_write_what_padded_points_keep((yarns, uploads) in uploads(), piece in 1u64..20) {
         let plan = plan(&yarns);
         let mut expected = PaddedPoints::new(&plan).unwrap();
         let mut written = vec![ControlPoint::default(); expected.points().len()];
         let mut ends = YarnEnds::new(&plan).unwrap();
+        let mut flattened = false;
         for (first, points) in uploads {
             let first = first as u64;
             let touched = expected.upload(&plan, first, &points);
@@ -88,6 +91,8 @@ proptest! {
             }
             ends.keep(&upload);
             prop_assert_eq!(bits(&written), bits(expected.points()));
+            flattened |= points.iter().any(|point| point.half_width() != point.half_height());
+            prop_assert_eq!(ends.flattened(), flattened);
             prop_assert!(sent <= touched.end - touched.start);
             prop_assert!(points.len() != 1 || sent <= 5, "one point and both ends of a closed yarn");
         }
@@ -117,7 +122,7 @@ fn a_point_in_the_middle_goes_alone() {
     assert_eq!(sent(17), [(11, 12), (20, 24)]);
 }
 
-/// Asserts that every ring of the only chunk, one for each control point, lies where `points` are.
+/// Asserts that every ring of the only chunk, one for each control point, lies where `points` are, as wide and as high.
 fn assert_holds(session: &mut Session, plan: &Plan, points: &[ControlPoint], device: &str) {
     let chunk = plan.chunks(&Limits::NONE).unwrap().next().unwrap();
     session.trajectory(&chunk).unwrap();
@@ -126,6 +131,10 @@ fn assert_holds(session: &mut Session, plan: &Plan, points: &[ControlPoint], dev
         for (number, (ring, point)) in (seen..).zip(rings.iter().zip(&points[seen..])) {
             let off = (glam::Vec3::from(ring.centre) - point.position()).length();
             assert!(off < 1e-3, "{device}, ring {number}: {ring:?} for {point:?}");
+            let (ring_halves, halves) =
+                ([ring.half_width, ring.half_height], [point.half_width(), point.half_height()]);
+            let wrong = ring_halves.iter().zip(halves).any(|(ring, half)| (ring - half).abs() > 1e-5 * half);
+            assert!(!wrong, "{device}, ring {number}: {ring:?} for {point:?}");
         }
         seen += rings.len();
         ControlFlow::Continue(())
@@ -144,9 +153,11 @@ fn a_large_cloth_arrives_on_every_device_and_arrives_again() {
         let mut session = Session::new(&*texere::open(&device.name).unwrap(), plan.clone()).unwrap();
         session.upload(0, &points).unwrap();
         assert_holds(&mut session, &plan, &points, &device.name);
-        // From within one yarn to within another.
+        // From within one yarn to within another, and round no more.
         let end = points.len() - 7;
-        points[5..end].iter_mut().for_each(|point| point.z += 1.0);
+        for point in &mut points[5..end] {
+            *point = ControlPoint { z: point.z + 1.0, ..point.flattened(0.11, 0.07) };
+        }
         session.upload(5, &points[5..end]).unwrap();
         assert_holds(&mut session, &plan, &points, &device.name);
     }

@@ -56,6 +56,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "float(\"RADIUS_FLOOR\", RADIUS_FLOOR),",
         "float(\"RADIUS_FLOOR\", 0.9 * RADIUS_FLOOR),",
     ),
+    // Flattened yarns get the program for round ones.
+    opencl("crates/texere-gpu/src/upload.rs", "runs", "!all_round(lent)", "lent.is_empty()"),
     // The clamp at the yarn's last ring is forgotten: t = 0 of an interval that is not there.
     opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
     // The ring's own turn is counted in.
@@ -93,24 +95,24 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     ),
     // A flattened yarn's section does not turn.
     opencl(
-        "kernels/src/common.cl",
-        "stance_flatten",
-        "stance->sin_cos = turn_sin_cos(roll);",
-        "stance->sin_cos = turn_sin_cos(0u);",
+        "kernels/src/rings.cl",
+        "block_rings",
+        "rings->sin_cos[lane] = turn_sin_cos(roll);",
+        "rings->sin_cos[lane] = turn_sin_cos(0u);",
     ),
     // A flattened section's normals are stretched as its points are.
     wgpu(
         "shaders/src/common.wgsl",
         "normal_at",
-        "(stance.sin_cos.y * point.z - stance.sin_cos.x * point.w) * stance.half_height;",
-        "(stance.sin_cos.y * point.z - stance.sin_cos.x * point.w) * stance.centre.w;",
+        "rolled(stance, point.zw) * vec2(stance.height.x, stance.centre.w);",
+        "rolled(stance, point.zw) * vec2(stance.centre.w, stance.height.x);",
     ),
     // Heights are held at the least half width.
     wgpu(
         "shaders/src/common.wgsl",
         "segment_sample",
-        "segment.height.yzw, segment.floors.y, t, inverse);",
-        "segment.height.yzw, segment.floors.x, t, inverse);",
+        "segment.height.yzw, segment.height_floor, t, inverse);",
+        "segment.height.yzw, segment.width_floor, t, inverse);",
     ),
     // The last quads of each part are missing.
     opencl("kernels/src/per_yarn.cl", "mesh_per_yarn", "ring < part.quads", "ring + 1u < part.quads"),

@@ -97,6 +97,13 @@ impl ControlPoint {
         self.halves.height()
     }
 
+    /// Whether the yarn is as wide as high here.
+    #[must_use]
+    #[inline]
+    pub const fn is_round(&self) -> bool {
+        self.halves.0[0] == self.halves.0[1]
+    }
+
     /// `2 self - other` in all five components: the paper's virtual ends (equations 3 and 4). Sizes are worked out in `f32`
     /// and rounded to half floats.
     ///

@@ -68,16 +68,20 @@ pub const CONSTANTS: [Constant; 22] = [
     integer("ROTATION_MINIMIZING", Frame::RotationMinimizing as u32),
 ];
 
-/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`]. Decimals are as short as
-/// give the same bits again.
+/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`], and of `FLATTENED`. Decimals are
+/// as short as give the same bits again.
+///
+/// Where `flattened` is false the program is for round yarns alone, as wide as high at each control point: it takes no account of
+/// half heights, and is faster by that. The other does all yarns.
 ///
 /// ```
 /// use texere_gpu::{Language, prelude};
-/// assert!(prelude(Language::OpenClC).contains("#define RADIUS_FLOOR 5e-1f\n"));
-/// assert!(prelude(Language::Wgsl).contains("const RADIUS_FLOOR: f32 = 5e-1f;\n"));
+/// assert!(prelude(Language::OpenClC, false).contains("#define RADIUS_FLOOR 5e-1f\n"));
+/// assert!(prelude(Language::Wgsl, true).contains("const RADIUS_FLOOR: f32 = 5e-1f;\n"));
+/// assert!(prelude(Language::Wgsl, true).ends_with("const FLATTENED = true;\n"));
 /// ```
 #[must_use]
-pub fn prelude(language: Language) -> String {
+pub fn prelude(language: Language, flattened: bool) -> String {
     let mut text = String::new();
     for Constant { name, value } in CONSTANTS {
         // Writing to a string does not fail.
@@ -91,6 +95,10 @@ pub fn prelude(language: Language) -> String {
             (Language::Wgsl, Value::Integer(value)) => writeln!(text, "const {name} = {value}u;"),
         };
     }
+    let _ = match language {
+        Language::OpenClC => writeln!(text, "#define FLATTENED {flattened}"),
+        Language::Wgsl => writeln!(text, "const FLATTENED = {flattened};"),
+    };
     text
 }
 
@@ -122,9 +130,10 @@ mod tests {
         for (language, define, assign) in
             [(Language::OpenClC, "#define ", " "), (Language::Wgsl, "const ", "= ")]
         {
-            let text = prelude(language);
+            let text = prelude(language, false);
             let read: Vec<(&str, f32)> = text
                 .lines()
+                .filter(|line| !line.contains("FLATTENED"))
                 .map(|line| {
                     let rest = line.strip_prefix(define).unwrap();
                     let name = rest.split([' ', ':']).next().unwrap();

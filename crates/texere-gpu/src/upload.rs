@@ -1,6 +1,7 @@
 //! Uploads to padded control points that lie elsewhere, such as on a GPU: what to write there, without a copy here.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use texere_core::{BackendError, ControlPoint, Plan, renew_virtual_ends, zeroed};
 
@@ -29,6 +30,7 @@ pub(crate) type Ends = [ControlPoint; 5];
 #[derive(Debug, Clone)]
 pub struct YarnEnds {
     ends: Vec<Ends>,
+    flattened: bool,
 }
 
 impl YarnEnds {
@@ -36,7 +38,7 @@ impl YarnEnds {
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn new(plan: &Plan) -> Result<Self, BackendError> {
-        Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)? })
+        Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)?, flattened: false })
     }
 
     /// What an upload of `points`, the first of which is number `first` of the fabric, has to write. Points past the fabric's
@@ -46,11 +48,24 @@ impl YarnEnds {
     #[must_use]
     pub fn upload<'a>(&self, plan: &'a Plan, first: u64, points: &'a [ControlPoint]) -> PaddedUpload<'a> {
         let yarns = plan.layout().yarns_of(first..first.saturating_add(points.len() as u64));
-        let mut upload = PaddedUpload { plan, first, points, yarns, cut: Default::default() };
+        let mut upload = PaddedUpload {
+            plan,
+            first,
+            points,
+            yarns,
+            cut: Default::default(),
+            flattened: self.flattened.into(),
+        };
         if let Some(last) = upload.yarns.clone().last() {
             upload.cut = [upload.yarns.start, last].map(|yarn| upload.renewed(yarn, self.ends[yarn]));
         }
         upload
+    }
+
+    /// Whether a control point that was kept was not round, as wide as high; so it stays, even where that point is round again.
+    #[must_use]
+    pub fn flattened(&self) -> bool {
+        self.flattened
     }
 
     /// Remembers the ends of an upload that has been written.
@@ -60,6 +75,7 @@ impl YarnEnds {
         for yarn in upload.yarns.clone() {
             self.ends[yarn] = upload.renewed(yarn, self.ends[yarn]);
         }
+        self.flattened = upload.flattened.load(Ordering::Relaxed);
     }
 }
 
@@ -73,6 +89,8 @@ pub struct PaddedUpload<'a> {
     yarns: Range<usize>,
     /// Of the first yarn and the last, of which only a part may be sent.
     cut: [Ends; 2],
+    /// Whether a point that was lent, or sent before, is not round. Found while the points are in a core's cache anyway.
+    flattened: AtomicBool,
 }
 
 impl PaddedUpload<'_> {
@@ -115,7 +133,11 @@ impl PaddedUpload<'_> {
             for (at, run) in runs {
                 let part = meet(&range, &(at..at + run.len() as u64));
                 if !part.is_empty() {
-                    take(&run[(part.start - at) as usize..(part.end - at) as usize]);
+                    let lent = &run[(part.start - at) as usize..(part.end - at) as usize];
+                    take(lent);
+                    if !self.flattened.load(Ordering::Relaxed) && !all_round(lent) {
+                        self.flattened.store(true, Ordering::Relaxed);
+                    }
                 }
             }
         }
@@ -176,6 +198,11 @@ impl PaddedUpload<'_> {
         renew_virtual_ends(if closed { &mut padded } else { &mut padded[..7] }, closed);
         padded
     }
+}
+
+/// Without a branch for each point, so that it takes no time beside writing them.
+fn all_round(points: &[ControlPoint]) -> bool {
+    points.iter().fold(true, |round, point| round & point.is_round())
 }
 
 fn meet<T: Ord + Copy>(a: &Range<T>, b: &Range<T>) -> Range<T> {

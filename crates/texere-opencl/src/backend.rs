@@ -18,7 +18,7 @@ use texere_gpu::device_name;
 use crate::device::{self, listed};
 use crate::faults::failed;
 use crate::handles::Handle;
-use crate::opened::{Opened, build, program};
+use crate::opened::Opened;
 use crate::{OpenClEngine, OpenClSession, Schedule};
 
 /// An OpenCL device, ready to start sessions.
@@ -72,7 +72,7 @@ impl OpenClBackend {
         // SAFETY: the context is of this device.
         let queue = unsafe { create_command_queue(context.raw(), chosen.id, CL_QUEUE_PROFILING_ENABLE) };
         let queue = Handle::queue(queue).map_err(failed("clCreateCommandQueue"))?;
-        Self::with(chosen.id, context, queue, chosen.info, schedule)
+        Self::with(chosen.id, context, queue, chosen.info)
     }
 
     /// Works on a queue of the caller's, in its context and on its device, under the name `opencl` or `opencl/per-yarn`.
@@ -120,7 +120,7 @@ impl OpenClBackend {
             }
         };
         let timed_by_device = properties & CL_QUEUE_PROFILING_ENABLE != 0;
-        Self::with(id, context, queue, DeviceInfo { timed_by_device, ..info }, schedule)
+        Self::with(id, context, queue, DeviceInfo { timed_by_device, ..info })
     }
 
     fn with(
@@ -128,7 +128,6 @@ impl OpenClBackend {
         context: Handle,
         queue: Handle,
         info: DeviceInfo,
-        schedule: Schedule,
     ) -> Result<Self, BackendError> {
         let failed = |call| failed(&info.name, call);
         let largest = Device::new(device)
@@ -143,17 +142,8 @@ impl OpenClBackend {
         // SAFETY: the context is of this device.
         let transfers = unsafe { create_command_queue(context.raw(), device, CL_QUEUE_PROFILING_ENABLE) };
         let transfers = Handle::queue(transfers).map_err(failed("clCreateCommandQueue"))?;
-        let program = build(device, &context, &info.name, program(schedule, &info.name)?)?;
-        let opened = Arc::new(Opened {
-            name: info.name.clone(),
-            schedule,
-            context,
-            queue,
-            profiled: info.timed_by_device,
-            transfers,
-            program,
-        });
-        Ok(Self { info, opened })
+        let opened = Opened::new(device, context, [queue, transfers], &info)?;
+        Ok(Self { info, opened: Arc::new(opened) })
     }
 
     /// The same device, held to `limits` where its own are wider.

@@ -11,13 +11,11 @@ use texere_core::{
 };
 use texere_gpu::{YarnEnds, check_schedule};
 
-use crate::Schedule;
 use crate::buffers::Staging;
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Stage};
-use crate::kernels::{Kernels, Launches, PerRing, Work};
+use crate::kernels::{Kernels, Launches, Work, kernels};
 use crate::opened::Opened;
-use crate::per_yarn::PerYarn;
 use crate::tables::Tables;
 use crate::upload::Outbox;
 
@@ -28,6 +26,8 @@ pub struct OpenClEngine {
     ends: YarnEnds,
     tables: Tables,
     kernels: Box<dyn Kernels>,
+    /// Whether the kernels are those for all yarns.
+    flattened: bool,
     /// One for each [`Slot`].
     memory: [ChunkMemory; 2],
     staging: Staging,
@@ -39,15 +39,12 @@ pub struct OpenClEngine {
 impl OpenClEngine {
     pub(crate) fn new(opened: Arc<Opened>, limits: &Limits, plan: Arc<Plan>) -> Result<Self, BackendError> {
         check_schedule(opened.schedule, &plan, &opened.name)?;
-        let kernels: Box<dyn Kernels> = match opened.schedule {
-            Schedule::PerYarn => Box::new(PerYarn::new(&opened)?),
-            _ => Box::new(PerRing::new(&opened, &plan)?),
-        };
         Ok(Self {
             ends: YarnEnds::new(&plan)?,
             tables: Tables::new(&opened, limits, &plan)?,
+            kernels: kernels(&opened, &plan, false)?,
+            flattened: false,
             plan,
-            kernels,
             memory: Default::default(),
             staging: Staging::default(),
             outbox: Outbox::default(),
@@ -100,6 +97,10 @@ impl Engine for OpenClEngine {
         let upload = ends.upload(plan, first, points);
         let sent = outbox.send(opened, &mut tables.points, &upload, clock)?;
         ends.keep(&upload);
+        if ends.flattened() && !self.flattened {
+            self.kernels = kernels(opened, plan, true)?;
+            self.flattened = true;
+        }
         if !opened.profiled {
             finish(opened.queue.raw()).map_err(opened.failed("clFinish"))?;
             clock.add(Stage::Upload, started.elapsed());

@@ -14,7 +14,7 @@ use crate::buffers::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// An entry point of the program. It carries its arguments, so each session has kernels of its own.
+/// An entry point of a program. It carries its arguments, so each session has kernels of its own.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     handle: Handle,
@@ -35,10 +35,12 @@ pub(crate) enum Arg<'a> {
 pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
 
 impl Kernel {
-    pub(crate) fn new(opened: &Opened, entry: EntryPoint) -> Result<Self, BackendError> {
+    /// `entry` of the program for round yarns, or of the one for all yarns.
+    pub(crate) fn new(opened: &Opened, entry: EntryPoint, flattened: bool) -> Result<Self, BackendError> {
         let failed = opened.failed("clCreateKernel");
         let name = CString::new(entry.name).map_err(|_| failed(CL_INVALID_KERNEL_NAME))?;
-        let handle = Handle::kernel(create_kernel(opened.program.raw(), &name)).map_err(failed)?;
+        let handle =
+            Handle::kernel(create_kernel(opened.program(flattened)?.raw(), &name)).map_err(failed)?;
         Ok(Self { handle, group: entry.group })
     }
 

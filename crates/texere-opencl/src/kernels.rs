@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
-use texere_core::{BackendError, Chunk, Plan, Topology};
+use texere_core::{BackendError, Chunk, Plan, Schedule, Topology};
 use texere_gpu::Params;
 use texere_kernels::{
     BLOCK_TURNS, CAPS, EntryPoint, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS,
@@ -14,6 +14,7 @@ use crate::chunk_memory::ChunkMemory;
 use crate::handles::Handle;
 use crate::kernel::{Arg, Kernel};
 use crate::opened::Opened;
+use crate::per_yarn::PerYarn;
 use crate::tables::Tables;
 
 /// The events of the launches that make a stage, in order.
@@ -46,6 +47,20 @@ impl<'a> Work<'a> {
             Arg::Memory(&self.tables.yarn_turns),
         ]
     }
+}
+
+/// The kernels of `opened`'s schedule for a plan: for round yarns alone, or for all yarns.
+///
+/// **Errors**: [`BackendError::Compile`], [`BackendError::Driver`].
+pub(crate) fn kernels(
+    opened: &Opened,
+    plan: &Plan,
+    flattened: bool,
+) -> Result<Box<dyn Kernels>, BackendError> {
+    Ok(match opened.schedule {
+        Schedule::PerYarn => Box::new(PerYarn::new(opened, flattened)?),
+        _ => Box::new(PerRing::new(opened, plan, flattened)?),
+    })
 }
 
 /// The kernels of a schedule: one way of doing the stages. The memory that is handed over has the chunk's tables, and room for what
@@ -84,16 +99,16 @@ pub(crate) struct PerRing {
 }
 
 impl PerRing {
-    pub(crate) fn new(opened: &Opened, plan: &Plan) -> Result<Self, BackendError> {
+    pub(crate) fn new(opened: &Opened, plan: &Plan, flattened: bool) -> Result<Self, BackendError> {
         let settings = plan.settings();
         let mesh = if settings.sides.is_multiple_of(2) { MESH } else { MESH_ODD };
         let group = if settings.topology == Topology::Indexed { mesh.group } else { UNINDEXED_GROUP };
         Ok(Self {
-            block_turns: Kernel::new(opened, BLOCK_TURNS)?,
-            yarn_rolls: Kernel::new(opened, YARN_ROLLS)?,
-            trajectory: Kernel::new(opened, TRAJECTORY)?,
-            mesh: Kernel::new(opened, EntryPoint { group, ..mesh })?,
-            caps: Kernel::new(opened, CAPS)?,
+            block_turns: Kernel::new(opened, BLOCK_TURNS, flattened)?,
+            yarn_rolls: Kernel::new(opened, YARN_ROLLS, flattened)?,
+            trajectory: Kernel::new(opened, TRAJECTORY, flattened)?,
+            mesh: Kernel::new(opened, EntryPoint { group, ..mesh }, flattened)?,
+            caps: Kernel::new(opened, CAPS, flattened)?,
         })
     }
 }

@@ -2,19 +2,21 @@
 
 use std::ffi::{CString, c_void};
 use std::ptr;
+use std::sync::OnceLock;
 
+use opencl3::command_queue::{CL_QUEUE_DEVICE, get_command_queue_info};
 use opencl3::error_codes::{CL_BUILD_PROGRAM_FAILURE, ClError};
 use opencl3::program::{
     CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
 };
-use texere_core::{BackendError, Schedule};
+use texere_core::{BackendError, DeviceInfo, Schedule};
 use texere_gpu::{Language, prelude, serial_unsupported};
 use texere_kernels::{PER_RING, PER_YARN, Program};
 
 use crate::faults::failed;
 use crate::handles::Handle;
 
-/// A device with its context, its queues and its compiled kernels.
+/// A device with its context, its queues and its compiled programs.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) name: String,
@@ -26,10 +28,53 @@ pub(crate) struct Opened {
     pub(crate) profiled: bool,
     /// Tables to the device and results to the host, beside the kernels of another chunk.
     pub(crate) transfers: Handle,
-    pub(crate) program: Handle,
+    /// The program for round yarns alone.
+    round: Handle,
+    /// The one for all yarns, compiled where it is wanted first.
+    flattened: OnceLock<Handle>,
 }
 
 impl Opened {
+    /// Compiles the program for round yarns.
+    pub(crate) fn new(
+        device: *mut c_void,
+        context: Handle,
+        queues: [Handle; 2],
+        info: &DeviceInfo,
+    ) -> Result<Self, BackendError> {
+        let program = program(info.schedule, &info.name)?;
+        let round = build(device, &context, &info.name, program, false)?;
+        let [queue, transfers] = queues;
+        Ok(Self {
+            name: info.name.clone(),
+            schedule: info.schedule,
+            context,
+            queue,
+            profiled: info.timed_by_device,
+            transfers,
+            round,
+            flattened: OnceLock::new(),
+        })
+    }
+
+    /// The program for round yarns alone, or the one for all yarns.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn program(&self, flattened: bool) -> Result<&Handle, BackendError> {
+        if !flattened {
+            return Ok(&self.round);
+        }
+        if let Some(compiled) = self.flattened.get() {
+            return Ok(compiled);
+        }
+        let device = get_command_queue_info(self.queue.raw(), CL_QUEUE_DEVICE);
+        let device = device.map_err(self.failed("clGetCommandQueueInfo"))?.to_ptr() as *mut c_void;
+        let program = program(self.schedule, &self.name)?;
+        let compiled = build(device, &self.context, &self.name, program, true)?;
+        // Another session may have been faster.
+        Ok(self.flattened.get_or_init(|| compiled))
+    }
+
     /// The error that `call` ended in.
     pub(crate) fn failed(&self, call: &'static str) -> impl Fn(i32) -> BackendError {
         failed(&self.name, call)
@@ -37,7 +82,7 @@ impl Opened {
 }
 
 /// The kernels of `schedule`. `name` is the device's, for the error.
-pub(crate) fn program(schedule: Schedule, name: &str) -> Result<Program, BackendError> {
+fn program(schedule: Schedule, name: &str) -> Result<Program, BackendError> {
     match schedule {
         Schedule::PerRing => Ok(PER_RING),
         Schedule::PerYarn => Ok(PER_YARN),
@@ -46,14 +91,15 @@ pub(crate) fn program(schedule: Schedule, name: &str) -> Result<Program, Backend
 }
 
 /// Compiles `program` for `device`.
-pub(crate) fn build(
+fn build(
     device: *mut c_void,
     context: &Handle,
     name: &str,
     program: Program,
+    flattened: bool,
 ) -> Result<Handle, BackendError> {
     // One string: cl3 0.13 hands over several as if slices were pointers.
-    let source = prelude(Language::OpenClC) + &program.sources.concat();
+    let source = prelude(Language::OpenClC, flattened) + &program.sources.concat();
     let built = Handle::program(create_program_with_source(context.raw(), &[&source]))
         .map_err(failed(name, "clCreateProgramWithSource"))?;
     let options = CString::from(c"-cl-std=CL1.2");
@@ -83,7 +129,7 @@ mod tests {
         let context = Handle::context(context).unwrap();
         let broken =
             Program { name: "broken", sources: &["__kernel void broken() { undeclared(); }"], entries: &[] };
-        match build(chosen.id, &context, &chosen.info.name, broken) {
+        match build(chosen.id, &context, &chosen.info.name, broken, false) {
             Err(BackendError::Compile { kernel: "broken", log }) => {
                 assert!(log.contains("undeclared"), "{log}")
             }

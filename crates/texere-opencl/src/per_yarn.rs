@@ -18,10 +18,10 @@ pub(crate) struct PerYarn {
 }
 
 impl PerYarn {
-    pub(crate) fn new(opened: &Opened) -> Result<Self, BackendError> {
+    pub(crate) fn new(opened: &Opened, flattened: bool) -> Result<Self, BackendError> {
         Ok(Self {
-            trajectory: Kernel::new(opened, TRAJECTORY_PER_YARN)?,
-            mesh: Kernel::new(opened, MESH_PER_YARN)?,
+            trajectory: Kernel::new(opened, TRAJECTORY_PER_YARN, flattened)?,
+            mesh: Kernel::new(opened, MESH_PER_YARN, flattened)?,
         })
     }
 }

@@ -10,7 +10,7 @@ use crate::Schedule;
 use crate::clock::has_clock;
 use crate::engine::WgpuEngine;
 use crate::gpu::Gpu;
-use crate::kernels::{Kernels, Opened};
+use crate::kernels::Opened;
 use crate::session::WgpuSession;
 
 /// Most blocks of a launch: some 16 million rings, so that none takes long enough for a watchdog to end it, even on a
@@ -99,8 +99,7 @@ impl WgpuBackend {
     fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
         let (adapter, timed) = (gpu.device.adapter_info(), has_clock(gpu.device.features()));
         let info = describe(gpu.name.clone(), &adapter, &gpu.device.limits(), timed, schedule);
-        let kernels = Kernels::new(&gpu, schedule)?;
-        Ok(Self { info, opened: Arc::new(Opened { gpu, schedule, kernels }) })
+        Ok(Self { info, opened: Arc::new(Opened::new(gpu, schedule)?) })
     }
 
     /// Cuts chunks to `limits` where the device's own are wider: for a device with less memory than its bindings could

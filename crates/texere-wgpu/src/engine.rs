@@ -22,6 +22,7 @@ use crate::upload::Outbox;
 #[derive(Debug)]
 pub struct WgpuEngine {
     opened: Arc<Opened>,
+    kernels: Arc<Kernels>,
     plan: Arc<Plan>,
     ends: YarnEnds,
     tables: Tables,
@@ -49,6 +50,7 @@ impl WgpuEngine {
             clock: Clock::new(gpu)?,
             upload_time: Duration::ZERO,
             plan,
+            kernels: opened.round.clone(),
             opened,
         })
     }
@@ -86,14 +88,17 @@ impl Engine for WgpuEngine {
         gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
         gpu.probe()?;
         self.ends.keep(&upload);
+        if self.ends.flattened() {
+            self.kernels = self.opened.flattened()?;
+        }
         self.upload_time += start.elapsed();
         Ok(sent)
     }
 
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
-        let opened = self.opened.clone();
+        let kernels = self.kernels.clone();
         // A plan with rolls is refused by the other schedule.
-        let Kernels::PerRing(kernels) = &opened.kernels else { return Ok(()) };
+        let Kernels::PerRing(kernels) = &*kernels else { return Ok(()) };
         let mut last = Slot::default();
         for ScanChunk { slot, chunk, loaded } in chunks {
             if !loaded {
@@ -110,7 +115,7 @@ impl Engine for WgpuEngine {
 
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let (gpu, memory) = (&self.opened.gpu, &mut self.memory[slot.index()]);
-        match &self.opened.kernels {
+        match &*self.kernels {
             Kernels::PerRing(_) => memory.load(gpu, &self.plan, chunk, chunk.blocks()),
             Kernels::PerYarn(_) => {
                 let most_rings = per_yarn::lane_rings(gpu, self.plan.settings().sides);
@@ -120,16 +125,16 @@ impl Engine for WgpuEngine {
     }
 
     fn mesh_reads_rings(&self) -> bool {
-        matches!(self.opened.kernels, Kernels::PerYarn(_))
+        matches!(*self.kernels, Kernels::PerYarn(_))
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         self.memory(slot).loaded.check(&self.plan, chunk)?;
-        let opened = self.opened.clone();
+        let kernels = self.kernels.clone();
         let memory = &mut self.memory[slot.index()];
         let rows = memory.rows;
-        memory.reserve_rings(&opened.gpu, chunk)?;
-        let kernel = match &opened.kernels {
+        memory.reserve_rings(&self.opened.gpu, chunk)?;
+        let kernel = match &*kernels {
             Kernels::PerRing(kernels) => (&kernels.trajectory, rows),
             Kernels::PerYarn(kernels) => (&kernels.trajectory, kernels.trajectory.workgroups(rows)),
         };
@@ -138,11 +143,11 @@ impl Engine for WgpuEngine {
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         self.memory(slot).loaded.check(&self.plan, chunk)?;
-        let opened = self.opened.clone();
+        let kernels = self.kernels.clone();
         let memory = &mut self.memory[slot.index()];
         let (rows, cap_vertices) = (memory.rows, memory.cap_vertices);
-        memory.reserve_mesh(&opened.gpu, chunk)?;
-        match &opened.kernels {
+        memory.reserve_mesh(&self.opened.gpu, chunk)?;
+        match &*kernels {
             Kernels::PerRing(kernels) => {
                 let even = self.plan.settings().sides.is_multiple_of(2);
                 let tubes = if even { &kernels.mesh } else { &kernels.mesh_odd };

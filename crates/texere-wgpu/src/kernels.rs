@@ -1,5 +1,7 @@
 //! The compiled shaders of a schedule, and how they are launched.
 
+use std::sync::{Arc, OnceLock};
+
 use texere_core::{BackendError, Schedule};
 use texere_gpu::{Language, prelude, serial_unsupported};
 use texere_shaders::{Access, Resource, Shader, grid};
@@ -22,7 +24,32 @@ pub(crate) struct Kernel {
 pub(crate) struct Opened {
     pub(crate) gpu: Gpu,
     pub(crate) schedule: Schedule,
-    pub(crate) kernels: Kernels,
+    /// For round yarns alone.
+    pub(crate) round: Arc<Kernels>,
+    /// For all yarns: compiled where they are wanted first.
+    flattened: OnceLock<Arc<Kernels>>,
+}
+
+impl Opened {
+    /// Compiles the shaders for round yarns.
+    ///
+    /// **Errors**: [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
+    pub(crate) fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
+        let round = Arc::new(Kernels::new(&gpu, schedule, false)?);
+        Ok(Self { gpu, schedule, round, flattened: OnceLock::new() })
+    }
+
+    /// The shaders for all yarns.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn flattened(&self) -> Result<Arc<Kernels>, BackendError> {
+        if let Some(compiled) = self.flattened.get() {
+            return Ok(compiled.clone());
+        }
+        let compiled = Arc::new(Kernels::new(&self.gpu, self.schedule, true)?);
+        // Another session may have been faster.
+        Ok(self.flattened.get_or_init(|| compiled).clone())
+    }
 }
 
 /// The shaders of a schedule.
@@ -52,9 +79,8 @@ pub(crate) struct PerYarn {
 }
 
 impl Kernels {
-    /// **Errors**: [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
-    pub(crate) fn new(gpu: &Gpu, schedule: Schedule) -> Result<Self, BackendError> {
-        let kernel = |shader| Kernel::new(gpu, shader);
+    fn new(gpu: &Gpu, schedule: Schedule, flattened: bool) -> Result<Self, BackendError> {
+        let kernel = |shader| Kernel::new(gpu, shader, flattened);
         Ok(match schedule {
             Schedule::PerRing => Self::PerRing(Box::new(PerRing {
                 block_turns: kernel(&texere_shaders::BLOCK_TURNS)?,
@@ -74,11 +100,11 @@ impl Kernels {
 }
 
 impl Kernel {
-    fn new(gpu: &Gpu, shader: &'static Shader) -> Result<Self, BackendError> {
+    fn new(gpu: &Gpu, shader: &'static Shader, flattened: bool) -> Result<Self, BackendError> {
         gpu.check_alive()?;
         let compiled = gpu.caught(|| {
             let layout = bind_group_layout(gpu, shader);
-            let pipeline = pipeline(gpu, shader, &layout);
+            let pipeline = pipeline(gpu, shader, &layout, flattened);
             Self { shader, layout, pipeline }
         });
         gpu.check_alive()?;
@@ -148,13 +174,18 @@ fn bind_group_layout(gpu: &Gpu, shader: &Shader) -> wgpu::BindGroupLayout {
     })
 }
 
-fn pipeline(gpu: &Gpu, shader: &Shader, layout: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
+fn pipeline(
+    gpu: &Gpu,
+    shader: &Shader,
+    layout: &wgpu::BindGroupLayout,
+    flattened: bool,
+) -> wgpu::ComputePipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(shader.entry_point),
         bind_group_layouts: &[Some(layout)],
         immediate_size: 0,
     });
-    let module = trusted_module(gpu, shader);
+    let module = trusted_module(gpu, shader, flattened);
     gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(shader.entry_point),
         layout: Some(&layout),
@@ -171,8 +202,8 @@ fn pipeline(gpu: &Gpu, shader: &Shader, layout: &wgpu::BindGroupLayout) -> wgpu:
 
 /// Without run-time checks, which would cost a comparison an access in stages that do little else than access memory.
 #[allow(unsafe_code, reason = "trusted shaders are the one thing that this crate needs it for")]
-fn trusted_module(gpu: &Gpu, shader: &Shader) -> wgpu::ShaderModule {
-    let source = prelude(Language::Wgsl) + shader.source;
+fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderModule {
+    let source = prelude(Language::Wgsl, flattened) + shader.source;
     let descriptor = wgpu::ShaderModuleDescriptor {
         label: Some(shader.entry_point),
         source: wgpu::ShaderSource::Wgsl(source.into()),

@@ -56,7 +56,10 @@ fn reading_moves_the_results_and_no_more() {
             .unwrap()
             .is_continue()
     );
-    assert_eq!((rings, session.traffic().read), (chunk.rings(), mesh + u64::from(chunk.rings()) * size_of::<Ring>() as u64));
+    assert_eq!(
+        (rings, session.traffic().read),
+        (chunk.rings(), mesh + u64::from(chunk.rings()) * size_of::<Ring>() as u64)
+    );
     let Traffic { uploaded, .. } = session.traffic();
     assert_eq!(uploaded, 4 * 102 * 16);
 }

@@ -138,7 +138,7 @@ fn probe(
     let reads = names.iter().enumerate().map(|(at, name)| format!("found[{at}] = as_uint({name});\n"));
     let body: String = reads.collect();
     let probe = format!("__kernel void probe({parameter} values, __global uint *found) {{\n{body}}}\n");
-    let source = prelude(Language::OpenClC) + &PER_RING.sources.concat() + &probe;
+    let source = prelude(Language::OpenClC, true) + &PER_RING.sources.concat() + &probe;
     let program = Program::create_and_build_from_source(context, &source, "-cl-std=CL1.2").unwrap();
     let kernel = Kernel::create(&program, "probe").unwrap();
     let mut found = vec![0; names.len()];

@@ -13,7 +13,7 @@ mod stage;
 use criterion::{Criterion, criterion_group, criterion_main};
 use stage::{Bench, Floor, timed};
 use texere::{Frame, Pipeline, Settings, Topology, Yarns};
-use texere_bench::{DEVICES, SWEEP, one_yarn, paper_cloth, plan, session, sizes};
+use texere_bench::{DEVICES, SWEEP, one_yarn, paper_cloth, plan, session, shaped, sizes};
 use texere_core::MeshMut;
 
 const CPU: &str = DEVICES[1];
@@ -39,6 +39,7 @@ fn mesh(criterion: &mut Criterion) {
     sweep("mesh", "paper-minimizing", CPU, yarns, minimizing);
     sweep("mesh", "one-yarn-minimizing", CPU, &one_yarn(yarns).unwrap(), minimizing);
     sweep("mesh", "paper-shared", CPU, yarns, Settings { topology: Topology::Shared, ..paper });
+    sweep("mesh", "paper-flattened", CPU, &shaped(yarns, 0.0, 2.0).unwrap(), paper);
     for subdivisions in [0, 3, 7] {
         sweep("mesh", &format!("paper-k{subdivisions}"), CPU, yarns, Settings { subdivisions, ..paper });
     }

@@ -8,7 +8,7 @@ use texere::{Backend, Frame, Settings, Topology, Yarns};
 
 use crate::fill::{Fill, Gpu};
 use crate::measure::{Bench, median_time};
-use crate::{one_yarn, paper_cloth};
+use crate::{one_yarn, paper_cloth, shaped};
 
 /// A variant of the mesh stage.
 #[derive(Debug, Clone, Copy)]
@@ -18,6 +18,10 @@ struct Case {
     topology: Topology,
     /// All control points in a single yarn.
     joined: bool,
+    /// Turns per mm of all yarns.
+    twist: f32,
+    /// Width of all yarns over their height.
+    flatness: f32,
     /// The paper's mapping, a lane a yarn, instead of ours.
     per_yarn: bool,
 }
@@ -27,14 +31,21 @@ const PAPER: Case = Case {
     frame: Frame::Upright,
     topology: Topology::Indexed,
     joined: false,
+    twist: 0.0,
+    flatness: 1.0,
     per_yarn: false,
 };
 
-const CASES: [Case; 5] = [
+const TWISTED: Case = Case { name: "upright, indexed, twisted", twist: 0.7, ..PAPER };
+
+const CASES: [Case; 8] = [
     PAPER,
     Case { name: "upright, shared", topology: Topology::Shared, ..PAPER },
     Case { name: "rotation-minimising, indexed", frame: Frame::RotationMinimizing, ..PAPER },
     Case { name: "upright, indexed, in one yarn", joined: true, ..PAPER },
+    Case { name: "upright, indexed, flattened", flatness: 2.0, ..PAPER },
+    TWISTED,
+    Case { name: "upright, indexed, twisted and flattened", flatness: 2.0, ..TWISTED },
     Case { name: "upright, indexed, a lane a yarn", per_yarn: true, ..PAPER },
 ];
 
@@ -131,7 +142,7 @@ fn print_case(
     rounds: usize,
 ) -> Result<(), Box<dyn Error>> {
     let settings = Settings { frame: case.frame, topology: case.topology, ..Settings::default() };
-    let yarns = if case.joined { one_yarn(yarns)? } else { yarns.clone() };
+    let yarns = if case.joined { one_yarn(yarns)? } else { shaped(yarns, case.twist, case.flatness)? };
     let counts = *texere::Pipeline::new(&yarns).settings(settings).plan()?.counts();
     let mut fill = gpu.fill(&buffers(counts.bytes()))?;
     let (fill, scan, mesh) = beside_fill(&mut *fill, backend, yarns, settings, rounds)?;

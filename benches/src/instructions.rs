@@ -1,13 +1,13 @@
 //! Makes a cloth or its mesh several times, for a count of instructions: `instructions KIND TIMES`.
 //!
-//! KIND is a mesh, `upright`, `minimizing` with its scan, `bare` without indices, or `streamed`, upright and too large for
-//! any cache; or control points, `crossing` with one a crossing, or `round`. It prints how many rings, or control points,
+//! KIND is a mesh, `upright`, `flattened` the same of flattened yarns, `minimizing` with its scan, `bare` without indices, or
+//! `streamed`, upright and too large for any cache; or control points, `crossing` with one a crossing, or `round`. It prints how many rings, or control points,
 //! there are.
 
 use std::error::Error;
 
 use texere::{Frame, Settings, Shape, Topology};
-use texere_bench::{paper_cloth, plan, session};
+use texere_bench::{paper_cloth, plan, session, shaped};
 use texere_core::MeshMut;
 use texere_cpu::ParallelBackend;
 
@@ -22,12 +22,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let times = times.parse()?;
     let made = match kind.as_str() {
-        "upright" => mesh(SMALL, Settings::default(), times)?,
+        "upright" => mesh(SMALL, 1.0, Settings::default(), times)?,
+        "flattened" => mesh(SMALL, 2.0, Settings::default(), times)?,
         "minimizing" => {
-            mesh(SMALL, Settings { frame: Frame::RotationMinimizing, ..Settings::default() }, times)?
+            mesh(SMALL, 1.0, Settings { frame: Frame::RotationMinimizing, ..Settings::default() }, times)?
         }
-        "bare" => mesh(SMALL, Settings { topology: Topology::None, ..Settings::default() }, times)?,
-        "streamed" => mesh(LARGE, Settings::default(), times)?,
+        "bare" => mesh(SMALL, 1.0, Settings { topology: Topology::None, ..Settings::default() }, times)?,
+        "streamed" => mesh(LARGE, 1.0, Settings::default(), times)?,
         "crossing" => generate(Shape::Crossing, times)?,
         "round" => generate(Shape::Round, times)?,
         _ => return Err(format!("there is no kind {kind}").into()),
@@ -46,9 +47,14 @@ fn generate(shape: Shape, times: u32) -> Result<u64, Box<dyn Error>> {
     Ok(cloth.point_count())
 }
 
-/// Rings of one mesh.
-fn mesh((ends, picks): (usize, usize), settings: Settings, times: u32) -> Result<u64, Box<dyn Error>> {
-    let yarns = paper_cloth(ends, picks)?.yarns()?;
+/// Rings of one mesh, of yarns `flatness` times as wide as high.
+fn mesh(
+    (ends, picks): (usize, usize),
+    flatness: f32,
+    settings: Settings,
+    times: u32,
+) -> Result<u64, Box<dyn Error>> {
+    let yarns = shaped(&paper_cloth(ends, picks)?.yarns()?, 0.0, flatness)?;
     let (plan, chunks) = plan(&yarns, settings)?;
     let mut session = session(&ParallelBackend::open()?, &plan, &yarns)?;
     let mut vertices = texere_core::zeroed("vertices", chunks[0].vertices().into())?;

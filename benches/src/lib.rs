@@ -57,6 +57,23 @@ pub fn one_yarn(yarns: &Yarns) -> Result<Yarns, YarnError> {
     one.build()
 }
 
+/// The same yarns with `twist` turns per mm, `flatness` times as wide as high and with the section's area kept.
+///
+/// **Errors**: [`YarnError`] for a size or a twist that no yarn may have.
+pub fn shaped(yarns: &Yarns, twist: f32, flatness: f32) -> Result<Yarns, YarnError> {
+    let mut shaped = Yarns::builder();
+    let widen = flatness.sqrt();
+    for (number, yarn) in yarns.layout().yarns().iter().enumerate() {
+        let points = yarns.yarn_points(number).unwrap_or_default();
+        let points: Vec<_> = points
+            .iter()
+            .map(|point| point.flattened(point.half_width() * widen, point.half_height() / widen))
+            .collect();
+        shaped.yarn(Yarn { twist, ..*yarn }, &points);
+    }
+    shaped.build()
+}
+
 /// The plan for `yarns`, and its chunks for a device without limits: a single one, up to the paper's largest cloth.
 ///
 /// **Errors**: [`PlanError`] for yarns that no plan fits.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use crate::steps::{Steps, root};
 
 /// Kinds of mesh and of control points, as `benches/src/instructions.rs` knows them.
-const MESHES: [&str; 4] = ["upright", "minimizing", "bare", "streamed"];
+const MESHES: [&str; 5] = ["upright", "flattened", "minimizing", "bare", "streamed"];
 const POINTS: [&str; 2] = ["crossing", "round"];
 
 /// How many times more often the longer run does its work than the shorter one.

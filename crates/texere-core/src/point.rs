@@ -141,8 +141,36 @@ impl Halves {
     }
 }
 
+impl Halves {
+    /// Whether both lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero are ordered as their bits are; those
+    /// below it, infinity and NaN come after all of them.
+    pub(crate) const fn within_limits(self) -> bool {
+        const LEAST: u16 = f16::from_f32_const(RADIUS_MIN).to_bits();
+        const MOST: u16 = f16::from_f32_const(RADIUS_MAX).to_bits();
+        let [width, height] = self.0;
+        (width >= LEAST) & (width <= MOST) & (height >= LEAST) & (height <= MOST)
+    }
+}
+
 impl fmt::Debug for Halves {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} x {}", self.width(), self.height())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All half floats that there are, each against its own value.
+    #[test]
+    fn limits_of_sizes_are_told_by_their_bits() {
+        for bits in 0..=u16::MAX {
+            let size = f16::from_bits(bits).to_f32();
+            let within = (RADIUS_MIN..=RADIUS_MAX).contains(&size);
+            let fine = f16::ONE.to_bits();
+            assert_eq!(Halves([bits, fine]).within_limits(), within, "{size}");
+            assert_eq!(Halves([fine, bits]).within_limits(), within, "{size}");
+        }
     }
 }

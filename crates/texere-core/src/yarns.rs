@@ -296,9 +296,7 @@ fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
     let within = |value: f32, low: f32, high: f32| (value >= low) & (value <= high);
     let sound = points.iter().fold(true, |sound, point| {
         let placed = [point.x, point.y, point.z].map(|at| within(at, -COORDINATE_LIMIT, COORDINATE_LIMIT));
-        let sized =
-            [point.half_width(), point.half_height()].map(|half| within(half, RADIUS_MIN, RADIUS_MAX));
-        sound & placed[0] & placed[1] & placed[2] & sized[0] & sized[1]
+        sound & placed[0] & placed[1] & placed[2] & point.halves.within_limits()
     });
     if sound {
         return Ok(());

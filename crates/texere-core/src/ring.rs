@@ -77,7 +77,11 @@ impl Ring {
             Stance::Round { basis }
         } else {
             let (sin, cos) = self.roll.sin_cos();
-            Stance::Flattened { upright, sin, cos }
+            let (wide, high) = (self.half_width, self.half_height);
+            let outward = Basis { side: upright.side * wide, up: upright.up * high };
+            // Each times the other's half: the inverse transpose, times the product of both halves.
+            let across = Basis { side: upright.side * high, up: upright.up * wide };
+            Stance::Flattened { outward, across, sin, cos }
         }
     }
 
@@ -102,16 +106,24 @@ impl Ring {
                 };
                 (centre + outward * self.half_width, normal)
             }
-            Stance::Flattened { upright, sin, cos } => {
-                let (x, y) = (cos * point.x - sin * point.y, sin * point.x + cos * point.y);
-                // Each times the other's half: the inverse transpose, times the product of both halves.
-                let across_x = (cos * point.normal_x - sin * point.normal_y) * self.half_height;
-                let across_y = (sin * point.normal_x + cos * point.normal_y) * self.half_width;
-                let lean = self.width_growth * x * across_x + self.height_growth * y * across_y;
-                let across = upright.side * across_x + upright.up * across_y;
-                let length_squared = across_x * across_x + across_y * across_y + lean * lean;
-                let outward = upright.side * (x * self.half_width) + upright.up * (y * self.half_height);
-                (centre + outward, (across - tangent * lean) * (1.0 / length_squared.sqrt()))
+            Stance::Flattened { outward, across, sin, cos } => {
+                let SectionPoint { x, y, normal_x, normal_y } = point.rolled(*sin, *cos);
+                let (wide, high) = (self.half_width, self.half_height);
+                // Sides of upright frames are level.
+                let at = |Basis { side, up }: &Basis, x: f32, y: f32| {
+                    Vec3::new(side.x * x + up.x * y, side.y * x + up.y * y, up.z * y)
+                };
+                let (position, across) = (centre + at(outward, x, y), at(across, normal_x, normal_y));
+                let length_squared =
+                    (normal_x * normal_x) * (high * high) + (normal_y * normal_y) * (wide * wide);
+                let normal = if self.width_growth == 0.0 && self.height_growth == 0.0 {
+                    across * (1.0 / length_squared.sqrt())
+                } else {
+                    let (of_width, of_height) = (self.width_growth * high, self.height_growth * wide);
+                    let lean = of_width * (x * normal_x) + of_height * (y * normal_y);
+                    (across - tangent * lean) * (1.0 / (length_squared + lean * lean).sqrt())
+                };
+                (position, normal)
             }
         };
         Vertex { position: position.to_array(), normal: normal.to_array() }
@@ -128,8 +140,10 @@ pub enum Stance {
     },
     /// Of a flattened yarn: the section turns inside an outline that does not.
     Flattened {
-        /// The upright frame.
-        upright: Basis,
+        /// The upright frame, the side times the half width and the up times the half height: what points go out by.
+        outward: Basis,
+        /// The same with the halves exchanged: what normals go out by.
+        across: Basis,
         /// The sine of the roll.
         sin: f32,
         /// The cosine of the roll.

@@ -84,6 +84,15 @@ impl SectionPoint {
     pub fn reach(&self) -> f32 {
         self.x * self.normal_x + self.y * self.normal_y
     }
+
+    /// The point turned by the roll whose sine and cosine these are.
+    #[must_use]
+    #[inline]
+    pub fn rolled(&self, sin: f32, cos: f32) -> Self {
+        let turned = |x: f32, y: f32| (cos * x - sin * y, sin * x + cos * y);
+        let ((x, y), (normal_x, normal_y)) = (turned(self.x, self.y), turned(self.normal_x, self.normal_y));
+        Self { x, y, normal_x, normal_y }
+    }
 }
 
 /// The fewest sides a tube can have.

@@ -13,6 +13,7 @@ mod runs;
 mod scan;
 mod simd;
 mod spline;
+mod stances;
 mod tiles;
 mod turns;
 mod vertices;
@@ -132,21 +133,16 @@ impl<'a> Maker<'a> {
         let (Work { plan, rolls, .. }, stretch) = (self.work, Stretch::of(blocks));
         let mut walk = Walk::<S, FLATTENED>::new(simd, self.source(), stretch);
         let level = plan.settings().frame.is_level(plan.twist_turns(stretch.yarn));
-        if !FLATTENED && level {
+        if level {
             while let count @ 1.. = walk.left() {
-                sink.take::<S, FLATTENED>(simd, &walk.next(), simd.splat_integer(0), count);
+                sink.take::<S, FLATTENED, false>(simd, &walk.next(), simd.splat_integer(0), count);
             }
             return;
         }
         while let count @ 1.. = walk.left() {
             let block = number + u64::from(walk.done / BLOCK_RINGS);
-            // Loops for flattened yarns are too large to have one without rolls, too.
-            let roll = if FLATTENED && level {
-                simd.splat_integer(0)
-            } else {
-                turns::rolls(simd, plan, rolls, stretch.yarn, stretch.first + walk.done, block)
-            };
-            sink.take::<S, FLATTENED>(simd, &walk.next().turned(simd, roll), roll, count);
+            let roll = turns::rolls(simd, plan, rolls, stretch.yarn, stretch.first + walk.done, block);
+            sink.take::<S, FLATTENED, true>(simd, &walk.next().turned(simd, roll), roll, count);
         }
     }
 }
@@ -169,9 +165,9 @@ impl<P: Piece> Job for Flattened<P> {
 
 /// What becomes of rings.
 trait Sink {
-    /// Takes the first `count` rings of a vector. It must be inlined, so that it is compiled for the instructions of its
+    /// Takes the first `count` rings of a vector, whose rolls are all zero without `ROLLED`. It must be inlined, so that it is compiled for the instructions of its
     /// path.
-    fn take<S: Simd, const FLATTENED: bool>(
+    fn take<S: Simd, const FLATTENED: bool, const ROLLED: bool>(
         &mut self,
         simd: S,
         rings: &Rings<S, FLATTENED>,
@@ -221,7 +217,7 @@ struct RingSink<'a> {
 
 impl Sink for RingSink<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn take<S: Simd, const FLATTENED: bool>(
+    fn take<S: Simd, const FLATTENED: bool, const ROLLED: bool>(
         &mut self,
         simd: S,
         rings: &Rings<S, FLATTENED>,
@@ -293,7 +289,7 @@ impl Piece for MeshPiece<'_> {
             Way::Scratch(VertexLines::new(out, scratch))
         };
         let section = maker.work.plan.yarn(blocks[0].yarn as usize).section as usize;
-        let mut sink = MeshSink { surface: maker.surfaces[section], floats, vertices, indices };
+        let mut sink = MeshSink { surface: &maker.surfaces[section], floats, vertices, indices };
         maker.rings::<S, FLATTENED>(simd, blocks, number, &mut sink);
         match sink.vertices {
             Way::Tiles(tiles) => tiles.finish(simd),
@@ -307,7 +303,7 @@ impl Piece for MeshPiece<'_> {
 
 /// Where a mesh goes.
 struct MeshSink<'a> {
-    surface: Surface<'a>,
+    surface: &'a Surface<'a>,
     /// Floats of the vertices of a ring, as many as it has indices.
     floats: usize,
     vertices: Way<'a>,
@@ -316,7 +312,7 @@ struct MeshSink<'a> {
 
 impl Sink for MeshSink<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn take<S: Simd, const FLATTENED: bool>(
+    fn take<S: Simd, const FLATTENED: bool, const ROLLED: bool>(
         &mut self,
         simd: S,
         rings: &Rings<S, FLATTENED>,
@@ -325,12 +321,12 @@ impl Sink for MeshSink<'_> {
     ) {
         match &mut self.vertices {
             Way::Tiles(tiles) => {
-                self.surface.write::<S, FLATTENED, true>(simd, rings, tiles.next(simd));
+                self.surface.write::<S, FLATTENED, ROLLED, true>(simd, rings, tiles.next(simd));
                 tiles.send(simd, count);
             }
             Way::Scratch(lines) => {
                 lines.send_waiting(simd);
-                self.surface.write::<S, FLATTENED, false>(simd, rings, lines.next());
+                self.surface.write::<S, FLATTENED, ROLLED, false>(simd, rings, lines.next());
                 lines.send(simd, count * self.floats);
             }
         }

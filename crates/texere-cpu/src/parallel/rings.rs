@@ -201,6 +201,12 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
         (apart + (self.width_growth - self.height_growth).abs()).is_zero()
     }
 
+    /// Those whose halves don't grow.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn steady(&self) -> S::Mask {
+        (self.width_growth.abs() + self.height_growth.abs()).is_zero()
+    }
+
     #[cfg_attr(optimized, inline(always))]
     fn fields(&self) -> [S::Floats; FIELDS] {
         let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);

@@ -8,8 +8,9 @@ use super::vertices::VERTEX;
 
 /// A vector of rings with what all their vertices share.
 pub(super) trait Stances<S: Simd> {
-    /// A vertex of each ring: rows of x, y, z and of the normal's, a ring in each lane.
-    fn vertex(&self, simd: S, point: &SectionPoint) -> [S::Floats; VERTEX];
+    /// The vertex of each ring at `point`, which is number `number` of the outline: rows of x, y, z and of the normal's, a ring
+    /// in each lane.
+    fn vertex(&self, simd: S, number: usize, point: &SectionPoint) -> [S::Floats; VERTEX];
 }
 
 /// The radius of round yarns grows or shrinks, so that normals lean.
@@ -26,7 +27,7 @@ pub(super) struct Round<'a, S: Simd, const FLATTENED: bool, const KIND: u8>(
 
 impl<S: Simd, const FLATTENED: bool, const KIND: u8> Stances<S> for Round<'_, S, FLATTENED, KIND> {
     #[cfg_attr(optimized, inline(always))]
-    fn vertex(&self, simd: S, point: &SectionPoint) -> [S::Floats; VERTEX] {
+    fn vertex(&self, simd: S, _: usize, point: &SectionPoint) -> [S::Floats; VERTEX] {
         let rings = self.0;
         let (x, y) = (simd.splat(point.x), simd.splat(point.y));
         let (normal_x, normal_y) = (simd.splat(point.normal_x), simd.splat(point.normal_y));
@@ -86,9 +87,45 @@ impl<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool
         }
     }
 
+    /// The vertex at `point`, with how much its normal leans and one over the normal's length.
+    #[cfg_attr(optimized, inline(always))]
+    fn vertex_with(
+        &self,
+        simd: S,
+        point: &SectionPoint,
+        lean: S::Floats,
+        inverse: S::Floats,
+    ) -> [S::Floats; VERTEX] {
+        let [x, y] = self.rolled(simd, point.x, point.y);
+        let [normal_x, normal_y] = self.rolled(simd, point.normal_x, point.normal_y);
+        let ([x, y, z], mut normal) =
+            (plus(self.rings.centre, self.outward.at(x, y)), self.across.at(normal_x, normal_y));
+        if LEANING {
+            normal = select(self.steady, normal, difference(normal, scale(self.rings.tangent, lean)));
+        }
+        let [normal_x, normal_y, normal_z] = scale(normal, inverse);
+        [x, y, z, normal_x, normal_y, normal_z]
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn lean(&self, simd: S, point: &SectionPoint) -> S::Floats {
+        let [x, y] = self.rolled(simd, point.x, point.y);
+        let [normal_x, normal_y] = self.rolled(simd, point.normal_x, point.normal_y);
+        self.growths[0] * (x * normal_x) + self.growths[1] * (y * normal_y)
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn inverse_length(&self, simd: S, point: &SectionPoint, lean: S::Floats) -> S::Floats {
+        let [normal_x, normal_y] = self.rolled(simd, point.normal_x, point.normal_y);
+        let squared = (normal_x * normal_x) * self.squares[0] + (normal_y * normal_y) * self.squares[1];
+        let squared = if LEANING { squared + lean * lean } else { squared };
+        simd.splat(1.0) / squared.sqrt()
+    }
+
     /// `x` and `y` turned by the roll.
     #[cfg_attr(optimized, inline(always))]
-    fn rolled(&self, x: S::Floats, y: S::Floats) -> [S::Floats; 2] {
+    fn rolled(&self, simd: S, x: f32, y: f32) -> [S::Floats; 2] {
+        let (x, y) = (simd.splat(x), simd.splat(y));
         if !ROLLED {
             return [x, y];
         }
@@ -101,29 +138,33 @@ impl<S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> St
     for Flat<'_, S, FLATTENED, ROLLED, LEANING>
 {
     #[cfg_attr(optimized, inline(always))]
-    fn vertex(&self, simd: S, point: &SectionPoint) -> [S::Floats; VERTEX] {
-        let Self { rings, outward, across, squares, growths, steady } = self;
-        let [x, y] = self.rolled(simd.splat(point.x), simd.splat(point.y));
-        let [normal_x, normal_y] = self.rolled(simd.splat(point.normal_x), simd.splat(point.normal_y));
-        let length_squared = if ROLLED {
-            (normal_x * normal_x) * squares[0] + (normal_y * normal_y) * squares[1]
-        } else {
-            let squared = |value: f32| simd.splat(value * value);
-            squared(point.normal_x) * squares[0] + squared(point.normal_y) * squares[1]
-        };
-        let (lean, squared) = if LEANING {
-            let lean = growths[0] * (x * normal_x) + growths[1] * (y * normal_y);
-            (lean, length_squared + lean * lean)
-        } else {
-            (length_squared, length_squared)
-        };
-        let inverse = simd.splat(1.0) / squared.sqrt();
-        let ([x, y, z], mut normal) = (plus(rings.centre, outward.at(x, y)), across.at(normal_x, normal_y));
-        if LEANING {
-            normal = select(*steady, normal, difference(normal, scale(rings.tangent, lean)));
-        }
-        let [normal_x, normal_y, normal_z] = scale(normal, inverse);
-        [x, y, z, normal_x, normal_y, normal_z]
+    fn vertex(&self, simd: S, _: usize, point: &SectionPoint) -> [S::Floats; VERTEX] {
+        let lean = if LEANING { self.lean(simd, point) } else { simd.splat(0.0) };
+        let inverse = self.inverse_length(simd, point, lean);
+        self.vertex_with(simd, point, lean, inverse)
+    }
+}
+
+/// Of flattened yarns whose halves don't grow, with six sides, where opposite normals are as long as each other.
+pub(super) struct SixSided<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool> {
+    flat: Flat<'a, S, FLATTENED, ROLLED, false>,
+    /// One over the length of the first three normals.
+    inverses: [S::Floats; 3],
+}
+
+impl<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool> SixSided<'a, S, FLATTENED, ROLLED> {
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn new(simd: S, rings: &'a Rings<S, FLATTENED>, outline: &[SectionPoint; 6]) -> Self {
+        let (flat, zero) = (Flat::<S, FLATTENED, ROLLED, false>::new(rings), simd.splat(0.0));
+        let inverse = |number: usize| flat.inverse_length(simd, &outline[number], zero);
+        Self { inverses: [inverse(0), inverse(1), inverse(2)], flat }
+    }
+}
+
+impl<S: Simd, const FLATTENED: bool, const ROLLED: bool> Stances<S> for SixSided<'_, S, FLATTENED, ROLLED> {
+    #[cfg_attr(optimized, inline(always))]
+    fn vertex(&self, simd: S, number: usize, point: &SectionPoint) -> [S::Floats; VERTEX] {
+        self.flat.vertex_with(simd, point, simd.splat(0.0), self.inverses[number % 3])
     }
 }
 
@@ -149,9 +190,9 @@ pub(super) struct Mixed<'a, S: Simd, const FLATTENED: bool> {
 
 impl<S: Simd, const FLATTENED: bool> Stances<S> for Mixed<'_, S, FLATTENED> {
     #[cfg_attr(optimized, inline(always))]
-    fn vertex(&self, simd: S, point: &SectionPoint) -> [S::Floats; VERTEX] {
-        let (flat, round) = (self.flat.vertex(simd, point), self.flat.rings.round());
-        let mut rows = self.round.vertex(simd, point);
+    fn vertex(&self, simd: S, number: usize, point: &SectionPoint) -> [S::Floats; VERTEX] {
+        let (flat, round) = (self.flat.vertex(simd, number, point), self.flat.rings.round());
+        let mut rows = self.round.vertex(simd, number, point);
         for (row, flat) in rows.iter_mut().zip(flat) {
             *row = round.select(*row, flat);
         }

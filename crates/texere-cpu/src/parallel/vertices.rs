@@ -4,7 +4,7 @@ use texere_core::{SectionPoint, Turn};
 
 use super::rings::Rings;
 use super::simd::{Floats, Mask, Simd};
-use super::stances::{Flat, Mixed, PLAIN, ROUND, Round, SLOPED, Stances};
+use super::stances::{Flat, Mixed, PLAIN, ROUND, Round, SLOPED, SixSided, Stances};
 
 /// Floats of a vertex: position and normal.
 pub(super) const VERTEX: usize = 6;
@@ -20,6 +20,8 @@ pub(super) struct Surface<'a> {
     unrolled: Vec<SectionPoint>,
     /// Whether each normal is its point, as on a circle.
     round: bool,
+    /// Whether each normal of the first half is the opposite one turned round.
+    opposed: bool,
 }
 
 impl<'a> Surface<'a> {
@@ -27,7 +29,12 @@ impl<'a> Surface<'a> {
         let round = outline.iter().all(|point| [point.x, point.y] == [point.normal_x, point.normal_y]);
         let (sin, cos) = Turn::ZERO.sin_cos();
         let unrolled = outline.iter().map(|point| point.rolled(sin, cos)).collect();
-        Self { outline, unrolled, round }
+        let (first, second) = outline.split_at(outline.len() / 2);
+        let opposed = first
+            .iter()
+            .zip(second)
+            .all(|(one, other)| [one.normal_x, one.normal_y] == [-other.normal_x, -other.normal_y]);
+        Self { outline, unrolled, round, opposed }
     }
 
     /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as the `COLUMNS` that
@@ -67,8 +74,11 @@ impl<'a> Surface<'a> {
             vertices::<S, _, COLUMNS>(simd, &Mixed { flat, round: Round(rings) }, self.outline, out);
         } else if !steady {
             vertices::<S, _, COLUMNS>(simd, &Flat::<S, FLATTENED, ROLLED, true>::new(rings), outline, out);
-        } else if let Some((outline, [])) = outline.split_first_chunk::<6>() {
-            vertices::<S, _, COLUMNS>(simd, &Flat::<S, FLATTENED, ROLLED, false>::new(rings), outline, out);
+        } else if let Some((outline, [])) = outline.split_first_chunk::<6>()
+            && self.opposed
+        {
+            let six = SixSided::<S, FLATTENED, ROLLED>::new(simd, rings, outline);
+            vertices::<S, _, COLUMNS>(simd, &six, outline, out);
         } else {
             vertices::<S, _, COLUMNS>(simd, &Flat::<S, FLATTENED, ROLLED, false>::new(rings), outline, out);
         }
@@ -97,8 +107,8 @@ fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint
     let quarters = 3 * pairs.len();
     let out = &mut out[..4 * quarters * S::LANES];
     for (number, [one, two]) in pairs.iter().enumerate() {
-        let [a, b, c, d, e, f] = stances.vertex(simd, one);
-        let [g, h, i, j, k, l] = stances.vertex(simd, two);
+        let [a, b, c, d, e, f] = stances.vertex(simd, 2 * number, one);
+        let [g, h, i, j, k, l] = stances.vertex(simd, 2 * number + 1, two);
         for (part, rows) in [[a, b, c, d], [e, f, g, h], [i, j, k, l]].into_iter().enumerate() {
             for (ring, column) in simd.tiles(rows).into_iter().enumerate() {
                 column.store(&mut out[(ring * quarters + 3 * number + part) * S::LANES..]);
@@ -117,25 +127,27 @@ fn scattered<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoi
     let (twos, last) = rest.as_chunks::<2>();
     if let [point] = last {
         let out = &mut out[(outline.len() - 1) * VERTEX..];
-        let [a, b, c, d, e, f] = stances.vertex(simd, point);
+        let [a, b, c, d, e, f] = stances.vertex(simd, outline.len() - 1, point);
         let zero = simd.splat(0.0);
         simd.scatter_eight([a, b, c, d, e, f, zero, zero], out, stride);
     }
     if let [[one, two]] = twos {
-        let out = &mut out[fours.len() * 4 * VERTEX..];
-        let [a, b, c, d, e, f] = stances.vertex(simd, one);
-        let [g, h, i, j, k, l] = stances.vertex(simd, two);
+        let first = fours.len() * 4;
+        let out = &mut out[first * VERTEX..];
+        let [a, b, c, d, e, f] = stances.vertex(simd, first, one);
+        let [g, h, i, j, k, l] = stances.vertex(simd, first + 1, two);
         simd.scatter_eight([a, b, c, d, e, f, g, h], out, stride);
         simd.scatter([i, j, k, l], &mut out[8..], stride);
     }
     for (number, [one, two, three, four]) in fours.iter().enumerate().rev() {
-        let out = &mut out[number * 4 * VERTEX..];
-        let [a, b, c, d, e, f] = stances.vertex(simd, one);
-        let [g, h, i, j, k, l] = stances.vertex(simd, two);
+        let first = number * 4;
+        let out = &mut out[first * VERTEX..];
+        let [a, b, c, d, e, f] = stances.vertex(simd, first, one);
+        let [g, h, i, j, k, l] = stances.vertex(simd, first + 1, two);
         simd.scatter_eight([a, b, c, d, e, f, g, h], out, stride);
-        let [a, b, c, d, e, f] = stances.vertex(simd, three);
+        let [a, b, c, d, e, f] = stances.vertex(simd, first + 2, three);
         simd.scatter_eight([i, j, k, l, a, b, c, d], &mut out[8..], stride);
-        let [g, h, i, j, k, l] = stances.vertex(simd, four);
+        let [g, h, i, j, k, l] = stances.vertex(simd, first + 3, four);
         simd.scatter_eight([e, f, g, h, i, j, k, l], &mut out[16..], stride);
     }
 }

@@ -193,8 +193,12 @@ mod tests {
         ];
         assert_eq!(world.each_ref().map(|fail| fail.code), [WORLD; 10]);
         let design: [Fail; 3] = [
-            FabricError::Tension { tension: 2.0 }.into(),
-            ReadError::Fabric { file: "a.wif".into(), source: FabricError::Tension { tension: 2.0 } }.into(),
+            FabricError::Settings(PlanError::Tension { tension: 2.0 }).into(),
+            ReadError::Fabric {
+                file: "a.wif".into(),
+                source: FabricError::Settings(PlanError::Tension { tension: 2.0 }),
+            }
+            .into(),
             WriteError::DraftTooLarge { ends: 1, picks: 1, width: 1, height: 1, limit: 0 }.into(),
         ];
         assert_eq!(design.each_ref().map(|fail| fail.code), [DESIGN; 3]);

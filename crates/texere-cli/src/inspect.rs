@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Counts, Design, Pipeline, Structure, Yarns};
+use texere::{Counts, Design, Pipeline, Settings, Structure, Yarns};
 
 use crate::args::InspectArgs;
 use crate::clearance::{ClearanceReport, CurvatureReport};
@@ -63,8 +63,7 @@ fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let yarns = design.yarns()?;
     let settings = args.settings.settings();
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
-    let cloth =
-        if args.counts { None } else { ClothReport::new(&design.structure, &yarns, settings.tension)? };
+    let cloth = if args.counts { None } else { ClothReport::new(&design.structure, &yarns, &settings)? };
     Ok(Report { warnings: design.warnings(), name: design.name, size: Size::new(&counts), cloth })
 }
 
@@ -83,12 +82,12 @@ impl Size {
 
 impl ClothReport {
     /// None for what is not woven.
-    fn new(structure: &Structure, yarns: &Yarns, tension: f32) -> Result<Option<Self>, Fail> {
+    fn new(structure: &Structure, yarns: &Yarns, settings: &Settings) -> Result<Option<Self>, Fail> {
         let Some(woven) = structure.woven() else { return Ok(None) };
         let clearance = progress::during("measuring how near yarns come", |bar| {
-            structure.clearance(yarns, tension, progress::share(bar))
+            structure.clearance(yarns, settings, progress::share(bar))
         })?;
-        let measures = structure.measures(yarns, tension)?;
+        let measures = structure.measures(yarns, settings.tension)?;
         Ok(Some(Self {
             ends: woven.cloth().warp().len(),
             picks: woven.cloth().weft().len(),

@@ -6,7 +6,7 @@
 
 use std::time::Instant;
 
-use texere_core::{Material, Section};
+use texere_core::{Material, Section, Settings};
 use texere_fabric::{FabricError, Shape, Thread, Weave, Woven, clearance};
 
 fn main() -> Result<(), FabricError> {
@@ -25,7 +25,7 @@ fn main() -> Result<(), FabricError> {
     cloth.set_shape(if round { Shape::Round } else { Shape::Crossing });
     let yarns = cloth.yarns()?;
     let start = Instant::now();
-    let found = clearance(&yarns, 0.0)?;
+    let found = clearance(&yarns, &Settings::default())?;
     println!("{} control points, {:.2} s", yarns.points().len(), start.elapsed().as_secs_f64());
     println!("{} contacts, least {:.5}, {} below one", found.contacts, found.min, found.below_one);
     println!("tightest bend {:.3} radii", found.curvature_min);

@@ -1,6 +1,6 @@
 //! What can go wrong between a design and its yarns.
 
-use texere_core::{Origin, SectionError, YarnError};
+use texere_core::{Origin, PlanError, SectionError, YarnError};
 use thiserror::Error;
 
 /// A structure that can't be taken. Threads are counted from 1, as weavers do.
@@ -236,12 +236,9 @@ pub enum FabricError {
         /// Most taken.
         high: f32,
     },
-    /// A tension that the spline does not take.
-    #[error("tension is {tension}; it must be 0 or more and below 1")]
-    Tension {
-        /// The tension.
-        tension: f32,
-    },
+    /// A tension, or points between control points, that no mesh is made with.
+    #[error(transparent)]
+    Settings(#[from] PlanError),
     /// More control points than clearance is measured for.
     #[error("clearance of {points} control points; {limit} are measured at most")]
     ClearancePoints {

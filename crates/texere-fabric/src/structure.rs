@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use texere_core::{Section, Yarns};
+use texere_core::{Section, Settings, Yarns};
 
 use crate::diagnosis::{ClothClearance, Cure, Diagnosis};
 use crate::{FabricError, FabricWarning, Measures, WovenDesign};
@@ -87,11 +87,11 @@ impl Structure {
     pub fn clearance(
         &self,
         yarns: &Yarns,
-        tension: f32,
+        settings: &Settings,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<ClothClearance, FabricError> {
         match self {
-            Self::Woven(design) => design.cloth().clearance(yarns, tension, progress),
+            Self::Woven(design) => design.cloth().clearance(yarns, settings, progress),
         }
     }
 

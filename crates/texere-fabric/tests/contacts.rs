@@ -7,7 +7,7 @@ mod oracle;
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
-use texere_core::{ControlPoint, Material, Section, Segment, Yarn, Yarns};
+use texere_core::{ControlPoint, Material, PlanError, Section, Segment, Settings, Yarn, Yarns};
 use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_NEAR, CONTACTS_LISTED, Clearance, FabricError, NO_CROSSING, Shape, Thread,
     Weave, Woven, clearance,
@@ -94,7 +94,7 @@ proptest! {
 
     #[test]
     fn it_agrees_with_brute_force(tangle in tangles()) {
-        let report = clearance(&tangle, 0.0).unwrap();
+        let report = clearance(&tangle, &Settings::default()).unwrap();
         let between = report.worst.iter().find(|contact| contact.places[0].yarn != contact.places[1].yarn);
         let brute = refined_clearance(&tangle, 60);
         match between {
@@ -124,7 +124,7 @@ proptest! {
             points.iter_mut().step_by(2).for_each(|point| *point = point.flattened(thicker(point), thicker(point)));
             uneven.set_points(yarn, &points).unwrap();
         }
-        let [left_out, whole] = [&tangle, &uneven].map(|yarns| clearance(yarns, 0.0).unwrap());
+        let [left_out, whole] = [&tangle, &uneven].map(|yarns| clearance(yarns, &Settings::default()).unwrap());
         // Thicker yarns are as much nearer. Of each two yarns the worst contact is compared.
         let worst = |all: &Clearance, pair: [usize; 2]| {
             let alike = all.worst.iter().filter(|contact| contact.places.map(|place| place.yarn) == pair);
@@ -141,7 +141,7 @@ proptest! {
 
     #[test]
     fn the_tightest_bend_agrees_with_brute_force(tangle in tangles()) {
-        let report = clearance(&tangle, 0.0).unwrap();
+        let report = clearance(&tangle, &Settings::default()).unwrap();
         let place = report.curvature_at.unwrap();
         let points = |yarn| (tangle.yarn_points(yarn).unwrap(), tangle.layout().yarns()[yarn].closed);
         let (own, closed) = points(place.yarn);
@@ -169,7 +169,7 @@ fn every_crossing_of_a_cloth_is_a_contact() {
     // Steep between its crossings, a round thread comes near those that it crosses there a second time.
     cloth.set_shape(Shape::Crossing);
     let yarns = cloth.yarns().unwrap();
-    let report = clearance(&yarns, 0.0).unwrap();
+    let report = clearance(&yarns, &Settings::default()).unwrap();
     assert_eq!(report.contacts, 320);
     assert_eq!(report.histogram.iter().sum::<u64>(), 320);
     assert!((report.min - round_clearance(&yarns, 64)).abs() < 1e-3);
@@ -179,7 +179,7 @@ fn every_crossing_of_a_cloth_is_a_contact() {
 #[test]
 fn a_planted_piercing_is_found_at_its_place() {
     let mut yarns = cloth(Section::Circle);
-    assert!(clearance(&yarns, 0.0).unwrap().min > 0.99);
+    assert!(clearance(&yarns, &Settings::default()).unwrap().min > 0.99);
     // Pick 5 is pressed down where it lies over an end.
     let pick = 12 + 4;
     let mut points = yarns.yarn_points(pick).unwrap().to_vec();
@@ -189,7 +189,7 @@ fn a_planted_piercing_is_found_at_its_place() {
     points[at].z = 0.05;
     let place = points[at];
     yarns.set_points(pick, &points).unwrap();
-    let report = clearance(&yarns, 0.0).unwrap();
+    let report = clearance(&yarns, &Settings::default()).unwrap();
     let worst = &report.worst[0];
     assert!((worst.ratio - 0.75).abs() < 0.01 && report.min == worst.ratio, "{worst:?}");
     assert_eq!(worst.places.map(|place| place.yarn), [source as usize % 12, pick]);
@@ -210,7 +210,7 @@ fn a_yarn_that_comes_back_to_itself_is_found() {
         [3.0, 0.65, 0.0, 0.1],
         [0.0, 0.15, 0.0, 0.1],
     ];
-    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), 0.0).unwrap();
+    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), &Settings::default()).unwrap();
     let worst = &report.worst[0];
     assert!((worst.ratio - 0.75).abs() < 1e-3, "{worst:?}");
     assert_eq!(worst.places.map(|place| (place.yarn, place.interval, place.t)), [(0, 0, 0.0), (0, 3, 1.0)]);
@@ -223,25 +223,25 @@ fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
         let angle = |k: usize| (k as f64 / 96.0 * TAU) as f32;
         (0..96).map(|k| [2.0 * angle(k).cos(), 2.0 * angle(k).sin(), 0.0, radius]).collect()
     };
-    let report = clearance(&yarns(&Section::Circle, &[(true, ring(0.5))]), 0.0).unwrap();
+    let report = clearance(&yarns(&Section::Circle, &[(true, ring(0.5))]), &Settings::default()).unwrap();
     assert_eq!((report.contacts, report.below_one), (0, 0));
     assert!(report.min.is_infinite());
     assert!((report.curvature_min / 4.0 - 1.0).abs() < 0.02, "{}", report.curvature_min);
     // As thick as the ring is wide it touches itself across, at the least folding.
-    let thick = clearance(&yarns(&Section::Circle, &[(true, ring(1.9))]), 0.0).unwrap();
+    let thick = clearance(&yarns(&Section::Circle, &[(true, ring(1.9))]), &Settings::default()).unwrap();
     assert!((1.0..1.06).contains(&thick.curvature_min));
 }
 
 #[test]
 fn a_fold_is_reported_with_its_place() {
     let mut yarns = cloth(Section::Circle);
-    assert!(clearance(&yarns, 0.0).unwrap().curvature_min > 1.0);
+    assert!(clearance(&yarns, &Settings::default()).unwrap().curvature_min > 1.0);
     // A kink: one point of end 4 is drawn sideways by a diameter.
     let mut points = yarns.yarn_points(3).unwrap().to_vec();
     points[9].x += 0.2;
     let place = [points[9].x, points[9].y].map(f64::from);
     yarns.set_points(3, &points).unwrap();
-    let report = clearance(&yarns, 0.0).unwrap();
+    let report = clearance(&yarns, &Settings::default()).unwrap();
     let at = report.curvature_at.unwrap();
     assert!(report.curvature_min < 0.6 && at.yarn == 3, "{report:?}");
     assert!((at.position[1] - place[1]).abs() < 0.2, "{at:?} is not near {place:?}");
@@ -250,11 +250,11 @@ fn a_fold_is_reported_with_its_place() {
 #[test]
 fn a_yarn_that_turns_straight_back_has_no_bend_left() {
     let points = vec![[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.1], [0.5, 0.0, 0.0, 0.1], [3.0, 0.0, 0.0, 0.1]];
-    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), 0.0).unwrap();
+    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), &Settings::default()).unwrap();
     assert_eq!(report.curvature_min, 0.0);
     // Straight on, however unevenly, there is no bend.
     let points = vec![[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.1], [1.5, 0.0, 0.0, 0.1], [3.0, 0.0, 0.0, 0.1]];
-    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), 0.0).unwrap();
+    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), &Settings::default()).unwrap();
     assert_eq!((report.curvature_min, report.curvature_at), (f64::INFINITY, None));
 }
 
@@ -265,12 +265,12 @@ fn flat_yarns_are_measured_by_their_surfaces() {
     let crossing = |z: f32| {
         let along = vec![[-3.0, 0.0, 0.0, 0.25], [3.0, 0.0, 0.0, 0.25]];
         let across = vec![[0.4, -3.0, z, 0.25], [0.4, 3.0, z, 0.25]];
-        clearance(&yarns(&flat, &[(false, along), (false, across)]), 0.0).unwrap()
+        clearance(&yarns(&flat, &[(false, along), (false, across)]), &Settings::default()).unwrap()
     };
     assert!((crossing(0.2625).min - 1.05).abs() < 1e-4);
     let beside = vec![[-3.0, 0.0, 0.0, 0.25], [3.0, 0.0, 0.0, 0.25]];
     let other = vec![[-3.0, 0.9, 0.0, 0.25], [3.0, 0.9, 0.0, 0.25]];
-    let report = clearance(&yarns(&flat, &[(false, beside), (false, other)]), 0.0).unwrap();
+    let report = clearance(&yarns(&flat, &[(false, beside), (false, other)]), &Settings::default()).unwrap();
     assert!((report.min - 0.9).abs() < 1e-3, "{}", report.min);
 }
 
@@ -282,7 +282,7 @@ fn flattened_yarns_are_measured_by_their_surfaces() {
     let measured = |one: [[f32; 5]; 2], other: [[f32; 5]; 2]| {
         let mut yarns = Yarns::builder();
         yarns.yarn(Yarn::default(), &lay(one)).yarn(Yarn::default(), &lay(other));
-        clearance(&yarns.build().unwrap(), 0.0).unwrap().min
+        clearance(&yarns.build().unwrap(), &Settings::default()).unwrap().min
     };
     // Crossing: half heights add up. Side by side: half widths do.
     let along = [[-3.0, 0.0, 0.0, 0.5, 0.125], [3.0, 0.0, 0.0, 0.5, 0.125]];
@@ -310,7 +310,7 @@ fn a_cloth_of_flattened_threads_agrees_with_its_surfaces() {
             let points: Vec<_> = points.iter().map(|p| ControlPoint { z: p.z * lower, ..*p }).collect();
             yarns.set_points(yarn, &points).unwrap();
         }
-        let found = clearance(&yarns, 0.0).unwrap().min;
+        let found = clearance(&yarns, &Settings::default()).unwrap().min;
         let surface = surface_clearance(&yarns, 24, 96, [0.7, 1.1]);
         assert!((found - surface).abs() < 0.01, "flatness {flatness}: {found} and {surface}");
     }
@@ -325,7 +325,7 @@ fn flat_cloth_agrees_with_its_surfaces() {
             let points: Vec<_> = points.iter().map(|p| ControlPoint { z: p.z * flatten, ..*p }).collect();
             yarns.set_points(yarn, &points).unwrap();
         }
-        let report = clearance(&yarns, 0.0).unwrap();
+        let report = clearance(&yarns, &Settings::default()).unwrap();
         let surface = surface_clearance(&yarns, 24, 96, [0.7, 1.1]);
         assert!((report.min - surface).abs() < 0.01, "aspect {aspect}: {} and {surface}", report.min);
     }
@@ -342,14 +342,17 @@ fn cloth_of(aspect: f32) -> Yarns {
 
 #[test]
 fn yarns_of_one_place_and_of_all_sizes_are_measured() {
+    let tense = |tension| Settings { tension, ..Settings::default() };
     // All points alike; a point far away; radii at both limits.
     let still = vec![[1.0, 1.0, 1.0, 0.1]; 4];
     let far = vec![[-1e9, 0.0, 0.0, 1e-4], [1e9, 0.0, 0.0, 1e-4]];
     let thick = vec![[0.0, 0.0, 0.0, 3e4], [0.0, 1e9, 0.0, 3e4]];
     let report =
-        clearance(&yarns(&Section::Circle, &[(false, still), (false, far), (false, thick)]), 0.5).unwrap();
+        clearance(&yarns(&Section::Circle, &[(false, still), (false, far), (false, thick)]), &tense(0.5))
+            .unwrap();
     assert!(report.min < 1e-3 && !report.min.is_nan());
     for tension in [-0.1, 1.0, f32::NAN] {
-        assert!(matches!(clearance(&cloth(Section::Circle), tension), Err(FabricError::Tension { .. })));
+        let refused = clearance(&cloth(Section::Circle), &tense(tension));
+        assert!(matches!(refused, Err(FabricError::Settings(PlanError::Tension { .. }))));
     }
 }

@@ -10,7 +10,7 @@ use std::f32::consts::TAU;
 use std::ops::ControlFlow;
 
 use proptest::prelude::*;
-use texere_core::{ControlPoint, Section, Yarn, Yarns};
+use texere_core::{ControlPoint, Section, Settings, Yarn, Yarns};
 use texere_fabric::{
     CLEARANCE_BESIDE, CLEARANCE_PAIRS, Clearance, FabricError, Shape, Thread, clearance,
     clearance_with_progress,
@@ -41,7 +41,7 @@ fn yarns(each: impl IntoIterator<Item = (bool, Vec<[f32; 4]>)>) -> Yarns {
 
 /// The clearance of `yarns`, whose work is bounded and whose numbers are numbers.
 fn bounded(yarns: &Yarns) -> Clearance {
-    let found = clearance(yarns, 0.0).unwrap();
+    let found = clearance(yarns, &Settings::default()).unwrap();
     let limit = CLEARANCE_PAIRS * yarns.points().len() as u64;
     assert!(found.pairs <= limit, "{} pairs, more than {limit}", found.pairs);
     assert!(found.min >= 0.0 && found.curvature_min >= 0.0, "{found:?}");
@@ -199,17 +199,17 @@ fn points_in_one_place_end() {
 fn progress_is_told_and_heard() {
     let yarns = plain(Shape::Round, 60, 0.25);
     let mut told = vec![0.0];
-    let found = clearance_with_progress(&yarns, 0.0, |done| {
+    let found = clearance_with_progress(&yarns, &Settings::default(), |done| {
         told.push(done);
         ControlFlow::Continue(())
     })
     .unwrap();
-    assert_eq!(found, clearance(&yarns, 0.0).unwrap());
+    assert_eq!(found, clearance(&yarns, &Settings::default()).unwrap());
     assert!(told.is_sorted() && told.len() > 10 && told.last() == Some(&1.0), "{told:?}");
     // Each time a little, or a user would think that it hangs.
     assert!(told.windows(2).all(|pair| pair[1] - pair[0] < 0.3), "{told:?}");
     let mut last = 0.0;
-    let stopped = clearance_with_progress(&yarns, 0.0, |done| {
+    let stopped = clearance_with_progress(&yarns, &Settings::default(), |done| {
         last = done;
         if done > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });

@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use texere_core::{Material, Origin, Section};
+use texere_core::{Material, Origin, Section, Settings};
 use texere_fabric::{
     Crossing, Diagnosis, FaultKind, Relief, Remedy, Shape, Structure, Thread, Weave, Woven, WovenDesign,
 };
@@ -54,7 +54,9 @@ fn faults_are_named_by_thread_and_crossing() {
 fn a_weft_that_turns_round_is_named_by_its_picks() {
     let mut dense = cloth("plain", [0.45, 0.5]);
     dense.set_selvedge(true);
-    let clearance = dense.clearance(&dense.yarns().unwrap(), 0.0, |_| ControlFlow::Continue(())).unwrap();
+    let clearance = dense
+        .clearance(&dense.yarns().unwrap(), &Settings::default(), |_| ControlFlow::Continue(()))
+        .unwrap();
     let picks = clearance.worst.iter().flat_map(|contact| contact.places).filter_map(|place| match place {
         place if matches!(place.thread, Origin::Pick(_)) => Some(place),
         _ => None,

@@ -6,7 +6,7 @@
 
 mod cloths;
 
-use texere_core::Section;
+use texere_core::{Section, Settings};
 use texere_fabric::{Crimp, Drawdown, FabricWarning, Relief, Shape, Thread, Weave, clearance};
 
 use cloths::{cloth, jam, weaves};
@@ -51,7 +51,7 @@ impl Pair {
         let mut cloth = cloth(Shape::Round, drawdown.clone(), threads, self.section.clone());
         cloth.set_crimp(Crimp::WarpShare(share)).unwrap();
         assert_eq!(cloth.warnings(), []);
-        Some(clearance(&cloth.yarns().unwrap(), 0.0).unwrap().min)
+        Some(clearance(&cloth.yarns().unwrap(), &Settings::default()).unwrap().min)
     }
 }
 
@@ -76,7 +76,7 @@ fn round_threads_alike_stay_clear_from_the_least_pitch_on() {
             let thread = Thread::new(pitch * 0.2, 0.1);
             let cloth = cloth(Shape::Round, drawdown.clone(), [thread; 2], Section::Circle);
             assert_eq!(cloth.warnings(), []);
-            let found = clearance(&cloth.yarns().unwrap(), 0.0).unwrap();
+            let found = clearance(&cloth.yarns().unwrap(), &Settings::default()).unwrap();
             assert!(found.min >= 0.99, "{name} at {pitch} diameters: {}", found.min);
             assert!(pitch < 1.98 || found.curvature_min >= 1.0, "{name} at {pitch} diameters folds");
         }
@@ -91,7 +91,7 @@ fn a_figure_in_twill_stays_clear_with_one_point_a_crossing() {
     let up = |end, pick| if inside(end, pick) { figure.up(end, pick) } else { ground.up(end, pick) };
     let drawdown = Drawdown::from_fn(100, 80, up).unwrap();
     let cloth = cloth(Shape::Crossing, drawdown, [Thread::new(0.75, 0.125); 2], Section::Circle);
-    let found = clearance(&cloth.yarns().unwrap(), 0.0).unwrap();
+    let found = clearance(&cloth.yarns().unwrap(), &Settings::default()).unwrap();
     assert!(found.min >= 0.985 && found.curvature_min > 1.0, "{} and {}", found.min, found.curvature_min);
 }
 
@@ -127,7 +127,7 @@ fn below_the_least_pitch_threads_pierce_and_are_told_of() {
             assert!(cloth.warnings().iter().any(jammed), "{name} at {pitch} diameters");
             let report = cloth.relieve(Relief::Report).unwrap();
             assert!(report.before[0].jammed > 0 && report.before[1].jammed == 0, "{name}: {report:?}");
-            let found = clearance(&cloth.yarns().unwrap(), 0.0).unwrap();
+            let found = clearance(&cloth.yarns().unwrap(), &Settings::default()).unwrap();
             assert!(pitch > 1.5 || found.min < 0.99, "{name} at {pitch} diameters: {}", found.min);
         }
     }
@@ -140,7 +140,7 @@ fn flattening_cures_what_it_can() {
             let threads = [ends, picks].map(|pitch: f64| Thread::new(pitch * 0.2, 0.1));
             let mut cloth = cloth(Shape::Round, drawdown.clone(), threads, Section::Circle);
             let report = cloth.relieve(Relief::Flatten).unwrap();
-            let after = clearance(&cloth.yarns().unwrap(), 0.0).unwrap().min;
+            let after = clearance(&cloth.yarns().unwrap(), &Settings::default()).unwrap().min;
             let jammed = report.after.map(|set| set.jammed);
             if jammed == [0, 0] {
                 assert!(after >= 0.99, "{name}, ends {ends}, picks {picks}: {after}");

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use proptest::prelude::*;
-use texere_core::{ControlPoint, Material, Origin, Section, YarnError, Yarns};
+use texere_core::{ControlPoint, Material, Origin, Section, Settings, YarnError, Yarns};
 use texere_fabric::{Drawdown, FabricError, FabricWarning, NO_CROSSING, Shape, Thread, Weave, Woven};
 
 fn woven(drawdown: Drawdown, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Woven, FabricError> {
@@ -208,7 +208,7 @@ fn threads_in_one_place_give_sound_yarns() {
         cloth.set_shape(Shape::Round);
         let yarns = cloth.yarns().unwrap();
         assert_eq!(yarns.points().len() as u64, cloth.point_count());
-        assert!(texere_fabric::clearance(&yarns, 0.0).is_ok());
+        assert!(texere_fabric::clearance(&yarns, &Settings::default()).is_ok());
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::error::Error;
 
-use texere_core::Origin;
+use texere_core::{Origin, Settings};
 use texere_fabric::Woven;
 use texere_formats::{Design, ReadError, read};
 
@@ -325,7 +325,8 @@ fn what_is_given_room_does_not_pierce() {
                     (set("WARP", ".212", warp, stated), set("WEFT", weft_spacing, weft, stated));
                 let draft = format!("[THREADING]\n{straight}[TIEUP]\n{tie_up}[TREADLING]\n{straight}");
                 let design = read_text(format!("{warp}{weft}{draft}")).unwrap();
-                let clearance = texere_fabric::clearance(&design.yarns().unwrap(), 0.0).unwrap().min;
+                let clearance =
+                    texere_fabric::clearance(&design.yarns().unwrap(), &Settings::default()).unwrap().min;
                 // Of threads that touch by construction the spline between control points comes to 0.99.
                 assert!(clearance > 0.985, "{clearance}: {warp}{weft}{draft}");
             }

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use texere_core::{Pipeline, PipelineError, PlanError, Section, Topology};
+use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{Measures, Woven, clearance};
 use texere_formats::read;
@@ -87,7 +87,7 @@ fn cloth(woven: &Woven) -> Outcome {
         Err(error) => panic!("a mesh that could not be made: {}", chain(&error)),
     }
     let _ = Measures::new(woven, &yarns, 0.0);
-    let report = clearance(&yarns, 0.0).expect("clearance of sound yarns");
+    let report = clearance(&yarns, &Settings::default()).expect("clearance of sound yarns");
     assert!(report.min >= 0.0 && report.curvature_min >= 0.0, "{report:?}");
     Outcome::Taken
 }

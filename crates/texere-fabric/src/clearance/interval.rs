@@ -123,6 +123,11 @@ impl Cubic {
         self.half_bounds().into_iter().flatten().chain(self.floors).fold(0.0, f64::max)
     }
 
+    /// The length of the interval's Bézier polygon: no less than its own, mm.
+    pub(super) fn length(&self) -> f64 {
+        self.hull().windows(2).map(|ends| ends[0].distance(ends[1])).sum()
+    }
+
     /// How far the interval lies from the straight line between its ends at most, mm.
     pub(super) fn bend(&self) -> f64 {
         let [start, leaving, arriving, end] = self.hull();

@@ -95,8 +95,13 @@ impl<'a> Line<'a> {
         [!self.closed && point == all.start, !self.closed && point + 1 == all.end]
     }
 
+    /// The four points that steer an interval.
+    pub(super) fn window(&self, point: usize) -> [ControlPoint; 4] {
+        neighbours(self.points, self.closed, point - self.first)
+    }
+
     pub(super) fn cubic(&self, point: usize) -> Cubic {
-        Cubic::new(neighbours(self.points, self.closed, point - self.first), self.s)
+        Cubic::new(self.window(point), self.s)
     }
 
     /// The box that holds whatever lies within `margin` times the section's reach of an interval.

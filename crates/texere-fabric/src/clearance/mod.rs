@@ -10,14 +10,17 @@ mod interval;
 mod line;
 mod part;
 mod passing;
+mod rolls;
 mod search;
 mod support;
+mod surface;
+mod touch;
 mod watch;
 
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use texere_core::Yarns;
+use texere_core::{Sampling, Settings, Yarns};
 
 pub use self::contact::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
@@ -82,19 +85,19 @@ pub struct Clearance {
 /// a tension outside \[0, 1), [`FabricError::OutOfMemory`].
 ///
 /// ```
-/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 /// // Two straight yarns of radius 0.125, crossing 0.1875 apart: they pierce.
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
 /// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|y| ControlPoint::new(0.5, y, 0.1875, 0.125)));
-/// let clearance = texere_fabric::clearance(&yarns.build()?, 0.0)?;
+/// let clearance = texere_fabric::clearance(&yarns.build()?, &Settings::default())?;
 /// assert!((clearance.min - 0.75).abs() < 1e-6);
 /// assert_eq!((clearance.below_one, clearance.worst[0].places[0].yarn), (1, 0));
 /// assert!((clearance.worst[0].places[0].position[0] - 0.5).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> {
-    clearance_with_progress(yarns, tension, |_| ControlFlow::Continue(()))
+pub fn clearance(yarns: &Yarns, settings: &Settings) -> Result<Clearance, FabricError> {
+    clearance_with_progress(yarns, settings, |_| ControlFlow::Continue(()))
 }
 
 /// [`clearance()`] that calls `progress` with the share of the work that is done, from 0 to 1, from any thread. `Break` ends
@@ -104,34 +107,32 @@ pub fn clearance(yarns: &Yarns, tension: f32) -> Result<Clearance, FabricError> 
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 /// use texere_fabric::{FabricError, clearance_with_progress};
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// let yarns = yarns.build()?;
 /// let mut share = 0.0;
-/// clearance_with_progress(&yarns, 0.0, |done| {
+/// clearance_with_progress(&yarns, &Settings::default(), |done| {
 ///     share = done;
 ///     ControlFlow::Continue(())
 /// })?;
 /// assert_eq!(share, 1.0);
-/// let stopped = clearance_with_progress(&yarns, 0.0, |_| ControlFlow::Break(()));
+/// let stopped = clearance_with_progress(&yarns, &Settings::default(), |_| ControlFlow::Break(()));
 /// assert_eq!(stopped, Err(FabricError::Cancelled));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn clearance_with_progress(
     yarns: &Yarns,
-    tension: f32,
+    settings: &Settings,
     progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Clearance, FabricError> {
-    if !(0.0..1.0).contains(&tension) {
-        return Err(FabricError::Tension { tension });
-    }
+    let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
     let points = yarns.points().len();
     if points > POINTS_LIMIT {
         return Err(FabricError::ClearancePoints { points: points as u64, limit: POINTS_LIMIT as u64 });
     }
-    let probe = Probe::new(yarns, tension);
+    let probe = Probe::new(yarns, sampling, settings.frame);
     let spans = probe.spans(TASK);
     let grid = Grid::new(spans.len(), |span| {
         let line = &spans[span].line;

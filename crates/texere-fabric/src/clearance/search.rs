@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::{ControlFlow, Range};
 
 use glam::{DVec2, Vec3A};
-use texere_core::Yarns;
+use texere_core::{Frame, Sampling, Yarns};
 
 use super::approach::{Side, refine};
 use super::contact::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace};
@@ -17,7 +17,10 @@ use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{self, Line, Span};
 use super::part::Part;
 use super::passing::Passing;
+use super::rolls::Rolls;
 use super::support::Support;
+use super::surface::Surface;
+use super::touch::touch;
 use super::watch::Watch;
 use crate::FabricError;
 use crate::memory::room_for;
@@ -37,8 +40,8 @@ struct Met {
 }
 
 impl Met {
-    fn curve(&self, part: &Part<'_>) -> &Curve {
-        self.curve.get_or_init(|| Curve::new(part))
+    fn curve(&self, part: &Part<'_>, rolls: &Rolls) -> &Curve {
+        self.curve.get_or_init(|| Curve::new(part, rolls))
     }
 
     fn chords(&self, curve: &Curve) -> &Chords {
@@ -52,16 +55,21 @@ struct Curve {
     passing: Passing,
     /// How far its surface may lie from the centreline, mm.
     reach: f64,
-    /// Whether sections are circles and all alike, so that the distance of the centrelines alone counts.
+    /// Whether sections are circles, so that the distance of the centrelines counts.
+    round: bool,
+    /// Whether they are all alike, too.
     even: bool,
+    /// As [`Rolls::of_interval`] has them.
+    rolls: Vec<f64>,
 }
 
 impl Curve {
-    fn new(part: &Part<'_>) -> Self {
+    fn new(part: &Part<'_>, rolls: &Rolls) -> Self {
         let (cubic, support) = (part.line.cubic(part.point), part.line.support);
         let reach = cubic.half_bound() * support.extent();
-        let even = support.is_circle() && cubic.is_even();
-        Self { passing: Passing::new(&cubic), reach, even, cubic }
+        let round = support.is_circle() && cubic.is_round();
+        let rolls = rolls.of_interval(part.line.yarn, part.point, part.line.window(part.point));
+        Self { passing: Passing::new(&cubic), reach, round, even: round && cubic.is_even(), rolls, cubic }
     }
 }
 
@@ -76,14 +84,21 @@ pub(super) struct Probe<'a> {
     yarns: &'a Yarns,
     supports: Vec<Support>,
     ways: Vec<f64>,
+    rolls: Rolls,
     /// The factor of the spline's tangents.
     s: f64,
 }
 
 impl<'a> Probe<'a> {
-    pub(super) fn new(yarns: &'a Yarns, tension: f32) -> Self {
+    pub(super) fn new(yarns: &'a Yarns, sampling: Sampling, frame: Frame) -> Self {
         let supports = yarns.layout().sections().iter().map(Support::new).collect();
-        Self { yarns, supports, ways: line::ways(yarns.points()), s: (1.0 - f64::from(tension)) / 2.0 }
+        Self {
+            yarns,
+            supports,
+            ways: line::ways(yarns.points()),
+            rolls: Rolls::new(yarns, sampling, frame),
+            s: (1.0 - f64::from(sampling.tension())) / 2.0,
+        }
     }
 
     fn line(&self, yarn: usize) -> Line<'_> {
@@ -207,7 +222,7 @@ impl<'a> Probe<'a> {
 
     /// The contacts of two intervals, the first one's number being the lower.
     fn pair(&self, [(one, first), (other, second)]: [(&Part<'_>, &Met); 2], found: &mut Found) {
-        let (a, b) = (first.curve(one), second.curve(other));
+        let (a, b) = (first.curve(one, &self.rolls), second.curve(other, &self.rolls));
         let reach = a.reach + b.reach;
         let within = CLEARANCE_NEAR * reach;
         let cuts = [one, other].map(|part| part.line.cut(part.point));
@@ -230,24 +245,14 @@ impl<'a> Probe<'a> {
             Side { cubic: &a.cubic, support: one.line.support, cut: cuts[0] },
             Side { cubic: &b.cubic, support: other.line.support, cut: cuts[1] },
         ];
-        let mut seen: Vec<DVec2> = Vec::new();
-        // Chords may be further from one another than the curves are.
-        first.chords(a).approaches(second.chords(b), within + SAGITTA * reach, |starts| {
-            // The first may lead out of the interval to an approach beside this one's own.
-            let refined = starts.into_iter().find_map(|start| refine(sides[0], sides[1], start));
-            let Some((place, ratio)) = refined else { return };
-            let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
-            if ratio > CLEARANCE_NEAR || again {
-                return;
-            }
-            // Two places so close along a yarn can only meet in a fold.
+        // Two places so close along a yarn can only meet in a fold.
+        let apart = |place: DVec2| {
             let reach =
                 [(a, place.x), (b, place.y)].map(|(curve, t)| curve.cubic.at(t).sizes().max_element());
             let window = FRAC_PI_2 * (reach[0] + reach[1]) * one.line.support.extent();
-            if same && one.line.within(window, (one.point, place.x), (other.point, place.y)) {
-                return;
-            }
-            seen.push(place);
+            !same || !one.line.within(window, (one.point, place.x), (other.point, place.y))
+        };
+        let add = |place: DVec2, ratio: f64, found: &mut Found| {
             let sources = self.yarns.sources();
             found.add(ratio, || Contact {
                 places: [
@@ -256,7 +261,31 @@ impl<'a> Probe<'a> {
                 ],
                 ratio,
             });
-        });
+        };
+        // Chords may be further from one another than the curves are.
+        let (chords, within) = ([first.chords(a), second.chords(b)], within + SAGITTA * reach);
+        if a.round && b.round {
+            let mut seen: Vec<DVec2> = Vec::new();
+            chords[0].approaches(chords[1], within, |starts| {
+                // The first may lead out of the interval to an approach beside this one's own.
+                let refined = starts.into_iter().find_map(|start| refine(sides[0], sides[1], start));
+                let Some((place, ratio)) = refined else { return };
+                let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
+                if ratio <= CLEARANCE_NEAR && !again && apart(place) {
+                    seen.push(place);
+                    add(place, ratio, found);
+                }
+            });
+            return;
+        }
+        let mut start = None;
+        chords[0].approaches(chords[1], within, |starts| start = start.or(Some(starts[0])));
+        let surfaces =
+            [Surface { side: sides[0], rolls: &a.rolls }, Surface { side: sides[1], rolls: &b.rolls }];
+        if let Some((place, ratio)) = start.and_then(|start| touch(&surfaces[0], &surfaces[1], start, apart))
+        {
+            add(place, ratio, found);
+        }
     }
 
     /// The tightest bend of the intervals of `span`.

@@ -1,4 +1,6 @@
-//! How far a section reaches in each direction.
+//! How far a section reaches in each direction, and where its outline lies.
+
+use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use texere_core::Section;
@@ -6,12 +8,15 @@ use texere_core::Section;
 /// Directions in which a section that is no circle is measured: between two of them its reach is off by 2e-5.
 const DIRECTIONS: usize = 512;
 
+/// Angles at which a section's outline is measured: between two of them it is off by 1e-5, or where it has a corner by 1e-3.
+const ANGLES: usize = 2048;
+
 /// A section's support function: the furthest point of its outline (of its hull, where it is not convex) in any
 /// direction, in radii of the yarn.
 #[derive(Debug, Clone)]
 pub(super) enum Support {
     Circle,
-    Table { furthest: Vec<DVec2>, extent: f64, area: f64 },
+    Table { furthest: Vec<DVec2>, outline: Vec<DVec2>, radii: Vec<f64>, smooth: bool, extent: f64, area: f64 },
 }
 
 impl Support {
@@ -25,7 +30,7 @@ impl Support {
             .map(|point| DVec2::new(f64::from(point.x), f64::from(point.y)))
             .collect();
         let furthest = (0..DIRECTIONS).map(|k| {
-            let direction = DVec2::from_angle(k as f64 / DIRECTIONS as f64 * std::f64::consts::TAU);
+            let direction = DVec2::from_angle(k as f64 / DIRECTIONS as f64 * TAU);
             outline
                 .iter()
                 .copied()
@@ -35,7 +40,47 @@ impl Support {
         let extent = outline.iter().map(|point| point.length()).fold(0.0, f64::max);
         let next = outline.iter().cycle().skip(1);
         let area = outline.iter().zip(next).map(|(point, next)| point.perp_dot(*next) / 2.0).sum();
-        Self::Table { furthest: furthest.collect(), extent, area }
+        let fine: Vec<DVec2> = section
+            .outline(ANGLES as u32)
+            .iter()
+            .map(|point| DVec2::new(point.x.into(), point.y.into()))
+            .collect();
+        let smooth = matches!(section, Section::Ellipse { .. });
+        Self::Table { furthest: furthest.collect(), radii: radii(&fine), outline: fine, smooth, extent, area }
+    }
+
+    /// Whether the outline has neither lobes nor corners.
+    pub(super) const fn is_smooth(&self) -> bool {
+        match self {
+            Self::Circle => true,
+            Self::Table { smooth, .. } => *smooth,
+        }
+    }
+
+    /// The point of the outline that lies `share` of the way round it.
+    pub(super) fn point(&self, share: f64) -> DVec2 {
+        match self {
+            Self::Circle => DVec2::from_angle(share * TAU),
+            Self::Table { outline, .. } => {
+                let place = share.rem_euclid(1.0) * outline.len() as f64;
+                let before = (place as usize).min(outline.len() - 1);
+                outline[before].lerp(outline[(before + 1) % outline.len()], place - before as f64)
+            }
+        }
+    }
+
+    /// The factor by which the section grows until its outline meets `point`: where its ray meets the outline more than once,
+    /// the outermost place.
+    pub(super) fn growth_at(&self, point: DVec2) -> f64 {
+        match self {
+            Self::Circle => point.length(),
+            Self::Table { radii, .. } => {
+                let place = (point.to_angle() / TAU).rem_euclid(1.0) * ANGLES as f64;
+                let before = (place as usize).min(ANGLES - 1);
+                let share = place - before as f64;
+                point.length() / (radii[before] * (1.0 - share) + radii[(before + 1) % ANGLES] * share)
+            }
+        }
     }
 
     pub(super) const fn is_circle(&self) -> bool {
@@ -66,13 +111,34 @@ impl Support {
         let point = match self {
             Self::Circle => across.normalize_or_zero(),
             Self::Table { furthest, .. } => {
-                let turns = across.to_angle() / std::f64::consts::TAU;
+                let turns = across.to_angle() / TAU;
                 let nearest = (turns.rem_euclid(1.0) * DIRECTIONS as f64).round() as usize % DIRECTIONS;
                 furthest[nearest]
             }
         };
         side * (point.x * sizes.x) + up * (point.y * sizes.y)
     }
+}
+
+/// How far from the centre an outline lies at each of [`ANGLES`] angles: the outermost place of each ray.
+fn radii(outline: &[DVec2]) -> Vec<f64> {
+    let mut radii = vec![0.0_f64; ANGLES];
+    for k in 0..outline.len() {
+        let (start, end) = (outline[k], outline[(k + 1) % outline.len()]);
+        // The rays that the edge spans, whichever way round it goes.
+        let turn = start.angle_to(end);
+        let (from, span) = (if turn < 0.0 { end } else { start }.to_angle(), turn.abs());
+        let first = (from / TAU * ANGLES as f64).ceil() as i64;
+        let last = ((from + span) / TAU * ANGLES as f64).floor() as i64;
+        for ray in first..=last {
+            let towards = DVec2::from_angle(ray as f64 / ANGLES as f64 * TAU);
+            let (edge, across) = (end - start, towards.perp_dot(end - start));
+            let reach = if across == 0.0 { start.length() } else { start.perp_dot(edge) / across };
+            let radius = &mut radii[ray.rem_euclid(ANGLES as i64) as usize];
+            *radius = radius.max(reach);
+        }
+    }
+    radii
 }
 
 /// The frame in which a section stands upright: side = z × t, and up.

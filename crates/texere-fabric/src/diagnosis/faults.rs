@@ -115,7 +115,7 @@ impl Woven {
         touching: f64,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Diagnosis, FabricError> {
-        let clearance = self.clearance(&self.yarns()?, Settings::default().tension, progress)?;
+        let clearance = self.clearance(&self.yarns()?, &Settings::default(), progress)?;
         let faults = Faults {
             crowded: clearance.crowd,
             pierces: clearance.worst.iter().take_while(|contact| contact.ratio < touching).copied().collect(),

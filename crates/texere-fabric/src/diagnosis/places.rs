@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use texere_core::{Origin, Yarns};
+use texere_core::{Origin, Settings, Yarns};
 
 use crate::{Clearance, Contact, Crowd, FabricError, NO_CROSSING, Woven, YarnPlace, clearance_with_progress};
 
@@ -90,19 +90,19 @@ pub struct ClothClearance {
 
 impl Woven {
     /// Measures how near the cloth's threads come to one another, and how tightly they bend. `yarns` are those of
-    /// [`Woven::yarns`], their splines of `tension`. `progress` gets the share that is done, as in
+    /// [`Woven::yarns`], as they are drawn with `settings`. `progress` gets the share that is done, as in
     /// [`clearance_with_progress`].
     ///
     /// **Errors**: those of [`clearance_with_progress`].
     ///
     /// ```
     /// use std::ops::ControlFlow;
-    /// use texere_core::{Material, Origin, Section};
+    /// use texere_core::{Material, Origin, Section, Settings};
     /// use texere_fabric::{Thread, Weave, Woven};
     /// let plain = Weave::parse("plain")?.drawdown(8, 6)?;
     /// let (warp, weft) = (vec![Thread::new(0.5, 0.15); 8], vec![Thread::new(0.5, 0.15); 6]);
     /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
-    /// let clearance = cloth.clearance(&cloth.yarns()?, 0.0, |_| ControlFlow::Continue(()))?;
+    /// let clearance = cloth.clearance(&cloth.yarns()?, &Settings::default(), |_| ControlFlow::Continue(()))?;
     /// let [one, other] = clearance.worst[0].places;
     /// assert!(matches!((one.thread, other.thread), (Origin::End(_), Origin::Pick(_))));
     /// # Ok::<(), texere_fabric::FabricError>(())
@@ -110,10 +110,10 @@ impl Woven {
     pub fn clearance(
         &self,
         yarns: &Yarns,
-        tension: f32,
+        settings: &Settings,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<ClothClearance, FabricError> {
-        let found = clearance_with_progress(yarns, tension, progress)?;
+        let found = clearance_with_progress(yarns, settings, progress)?;
         Ok(Names { cloth: self, yarns }.clearance(found))
     }
 }

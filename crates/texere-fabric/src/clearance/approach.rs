@@ -9,16 +9,16 @@ use super::support::Support;
 const AT_KNOT: f64 = 1e-6;
 
 /// How far, in intervals, refinement may stray out of an interval before the approach is another's.
-const MARGIN: f64 = 0.05;
+pub(super) const MARGIN: f64 = 0.05;
 
 /// Steps of refinement.
-const STEPS: usize = 40;
+pub(super) const STEPS: usize = 40;
 
 /// The longest step, in intervals.
-const STRIDE: f64 = 0.25;
+pub(super) const STRIDE: f64 = 0.25;
 
 /// A step this short, in intervals, ends refinement: what is left changes a ratio by its square.
-const SHORT: f64 = 1e-5;
+pub(super) const SHORT: f64 = 1e-5;
 
 /// A step so short that it leads nowhere, in intervals.
 const CLOSE: f64 = 1e-7;
@@ -45,7 +45,7 @@ impl Side<'_> {
     }
 
     /// Whether `t` is held outside of the interval, where it would go on outwards: what it is after is another's.
-    fn is_gone(&self, t: f64, direction: f64) -> bool {
+    pub(super) fn is_gone(&self, t: f64, direction: f64) -> bool {
         direction != 0.0 && self.held(t + CLOSE * direction.signum()) == t && self.own(t).is_none()
     }
 

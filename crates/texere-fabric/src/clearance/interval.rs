@@ -63,8 +63,19 @@ impl Cubic {
         c0 + (c1 + (c2 + c3 * t) * t) * t
     }
 
-    pub(super) fn at(&self, t: f64) -> At {
+    /// Position, first and second derivative.
+    pub(super) fn path(&self, t: f64) -> [DVec3; 3] {
         let [_, c1, c2, c3] = self.position;
+        [self.position(t), c1 + (2.0 * c2 + 3.0 * c3 * t) * t, 2.0 * c2 + 6.0 * c3 * t]
+    }
+
+    /// Half width and half height.
+    pub(super) fn sizes(&self, t: f64) -> DVec2 {
+        let half = |[r0, r1, r2, r3]: [f64; 4]| r0 + (r1 + (r2 + r3 * t) * t) * t;
+        DVec2::from_array(self.halves.map(half)).max(DVec2::from_array(self.floors))
+    }
+
+    pub(super) fn at(&self, t: f64) -> At {
         let half = |side: usize| {
             let ([r0, r1, r2, r3], floor) = (self.halves[side], self.floors[side]);
             let half = r0 + (r1 + (r2 + r3 * t) * t) * t;
@@ -74,12 +85,8 @@ impl Cubic {
                 [half, r1 + (2.0 * r2 + 3.0 * r3 * t) * t, 2.0 * r2 + 6.0 * r3 * t]
             }
         };
-        At {
-            position: self.position(t),
-            velocity: c1 + (2.0 * c2 + 3.0 * c3 * t) * t,
-            acceleration: 2.0 * c2 + 6.0 * c3 * t,
-            halves: [half(0), half(1)],
-        }
+        let [position, velocity, acceleration] = self.path(t);
+        At { position, velocity, acceleration, halves: [half(0), half(1)] }
     }
 
     /// The interval's Bézier polygon, whose hull holds the curve.

@@ -15,6 +15,7 @@ mod search;
 mod support;
 mod surface;
 mod touch;
+mod tubes;
 mod watch;
 
 use std::ops::ControlFlow;

@@ -48,8 +48,8 @@ impl Rolls {
         let Some(twist) = self.twists[yarn] else { return (starts, 0.0) };
         let intervals = if closed { points.len() } else { points.len().saturating_sub(1) };
         let mut roll = Turn::ZERO;
-        for interval in 0..intervals {
-            starts[interval] = roll;
+        for (interval, start) in starts.iter_mut().enumerate().take(intervals) {
+            *start = roll;
             let steps = self.steps(neighbours(points, closed, interval), twist);
             roll = steps.into_iter().fold(roll, |roll, step| roll + step);
         }

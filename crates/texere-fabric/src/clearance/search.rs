@@ -20,7 +20,8 @@ use super::passing::Passing;
 use super::rolls::Rolls;
 use super::support::Support;
 use super::surface::Surface;
-use super::touch::touch;
+use super::touch::{touch, touch_near};
+use super::tubes;
 use super::watch::Watch;
 use crate::FabricError;
 use crate::memory::room_for;
@@ -264,28 +265,33 @@ impl<'a> Probe<'a> {
         };
         // Chords may be further from one another than the curves are.
         let (chords, within) = ([first.chords(a), second.chords(b)], within + SAGITTA * reach);
-        if a.round && b.round {
-            let mut seen: Vec<DVec2> = Vec::new();
-            chords[0].approaches(chords[1], within, |starts| {
-                // The first may lead out of the interval to an approach beside this one's own.
-                let refined = starts.into_iter().find_map(|start| refine(sides[0], sides[1], start));
-                let Some((place, ratio)) = refined else { return };
-                let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
-                if ratio <= CLEARANCE_NEAR && !again && apart(place) {
-                    seen.push(place);
-                    add(place, ratio, found);
-                }
-            });
-            return;
-        }
-        let mut start = None;
-        chords[0].approaches(chords[1], within, |starts| start = start.or(Some(starts[0])));
         let surfaces =
             [Surface { side: sides[0], rolls: &a.rolls }, Surface { side: sides[1], rolls: &b.rolls }];
-        if let Some((place, ratio)) = start.and_then(|start| touch(&surfaces[0], &surfaces[1], start, apart))
-        {
-            add(place, ratio, found);
+        if surfaces.iter().any(|surface| !surface.is_simple()) {
+            // Surfaces that have lobes or turn may come near in many places, whatever the centrelines do.
+            let mut start = None;
+            chords[0].approaches(chords[1], within, |starts| start = start.or(Some(starts[0])));
+            let touching = start.and_then(|start| touch(&surfaces[0], &surfaces[1], start, apart));
+            if let Some((place, ratio)) = touching {
+                add(place, ratio, found);
+            }
+            return;
         }
+        let round = a.round && b.round;
+        let mut seen: Vec<DVec2> = Vec::new();
+        chords[0].approaches(chords[1], within, |starts| {
+            // The first may lead out of the interval to an approach beside this one's own.
+            let refined = starts.into_iter().find_map(|start| match round {
+                true => refine(sides[0], sides[1], start),
+                false => touch_near(&surfaces[0], &surfaces[1], tubes::nearest(sides[0], sides[1], start)?),
+            });
+            let Some((place, ratio)) = refined else { return };
+            let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
+            if ratio <= CLEARANCE_NEAR && !again && apart(place) {
+                seen.push(place);
+                add(place, ratio, found);
+            }
+        });
     }
 
     /// The tightest bend of the intervals of `span`.

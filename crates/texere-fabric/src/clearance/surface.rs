@@ -26,6 +26,7 @@ pub(super) struct Surface<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stand {
     pub(super) centre: DVec3,
+    pub(super) tangent: DVec3,
     /// The upright frame's side and up.
     frame: [DVec3; 2],
     /// Half width and half height.
@@ -34,12 +35,37 @@ pub(super) struct Stand {
     roll: DVec2,
 }
 
+impl Stand {
+    /// The way from the centre to `point` of the section, mm.
+    pub(super) fn way(&self, point: DVec2) -> DVec3 {
+        let point = self.roll.rotate(point) * self.sizes;
+        self.frame[0] * point.x + self.frame[1] * point.y
+    }
+
+    /// `direction` as points of the section that is turned already see it: flattening does to directions the other way round
+    /// what it does to points.
+    fn across(&self, direction: DVec3) -> DVec2 {
+        DVec2::new(direction.dot(self.frame[0]), direction.dot(self.frame[1])) * self.sizes
+    }
+
+    /// `direction` as points of the section see it.
+    pub(super) fn seen(&self, direction: DVec3) -> DVec2 {
+        DVec2::new(self.roll.x, -self.roll.y).rotate(self.across(direction))
+    }
+}
+
 impl Surface<'_> {
+    /// Whether the section has neither lobes nor corners, and does not turn.
+    pub(super) fn is_simple(&self) -> bool {
+        self.side.support.is_smooth() && self.rolls.is_empty()
+    }
+
     /// How the section stands at `t`; nowhere where the yarn stands still.
     pub(super) fn stand(&self, t: f64) -> Option<Stand> {
-        let at = self.side.cubic.at(t);
-        let frame = upright(at.velocity.try_normalize()?);
-        Some(Stand { centre: at.position, frame, sizes: at.sizes(), roll: self.roll(t) })
+        let [centre, velocity, _] = self.side.cubic.path(t);
+        let tangent = velocity.try_normalize()?;
+        let (frame, sizes) = (upright(tangent), self.side.cubic.sizes(t));
+        Some(Stand { centre, tangent, frame, sizes, roll: self.roll(t) })
     }
 
     fn roll(&self, t: f64) -> DVec2 {
@@ -53,20 +79,19 @@ impl Surface<'_> {
         DVec2::from_angle((from + (place - before as f64) * (to - from)) * std::f64::consts::TAU)
     }
 
-    /// The way from the centre of a section that stands so to the point of its outline that lies `share` of the way round it, mm.
-    pub(super) fn way(&self, stand: &Stand, share: f64) -> DVec3 {
-        let point = stand.roll.rotate(self.side.support.point(share)) * stand.sizes;
-        stand.frame[0] * point.x + stand.frame[1] * point.y
+    /// No less than a section that stands so reaches in a direction whose length is 1, whatever its roll, mm.
+    pub(super) fn reach(&self, stand: &Stand, direction: DVec3) -> f64 {
+        stand.across(direction).length() * self.side.support.extent()
     }
 
     /// The place near `t` whose cross-section `point` lies in.
     pub(super) fn level_with(&self, point: DVec3, mut t: f64) -> f64 {
         for _ in 0..STEPS {
-            let at = self.side.cubic.at(t);
-            let apart = point - at.position;
-            let (along, flat) = (apart.dot(at.velocity), at.velocity.length_squared());
+            let [position, velocity, acceleration] = self.side.cubic.path(t);
+            let apart = point - position;
+            let (along, flat) = (apart.dot(velocity), velocity.length_squared());
             // Beyond the centre of a bend the straight line's step.
-            let bent = flat - apart.dot(at.acceleration);
+            let bent = flat - apart.dot(acceleration);
             let step = along / if bent > 0.1 * flat { bent } else { flat + f64::MIN_POSITIVE };
             let next = (t + step).clamp(-STRAY, 1.0 + STRAY);
             let moved = (next - t).abs();

@@ -26,8 +26,15 @@ const SECTIONS_MAX: usize = 256;
 /// much as a lobe rises between two places.
 const SLACK: f64 = 0.015;
 
+/// How much further from the other yarn's tangent than its surface a point may lie and still be inside of it, where the yarn
+/// bends.
+const BENT: f64 = 1.3;
+
 /// The way downhill ends with steps this much shorter than those between places that are tried.
-const FINEST: f64 = 1.0 / 256.0;
+const FINEST: f64 = 1.0 / 32.0;
+
+/// By how much tubes may be wrong.
+const OFF: f64 = 0.1;
 
 /// How exact a growth is worked out.
 const EXACT: f64 = 2e-5;
@@ -35,7 +42,7 @@ const EXACT: f64 = 2e-5;
 /// Where surfaces touch: parameters of both, and the growth.
 type Touch = (DVec2, f64);
 
-/// The least growth at which the surfaces touch, near parameters `start` to begin with, and where. `counts` says whether two
+/// The least growth at which the surfaces touch, and where, found from parameters `start` on. `counts` says whether two
 /// parameters may touch. None where that is another interval's, or at more than [`CLEARANCE_NEAR`].
 pub(super) fn touch(
     one: &Surface<'_>,
@@ -43,14 +50,31 @@ pub(super) fn touch(
     start: DVec2,
     counts: impl Fn(DVec2) -> bool,
 ) -> Option<Touch> {
-    // The thinner one's points, so that none of its shape falls between two points of the other.
-    let swapped = other.side.cubic.half_bound() < one.side.cubic.half_bound();
-    let (place, growth) = if swapped {
-        let (place, growth) =
-            Search { thin: other, thick: one, counts: |at: DVec2| counts(at.yx()) }.least(start.x)?;
+    search(one, other, start, |thin, thick, start| Search { thin, thick, counts: &counts }.least(start))
+}
+
+/// The same of surfaces that neither turn nor have lobes, close to where their tubes touch: `near`, with the growth there.
+pub(super) fn touch_near(one: &Surface<'_>, other: &Surface<'_>, (start, growth): Touch) -> Option<Touch> {
+    if growth > CLEARANCE_NEAR + OFF {
+        return None;
+    }
+    search(one, other, start, |thin, thick, start| {
+        Search { thin, thick, counts: |_| true }.near(start, growth)
+    })
+}
+
+/// Calls `least` with the thinner surface first, so that none of its shape falls between two points of the other.
+fn search(
+    one: &Surface<'_>,
+    other: &Surface<'_>,
+    start: DVec2,
+    least: impl FnOnce(&Surface<'_>, &Surface<'_>, DVec2) -> Option<Touch>,
+) -> Option<Touch> {
+    let (place, growth) = if other.side.cubic.half_bound() < one.side.cubic.half_bound() {
+        let (place, growth) = least(other, one, start.yx())?;
         (place.yx(), growth)
     } else {
-        Search { thin: one, thick: other, counts }.least(start.y)?
+        least(one, other, start)?
     };
     Some((DVec2::new(one.side.own(place.x)?, other.side.own(place.y)?), growth))
 }
@@ -70,30 +94,52 @@ struct Found {
     growth: f64,
 }
 
+impl Found {
+    fn touch(self) -> Touch {
+        (DVec2::new(self.t, self.other), self.growth)
+    }
+}
+
 impl<F: Fn(DVec2) -> bool> Search<'_, F> {
-    fn least(&self, other: f64) -> Option<Touch> {
-        let side = &self.thin.side;
-        let (low, high) = (side.held(f64::NEG_INFINITY), side.held(f64::INFINITY));
-        let lobed = !(self.thin.side.support.is_smooth() && self.thick.side.support.is_smooth());
-        let points = if lobed { POINTS_LOBED } else { POINTS };
-        let sections = self.sections();
-        let steps = DVec2::new((high - low) / sections as f64, 1.0 / points as f64);
-        let mut best: Option<Found> = None;
-        let mut tried: Vec<DVec2> = Vec::new();
-        let mut beside = other;
-        for k in 0..=sections {
-            let t = low + k as f64 * steps.x;
-            let Some(stand) = self.thin.stand(t) else { continue };
-            beside = self.thick.level_with(stand.centre, beside.clamp(0.0, 1.0));
-            let towards = self.thick.side.cubic.position(beside) - stand.centre;
-            for point in 0..points {
-                let round = point as f64 * steps.y;
-                let way = self.thin.way(&stand, round);
-                if way.dot(towards) < 0.0 {
-                    continue;
-                }
+    /// From one start downhill.
+    fn near(&self, start: DVec2, growth: f64) -> Option<Touch> {
+        let found = self.solve(start.x, self.facing(start, POINTS)?, growth + OFF, start.y)?;
+        let steps = DVec2::new(1.0 / self.sections() as f64, 1.0 / POINTS as f64);
+        Some(self.downhill(found, steps / 2.0).touch())
+    }
+
+    fn least(&self, start: DVec2) -> Option<Touch> {
+        let Self { thin, thick, .. } = self;
+        let (low, high) = (thin.side.held(f64::NEG_INFINITY), thin.side.held(f64::INFINITY));
+        let (sections, steps_round) = (self.sections(), 1.0 / POINTS_LOBED as f64);
+        let steps = DVec2::new((high - low) / sections as f64, steps_round);
+        let outline: Vec<(f64, DVec2)> = (0..POINTS_LOBED)
+            .map(|point| point as f64 * steps_round)
+            .map(|round| (round, thin.side.support.point(round)))
+            .collect();
+        // From the first approach on, so that the rest is soon done with.
+        let facing = self.facing(start, POINTS_LOBED);
+        let first = facing.and_then(|round| self.solve(start.x, round, CLEARANCE_NEAR, start.y));
+        let mut best = first.map(|found| self.downhill(found, steps));
+        let mut tried: Vec<DVec2> = best.iter().map(|found| DVec2::new(found.t, found.round)).collect();
+        let thickest = thick.side.cubic.half_bound() * thick.side.support.extent();
+        let mut beside = start.y;
+        for t in (0..=sections).map(|k| low + k as f64 * steps.x) {
+            let Some(stand) = thin.stand(t) else { continue };
+            beside = thick.level_with(stand.centre, beside.clamp(0.0, 1.0));
+            let Some(other) = thick.stand(beside) else { continue };
+            let towards = other.centre - stand.centre;
+            let level = best.map_or(CLEARANCE_NEAR, |found| found.growth) + SLACK;
+            // Too far for anything to touch here.
+            let (direction, apart) = (towards.normalize_or_zero(), towards.length());
+            if apart > BENT * level * (thin.reach(&stand, direction) + thick.reach(&other, direction)) {
+                continue;
+            }
+            let seen = stand.seen(towards);
+            for &(round, point) in outline.iter().filter(|(_, point)| point.dot(seen) >= 0.0) {
                 let level = best.map_or(CLEARANCE_NEAR, |found| found.growth) + SLACK;
-                if self.lies_outside(&stand, way, level, beside) {
+                let off = (level * stand.way(point) - towards).reject_from_normalized(other.tangent);
+                if off.length_squared() > (BENT * level * thickest).powi(2) {
                     continue;
                 }
                 let near = |other: &DVec2| {
@@ -103,16 +149,25 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
                 if tried.iter().any(near) {
                     continue;
                 }
-                let Some(found) = self.solve(t, round, level, beside) else { continue };
+                let at = DVec2::new(t, round);
+                let Some(found) = self.solve_at(&stand, at, level, beside) else { continue };
                 let lowest = self.downhill(found, steps);
-                tried.extend([DVec2::new(t, round), DVec2::new(lowest.t, lowest.round)]);
+                tried.extend([at, DVec2::new(lowest.t, lowest.round)]);
                 if best.is_none_or(|best| lowest.growth < best.growth) {
                     best = Some(lowest);
                 }
             }
         }
-        best.filter(|best| best.growth <= CLEARANCE_NEAR)
-            .map(|best| (DVec2::new(best.t, best.other), best.growth))
+        best.filter(|best| best.growth <= CLEARANCE_NEAR).map(Found::touch)
+    }
+
+    /// Which of `points` of the outline, as a share of the way round it, reaches furthest towards the other yarn at `start`.
+    fn facing(&self, start: DVec2, points: usize) -> Option<f64> {
+        let stand = self.thin.stand(start.x)?;
+        let seen = stand.seen(self.thick.side.cubic.position(start.y) - stand.centre);
+        let reach = |round: &f64| self.thin.side.support.point(*round).dot(seen);
+        let shares = (0..points).map(|point| point as f64 / points as f64);
+        shares.max_by(|a, b| reach(a).total_cmp(&reach(b)))
     }
 
     /// How many steps the thinner interval is tried in.
@@ -131,24 +186,24 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         if count.is_finite() { (count.ceil() as usize).clamp(4, SECTIONS_MAX) } else { SECTIONS_MAX }
     }
 
-    /// Whether the point of a section grown by `level` lies outside of the other surface grown likewise.
-    fn lies_outside(&self, stand: &Stand, way: DVec3, level: f64, beside: f64) -> bool {
-        self.excess(stand, way, level, beside).is_none_or(|(excess, _)| excess > 0.0)
-    }
-
     /// By how much more the other surface must grow to meet a point of a section grown by `growth`, and where it does.
     fn excess(&self, stand: &Stand, way: DVec3, growth: f64, beside: f64) -> Option<(f64, f64)> {
         let (needed, other) = self.thick.growth_at(stand.centre + growth * way, beside)?;
         Some((needed - growth, other))
     }
 
-    /// Where the surfaces touch on the ray through the point that lies `round` the outline of the section at `t`, at `level` at most.
+    /// Where the surfaces touch on the ray through the point `round` the outline of the section at `t`, at `level` at most; near
+    /// place `beside` of the other yarn.
     fn solve(&self, t: f64, round: f64, level: f64, beside: f64) -> Option<Found> {
-        let stand = self.thin.stand(t)?;
-        let way = self.thin.way(&stand, round);
+        self.solve_at(&self.thin.stand(t)?, DVec2::new(t, round), level, beside)
+    }
+
+    fn solve_at(&self, stand: &Stand, at: DVec2, level: f64, beside: f64) -> Option<Found> {
+        let [t, round] = at.to_array();
+        let way = stand.way(self.thin.side.support.point(round));
         let mut high = level;
         let (mut over, mut other) =
-            self.excess(&stand, way, high, beside).filter(|(excess, _)| *excess <= 0.0)?;
+            self.excess(stand, way, high, beside).filter(|(excess, _)| *excess <= 0.0)?;
         let (mut low, mut under) = (0.0, f64::INFINITY);
         while high - low > EXACT && over < 0.0 {
             // The secant, or half way where there is none yet or it leads nowhere.
@@ -156,7 +211,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             let middle = f64::midpoint(low, high);
             let inner = (high - low) * 0.02;
             let next = if secant.is_finite() { secant.clamp(low + inner, high - inner) } else { middle };
-            match self.excess(&stand, way, next, other) {
+            match self.excess(stand, way, next, other) {
                 Some((excess, place)) if excess <= 0.0 => (high, over, other) = (next, excess, place),
                 Some((excess, _)) => (low, under) = (next, excess),
                 None => (low, under) = (next, f64::INFINITY),

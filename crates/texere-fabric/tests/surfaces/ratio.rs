@@ -1,0 +1,182 @@
+//! How far the sections of two yarns have to grow until their surfaces touch, by dense sampling.
+//!
+//! Where sections grow about their centres, yarns at a ratio lie within the same yarns at any greater ratio. So there is
+//! one ratio below which no point of a surface lies in another yarn, and above which some do. It is looked for from above:
+//! any sample that lies in another yarn takes the ratio down to where it first touched that yarn, until none does.
+
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+use std::rc::Rc;
+
+use glam::DVec3;
+use texere_core::{Pipeline, Section, Settings, Yarns};
+use texere_cpu::SerialBackend;
+
+use crate::outline::Outline;
+use crate::tube::Tube;
+
+/// The least and the greatest ratio that is found.
+const RATIOS: [f64; 2] = [0.4, 1.15];
+
+/// Angles at which a ring is sampled.
+const ANGLES: usize = 256;
+
+/// Samples whose gauge is within this of the ratio may hide a touch between them and the next.
+const DOUBT: f64 = 0.005;
+
+/// Where two yarns first touch.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Touch {
+    pub(crate) ratio: f64,
+    pub(crate) yarns: [usize; 2],
+    pub(crate) position: DVec3,
+}
+
+/// The factor by which all sections grow until the first two yarns touch, furrows and all: within 5e-4, if `settings` puts
+/// rings a twenty-fifth of a diameter apart. 0.4 at least, 1.15 at most.
+pub(crate) fn surface_ratio(yarns: &Yarns, settings: Settings) -> f64 {
+    first_touch(yarns, settings, Outline::of).ratio
+}
+
+/// The same of the sections' hulls.
+pub(crate) fn hull_ratio(yarns: &Yarns, settings: Settings) -> f64 {
+    first_touch(yarns, settings, Outline::hull_of).ratio
+}
+
+/// Where the first two yarns touch, with sections of the outlines that `outline` makes.
+pub(crate) fn first_touch(yarns: &Yarns, settings: Settings, outline: fn(&Section) -> Outline) -> Touch {
+    let trajectory = Pipeline::new(yarns).settings(settings).trajectory(&SerialBackend::new()).unwrap();
+    let layout = yarns.layout();
+    let outlines: Vec<_> = layout.sections().iter().map(|section| Rc::new(outline(section))).collect();
+    let tubes = layout.yarns().iter().enumerate().map(|(number, yarn)| {
+        Tube::new(trajectory.yarn(number).unwrap(), outlines[yarn.section as usize].clone())
+    });
+    let mut search = Search {
+        tubes: tubes.collect(),
+        touch: Touch { ratio: RATIOS[1], yarns: [0; 2], position: DVec3::ZERO },
+    };
+    search.sweep(8);
+    let mut ratio = f64::INFINITY;
+    let mut doubtful = Vec::new();
+    while search.touch.ratio < ratio {
+        ratio = search.touch.ratio;
+        doubtful = search.sweep(1);
+    }
+    loop {
+        let ratio = search.touch.ratio;
+        for sample in &mut doubtful {
+            search.settle(sample);
+        }
+        if search.touch.ratio > ratio - 1e-6 {
+            return search.touch;
+        }
+    }
+}
+
+struct Search {
+    tubes: Vec<Tube>,
+    /// The first touch of all samples so far.
+    touch: Touch,
+}
+
+/// A point of one yarn's surface, beside a stretch of another yarn.
+#[derive(Clone)]
+struct Sample {
+    yarns: [usize; 2],
+    stretch: RangeInclusive<usize>,
+    /// Where the point's foot was found last in the other yarn.
+    ring: usize,
+    /// Place along its own yarn, in rings.
+    at: f64,
+    angle: f64,
+}
+
+impl Search {
+    /// Tests one ring of `step` and one angle of `step` of each yarn against all other yarns, and gives the nearest sample of
+    /// each ring that is in doubt.
+    fn sweep(&mut self, step: usize) -> Vec<Sample> {
+        let mut doubtful = Vec::new();
+        let pairs =
+            (0..self.tubes.len()).flat_map(|own| (0..self.tubes.len()).map(move |other| [own, other]));
+        for yarns in pairs.filter(|[own, other]| own != other) {
+            let [own, other] = yarns.map(|yarn| &self.tubes[yarn]);
+            let angles = (0..ANGLES).step_by(step).map(|angle| angle as f64 / ANGLES as f64 * TAU);
+            let outline: Vec<_> = angles.map(|angle| (angle, own.outline.point(angle))).collect();
+            for at in (0..own.rings()).step_by(step) {
+                let at = at as f64;
+                let stance = own.stance(at);
+                for stretch in other.near(stance.centre, RATIOS[1] * (own.reach + other.reach)) {
+                    let mut sample = Sample { yarns, ring: *stretch.start(), stretch, at, angle: 0.0 };
+                    let mut nearest = (DOUBT, sample.clone());
+                    for &(angle, point) in &outline {
+                        sample.angle = angle;
+                        let outward = stance.outward(point);
+                        let mut excess = |ratio: f64| {
+                            let point = stance.centre + outward * ratio;
+                            other.gauge(point, &sample.stretch, &mut sample.ring, ratio + DOUBT) - ratio
+                        };
+                        let over = excess(self.touch.ratio);
+                        if over < 0.0 {
+                            let ratio = first_crossing(excess, self.touch.ratio);
+                            self.touch = Touch { ratio, yarns, position: stance.centre + outward * ratio };
+                        }
+                        if over < nearest.0 {
+                            nearest = (over, sample.clone());
+                        }
+                    }
+                    if nearest.0 < DOUBT {
+                        doubtful.push(nearest.1);
+                    }
+                }
+            }
+        }
+        doubtful
+    }
+
+    /// By how much the gauge of a sample is over `ratio`.
+    fn excess(&self, sample: &mut Sample, ratio: f64) -> f64 {
+        let [own, other] = sample.yarns.map(|yarn| &self.tubes[yarn]);
+        let stance = own.stance(sample.at);
+        let point = stance.centre + stance.outward(own.outline.point(sample.angle)) * ratio;
+        other.gauge(point, &sample.stretch, &mut sample.ring, ratio + DOUBT) - ratio
+    }
+
+    /// Moves a sample to where its surface lies deepest in the other yarn, in steps from a ring and an angle on down.
+    fn settle(&mut self, sample: &mut Sample) {
+        let ratio = self.touch.ratio;
+        let last = (self.tubes[sample.yarns[0]].rings() - 1) as f64;
+        let mut least = self.excess(sample, ratio);
+        let mut step = 1.0;
+        while step > 0.01 {
+            let steps = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)];
+            let moved = steps.into_iter().find_map(|(along, round)| {
+                let mut moved = sample.clone();
+                moved.at = (moved.at + step * f64::from(along)).clamp(0.0, last);
+                moved.angle += step * f64::from(round) / ANGLES as f64 * TAU;
+                let excess = self.excess(&mut moved, ratio);
+                (excess < least).then_some((excess, moved))
+            });
+            match moved {
+                Some((excess, moved)) => (least, *sample) = (excess, moved),
+                None => step /= 2.0,
+            }
+        }
+        if least < 0.0 {
+            let ratio = first_crossing(|ratio| self.excess(sample, ratio), ratio);
+            let tube = &self.tubes[sample.yarns[0]];
+            let stance = tube.stance(sample.at);
+            let position = stance.centre + stance.outward(tube.outline.point(sample.angle)) * ratio;
+            self.touch = Touch { ratio, yarns: sample.yarns, position };
+        }
+    }
+}
+
+/// Where `excess`, below 0 at `above`, falls to 0.
+fn first_crossing(mut excess: impl FnMut(f64) -> f64, above: f64) -> f64 {
+    let (mut low, mut high) = (RATIOS[0], above);
+    while high - low > 1e-7 {
+        let middle = (low + high) / 2.0;
+        if excess(middle) < 0.0 { high = middle } else { low = middle }
+    }
+    high
+}

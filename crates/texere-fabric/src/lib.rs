@@ -34,6 +34,7 @@ mod error;
 mod length;
 mod measures;
 mod memory;
+mod reach;
 mod structure;
 mod warning;
 mod woven;

@@ -1,9 +1,10 @@
 //! What designers and mills ask of a fabric: yarn consumption, crimp, cover, weight, thickness.
 
 use rayon::prelude::*;
-use texere_core::{Material, Section, SectionPoint, Segment, Yarns};
+use texere_core::{Material, Segment, Yarns};
 
 use crate::clearance::neighbours;
+use crate::reach::Reach;
 use crate::{FabricError, Thread, Woven, lengths_mm, tex_from_cotton_count};
 
 /// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a cubic, whose turning
@@ -99,11 +100,14 @@ impl Cover {
     pub fn new(cloth: &Woven) -> Self {
         let size = cloth.size_mm();
         let sets = [(cloth.warp(), size[0]), (cloth.weft(), size[1])];
-        let widths: Vec<f64> =
-            cloth.sections().iter().map(|section| f64::from(section.half_width())).collect();
+        let reaches: Vec<Reach> = cloth.sections().iter().map(Reach::new).collect();
         let fraction = sets.map(|(threads, across)| {
-            let width =
-                |thread: &Thread| 2.0 * f64::from(thread.halves_mm()[0]) * widths[thread.section as usize];
+            let width = |thread: &Thread| {
+                let reach = &reaches[thread.section as usize];
+                // A twisted thread shows one side after the other.
+                let wide = if thread.twist == 0.0 { reach.width } else { reach.mean };
+                2.0 * f64::from(thread.halves_mm()[0] * wide)
+            };
             (threads.iter().map(width).sum::<f64>() / across).min(1.0)
         });
         // n / √N added up thread by thread: each has its own count.
@@ -153,7 +157,7 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
     let extent = |yarn: usize| {
         let what = yarns.layout().yarns()[yarn];
         let reach = &reaches[what.section as usize];
-        let [below, above] = if what.twist == 0.0 { reach.level } else { reach.turning };
+        let [below, above] = if what.twist == 0.0 { reach.heights } else { [reach.furthest; 2] };
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         let count = points.len();
         let intervals = if what.closed { count } else { count.saturating_sub(1) };
@@ -189,21 +193,4 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
 /// The Bézier polygon of one component of the spline between the middle two of four points.
 fn bezier([before, start, end, after]: &[f32; 4], s: f32) -> [f32; 4] {
     [*start, start + (end - before) * s / 3.0, end - (after - start) * s / 3.0, *end]
-}
-
-/// How far a section reaches below and above the centreline, in halves of the yarn's height.
-struct Reach {
-    /// As it stands untwisted.
-    level: [f32; 2],
-    /// Twist turns it through every direction: the furthest of them.
-    turning: [f32; 2],
-}
-
-impl Reach {
-    fn new(section: &Section) -> Self {
-        let outline = section.outline(1024);
-        let most = |size: &dyn Fn(&SectionPoint) -> f32| outline.iter().map(size).fold(0.0, f32::max);
-        let furthest = most(&|point| point.x.hypot(point.y));
-        Self { level: [most(&|point| -point.y), most(&|point| point.y)], turning: [furthest; 2] }
-    }
 }

@@ -74,8 +74,13 @@ proptest! {
                 }
                 let (upper, lower) = if cloth.drawdown().up(end, pick) { (warp, weft) } else { (weft, warp) };
                 prop_assert!(upper.z > 0.0 && lower.z < 0.0);
-                // Far enough apart for both sections: an ellipse of aspect 2 is 1/√2 of its radius high.
-                let height = |thread: &Thread| thread.radius_mm * if thread.section == 1 { 0.5f32.sqrt() } else { 1.0 };
+                // Far enough apart for both sections: an ellipse of aspect 2 is 1/√2 of its radius high, and √2 where twist
+                // turns it on edge.
+                let height = |thread: &Thread| match (thread.section, thread.twist) {
+                    (1, 0.0) => thread.radius_mm * 0.5f32.sqrt(),
+                    (1, _) => thread.radius_mm * 2.0f32.sqrt(),
+                    _ => thread.radius_mm,
+                };
                 let room = height(&cloth.warp()[end]) + height(&cloth.weft()[pick]);
                 prop_assert!((warp.z - weft.z).abs() > room * 0.9999);
                 prop_assert!((warp.z - weft.z).abs() < room * 1.3301);

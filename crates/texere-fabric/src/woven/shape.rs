@@ -3,6 +3,7 @@
 use texere_core::Section;
 
 use super::thread::Thread;
+use crate::reach::Reach;
 
 /// How many control points a thread gets, and where.
 ///
@@ -36,9 +37,9 @@ pub enum Shape {
 pub(super) struct Set {
     /// Where each thread lies, mm.
     pub(super) at: Vec<f32>,
-    /// Half the width of each thread's section, mm.
+    /// Half the width of the room that each thread takes, mm: an ellipse that holds its section however twist turns it.
     pub(super) half_width: Vec<f32>,
-    /// Half the height of each thread's section, mm.
+    /// Half its height, mm.
     pub(super) half_height: Vec<f32>,
     /// Mean distance of each thread to its neighbours, mm.
     pub(super) pitch: Vec<f32>,
@@ -48,8 +49,7 @@ pub(super) struct Set {
 
 impl Set {
     pub(super) fn new(threads: &[Thread], sections: &[Section]) -> Self {
-        let widths: Vec<f32> = sections.iter().map(Section::half_width).collect();
-        let heights: Vec<f32> = sections.iter().map(Section::half_height).collect();
+        let reaches: Vec<Reach> = sections.iter().map(Reach::new).collect();
         // The first thread lies half its spacing inside the cloth, the last half its own.
         let mut edge = -threads.first().map_or(0.0, |thread| thread.spacing_mm) / 2.0;
         let at = threads.iter().map(|thread| {
@@ -59,13 +59,14 @@ impl Set {
         let at = at.collect();
         let last = threads.last().map_or(0.0, |thread| thread.spacing_mm);
         let after = threads.iter().skip(1).map(|thread| thread.spacing_mm).chain([last]);
-        let size = |of: &[f32], half: usize| {
-            threads.iter().map(|thread| thread.halves_mm()[half] * of[thread.section as usize]).collect()
+        let room = |half: usize| {
+            let room = |thread: &Thread| reaches[thread.section as usize].room(thread.twist)[half];
+            threads.iter().map(|thread| thread.halves_mm()[half] * room(thread)).collect()
         };
         Self {
             at,
-            half_width: size(&widths, 0),
-            half_height: size(&heights, 1),
+            half_width: room(0),
+            half_height: room(1),
             pitch: threads
                 .iter()
                 .zip(after)

@@ -1,6 +1,6 @@
 //! Cloths whose yarns nearly touch.
 
-use texere_core::{Material, Section, Yarn, Yarns};
+use texere_core::{ControlPoint, Material, Section, Yarn, Yarns};
 use texere_fabric::{Shape, Thread, Weave, Woven};
 
 use crate::outline::Outline;
@@ -29,29 +29,46 @@ fn radians_a_mm(turns_a_metre: f32) -> f32 {
     turns_a_metre * 1e-3 * std::f32::consts::TAU
 }
 
-/// A cloth so close that its yarns touch or pierce a little; `twist` in turns a metre.
+/// A cloth whose yarns touch or pierce a little; `twist` in turns a metre.
 ///
-/// [`Woven`] leaves room for sections as they lie untwisted. Flat ones that stand on edge where they cross would pierce half
-/// of one another: their yarns follow the paths of round ones that nearly hold them.
+/// Untwisted it lies in the room that [`Woven`] makes, pressed to nine tenths of its height. Twisted yarns follow the paths of
+/// round ones that nearly hold them, or just.
 pub(crate) fn close(weave: &str, section: &Section, twist: f32) -> Yarns {
     let (size, sett) = match weave {
         "plain" => (4, 1.75),
         "2/2" => (4, 2.1),
         _ => (5, 1.9),
     };
-    let flat = matches!(section, Section::Ellipse { .. } | Section::Lobed { plies: 2 });
-    if !flat || twist == 0.0 {
-        return woven(weave, set(size, [sett; 2], RADIUS, twist), section.clone());
-    }
-    let share = if twist < 500.0 { 0.85 } else { 1.0 };
-    let round = share * RADIUS * Outline::of(section).greatest as f32;
-    let paths = woven(weave, set(size, [sett; 2], round, 0.0), Section::Circle);
+    let greatest = Outline::of(section).greatest as f32;
+    let (round, press, path) = match twist {
+        0.0 => (RADIUS, 0.9, section.clone()),
+        300.0 => (0.85 * RADIUS * greatest, 1.0, Section::Circle),
+        _ => (RADIUS * greatest, 1.0, Section::Circle),
+    };
+    let paths = woven(weave, set(size, [sett; 2], round, 0.0), path);
     let mut yarns = Yarns::builder();
     yarns.section(section.clone());
     for (number, yarn) in paths.layout().yarns().iter().enumerate() {
         let points = paths.yarn_points(number).unwrap().iter();
-        let points: Vec<_> = points.map(|point| point.flattened(RADIUS, RADIUS)).collect();
+        let points: Vec<_> = points
+            .map(|point| ControlPoint { z: point.z * press, ..point.flattened(RADIUS, RADIUS) })
+            .collect();
         yarns.yarn(Yarn { twist: radians_a_mm(twist), ..*yarn }, &points);
     }
     yarns.build().unwrap()
+}
+
+/// A plain weave of flattened threads, half again as wide as high, pressed to nine tenths of its height.
+pub(crate) fn flattened(section: &Section, twist: f32) -> Yarns {
+    let threads: Vec<_> = set(4, [2.5; 2], RADIUS, twist)
+        .into_iter()
+        .map(|thread| Thread { flatness: 1.5, ..thread })
+        .collect();
+    let mut yarns = woven("plain", threads, section.clone());
+    for yarn in 0..yarns.layout().yarns().len() {
+        let points = yarns.yarn_points(yarn).unwrap().iter();
+        let points: Vec<_> = points.map(|point| ControlPoint { z: point.z * 0.9, ..*point }).collect();
+        yarns.set_points(yarn, &points).unwrap();
+    }
+    yarns
 }

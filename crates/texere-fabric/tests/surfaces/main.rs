@@ -14,9 +14,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use texere_core::{ControlPoint, Pipeline, Section, Settings, Yarn, Yarns};
 use texere_cpu::SerialBackend;
-use texere_fabric::clearance;
+use texere_fabric::{CLEARANCE_NEAR, clearance};
 
-use cloths::{RADIUS, close, set, woven};
+use cloths::{RADIUS, close, flattened, set, woven};
 use outline::Outline;
 use ratio::{first_touch, hull_ratio, surface_ratio};
 use tube::Tube;
@@ -144,11 +144,10 @@ fn a_ply_lies_in_a_furrow() {
 
 /// What the crate measures.
 fn clearance_ratio(yarns: &Yarns, settings: Settings) -> f64 {
-    clearance(yarns, settings.tension).unwrap().min
+    clearance(yarns, &settings).unwrap().min
 }
 
 #[test]
-#[ignore = "the clearance takes sections as they lie untwisted, and by their hulls"]
 fn the_clearance_is_that_of_surfaces() {
     let mut cases = vec![("ply in a furrow".to_owned(), furrow_and_ply())];
     // Each end beside its double, each pick beside its own: plies lie in furrows all along.
@@ -159,6 +158,11 @@ fn the_clearance_is_that_of_surfaces() {
     }
     let lobed = (2..=6).map(|plies| Section::Lobed { plies });
     let sections: Vec<_> = [Section::Ellipse { aspect: 2.0 }].into_iter().chain(lobed).collect();
+    for section in [Section::Circle, Section::Ellipse { aspect: 2.0 }, Section::Lobed { plies: 2 }] {
+        for twist in [0.0, 300.0] {
+            cases.push((format!("flattened {section:?}, twist {twist}"), flattened(&section, twist)));
+        }
+    }
     for weave in ["plain", "2/2", "satin 5"] {
         for section in &sections {
             for twist in [0.0, 300.0, 700.0] {
@@ -171,20 +175,28 @@ fn the_clearance_is_that_of_surfaces() {
         (name.clone(), surface_ratio(yarns, settings), clearance_ratio(yarns, settings))
     };
     let measured: Vec<_> = cases.par_iter().map(measure).collect();
-    for (name, oracle, crates) in &measured {
-        println!("{name}: {oracle:.4}, clearance {crates:.4}");
-    }
     for (name, oracle, crates) in measured {
         assert!((0.75..=1.08).contains(&oracle), "{name}: {oracle} tells too little");
         assert!((oracle - crates).abs() <= 0.003, "{name}: {oracle}, clearance {crates}");
     }
 }
 
+/// Threads that cross make room for all plies, however twist turns them.
 #[test]
-#[ignore = "Woven makes room for plies as they lie untwisted, and counts furrows as room"]
-fn two_plies_at_five_diameters_stay_clear() {
-    let yarns = woven("plain", set(4, [5.0; 2], RADIUS, 300.0), Section::Lobed { plies: 2 });
-    let touch = first_touch(&yarns, dense(&yarns), Outline::of);
-    let (ratio, [first, second], at) = (touch.ratio, touch.yarns, touch.position);
-    assert!(ratio >= 0.999, "{ratio}: yarns {first} and {second} touch at {at:.3} mm");
+fn plied_threads_in_their_own_room_stay_clear() {
+    for plies in 2..=6 {
+        for twist in [0.0, 300.0, 700.0] {
+            for sett in [3.0, 5.0] {
+                let section = Section::Lobed { plies };
+                let yarns = woven("plain", set(4, [sett; 2], RADIUS, twist), section);
+                let settings = dense(&yarns);
+                let (oracle, crates) = (surface_ratio(&yarns, settings), clearance_ratio(&yarns, settings));
+                let name = format!("{plies} plies, twist {twist}, {sett} diameters");
+                assert!(oracle >= 0.999, "{name}: {oracle}");
+                // Beyond this nothing is looked for.
+                let same = (oracle - crates).abs() <= 0.003 || oracle.min(crates) > CLEARANCE_NEAR - 0.003;
+                assert!(same, "{name}: {oracle}, clearance {crates}");
+            }
+        }
+    }
 }

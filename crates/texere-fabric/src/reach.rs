@@ -1,0 +1,62 @@
+//! How far sections reach, as they stand untwisted and as twist turns them.
+
+use texere_core::{Section, SectionPoint};
+
+/// Points at which a section is measured.
+const POINTS: u32 = 1024;
+
+/// By how much sizes may be wrong that are worked out in `f32`.
+const ROUNDING: f32 = 1e-5;
+
+/// How far a section reaches from the centreline, in halves of the yarn's width and height.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reach {
+    /// To either side, untwisted.
+    pub(crate) width: f32,
+    /// Down and up, untwisted.
+    pub(crate) heights: [f32; 2],
+    /// In the furthest of all directions: twist turns it to every side.
+    pub(crate) furthest: f32,
+    /// In the mean of all directions.
+    pub(crate) mean: f32,
+    /// By how much the ellipse of this width and height has to grow to hold the section: 1 but for boxy ones.
+    boxiness: f32,
+}
+
+impl Reach {
+    pub(crate) fn new(section: &Section) -> Self {
+        let outline = section.outline(POINTS);
+        let most = |size: &dyn Fn(&SectionPoint) -> f32| outline.iter().map(size).fold(0.0, f32::max);
+        let width = most(&|point| point.x.abs());
+        let heights = [most(&|point| -point.y), most(&|point| point.y)];
+        let height = heights[0].max(heights[1]);
+        // Rounding makes no ellipse boxy, and no circle wider than it is.
+        let above = |size: f32, least: f32| if size > least * (1.0 + ROUNDING) { size } else { least };
+        Self {
+            width,
+            heights,
+            furthest: above(most(&|point| point.x.hypot(point.y)), width.max(height)),
+            mean: mean(&outline),
+            boxiness: above(most(&|point| (point.x / width).hypot(point.y / height)), 1.0),
+        }
+    }
+
+    /// Half width and half height of the ellipse, or of the circle that a twisted section turns in, that threads which cross
+    /// make room for.
+    pub(crate) fn room(&self, twist: f32) -> [f32; 2] {
+        if twist != 0.0 {
+            return [self.furthest; 2];
+        }
+        [self.width, self.heights[0].max(self.heights[1])].map(|half| half * self.boxiness)
+    }
+}
+
+/// The mean of how far a section reaches in each direction: its hull's perimeter over a full turn (Cauchy 1832).
+fn mean(outline: &[SectionPoint]) -> f32 {
+    let reach = |k: u32| {
+        let (sin, cos) = (f64::from(k) / f64::from(POINTS) * std::f64::consts::TAU).sin_cos();
+        let along = |point: &SectionPoint| f64::from(point.x) * cos + f64::from(point.y) * sin;
+        outline.iter().map(along).fold(0.0, f64::max)
+    };
+    ((0..POINTS).map(reach).sum::<f64>() / f64::from(POINTS)) as f32
+}

@@ -131,6 +131,7 @@ struct Place {
 /// The search for an interval's tightest bend.
 struct Search<'a> {
     support: &'a Support,
+    turning: bool,
     floors: DVec2,
     /// Whether the interval runs along one line.
     straight: bool,
@@ -187,6 +188,9 @@ impl Search<'_> {
         if self.support.is_circle() && sizes.x == sizes.y {
             return sizes.x;
         }
+        if self.turning {
+            return sizes.max_element() * self.support.extent();
+        }
         let velocity = place.velocity;
         let inwards = velocity.cross(place.acceleration).cross(velocity).normalize_or_zero();
         self.support.furthest(upright(velocity.normalize_or_zero()), sizes, inwards).dot(inwards)
@@ -195,7 +199,9 @@ impl Search<'_> {
 
 /// The least radius of curvature of an interval over how far the section reaches into the bend, and where it is, unless
 /// `within` is about as little or less. It is exact to [`ACCURACY`], and 0 where the yarn turns straight back.
-pub(super) fn tightest(cubic: &Cubic, support: &Support, within: f64) -> Option<(f64, f64)> {
+///
+/// Sections stand upright; with `turning` they reach as far as they can, whichever way they are turned.
+pub(super) fn tightest(cubic: &Cubic, support: &Support, turning: bool, within: f64) -> Option<(f64, f64)> {
     let whole = Part::whole(cubic);
     let [u, v, w] = whole.velocity;
     let least = (1.0 - ACCURACY) * within * cubic.half_bound() * support.extent();
@@ -208,7 +214,7 @@ pub(super) fn tightest(cubic: &Cubic, support: &Support, within: f64) -> Option<
     // Rounding of a straight line's derivatives is no bend.
     let straight = whole.turn().iter().all(|turn| turn.length() <= 1e-9 * whole.size());
     let floors = DVec2::from_array(cubic.floors());
-    let mut search = Search { support, floors, straight, best: (within, None) };
+    let mut search = Search { support, turning, floors, straight, best: (within, None) };
     search.visit(&whole);
     search.best.1.map(|t| (search.best.0, t))
 }

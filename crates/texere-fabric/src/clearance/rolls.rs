@@ -41,6 +41,11 @@ impl Rolls {
         rolls
     }
 
+    /// Whether a yarn's surface depends on its rolls.
+    pub(super) fn matter(&self, yarn: usize) -> bool {
+        self.twists[yarn].is_some()
+    }
+
     /// The roll at each control point of a yarn, and what each ring gives back.
     fn along(&self, yarns: &Yarns, yarn: usize) -> (Vec<Turn>, f64) {
         let (points, closed) = (yarns.yarn_points(yarn).unwrap_or(&[]), yarns.layout().yarns()[yarn].closed);

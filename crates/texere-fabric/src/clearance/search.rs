@@ -297,9 +297,10 @@ impl<'a> Probe<'a> {
     /// The tightest bend of the intervals of `span`.
     pub(super) fn tightest(&self, span: &Span<'_>) -> (f64, Option<YarnPlace>) {
         let line = &span.line;
+        let turning = self.rolls.matter(line.yarn);
         let mut best = (f64::INFINITY, None);
         for point in span.points.clone() {
-            if let Some((ratio, t)) = curvature::tightest(&line.cubic(point), line.support, best.0) {
+            if let Some((ratio, t)) = curvature::tightest(&line.cubic(point), line.support, turning, best.0) {
                 best = (ratio, Some(line.place(point, t, self.yarns.sources())));
             }
         }

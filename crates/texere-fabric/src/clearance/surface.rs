@@ -11,8 +11,8 @@ const STEPS: usize = 8;
 /// How far, in intervals, these steps may lead out of the interval.
 const STRAY: f64 = 0.25;
 
-/// A step so short that the place is found, in intervals.
-const SHORT: f64 = 1e-7;
+/// A step so short that the next would lead no further than its square, in intervals.
+const SHORT: f64 = 1e-4;
 
 /// An interval with all that its surface depends on.
 #[derive(Debug, Clone, Copy)]
@@ -104,10 +104,11 @@ impl Surface<'_> {
     }
 
     /// The factor by which the section grows until the surface meets `point`, and where: near `t`. None where that is no longer
-    /// this interval's.
-    pub(super) fn growth_at(&self, point: DVec3, t: f64) -> Option<(f64, f64)> {
+    /// this interval's, or so far from the centreline that it is more than `most`.
+    pub(super) fn growth_at(&self, point: DVec3, t: f64, most: f64) -> Option<(f64, f64)> {
         let t = self.level_with(point, t);
-        if self.side.held(t) != t {
+        let reach = most * self.side.support.extent() * self.side.cubic.sizes(t).max_element();
+        if self.side.held(t) != t || point.distance_squared(self.side.cubic.position(t)) > reach * reach {
             return None;
         }
         let stand = self.stand(t)?;

@@ -30,6 +30,9 @@ const SLACK: f64 = 0.015;
 /// bends.
 const BENT: f64 = 1.3;
 
+/// How far, in intervals, the place that a point is level with may lie from where the yarn's tangent has it.
+const SLANT: f64 = 0.2;
+
 /// The way downhill ends with steps this much shorter than those between places that are tried.
 const FINEST: f64 = 1.0 / 32.0;
 
@@ -123,12 +126,14 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let mut best = first.map(|found| self.downhill(found, steps));
         let mut tried: Vec<DVec2> = best.iter().map(|found| DVec2::new(found.t, found.round)).collect();
         let thickest = thick.side.cubic.half_bound() * thick.side.support.extent();
+        let (side_low, side_high) = (thick.side.held(f64::NEG_INFINITY), thick.side.held(f64::INFINITY));
         let mut beside = start.y;
         for t in (0..=sections).map(|k| low + k as f64 * steps.x) {
             let Some(stand) = thin.stand(t) else { continue };
             beside = thick.level_with(stand.centre, beside.clamp(0.0, 1.0));
             let Some(other) = thick.stand(beside) else { continue };
             let towards = other.centre - stand.centre;
+            let speed = thick.side.cubic.path(beside)[1].length();
             let level = best.map_or(CLEARANCE_NEAR, |found| found.growth) + SLACK;
             // Too far for anything to touch here.
             let (direction, apart) = (towards.normalize_or_zero(), towards.length());
@@ -138,8 +143,14 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             let seen = stand.seen(towards);
             for &(round, point) in outline.iter().filter(|(_, point)| point.dot(seen) >= 0.0) {
                 let level = best.map_or(CLEARANCE_NEAR, |found| found.growth) + SLACK;
-                let off = (level * stand.way(point) - towards).reject_from_normalized(other.tangent);
-                if off.length_squared() > (BENT * level * thickest).powi(2) {
+                let apart = level * stand.way(point) - towards;
+                let along = apart.dot(other.tangent);
+                if (apart - along * other.tangent).length_squared() > (BENT * level * thickest).powi(2) {
+                    continue;
+                }
+                // Others lie level with a place of a neighbour of the other yarn's interval.
+                let level_with = beside + along / speed;
+                if level_with < side_low - SLANT || level_with > side_high + SLANT {
                     continue;
                 }
                 let near = |other: &DVec2| {
@@ -186,9 +197,10 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         if count.is_finite() { (count.ceil() as usize).clamp(4, SECTIONS_MAX) } else { SECTIONS_MAX }
     }
 
-    /// By how much more the other surface must grow to meet a point of a section grown by `growth`, and where it does.
+    /// By how much more the other surface must grow to meet a point of a section grown by `growth`, and where it does; none where
+    /// that is far.
     fn excess(&self, stand: &Stand, way: DVec3, growth: f64, beside: f64) -> Option<(f64, f64)> {
-        let (needed, other) = self.thick.growth_at(stand.centre + growth * way, beside)?;
+        let (needed, other) = self.thick.growth_at(stand.centre + growth * way, beside, growth)?;
         Some((needed - growth, other))
     }
 

@@ -18,7 +18,7 @@ use texere_fabric::{CLEARANCE_NEAR, clearance};
 
 use cloths::{RADIUS, close, flattened, set, woven};
 use outline::Outline;
-use ratio::{first_touch, hull_ratio, surface_ratio};
+use ratio::{hull_ratio, surface_ratio};
 use tube::Tube;
 
 /// Settings that put rings a twenty-fifth of a diameter apart or nearer.

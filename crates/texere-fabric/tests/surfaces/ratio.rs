@@ -24,59 +24,48 @@ const ANGLES: usize = 256;
 /// Samples whose gauge is within this of the ratio may hide a touch between them and the next.
 const DOUBT: f64 = 0.005;
 
-/// Where two yarns first touch.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Touch {
-    pub(crate) ratio: f64,
-    pub(crate) yarns: [usize; 2],
-    pub(crate) position: DVec3,
-}
-
 /// The factor by which all sections grow until the first two yarns touch, furrows and all: within 5e-4, if `settings` puts
 /// rings a twenty-fifth of a diameter apart. 0.4 at least, 1.15 at most.
 pub(crate) fn surface_ratio(yarns: &Yarns, settings: Settings) -> f64 {
-    first_touch(yarns, settings, Outline::of).ratio
+    first_touch(yarns, settings, Outline::of)
 }
 
 /// The same of the sections' hulls.
 pub(crate) fn hull_ratio(yarns: &Yarns, settings: Settings) -> f64 {
-    first_touch(yarns, settings, Outline::hull_of).ratio
+    first_touch(yarns, settings, Outline::hull_of)
 }
 
-/// Where the first two yarns touch, with sections of the outlines that `outline` makes.
-pub(crate) fn first_touch(yarns: &Yarns, settings: Settings, outline: fn(&Section) -> Outline) -> Touch {
+/// The same with sections of the outlines that `outline` makes.
+fn first_touch(yarns: &Yarns, settings: Settings, outline: fn(&Section) -> Outline) -> f64 {
     let trajectory = Pipeline::new(yarns).settings(settings).trajectory(&SerialBackend::new()).unwrap();
     let layout = yarns.layout();
     let outlines: Vec<_> = layout.sections().iter().map(|section| Rc::new(outline(section))).collect();
     let tubes = layout.yarns().iter().enumerate().map(|(number, yarn)| {
         Tube::new(trajectory.yarn(number).unwrap(), outlines[yarn.section as usize].clone())
     });
-    let mut search = Search {
-        tubes: tubes.collect(),
-        touch: Touch { ratio: RATIOS[1], yarns: [0; 2], position: DVec3::ZERO },
-    };
+    let mut search = Search { tubes: tubes.collect(), ratio: RATIOS[1] };
     search.sweep(8);
     let mut ratio = f64::INFINITY;
     let mut doubtful = Vec::new();
-    while search.touch.ratio < ratio {
-        ratio = search.touch.ratio;
+    while search.ratio < ratio {
+        ratio = search.ratio;
         doubtful = search.sweep(1);
     }
     loop {
-        let ratio = search.touch.ratio;
+        let ratio = search.ratio;
         for sample in &mut doubtful {
             search.settle(sample);
         }
-        if search.touch.ratio > ratio - 1e-6 {
-            return search.touch;
+        if search.ratio > ratio - 1e-6 {
+            return search.ratio;
         }
     }
 }
 
 struct Search {
     tubes: Vec<Tube>,
-    /// The first touch of all samples so far.
-    touch: Touch,
+    /// The least ratio of all samples so far.
+    ratio: f64,
 }
 
 /// A point of one yarn's surface, beside a stretch of another yarn.
@@ -115,10 +104,9 @@ impl Search {
                             let point = stance.centre + outward * ratio;
                             other.gauge(point, &sample.stretch, &mut sample.ring, ratio + DOUBT) - ratio
                         };
-                        let over = excess(self.touch.ratio);
+                        let over = excess(self.ratio);
                         if over < 0.0 {
-                            let ratio = first_crossing(excess, self.touch.ratio);
-                            self.touch = Touch { ratio, yarns, position: stance.centre + outward * ratio };
+                            self.ratio = first_crossing(excess, self.ratio);
                         }
                         if over < nearest.0 {
                             nearest = (over, sample.clone());
@@ -143,7 +131,7 @@ impl Search {
 
     /// Moves a sample to where its surface lies deepest in the other yarn, in steps from a ring and an angle on down.
     fn settle(&mut self, sample: &mut Sample) {
-        let ratio = self.touch.ratio;
+        let ratio = self.ratio;
         let last = (self.tubes[sample.yarns[0]].rings() - 1) as f64;
         let mut least = self.excess(sample, ratio);
         let mut step = 1.0;
@@ -162,11 +150,7 @@ impl Search {
             }
         }
         if least < 0.0 {
-            let ratio = first_crossing(|ratio| self.excess(sample, ratio), ratio);
-            let tube = &self.tubes[sample.yarns[0]];
-            let stance = tube.stance(sample.at);
-            let position = stance.centre + stance.outward(tube.outline.point(sample.angle)) * ratio;
-            self.touch = Touch { ratio, yarns: sample.yarns, position };
+            self.ratio = first_crossing(|ratio| self.excess(sample, ratio), ratio);
         }
     }
 }

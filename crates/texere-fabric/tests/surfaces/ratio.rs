@@ -8,7 +8,6 @@ use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 use std::rc::Rc;
 
-use glam::DVec3;
 use texere_core::{Pipeline, Section, Settings, Yarns};
 use texere_cpu::SerialBackend;
 

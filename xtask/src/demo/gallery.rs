@@ -10,15 +10,18 @@ type View = (&'static str, &'static [&'static str]);
 const FOLDER: &str = "docs/gallery";
 
 /// The designs, each with the views of it, beside face and back: name and options.
-const DESIGNS: [(&str, &[View]); 5] = [
+const DESIGNS: [(&str, &[View]); 6] = [
     ("plain.toml", &[CLOSE_UP, CUT]),
     ("twill.toml", &[CLOSE_UP, CUT]),
     ("satin.toml", &[CLOSE_UP, CUT]),
     ("herringbone.wif", &[CLOSE_UP, ("oblique", &["--view", "oblique"])]),
     ("damask.toml", &[CLOSE_UP]),
+    ("two-ply.toml", &[FINE]),
 ];
 
 const CLOSE_UP: View = ("close-up", &["--view", "close-up"]);
+/// With rings and sides enough for plies that wind.
+const FINE: View = ("close-up", &["--view", "close-up", "--subdivisions", "12", "--sides", "48"]);
 const CUT: View = ("cut", &["--view", "cut-warp", "--size", "800x260"]);
 
 /// The paper's cloths, whole, with the paper's own sides and subdivisions, so that they have its number of facets.

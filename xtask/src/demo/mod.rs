@@ -21,6 +21,7 @@ pub(crate) fn demo(steps: &mut Steps) {
 
 /// Draws a picture with round, smooth yarns.
 fn render(steps: &mut Steps, name: &str, args: &[&str]) {
-    let smooth = ["--sides", "12", "--subdivisions", "4"];
-    steps.cargo(name, &[&["texere", "render"], args, &smooth].concat(), &[]);
+    let smooth: &[&str] =
+        if args.contains(&"--sides") { &[] } else { &["--sides", "12", "--subdivisions", "4"] };
+    steps.cargo(name, &[&["texere", "render"], args, smooth].concat(), &[]);
 }

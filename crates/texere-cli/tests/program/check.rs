@@ -31,9 +31,15 @@ fn cure<'a>(report: &'a Value, key: &str) -> Option<&'a Value> {
 
 #[test]
 fn our_own_designs_are_clean() {
-    for name in
-        ["plain.toml", "twill.toml", "satin.toml", "damask.toml", "herringbone.wif", "paper/163x150.toml"]
-    {
+    for name in [
+        "plain.toml",
+        "twill.toml",
+        "satin.toml",
+        "damask.toml",
+        "two-ply.toml",
+        "herringbone.wif",
+        "paper/163x150.toml",
+    ] {
         let output = texere(&["check", &design(name)]);
         assert_eq!(output.status.code(), Some(0), "{name}: {}", stdout(&output));
         assert!(stdout(&output).contains("clean") && stderr(&output).is_empty(), "{name}");

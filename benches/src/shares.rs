@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPoolBuilder;
 use texere::{Frame, Pipeline, Plan, Settings, Topology, Vertex, Yarns};
-use texere_bench::{median, paper_cloth, plan, session, stream};
-use texere_core::{Chunk, MeshMut, Session};
+use texere_bench::{median, paper_cloth, plan, session, shaped, stream};
+use texere_core::{Chunk, ControlPoint, MeshMut, Session};
 use texere_cpu::ParallelBackend;
 
 /// A kind of mesh, ready to be made.
@@ -22,6 +22,8 @@ struct Case {
     plan: Arc<Plan>,
     chunks: Vec<Chunk>,
     session: Session,
+    /// The first control point.
+    first: ControlPoint,
     rounds: Vec<Round>,
 }
 
@@ -39,14 +41,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     let yarns = paper_cloth(ends, picks)?.yarns()?;
     let minimizing = Settings { frame: Frame::RotationMinimizing, ..Settings::default() };
     let bare = Settings { topology: Topology::None, ..Settings::default() };
-    let kinds = [("upright", Settings::default()), ("rotation minimising", minimizing), ("no indices", bare)];
+    let upright = Settings::default();
+    let kinds = [
+        ("upright", upright, yarns.clone()),
+        ("upright, flattened", upright, shaped(&yarns, 0.0, 2.0)?),
+        ("upright, twisted", upright, shaped(&yarns, 0.7, 1.0)?),
+        ("upright, twisted and flattened", upright, shaped(&yarns, 0.7, 2.0)?),
+        ("rotation minimising", minimizing, yarns.clone()),
+        ("no indices", bare, yarns.clone()),
+    ];
 
     let mut room: (Vec<Vertex>, Vec<u32>) = (Vec::new(), Vec::new());
     for threads in [1, 2] {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
         let mut cases = Vec::new();
-        for (name, settings) in kinds {
-            cases.push(case(name, settings, &yarns)?);
+        for (name, settings, yarns) in &kinds {
+            cases.push(Case::new(name, *settings, yarns)?);
         }
         for _ in 0..rounds {
             for case in &mut cases {
@@ -56,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 room.1.resize(length(room.1.len(), counts.indices), 0);
                 let (vertices, indices) =
                     (&mut room.0[..counts.vertices as usize], &mut room.1[..counts.indices as usize]);
-                let round = pool.install(|| case.round(&yarns, vertices, indices))?;
+                let round = pool.install(|| case.round(vertices, indices))?;
                 case.rounds.push(round);
             }
         }
@@ -82,16 +92,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn case(name: &'static str, settings: Settings, yarns: &Yarns) -> Result<Case, Box<dyn Error>> {
-    let (plan, chunks) = plan(yarns, settings)?;
-    let session = session(&ParallelBackend::open()?, &plan, yarns)?;
-    Ok(Case { name, plan, chunks, session, rounds: Vec::new() })
-}
-
 impl Case {
+    fn new(name: &'static str, settings: Settings, yarns: &Yarns) -> Result<Self, Box<dyn Error>> {
+        let (plan, chunks) = plan(yarns, settings)?;
+        let session = session(&ParallelBackend::open()?, &plan, yarns)?;
+        Ok(Self { name, plan, chunks, session, first: yarns.points()[0], rounds: Vec::new() })
+    }
+
     fn round(
         &mut self,
-        yarns: &Yarns,
         vertices: &mut [Vertex],
         indices: &mut [u32],
     ) -> Result<Round, texere_core::SessionError> {
@@ -101,7 +110,7 @@ impl Case {
         let fill = start.elapsed();
 
         // An upload makes the session forget its rolls; one point costs next to nothing.
-        self.session.upload(0, &yarns.points()[..1])?;
+        self.session.upload(0, &[self.first])?;
         let start = Instant::now();
         self.session.scan()?;
         let scan = start.elapsed();

@@ -297,6 +297,62 @@ fn flattened_yarns_are_measured_by_their_surfaces() {
     assert!((middle - 0.25 / (0.1875 + 0.125)).abs() < slope, "{middle}");
 }
 
+/// Two ellipses that are alike touch where their centres lie twice as far apart as one of them reaches.
+#[test]
+fn flattened_yarns_beside_and_above_one_another() {
+    let [half_width, half_height] = [0.25f32, 0.125];
+    for across in [0.0f32, 0.1, 0.2, 0.3, 0.4] {
+        for above in [0.0f32, 0.05, 0.1, 0.15, 0.2] {
+            let expected = f64::from((across / (2.0 * half_width)).hypot(above / (2.0 * half_height)));
+            if !(0.3..1.08).contains(&expected) {
+                continue;
+            }
+            let lay = |y: f32, z: f32| {
+                [-3.0, 3.0].map(|x| ControlPoint::new(x, y, z, 0.1).flattened(half_width, half_height))
+            };
+            let mut both = Yarns::builder();
+            both.yarn(Yarn::default(), &lay(0.0, 0.0)).yarn(Yarn::default(), &lay(across, above));
+            let found = clearance(&both.build().unwrap(), &Settings::default()).unwrap().min;
+            assert!((found - expected).abs() < 1e-3, "{across}, {above}: {found} for {expected}");
+        }
+    }
+}
+
+/// A plied yarn with a slub, in a coil that comes near itself: which end it is seen from makes no difference.
+#[test]
+fn a_plied_yarn_meets_itself_from_either_end() {
+    let coil = |reversed: bool| {
+        let mut points: Vec<_> = (0..20)
+            .map(|k| {
+                let (sin, cos) = (k as f32 * 0.5).sin_cos();
+                ControlPoint::new(0.6 * cos, 0.6 * sin, 0.032 * k as f32, 0.2 + 0.003 * k as f32)
+            })
+            .collect();
+        if reversed {
+            points.reverse();
+        }
+        let mut yarn = Yarns::builder();
+        yarn.section(Section::Lobed { plies: 4 });
+        yarn.yarn(Yarn::default(), &points);
+        clearance(&yarn.build().unwrap(), &Settings::default()).unwrap()
+    };
+    let [one, other] = [coil(false), coil(true)];
+    assert!((0.5..1.05).contains(&one.min), "{one:?}");
+    assert!((one.min - other.min).abs() < 3e-3, "{} and {}", one.min, other.min);
+}
+
+/// More rings than a mesh may have, where rolls would have to be worked out at each.
+#[test]
+fn a_yarn_of_too_many_rings_is_refused() {
+    let points: Vec<_> = (0..5_000_000).map(|k| ControlPoint::new(k as f32, 0.0, 0.0, 0.1)).collect();
+    let mut yarns = Yarns::builder();
+    yarns.section(Section::Lobed { plies: 2 });
+    yarns.yarn(Yarn { twist: 1.0, ..Yarn::default() }, &points);
+    let settings = Settings { subdivisions: 1023, ..Settings::default() };
+    let refused = clearance(&yarns.build().unwrap(), &settings);
+    assert!(matches!(refused, Err(FabricError::Settings(PlanError::YarnRings { yarn: 0, .. }))), "{refused:?}");
+}
+
 #[test]
 fn a_cloth_of_flattened_threads_agrees_with_its_surfaces() {
     for (flatness, lower) in [(2.0, 1.0), (2.0, 0.85), (0.7, 1.0)] {

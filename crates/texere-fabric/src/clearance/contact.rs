@@ -7,7 +7,9 @@ pub const CLEARANCE_NEAR: f64 = 1.1;
 
 /// How exact a ratio is: yarns at 0.999 of touching count as touching.
 ///
-/// Of yarns with plies, corners or twisted flat sections a touch may stay unseen that is nearer by up to 0.003. Of two approaches side by side on one pair of sharply bent intervals the nearer may stay unseen: once in some
+/// Of yarns with plies, corners or twisted flat sections a touch may stay unseen that is nearer by up to 0.003.
+///
+/// Of two approaches side by side on one pair of sharply bent intervals the nearer may stay unseen: once in some
 /// 30,000 tangles of random yarns that was 0.003.
 pub const CLEARANCE_ACCURACY: f64 = 1e-3;
 
@@ -48,6 +50,7 @@ pub struct Contact {
     /// The two places, the lower yarn first.
     pub places: [YarnPlace; 2],
     /// The factor by which both sections could grow until their surfaces touch: 1 where they just do, less where they pierce. Of
-    /// round yarns it is the distance of the centrelines over the sum of the radii.
+    /// round yarns it is the distance of the centrelines over the sum of the radii. A section counts with all that lies between
+    /// its centre and its outline.
     pub ratio: f64,
 }

@@ -100,6 +100,12 @@ impl<'a> Line<'a> {
         neighbours(self.points, self.closed, point - self.first)
     }
 
+    /// Those of the interval after it, if the yarn goes on.
+    pub(super) fn window_after(&self, point: usize) -> Option<[ControlPoint; 4]> {
+        let ends = !self.closed && point + 1 == self.intervals().end;
+        (!ends).then(|| neighbours(self.points, self.closed, point + 1 - self.first))
+    }
+
     pub(super) fn cubic(&self, point: usize) -> Cubic {
         Cubic::new(self.window(point), self.s)
     }

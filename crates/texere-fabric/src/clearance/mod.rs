@@ -32,6 +32,7 @@ pub(crate) use self::line::neighbours;
 
 use self::found::Found;
 use self::grid::Grid;
+use self::rolls::Rolls;
 use self::search::{FULL, Probe, cell_work};
 use self::watch::Watch;
 use crate::FabricError;
@@ -59,7 +60,8 @@ pub struct Clearance {
     pub worst: Vec<Contact>,
     /// How many contacts have a ratio in \[0, 0.01), \[0.01, 0.02) and so on to [`CLEARANCE_NEAR`] (steps of [`CLEARANCE_BIN`]).
     pub histogram: Vec<u64>,
-    /// The least radius of curvature over how far the section reaches into the bend (its radius, of round yarns).
+    /// The least radius of curvature over how far the section reaches into the bend: its radius, of round yarns; of those whose
+    /// section turns, as far as it reaches at all.
     /// Below 1 the tube folds into itself. Infinite where all yarns are straight. It is exact to a thousandth.
     pub curvature_min: f64,
     /// Where that is.
@@ -136,23 +138,24 @@ pub fn clearance_with_progress(
     if points > POINTS_LIMIT {
         return Err(FabricError::ClearancePoints { points: points as u64, limit: POINTS_LIMIT as u64 });
     }
-    let probe = Probe::new(yarns, sampling, settings.frame);
+    let watch = Watch::new(points as u64, progress);
+    let rolls = Rolls::new(yarns, sampling, settings.frame, &watch)?;
+    let probe = Probe::new(yarns, sampling);
     let spans = probe.spans(TASK);
     let grid = Grid::new(spans.len(), |span| {
         let line = &spans[span].line;
         spans[span].points.clone().map(|point| (point, line.bounds(point, CLEARANCE_NEAR)))
     })?;
-    let work: u64 = (0..grid.len()).map(|cell| cell_work(grid.count_in(cell))).sum();
-    let watch = Watch::new(work + points as u64, progress);
+    watch.expect((0..grid.len()).map(|cell| cell_work(grid.count_in(cell))).sum());
     let mut found = (0..grid.len().div_ceil(TASK))
         .into_par_iter()
-        .map(|task| probe.search(&grid, task * TASK..grid.len().min((task + 1) * TASK), &watch))
+        .map(|task| probe.search(&grid, &rolls, task * TASK..grid.len().min((task + 1) * TASK), &watch))
         .try_reduce(Found::default, |one, other| Ok(one.joined(other)))?;
     found.keep_worst();
     let bend = spans
         .par_iter()
         .map(|span| {
-            let bend = probe.tightest(span);
+            let bend = probe.tightest(span, &rolls);
             watch.advance(span.points.len() as u64).map(|()| bend)
         })
         .try_reduce(|| (f64::INFINITY, None), |a, b| Ok(if b.0 < a.0 { b } else { a }))?;

@@ -1,11 +1,18 @@
 //! Rolls of yarns as they are drawn.
 
 use std::f64::consts::TAU;
+use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Frame, Sampling, Section, Segment, Turn, Yarn, Yarns};
+use texere_core::{
+    ControlPoint, Frame, PlanError, Sampling, Section, Segment, Turn, YARN_RINGS_MAX, Yarn, Yarns,
+};
 
+use super::interval::Cubic;
 use super::line::neighbours;
+use super::watch::Watch;
+use crate::FabricError;
+use crate::memory::zeroed;
 
 /// The rolls of all yarns whose surface depends on them.
 #[derive(Debug)]
@@ -20,8 +27,24 @@ pub(super) struct Rolls {
     given_back: Vec<f64>,
 }
 
+/// The rolls of one interval.
+#[derive(Debug, Default)]
+pub(super) struct IntervalRolls {
+    /// At its rings and at its end, turns, without jumps; empty where they don't matter.
+    at_rings: Vec<f64>,
+    /// Of a rotation-minimising frame: the twist, turns per mm, and what a ring gives back, turns.
+    minimizing: Option<(f32, f64)>,
+}
+
 impl Rolls {
-    pub(super) fn new(yarns: &Yarns, sampling: Sampling, frame: Frame) -> Self {
+    /// **Errors**: [`FabricError::Settings`] for a yarn of more rings than a plan takes; [`FabricError::OutOfMemory`];
+    /// [`FabricError::Cancelled`] where `watch` says so.
+    pub(super) fn new<T: FnMut(f64) -> ControlFlow<()> + Send>(
+        yarns: &Yarns,
+        sampling: Sampling,
+        frame: Frame,
+        watch: &Watch<T>,
+    ) -> Result<Self, FabricError> {
         let layout = yarns.layout();
         let twist = |yarn: &Yarn| {
             let turns = (f64::from(yarn.twist) / TAU) as f32;
@@ -29,16 +52,22 @@ impl Rolls {
             (!turns_round && !frame.is_level(turns)).then_some(turns)
         };
         let twists: Vec<_> = layout.yarns().iter().map(twist).collect();
-        let mut rolls =
-            Self { sampling, frame, twists, starts: Vec::new(), given_back: vec![0.0; layout.yarns().len()] };
+        let given_back = vec![0.0; twists.len()];
+        let mut rolls = Self { sampling, frame, twists, starts: Vec::new(), given_back };
         if rolls.twists.iter().all(Option::is_none) {
-            return rolls;
+            return Ok(rolls);
         }
-        let each: Vec<(Vec<Turn>, f64)> =
-            (0..layout.yarns().len()).into_par_iter().map(|yarn| rolls.along(yarns, yarn)).collect();
-        rolls.given_back = each.iter().map(|(_, given_back)| *given_back).collect();
-        rolls.starts = each.into_iter().flat_map(|(starts, _)| starts).collect();
-        rolls
+        let mut starts: Vec<Turn> = zeroed("rolls", yarns.points().len() as u64)?;
+        let mut left = starts.as_mut_slice();
+        let own = layout.offsets().windows(2).map(|ends| (ends[1] - ends[0]) as usize);
+        let parts: Vec<_> = own.map(|count| left.split_off_mut(..count).unwrap_or_default()).collect();
+        let given_back = parts.into_par_iter().enumerate().map(|(yarn, starts)| {
+            watch.advance(0)?;
+            rolls.along(yarns, yarn, starts)
+        });
+        rolls.given_back = given_back.collect::<Result<_, _>>()?;
+        rolls.starts = starts;
+        Ok(rolls)
     }
 
     /// Whether a yarn's surface depends on its rolls.
@@ -46,35 +75,44 @@ impl Rolls {
         self.twists[yarn].is_some()
     }
 
-    /// The roll at each control point of a yarn, and what each ring gives back.
-    fn along(&self, yarns: &Yarns, yarn: usize) -> (Vec<Turn>, f64) {
+    /// Writes the roll at each control point of a yarn, and gives back what each ring gives back.
+    fn along(&self, yarns: &Yarns, yarn: usize, starts: &mut [Turn]) -> Result<f64, FabricError> {
         let (points, closed) = (yarns.yarn_points(yarn).unwrap_or(&[]), yarns.layout().yarns()[yarn].closed);
-        let mut starts = vec![Turn::ZERO; points.len()];
-        let Some(twist) = self.twists[yarn] else { return (starts, 0.0) };
+        let Some(twist) = self.twists[yarn] else { return Ok(0.0) };
+        let rings = self.sampling.rings(points.len() as u64, closed);
+        if rings > YARN_RINGS_MAX {
+            return Err(PlanError::YarnRings { yarn, rings, limit: YARN_RINGS_MAX }.into());
+        }
         let intervals = if closed { points.len() } else { points.len().saturating_sub(1) };
+        let window = |interval: usize| neighbours(points, closed, interval);
         let mut roll = Turn::ZERO;
         for (interval, start) in starts.iter_mut().enumerate().take(intervals) {
             *start = roll;
-            let steps = self.steps(neighbours(points, closed, interval), twist);
+            let next = (closed || interval + 1 < intervals).then(|| window(interval + 1));
+            let steps = self.steps(window(interval), next, twist);
             roll = steps.into_iter().fold(roll, |roll, step| roll + step);
         }
         if !closed {
-            return (starts, 0.0);
+            return Ok(0.0);
         }
-        let per_interval = self.sampling.subdivisions() + 1;
-        let rings = intervals as u32 * per_interval;
-        for (interval, start) in (0..).zip(&mut starts) {
-            *start = *start - roll.share(interval * per_interval, rings);
+        let (per_interval, steps) = (self.sampling.subdivisions() + 1, (rings - 1) as u32);
+        for (interval, start) in (0..).zip(&mut *starts) {
+            *start = *start - roll.share(interval * per_interval, steps);
         }
-        (starts, f64::from(roll.turns()) / f64::from(rings))
+        Ok(f64::from(roll.turns()) / f64::from(steps))
     }
 
-    /// By how much each ring of an interval is turned against the one before, and the next interval's first one.
-    fn steps(&self, window: [ControlPoint; 4], twist: f32) -> Vec<Turn> {
+    /// By how much each ring of an interval is turned against the one before, and the first one of the interval that `next` steers;
+    /// without that the yarn ends there.
+    fn steps(&self, window: [ControlPoint; 4], next: Option<[ControlPoint; 4]>, twist: f32) -> Vec<Turn> {
         let segment = Segment::new(&window, self.sampling.s());
         let count = self.sampling.subdivisions() + 1;
-        let at =
-            |ring: u32| segment.sample(if ring == count { 1.0 } else { ring as f32 * self.sampling.step() });
+        let at = |ring: u32| match next {
+            // Where the yarn rests it leaves in another direction than it comes.
+            Some(next) if ring == count => Segment::new(&next, self.sampling.s()).sample(0.0),
+            None if ring == count => segment.sample(1.0),
+            _ => segment.sample(ring as f32 * self.sampling.step()),
+        };
         let mut here = at(0);
         (1..=count)
             .map(|ring| {
@@ -87,16 +125,63 @@ impl Rolls {
             .collect()
     }
 
-    /// The rolls at the rings of the interval that begins at control point `point` of the fabric and is steered by `window`, turns,
-    /// without jumps; none where they don't matter.
-    pub(super) fn of_interval(&self, yarn: usize, point: usize, window: [ControlPoint; 4]) -> Vec<f64> {
-        let Some(twist) = self.twists[yarn] else { return Vec::new() };
+    /// The rolls of the interval that begins at control point `point` of the fabric and is steered by `window`, and the one after
+    /// it, if the yarn goes on, by `next`.
+    pub(super) fn of_interval(
+        &self,
+        yarn: usize,
+        point: usize,
+        window: [ControlPoint; 4],
+        next: Option<[ControlPoint; 4]>,
+    ) -> IntervalRolls {
+        let Some(twist) = self.twists[yarn] else { return IntervalRolls::default() };
+        let given_back = self.given_back[yarn];
         let mut roll = f64::from(self.starts[point].turns());
-        let mut rolls = vec![roll];
-        for step in self.steps(window, twist) {
-            roll += f64::from(step.turns()) - self.given_back[yarn];
-            rolls.push(roll);
+        let mut at_rings = vec![roll];
+        for step in self.steps(window, next, twist) {
+            roll += f64::from(step.turns()) - given_back;
+            at_rings.push(roll);
         }
-        rolls
+        let minimizing = (self.frame == Frame::RotationMinimizing).then_some((twist, given_back));
+        IntervalRolls { at_rings, minimizing }
+    }
+}
+
+impl IntervalRolls {
+    /// Whether rolls don't matter.
+    pub(super) fn is_empty(&self) -> bool {
+        self.at_rings.is_empty()
+    }
+
+    /// By how much the yarn turns from the interval's beginning to its end, turns.
+    pub(super) fn whole(&self) -> f64 {
+        let ends = [self.at_rings.first(), self.at_rings.last()];
+        let [first, last] = ends.map(|roll| roll.copied().unwrap_or_default());
+        (last - first).abs()
+    }
+
+    /// The roll at `t` of the interval, turns. Beyond the interval it goes on as it came.
+    pub(super) fn at(&self, cubic: &Cubic, t: f64) -> f64 {
+        let Some(steps) = self.at_rings.len().checked_sub(1).filter(|steps| *steps > 0) else { return 0.0 };
+        let place = t * steps as f64;
+        let before = (place.max(0.0) as usize).min(steps - 1);
+        let (from, share) = (self.at_rings[before], place - before as f64);
+        // An upright frame may flip between two rings; the section that is carried along does not.
+        let carried = self.minimizing.and_then(|(twist, given_back)| {
+            let [start, velocity, _] = cubic.path(before as f64 / steps as f64);
+            let [end, end_velocity, _] = cubic.path(t);
+            let (tangent, end_tangent) =
+                (velocity.try_normalize()?.as_vec3(), end_velocity.try_normalize()?.as_vec3());
+            let chord = (end - start).as_vec3();
+            let step =
+                |from, to, chord| f64::from(Frame::RotationMinimizing.step(from, to, chord, twist).turns());
+            let turned = if share < 0.0 {
+                -step(end_tangent, tangent, -chord)
+            } else {
+                step(tangent, end_tangent, chord)
+            };
+            Some(from + turned - share * given_back)
+        });
+        carried.unwrap_or_else(|| from + share * (self.at_rings[before + 1] - from))
     }
 }

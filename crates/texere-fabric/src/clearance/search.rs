@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::{ControlFlow, Range};
 
 use glam::{DVec2, Vec3A};
-use texere_core::{Frame, Sampling, Yarns};
+use texere_core::{Sampling, Yarns};
 
 use super::approach::{Side, refine};
 use super::contact::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace};
@@ -17,7 +17,7 @@ use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{self, Line, Span};
 use super::part::Part;
 use super::passing::Passing;
-use super::rolls::Rolls;
+use super::rolls::{IntervalRolls, Rolls};
 use super::support::Support;
 use super::surface::Surface;
 use super::touch::{touch, touch_near};
@@ -61,7 +61,7 @@ struct Curve {
     /// Whether they are all alike, too.
     even: bool,
     /// As [`Rolls::of_interval`] has them.
-    rolls: Vec<f64>,
+    rolls: IntervalRolls,
 }
 
 impl Curve {
@@ -69,7 +69,8 @@ impl Curve {
         let (cubic, support) = (part.line.cubic(part.point), part.line.support);
         let reach = cubic.half_bound() * support.extent();
         let round = support.is_circle() && cubic.is_round();
-        let rolls = rolls.of_interval(part.line.yarn, part.point, part.line.window(part.point));
+        let (point, line) = (part.point, &part.line);
+        let rolls = rolls.of_interval(line.yarn, point, line.window(point), line.window_after(point));
         Self { passing: Passing::new(&cubic), reach, round, even: round && cubic.is_even(), rolls, cubic }
     }
 }
@@ -85,19 +86,17 @@ pub(super) struct Probe<'a> {
     yarns: &'a Yarns,
     supports: Vec<Support>,
     ways: Vec<f64>,
-    rolls: Rolls,
     /// The factor of the spline's tangents.
     s: f64,
 }
 
 impl<'a> Probe<'a> {
-    pub(super) fn new(yarns: &'a Yarns, sampling: Sampling, frame: Frame) -> Self {
+    pub(super) fn new(yarns: &'a Yarns, sampling: Sampling) -> Self {
         let supports = yarns.layout().sections().iter().map(Support::new).collect();
         Self {
             yarns,
             supports,
             ways: line::ways(yarns.points()),
-            rolls: Rolls::new(yarns, sampling, frame),
             s: (1.0 - f64::from(sampling.tension())) / 2.0,
         }
     }
@@ -124,6 +123,7 @@ impl<'a> Probe<'a> {
     pub(super) fn search<T: FnMut(f64) -> ControlFlow<()> + Send>(
         &self,
         grid: &Grid,
+        rolls: &Rolls,
         cells: Range<usize>,
         watch: &Watch<T>,
     ) -> Result<Found, FabricError> {
@@ -152,7 +152,7 @@ impl<'a> Probe<'a> {
                 one.bounds.meets(&other.bounds) && grid.number(one.cell.max(other.cell)) == cell
             };
             if parts.len() > FULL {
-                self.sweep(&mut parts, counts, &mut found, watch)?;
+                self.sweep(&mut parts, rolls, counts, &mut found, watch)?;
                 continue;
             }
             unreported += cell_work(parts.len());
@@ -165,7 +165,7 @@ impl<'a> Probe<'a> {
             for (second, other) in parts.iter().enumerate() {
                 for (first, one) in parts[..second].iter().enumerate() {
                     if counts(one, other) {
-                        self.pair([(one, &met[first]), (other, &met[second])], &mut found);
+                        self.pair([(one, &met[first]), (other, &met[second])], rolls, &mut found, watch)?;
                     }
                 }
             }
@@ -180,6 +180,7 @@ impl<'a> Probe<'a> {
     fn sweep<T: FnMut(f64) -> ControlFlow<()> + Send>(
         &self,
         parts: &mut [Part<'_>],
+        rolls: &Rolls,
         counts: impl Fn(&Part<'_>, &Part<'_>) -> bool,
         found: &mut Found,
         watch: &Watch<T>,
@@ -213,7 +214,7 @@ impl<'a> Probe<'a> {
                 if counts(part, other) {
                     let mut pair = [(part, &*met), (*other, &**other_met)];
                     pair.sort_by_key(|(part, _)| part.point);
-                    self.pair(pair, found);
+                    self.pair(pair, rolls, found, watch)?;
                 }
             }
             beside.push((part, met));
@@ -222,8 +223,16 @@ impl<'a> Probe<'a> {
     }
 
     /// The contacts of two intervals, the first one's number being the lower.
-    fn pair(&self, [(one, first), (other, second)]: [(&Part<'_>, &Met); 2], found: &mut Found) {
-        let (a, b) = (first.curve(one, &self.rolls), second.curve(other, &self.rolls));
+    ///
+    /// **Errors**: [`FabricError::Cancelled`] where `watch` says so.
+    fn pair<T: FnMut(f64) -> ControlFlow<()> + Send>(
+        &self,
+        [(one, first), (other, second)]: [(&Part<'_>, &Met); 2],
+        rolls: &Rolls,
+        found: &mut Found,
+        watch: &Watch<T>,
+    ) -> Result<(), FabricError> {
+        let (a, b) = (first.curve(one, rolls), second.curve(other, rolls));
         let reach = a.reach + b.reach;
         let within = CLEARANCE_NEAR * reach;
         let cuts = [one, other].map(|part| part.line.cut(part.point));
@@ -235,12 +244,12 @@ impl<'a> Probe<'a> {
             same && one.line.leads_on(one.point, other.point)
         };
         if passes_by {
-            return;
+            return Ok(());
         }
         let straight = [a, b].map(|curve| [curve.cubic.position(0.0), curve.cubic.position(1.0)]);
         let bends = a.cubic.bend() + b.cubic.bend();
         if closest(straight[0], straight[1]).0 > (within + bends).powi(2) {
-            return;
+            return Ok(());
         }
         let sides = [
             Side { cubic: &a.cubic, support: one.line.support, cut: cuts[0] },
@@ -267,15 +276,17 @@ impl<'a> Probe<'a> {
         let (chords, within) = ([first.chords(a), second.chords(b)], within + SAGITTA * reach);
         let surfaces =
             [Surface { side: sides[0], rolls: &a.rolls }, Surface { side: sides[1], rolls: &b.rolls }];
+        let surfaces = surfaces.each_ref();
         if surfaces.iter().any(|surface| !surface.is_simple()) {
             // Surfaces that have lobes or turn may come near in many places, whatever the centrelines do.
-            let mut start = None;
-            chords[0].approaches(chords[1], within, |starts| start = start.or(Some(starts[0])));
-            let touching = start.and_then(|start| touch(&surfaces[0], &surfaces[1], start, apart));
+            let mut all = Vec::new();
+            chords[0].approaches(chords[1], within, |starts| all.push(starts[0]));
+            let touching = if all.is_empty() { None } else { touch(surfaces, &all, apart) };
             if let Some((place, ratio)) = touching {
                 add(place, ratio, found);
             }
-            return;
+            // Each takes as long as thousands of other pairs.
+            return watch.advance(0);
         }
         let round = a.round && b.round;
         let mut seen: Vec<DVec2> = Vec::new();
@@ -283,7 +294,7 @@ impl<'a> Probe<'a> {
             // The first may lead out of the interval to an approach beside this one's own.
             let refined = starts.into_iter().find_map(|start| match round {
                 true => refine(sides[0], sides[1], start),
-                false => touch_near(&surfaces[0], &surfaces[1], tubes::nearest(sides[0], sides[1], start)?),
+                false => touch_near(surfaces, tubes::nearest(sides[0], sides[1], start)?),
             });
             let Some((place, ratio)) = refined else { return };
             let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
@@ -292,12 +303,13 @@ impl<'a> Probe<'a> {
                 add(place, ratio, found);
             }
         });
+        Ok(())
     }
 
     /// The tightest bend of the intervals of `span`.
-    pub(super) fn tightest(&self, span: &Span<'_>) -> (f64, Option<YarnPlace>) {
+    pub(super) fn tightest(&self, span: &Span<'_>, rolls: &Rolls) -> (f64, Option<YarnPlace>) {
         let line = &span.line;
-        let turning = self.rolls.matter(line.yarn);
+        let turning = rolls.matter(line.yarn);
         let mut best = (f64::INFINITY, None);
         for point in span.points.clone() {
             if let Some((ratio, t)) = curvature::tightest(&line.cubic(point), line.support, turning, best.0) {

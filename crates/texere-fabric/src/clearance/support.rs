@@ -8,7 +8,7 @@ use texere_core::Section;
 /// Directions in which a section that is no circle is measured: between two of them its reach is off by 2e-5.
 const DIRECTIONS: usize = 512;
 
-/// Angles at which a section's outline is measured: between two of them it is off by 1e-5, or where it has a corner by 1e-3.
+/// Angles at which a section's outline is measured: between two of them it is off by 1e-5, or at a lens's two corners by 1e-3.
 const ANGLES: usize = 2048;
 
 /// A section's support function: the furthest point of its outline (of its hull, where it is not convex) in any
@@ -16,7 +16,16 @@ const ANGLES: usize = 2048;
 #[derive(Debug, Clone)]
 pub(super) enum Support {
     Circle,
-    Table { furthest: Vec<DVec2>, outline: Vec<DVec2>, radii: Vec<f64>, smooth: bool, extent: f64, area: f64 },
+    Table {
+        furthest: Vec<DVec2>,
+        /// Points of the outline; of a polygon its corners.
+        outline: Vec<DVec2>,
+        /// How far from the centre the outline lies, angle by angle; none of a polygon, whose corners may be narrower than that.
+        radii: Vec<f64>,
+        smooth: bool,
+        extent: f64,
+        area: f64,
+    },
 }
 
 impl Support {
@@ -46,7 +55,8 @@ impl Support {
             .map(|point| DVec2::new(point.x.into(), point.y.into()))
             .collect();
         let smooth = matches!(section, Section::Ellipse { .. });
-        Self::Table { furthest: furthest.collect(), radii: radii(&fine), outline: fine, smooth, extent, area }
+        let radii = if matches!(section, Section::Polygon(_)) { Vec::new() } else { radii(&fine) };
+        Self::Table { furthest: furthest.collect(), radii, outline: fine, smooth, extent, area }
     }
 
     /// Whether the outline has neither lobes nor corners.
@@ -54,6 +64,14 @@ impl Support {
         match self {
             Self::Circle => true,
             Self::Table { smooth, .. } => *smooth,
+        }
+    }
+
+    /// How many corners a polygon has.
+    pub(super) fn corners(&self) -> usize {
+        match self {
+            Self::Table { radii, outline, .. } if radii.is_empty() => outline.len(),
+            _ => 0,
         }
     }
 
@@ -74,6 +92,12 @@ impl Support {
     pub(super) fn growth_at(&self, point: DVec2) -> f64 {
         match self {
             Self::Circle => point.length(),
+            Self::Table { radii, outline, .. } if radii.is_empty() => {
+                let edges = outline.iter().zip(outline.iter().cycle().skip(1));
+                let reach =
+                    edges.filter_map(|(start, end)| along_ray(point, *start, *end)).fold(0.0, f64::max);
+                1.0 / reach
+            }
             Self::Table { radii, .. } => {
                 let place = (point.to_angle() / TAU).rem_euclid(1.0) * ANGLES as f64;
                 let before = (place as usize).min(ANGLES - 1);
@@ -139,6 +163,13 @@ fn radii(outline: &[DVec2]) -> Vec<f64> {
         }
     }
     radii
+}
+
+/// How far along `ray`, in its lengths, an edge meets it.
+fn along_ray(ray: DVec2, start: DVec2, end: DVec2) -> Option<f64> {
+    let (before, after) = (ray.perp_dot(start), ray.perp_dot(end));
+    let crosses = (before <= 0.0) != (after <= 0.0);
+    crosses.then(|| start.perp_dot(end - start) / ray.perp_dot(end - start)).filter(|along| *along > 0.0)
 }
 
 /// The frame in which a section stands upright: side = z × t, and up.

@@ -1,8 +1,11 @@
 //! The surface of one interval as it is drawn: section, roll and flattening at every place.
 
+use std::f64::consts::TAU;
+
 use glam::{DVec2, DVec3};
 
 use super::approach::Side;
+use super::rolls::IntervalRolls;
 use super::support::upright;
 
 /// Steps of Newton's method to the place of an interval that is level with a point.
@@ -18,8 +21,7 @@ const SHORT: f64 = 1e-4;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surface<'a> {
     pub(super) side: Side<'a>,
-    /// Rolls at equal steps from the interval's beginning to its end, turns, without jumps; none where a roll does not matter.
-    pub(super) rolls: &'a [f64],
+    pub(super) rolls: &'a IntervalRolls,
 }
 
 /// How the section stands at one place.
@@ -65,18 +67,8 @@ impl Surface<'_> {
         let [centre, velocity, _] = self.side.cubic.path(t);
         let tangent = velocity.try_normalize()?;
         let (frame, sizes) = (upright(tangent), self.side.cubic.sizes(t));
-        Some(Stand { centre, tangent, frame, sizes, roll: self.roll(t) })
-    }
-
-    fn roll(&self, t: f64) -> DVec2 {
-        let Some(steps) = self.rolls.len().checked_sub(1).filter(|steps| *steps > 0) else {
-            return DVec2::X;
-        };
-        // Beyond the interval it goes on as it came.
-        let place = t * steps as f64;
-        let before = (place.max(0.0) as usize).min(steps - 1);
-        let [from, to] = [self.rolls[before], self.rolls[before + 1]];
-        DVec2::from_angle((from + (place - before as f64) * (to - from)) * std::f64::consts::TAU)
+        let roll = DVec2::from_angle(self.rolls.at(self.side.cubic, t) * TAU);
+        Some(Stand { centre, tangent, frame, sizes, roll })
     }
 
     /// No less than a section that stands so reaches in a direction whose length is 1, whatever its roll, mm.

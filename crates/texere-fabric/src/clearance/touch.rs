@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3, Vec2Swizzles};
 
 use super::contact::CLEARANCE_NEAR;
 use super::surface::{Stand, Surface};
+use super::tubes::Nearest;
 
 /// Points of an outline that are tried: of one without and of one with lobes or corners.
 const POINTS: usize = 48;
@@ -20,7 +21,7 @@ const STEP: f64 = 0.25;
 const STEP_TURNS: f64 = 1.0 / 72.0;
 
 /// Sections of an interval that are tried at most.
-const SECTIONS_MAX: usize = 256;
+const SECTIONS_MAX: usize = 4096;
 
 /// By how much the growth at a place that is tried may exceed the least so far for the way to lead downhill from there: as
 /// much as a lobe rises between two places.
@@ -45,46 +46,55 @@ const EXACT: f64 = 2e-5;
 /// Where surfaces touch: parameters of both, and the growth.
 type Touch = (DVec2, f64);
 
-/// The least growth at which the surfaces touch, and where, found from parameters `start` on. `counts` says whether two
+/// The least growth at which the surfaces touch, and where, found from parameters `starts` on. `counts` says whether two
 /// parameters may touch. None where that is another interval's, or at more than [`CLEARANCE_NEAR`].
 pub(super) fn touch(
-    one: &Surface<'_>,
-    other: &Surface<'_>,
-    start: DVec2,
+    surfaces: [&Surface<'_>; 2],
+    starts: &[DVec2],
     counts: impl Fn(DVec2) -> bool,
 ) -> Option<Touch> {
-    search(one, other, start, |thin, thick, start| Search { thin, thick, counts: &counts }.least(start))
+    match exchanged(surfaces) {
+        false => own(surfaces, Search { surfaces, counts }.least(starts)?),
+        true => {
+            let [one, other] = surfaces;
+            let starts: Vec<DVec2> = starts.iter().map(|start| start.yx()).collect();
+            let search = Search { surfaces: [other, one], counts: |place: DVec2| counts(place.yx()) };
+            let (place, growth) = search.least(&starts)?;
+            own(surfaces, (place.yx(), growth))
+        }
+    }
 }
 
-/// The same of surfaces that neither turn nor have lobes, close to where their tubes touch: `near`, with the growth there.
-pub(super) fn touch_near(one: &Surface<'_>, other: &Surface<'_>, (start, growth): Touch) -> Option<Touch> {
-    if growth > CLEARANCE_NEAR + OFF {
+/// The same of surfaces that neither turn nor have lobes, close to where their tubes touch.
+pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], tubes: Nearest) -> Option<Touch> {
+    let Nearest { place, ratio, normal } = tubes;
+    if ratio > CLEARANCE_NEAR + OFF {
         return None;
     }
-    search(one, other, start, |thin, thick, start| {
-        Search { thin, thick, counts: |_| true }.near(start, growth)
-    })
+    let [one, other] = surfaces;
+    let near = if exchanged(surfaces) {
+        let found = Search { surfaces: [other, one], counts: |_| true }.near(place.yx(), ratio, -normal);
+        found.map(|(place, growth)| (place.yx(), growth))
+    } else {
+        Search { surfaces, counts: |_| true }.near(place, ratio, normal)
+    };
+    // Where the point that the tubes touch in is clear of the true surface, the tubes have to do.
+    own(surfaces, near.unwrap_or((place, ratio)))
 }
 
-/// Calls `least` with the thinner surface first, so that none of its shape falls between two points of the other.
-fn search(
-    one: &Surface<'_>,
-    other: &Surface<'_>,
-    start: DVec2,
-    least: impl FnOnce(&Surface<'_>, &Surface<'_>, DVec2) -> Option<Touch>,
-) -> Option<Touch> {
-    let (place, growth) = if other.side.cubic.half_bound() < one.side.cubic.half_bound() {
-        let (place, growth) = least(other, one, start.yx())?;
-        (place.yx(), growth)
-    } else {
-        least(one, other, start)?
-    };
+/// Whether the second is the thinner one, whose points are tried: so none of its shape falls between two points of the other.
+fn exchanged([one, other]: [&Surface<'_>; 2]) -> bool {
+    other.side.cubic.half_bound() < one.side.cubic.half_bound()
+}
+
+/// A touch, if it is these intervals'.
+fn own([one, other]: [&Surface<'_>; 2], (place, growth): Touch) -> Option<Touch> {
     Some((DVec2::new(one.side.own(place.x)?, other.side.own(place.y)?), growth))
 }
 
+/// The thinner surface, whose points are tried, and the other one.
 struct Search<'a, F> {
-    thin: &'a Surface<'a>,
-    thick: &'a Surface<'a>,
+    surfaces: [&'a Surface<'a>; 2],
     counts: F,
 }
 
@@ -104,30 +114,36 @@ impl Found {
 }
 
 impl<F: Fn(DVec2) -> bool> Search<'_, F> {
-    /// From one start downhill.
-    fn near(&self, start: DVec2, growth: f64) -> Option<Touch> {
-        let found = self.solve(start.x, self.facing(start, POINTS)?, growth + OFF, start.y)?;
+    /// Downhill from the point of a section that reaches furthest along `normal`.
+    fn near(&self, start: DVec2, growth: f64, normal: DVec3) -> Option<Touch> {
+        let round = self.facing(start.x, normal, &shares(POINTS))?;
+        let found = self.solve(start.x, round, growth + OFF, start.y)?;
         let steps = DVec2::new(1.0 / self.sections() as f64, 1.0 / POINTS as f64);
         Some(self.downhill(found, steps / 2.0).touch())
     }
 
-    fn least(&self, start: DVec2) -> Option<Touch> {
-        let Self { thin, thick, .. } = self;
+    fn least(&self, starts: &[DVec2]) -> Option<Touch> {
+        let [thin, thick] = self.surfaces;
         let (low, high) = (thin.side.held(f64::NEG_INFINITY), thin.side.held(f64::INFINITY));
-        let (sections, steps_round) = (self.sections(), 1.0 / POINTS_LOBED as f64);
-        let steps = DVec2::new((high - low) / sections as f64, steps_round);
-        let outline: Vec<(f64, DVec2)> = (0..POINTS_LOBED)
-            .map(|point| point as f64 * steps_round)
-            .map(|round| (round, thin.side.support.point(round)))
-            .collect();
-        // From the first approach on, so that the rest is soon done with.
-        let facing = self.facing(start, POINTS_LOBED);
-        let first = facing.and_then(|round| self.solve(start.x, round, CLEARANCE_NEAR, start.y));
-        let mut best = first.map(|found| self.downhill(found, steps));
-        let mut tried: Vec<DVec2> = best.iter().map(|found| DVec2::new(found.t, found.round)).collect();
+        let mut rounds = shares(POINTS_LOBED);
+        // Corners may be narrower than the steps between those.
+        rounds.extend(shares(thin.side.support.corners()));
+        let sections = self.sections();
+        let steps = DVec2::new((high - low) / sections as f64, 1.0 / POINTS_LOBED as f64);
+        let outline: Vec<(f64, DVec2)> =
+            rounds.iter().map(|&round| (round, thin.side.support.point(round))).collect();
+        // From the approaches on, so that the rest is soon done with.
+        let first = |start: &DVec2| {
+            let towards = thick.side.cubic.position(start.y) - thin.side.cubic.position(start.x);
+            let round = self.facing(start.x, towards, &rounds)?;
+            Some(self.downhill(self.solve(start.x, round, CLEARANCE_NEAR, start.y)?, steps))
+        };
+        let firsts: Vec<Found> = starts.iter().filter_map(first).collect();
+        let mut tried: Vec<DVec2> = firsts.iter().map(|found| DVec2::new(found.t, found.round)).collect();
+        let mut best = firsts.into_iter().min_by(|a, b| a.growth.total_cmp(&b.growth));
         let thickest = thick.side.cubic.half_bound() * thick.side.support.extent();
         let (side_low, side_high) = (thick.side.held(f64::NEG_INFINITY), thick.side.held(f64::INFINITY));
-        let mut beside = start.y;
+        let mut beside = starts.first().map_or(0.5, |start| start.y);
         for t in (0..=sections).map(|k| low + k as f64 * steps.x) {
             let Some(stand) = thin.stand(t) else { continue };
             beside = thick.level_with(stand.centre, beside.clamp(0.0, 1.0));
@@ -172,26 +188,20 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         best.filter(|best| best.growth <= CLEARANCE_NEAR).map(Found::touch)
     }
 
-    /// Which of `points` of the outline, as a share of the way round it, reaches furthest towards the other yarn at `start`.
-    fn facing(&self, start: DVec2, points: usize) -> Option<f64> {
-        let stand = self.thin.stand(start.x)?;
-        let seen = stand.seen(self.thick.side.cubic.position(start.y) - stand.centre);
-        let reach = |round: &f64| self.thin.side.support.point(*round).dot(seen);
-        let shares = (0..points).map(|point| point as f64 / points as f64);
-        shares.max_by(|a, b| reach(a).total_cmp(&reach(b)))
+    /// Which place of the outline, of `rounds`, reaches furthest in a direction from the section at `t`.
+    fn facing(&self, t: f64, direction: DVec3, rounds: &[f64]) -> Option<f64> {
+        let seen = self.surfaces[0].stand(t)?.seen(direction);
+        let reach = |round: &f64| self.surfaces[0].side.support.point(*round).dot(seen);
+        rounds.iter().copied().max_by(|a, b| reach(a).total_cmp(&reach(b)))
     }
 
     /// How many steps the thinner interval is tried in.
     fn sections(&self) -> usize {
-        let [thin, thick] = [self.thin, self.thick].map(|surface| &surface.side);
-        let finest = |surface: &Surface<'_>| {
-            let [first, last] =
-                [surface.rolls.first(), surface.rolls.last()].map(|roll| roll.copied().unwrap_or(0.0));
-            (last - first).abs() / surface.side.cubic.length()
-        };
+        let [thin, thick] = self.surfaces.map(|surface| &surface.side);
+        let finest = |surface: &Surface<'_>| surface.rolls.whole() / surface.side.cubic.length();
         let least = |floors: [f64; 2]| floors[0].min(floors[1]) * 2.0;
         let size = least(thin.cubic.floors()).min(least(thick.cubic.floors()));
-        let turning = finest(self.thin).max(finest(self.thick));
+        let turning = finest(self.surfaces[0]).max(finest(self.surfaces[1]));
         let step = (STEP * size).min(STEP_TURNS / turning.max(f64::MIN_POSITIVE));
         let count = thin.cubic.length() / step;
         if count.is_finite() { (count.ceil() as usize).clamp(4, SECTIONS_MAX) } else { SECTIONS_MAX }
@@ -200,19 +210,19 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
     /// By how much more the other surface must grow to meet a point of a section grown by `growth`, and where it does; none where
     /// that is far.
     fn excess(&self, stand: &Stand, way: DVec3, growth: f64, beside: f64) -> Option<(f64, f64)> {
-        let (needed, other) = self.thick.growth_at(stand.centre + growth * way, beside, growth)?;
+        let (needed, other) = self.surfaces[1].growth_at(stand.centre + growth * way, beside, growth)?;
         Some((needed - growth, other))
     }
 
     /// Where the surfaces touch on the ray through the point `round` the outline of the section at `t`, at `level` at most; near
     /// place `beside` of the other yarn.
     fn solve(&self, t: f64, round: f64, level: f64, beside: f64) -> Option<Found> {
-        self.solve_at(&self.thin.stand(t)?, DVec2::new(t, round), level, beside)
+        self.solve_at(&self.surfaces[0].stand(t)?, DVec2::new(t, round), level, beside)
     }
 
     fn solve_at(&self, stand: &Stand, at: DVec2, level: f64, beside: f64) -> Option<Found> {
         let [t, round] = at.to_array();
-        let way = stand.way(self.thin.side.support.point(round));
+        let way = stand.way(self.surfaces[0].side.support.point(round));
         let mut high = level;
         let (mut over, mut other) =
             self.excess(stand, way, high, beside).filter(|(excess, _)| *excess <= 0.0)?;
@@ -248,7 +258,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             ]
             .into_iter()
             .find_map(|(along, aside)| {
-                let t = self.thin.side.held(found.t + along * steps.x);
+                let t = self.surfaces[0].side.held(found.t + along * steps.x);
                 self.solve(t, found.round + aside * steps.y, found.growth - EXACT, found.other)
             });
             match better {
@@ -258,4 +268,9 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         }
         found
     }
+}
+
+/// Places round an outline, as shares of the way, equally far apart.
+fn shares(count: usize) -> Vec<f64> {
+    (0..count).map(|place| place as f64 / count as f64).collect()
 }

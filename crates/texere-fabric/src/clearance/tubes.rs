@@ -18,11 +18,22 @@ const AROUND: usize = 13;
 /// The golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
+/// Where two tubes touch: parameters, the factor by which both sections could grow until then, and the way from the first to the
+/// other at right angles to both surfaces.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nearest {
+    pub(super) place: DVec2,
+    pub(super) ratio: f64,
+    pub(super) normal: DVec3,
+}
+
 /// Both yarns' tangent tubes at two places: the factor at which they touch, and how far along each the touching point
 /// lies from its place, in intervals.
 struct Touch {
     ratio: f64,
     offset: DVec2,
+    /// From the first tube to the other.
+    normal: DVec3,
 }
 
 /// Slides both places from `start` to where the tubes touch: parameters, and the factor by which both sections could grow until
@@ -31,7 +42,7 @@ struct Touch {
 /// Straight tubes touch where their common normal is N = t₁ × t₂; scaled by λ = N·Δ / (h₁(N) + h₂(-N)), h the sections'
 /// support functions, their surfaces meet in one point. On bent tubes that point must lie in the sections of the very
 /// two places: the places go towards it until it does.
-pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
+pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let mut place = DVec2::new(one.held(start.x), other.held(start.y));
     let mut last = touch(one, other, place)?;
     for _ in 0..STEPS {
@@ -51,7 +62,7 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(D
     // At a yarn's cut end the touching point may lie beyond it: then nothing touches there.
     let beyond = |t: f64, offset: f64| (t <= 0.0 && offset < -MARGIN) || (t >= 1.0 && offset > MARGIN);
     let outside = beyond(place.x, last.offset.x) || beyond(place.y, last.offset.y);
-    (!outside).then_some((place, last.ratio))
+    (!outside).then_some(Nearest { place, ratio: last.ratio, normal: last.normal })
 }
 
 fn touch(one: Side<'_>, other: Side<'_>, place: DVec2) -> Option<Touch> {
@@ -77,7 +88,7 @@ fn touch(one: Side<'_>, other: Side<'_>, place: DVec2) -> Option<Touch> {
         let (along_a, along_b) = (left.dot(tangent_a), left.dot(tangent_b));
         let alpha = (along_a - cosine * along_b) / (sine * sine);
         let beta = (cosine * along_a - along_b) / (sine * sine);
-        return Some(Touch { ratio, offset: DVec2::new(alpha, beta) / speeds });
+        return Some(Touch { ratio, offset: DVec2::new(alpha, beta) / speeds, normal });
     }
     // Side by side: the direction that separates best, level with one another. The ratio, a linear function of the
     // direction over a convex one, has one maximum.
@@ -86,8 +97,9 @@ fn touch(one: Side<'_>, other: Side<'_>, place: DVec2) -> Option<Touch> {
     let level = apart - along * tangent;
     let towards = level.try_normalize()?;
     let aside = tangent.cross(towards);
+    let turned = |angle: f64| towards * angle.cos() + aside * angle.sin();
     let separated = |angle: f64| {
-        let normal = towards * angle.cos() + aside * angle.sin();
+        let normal = turned(angle);
         let (_, on_a, on_b) = meet(normal);
         normal.dot(level) / (normal.dot(on_a) - normal.dot(on_b))
     };
@@ -105,8 +117,9 @@ fn touch(one: Side<'_>, other: Side<'_>, place: DVec2) -> Option<Touch> {
             ratios = [ratios[1], separated(tried[1])];
         }
     }
-    let best = ratios[0].max(ratios[1]);
+    let (best, angle) = if ratios[0] > ratios[1] { (ratios[0], tried[0]) } else { (ratios[1], tried[1]) };
     // Half of the way each; of two that run against one another both go forward or back.
     let forward = tangent_a.dot(tangent_b).signum();
-    Some(Touch { ratio: best, offset: 0.5 * along * DVec2::new(1.0, -forward) / speeds })
+    let offset = 0.5 * along * DVec2::new(1.0, -forward) / speeds;
+    Some(Touch { ratio: best, offset, normal: turned(angle) })
 }

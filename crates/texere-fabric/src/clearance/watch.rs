@@ -9,7 +9,7 @@ use crate::FabricError;
 
 /// Reports to a caller, from any thread that works, how much is done.
 pub(super) struct Watch<T> {
-    total: u64,
+    total: AtomicU64,
     done: AtomicU64,
     stopped: AtomicBool,
     report: Mutex<T>,
@@ -24,7 +24,17 @@ impl<T> fmt::Debug for Watch<T> {
 impl<T: FnMut(f64) -> ControlFlow<()> + Send> Watch<T> {
     /// For work of `total` units.
     pub(super) fn new(total: u64, report: T) -> Self {
-        Self { total, done: AtomicU64::new(0), stopped: AtomicBool::new(false), report: Mutex::new(report) }
+        Self {
+            total: total.into(),
+            done: AtomicU64::new(0),
+            stopped: AtomicBool::new(false),
+            report: Mutex::new(report),
+        }
+    }
+
+    /// There are so many units more to do, before the first is done.
+    pub(super) fn expect(&self, units: u64) {
+        self.total.fetch_add(units, Ordering::Relaxed);
     }
 
     /// So many units more are done.
@@ -34,8 +44,9 @@ impl<T: FnMut(f64) -> ControlFlow<()> + Send> Watch<T> {
         self.done.fetch_add(units, Ordering::Relaxed);
         // A thread that finds another one reporting goes on with its work.
         if let Ok(mut report) = self.report.try_lock() {
-            let done = self.done.load(Ordering::Relaxed).min(self.total);
-            if report(done as f64 / self.total.max(1) as f64).is_break() {
+            let total = self.total.load(Ordering::Relaxed);
+            let done = self.done.load(Ordering::Relaxed).min(total);
+            if report(done as f64 / total.max(1) as f64).is_break() {
                 self.stopped.store(true, Ordering::Relaxed);
             }
         }

@@ -192,9 +192,10 @@ impl Woven {
             if radius_mm < RADIUS_MIN {
                 return Err(FabricError::Radius { thread, radius_mm, low, high });
             }
-            let half_mm = each.halves_mm()[1] * scaled / wider;
-            if half_mm < RADIUS_MIN {
-                return Err(FabricError::Half { thread, side: "height", half_mm, low, high });
+            let [half_width, half_height] = each.halves_mm();
+            let halves = [("width", half_width * scaled * wider), ("height", half_height * scaled / wider)];
+            if let Some((side, half_mm)) = halves.into_iter().find(|(_, half)| !(low..=high).contains(half)) {
+                return Err(FabricError::Half { thread, side, half_mm, low, high });
             }
         }
         if change.share != self.warp_share() {

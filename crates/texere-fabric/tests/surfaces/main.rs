@@ -12,7 +12,7 @@ use std::rc::Rc;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Pipeline, Section, Settings, Yarn, Yarns};
+use texere_core::{ControlPoint, Frame, Pipeline, Section, Settings, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 use texere_fabric::{CLEARANCE_NEAR, clearance};
 
@@ -178,6 +178,25 @@ fn the_clearance_is_that_of_surfaces() {
     for (name, oracle, crates) in measured {
         assert!((0.75..=1.08).contains(&oracle), "{name}: {oracle} tells too little");
         assert!((oracle - crates).abs() <= 0.003, "{name}: {oracle}, clearance {crates}");
+    }
+}
+
+/// A yarn that bends over backwards passes through the vertical, where the upright frame flips and the one that is carried along
+/// does not: however few rings there are.
+#[test]
+fn a_carried_frame_does_not_flip_between_rings() {
+    for (section, away) in [(Section::Ellipse { aspect: 3.0 }, 0.42), (Section::Lobed { plies: 2 }, 0.32)] {
+        let mut yarns = Yarns::builder();
+        yarns.section(section.clone());
+        let bend = [[0.9, 0.0], [0.2, 0.1], [-0.1, 0.6], [0.2, 1.1], [0.9, 1.2]];
+        let lay = |y: f32| bend.map(|[x, z]| ControlPoint::new(x, y, z, RADIUS));
+        yarns.yarn(Yarn::default(), &lay(0.0)).yarn(Yarn::default(), &lay(away));
+        let yarns = yarns.build().unwrap();
+        let minimizing = |settings| Settings { frame: Frame::RotationMinimizing, ..settings };
+        let oracle = surface_ratio(&yarns, minimizing(dense(&yarns)));
+        let coarse = clearance_ratio(&yarns, minimizing(Settings::default()));
+        assert!((0.75..=1.08).contains(&oracle), "{section:?}: {oracle} tells too little");
+        assert!((oracle - coarse).abs() <= 0.003, "{section:?}: {oracle}, clearance {coarse}");
     }
 }
 

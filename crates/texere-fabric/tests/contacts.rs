@@ -350,7 +350,10 @@ fn a_yarn_of_too_many_rings_is_refused() {
     yarns.yarn(Yarn { twist: 1.0, ..Yarn::default() }, &points);
     let settings = Settings { subdivisions: 1023, ..Settings::default() };
     let refused = clearance(&yarns.build().unwrap(), &settings);
-    assert!(matches!(refused, Err(FabricError::Settings(PlanError::YarnRings { yarn: 0, .. }))), "{refused:?}");
+    assert!(
+        matches!(refused, Err(FabricError::Settings(PlanError::YarnRings { yarn: 0, .. }))),
+        "{refused:?}"
+    );
 }
 
 #[test]

@@ -34,6 +34,12 @@ const BENT: f64 = 1.3;
 /// How far, in intervals, the place that a point is level with may lie from where the yarn's tangent has it.
 const SLANT: f64 = 0.2;
 
+/// The cosine of the angle up to which an interval may turn and have one place only that is level with a point near it.
+const STRAIGHT: f64 = 0.7;
+
+/// Places of the other yarn this near to one another are one, in intervals.
+const SAME: f64 = 1e-3;
+
 /// The way downhill ends with steps this much shorter than those between places that are tried.
 const FINEST: f64 = 1.0 / 32.0;
 
@@ -107,6 +113,35 @@ struct Found {
     growth: f64,
 }
 
+/// From where the way has led downhill so far, and where to.
+#[derive(Debug, Default)]
+struct Tried {
+    best: Option<Found>,
+    /// Parameters along the thinner yarn and shares of the way round its outline.
+    places: Vec<DVec2>,
+}
+
+impl Tried {
+    fn add(&mut self, from: Option<DVec2>, lowest: Found) {
+        self.places.extend(from.into_iter().chain([DVec2::new(lowest.t, lowest.round)]));
+        if self.best.is_none_or(|best| lowest.growth < best.growth) {
+            self.best = Some(lowest);
+        }
+    }
+
+    /// The least growth so far, or the most that is looked for.
+    fn level(&self) -> f64 {
+        self.best.map_or(CLEARANCE_NEAR, |found| found.growth)
+    }
+
+    fn is_near(&self, at: DVec2, steps: DVec2) -> bool {
+        self.places.iter().any(|place| {
+            let round = (at.y - place.y).rem_euclid(1.0);
+            (at.x - place.x).abs() <= steps.x && round.min(1.0 - round) <= steps.y
+        })
+    }
+}
+
 impl Found {
     fn touch(self) -> Touch {
         (DVec2::new(self.t, self.other), self.growth)
@@ -138,54 +173,64 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             let round = self.facing(start.x, towards, &rounds)?;
             Some(self.downhill(self.solve(start.x, round, CLEARANCE_NEAR, start.y)?, steps))
         };
-        let firsts: Vec<Found> = starts.iter().filter_map(first).collect();
-        let mut tried: Vec<DVec2> = firsts.iter().map(|found| DVec2::new(found.t, found.round)).collect();
-        let mut best = firsts.into_iter().min_by(|a, b| a.growth.total_cmp(&b.growth));
-        let thickest = thick.side.cubic.half_bound() * thick.side.support.extent();
-        let (side_low, side_high) = (thick.side.held(f64::NEG_INFINITY), thick.side.held(f64::INFINITY));
-        let mut beside = starts.first().map_or(0.5, |start| start.y);
+        let mut tried = Tried::default();
+        starts.iter().filter_map(first).for_each(|found| tried.add(None, found));
+        // One that bends back has several places level with a point.
+        let [leaving, _, arriving] = thick.side.cubic.velocities();
+        let bent = leaving.dot(arriving) < STRAIGHT * leaving.length() * arriving.length();
+        let mut besides: Vec<f64> = if bent { vec![0.1, 0.5, 0.9] } else { vec![] };
+        besides.extend(starts.first().map(|start| start.y));
         for t in (0..=sections).map(|k| low + k as f64 * steps.x) {
             let Some(stand) = thin.stand(t) else { continue };
-            beside = thick.level_with(stand.centre, beside.clamp(0.0, 1.0));
-            let Some(other) = thick.stand(beside) else { continue };
-            let towards = other.centre - stand.centre;
-            let speed = thick.side.cubic.path(beside)[1].length();
-            let level = best.map_or(CLEARANCE_NEAR, |found| found.growth) + SLACK;
-            // Too far for anything to touch here.
-            let (direction, apart) = (towards.normalize_or_zero(), towards.length());
-            if apart > BENT * level * (thin.reach(&stand, direction) + thick.reach(&other, direction)) {
-                continue;
-            }
-            let seen = stand.seen(towards);
-            for &(round, point) in outline.iter().filter(|(_, point)| point.dot(seen) >= 0.0) {
-                let level = best.map_or(CLEARANCE_NEAR, |found| found.growth) + SLACK;
-                let apart = level * stand.way(point) - towards;
-                let along = apart.dot(other.tangent);
-                if (apart - along * other.tangent).length_squared() > (BENT * level * thickest).powi(2) {
-                    continue;
-                }
-                // Others lie level with a place of a neighbour of the other yarn's interval.
-                let level_with = beside + along / speed;
-                if level_with < side_low - SLANT || level_with > side_high + SLANT {
-                    continue;
-                }
-                let near = |other: &DVec2| {
-                    let apart = (round - other.y).rem_euclid(1.0);
-                    (t - other.x).abs() <= 2.0 * steps.x && apart.min(1.0 - apart) <= 2.0 * steps.y
-                };
-                if tried.iter().any(near) {
-                    continue;
-                }
-                let at = DVec2::new(t, round);
-                let Some(found) = self.solve_at(&stand, at, level, beside) else { continue };
-                let lowest = self.downhill(found, steps);
-                tried.extend([at, DVec2::new(lowest.t, lowest.round)]);
-                if best.is_none_or(|best| lowest.growth < best.growth) {
-                    best = Some(lowest);
+            for k in 0..besides.len() {
+                besides[k] = thick.level_with(stand.centre, besides[k].clamp(0.0, 1.0));
+                if !besides[..k].iter().any(|other| (other - besides[k]).abs() < SAME) {
+                    self.section(&stand, [t, besides[k]], steps, &outline, &mut tried);
                 }
             }
         }
-        best.filter(|best| best.growth <= CLEARANCE_NEAR).map(Found::touch)
+        tried.best.filter(|best| best.growth <= CLEARANCE_NEAR).map(Found::touch)
+    }
+
+    /// Tries the points of the section at `t`, near place `beside` of the other yarn.
+    fn section(
+        &self,
+        stand: &Stand,
+        [t, beside]: [f64; 2],
+        steps: DVec2,
+        outline: &[(f64, DVec2)],
+        tried: &mut Tried,
+    ) {
+        let [thin, thick] = self.surfaces;
+        let Some(other) = thick.stand(beside) else { return };
+        let towards = other.centre - stand.centre;
+        let level = tried.level() + SLACK;
+        // Too far for anything to touch here.
+        let (direction, apart) = (towards.normalize_or_zero(), towards.length());
+        if apart > BENT * level * (thin.reach(stand, direction) + thick.reach(&other, direction)) {
+            return;
+        }
+        let thickest = thick.side.cubic.half_bound() * thick.side.support.extent();
+        let speed = thick.side.cubic.path(beside)[1].length();
+        let [low, high] = [f64::NEG_INFINITY, f64::INFINITY].map(|end| thick.side.held(end));
+        let seen = stand.seen(towards);
+        for &(round, point) in outline.iter().filter(|(_, point)| point.dot(seen) >= 0.0) {
+            let level = tried.level() + SLACK;
+            let apart = level * stand.way(point) - towards;
+            let along = apart.dot(other.tangent);
+            if (apart - along * other.tangent).length_squared() > (BENT * level * thickest).powi(2) {
+                continue;
+            }
+            // Others lie level with a place of a neighbour of the other yarn's interval.
+            let level_with = beside + along / speed;
+            let at = DVec2::new(t, round);
+            if level_with < low - SLANT || level_with > high + SLANT || tried.is_near(at, 2.0 * steps) {
+                continue;
+            }
+            if let Some(found) = self.solve_at(stand, at, level, beside) {
+                tried.add(Some(at), self.downhill(found, steps));
+            }
+        }
     }
 
     /// Which place of the outline, of `rounds`, reaches furthest in a direction from the section at `t`.

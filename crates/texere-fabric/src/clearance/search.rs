@@ -33,6 +33,9 @@ pub(super) const FULL: usize = 256;
 /// Pairs between two reports of progress.
 const REPORT_EVERY: u64 = 1 << 14;
 
+/// How many times as far as its interval is long a section reaches that counts by its hull alone, untwisted.
+const DISC: f64 = 16.0;
+
 /// What is worked out of an interval once it is asked for.
 #[derive(Default)]
 struct Met {
@@ -277,7 +280,9 @@ impl<'a> Probe<'a> {
         let surfaces =
             [Surface { side: sides[0], rolls: &a.rolls }, Surface { side: sides[1], rolls: &b.rolls }];
         let surfaces = surfaces.each_ref();
-        if surfaces.iter().any(|surface| !surface.is_simple()) {
+        // Of yarns so much thicker than their control points lie apart each interval is a disc: its tube is all there is to it.
+        let discs = [a, b].into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
+        if !discs && surfaces.iter().any(|surface| !surface.is_simple()) {
             // Surfaces that have lobes or turn may come near in many places, whatever the centrelines do.
             let mut all = Vec::new();
             chords[0].approaches(chords[1], within, |starts| all.push(starts[0]));
@@ -294,6 +299,10 @@ impl<'a> Probe<'a> {
             // The first may lead out of the interval to an approach beside this one's own.
             let refined = starts.into_iter().find_map(|start| match round {
                 true => refine(sides[0], sides[1], start),
+                false if discs => {
+                    let near = tubes::nearest(sides[0], sides[1], start)?;
+                    Some((DVec2::new(sides[0].own(near.place.x)?, sides[1].own(near.place.y)?), near.ratio))
+                }
                 false => touch_near(surfaces, tubes::nearest(sides[0], sides[1], start)?),
             });
             let Some((place, ratio)) = refined else { return };

@@ -23,9 +23,15 @@ const STEP_TURNS: f64 = 1.0 / 72.0;
 /// Sections of an interval that are tried at most.
 const SECTIONS_MAX: usize = 4096;
 
-/// By how much the growth at a place that is tried may exceed the least so far for the way to lead downhill from there: as
-/// much as a lobe rises between two places.
+/// By which share of the least growth so far the growth at a place that is tried may exceed it for the way to lead downhill from
+/// there: as much as a lobe rises between two places.
 const SLACK: f64 = 0.015;
+
+/// After so many places only those count that touch at less than the least growth so far.
+const PLACES: usize = 16;
+
+/// Surfaces that touch at less than this growth pierce one another so deeply that nobody asks how deeply.
+const DEEP: f64 = 0.25;
 
 /// How much further from the other yarn's tangent than its surface a point may lie and still be inside of it, where the yarn
 /// bends.
@@ -134,6 +140,11 @@ impl Tried {
         self.best.map_or(CLEARANCE_NEAR, |found| found.growth)
     }
 
+    /// By how much the growth at a place may exceed that for the way to lead downhill from there.
+    fn slack(&self) -> f64 {
+        if self.places.len() < PLACES { SLACK * self.level() } else { 0.0 }
+    }
+
     fn is_near(&self, at: DVec2, steps: DVec2) -> bool {
         self.places.iter().any(|place| {
             let round = (at.y - place.y).rem_euclid(1.0);
@@ -171,7 +182,8 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let first = |start: &DVec2| {
             let towards = thick.side.cubic.position(start.y) - thin.side.cubic.position(start.x);
             let round = self.facing(start.x, towards, &rounds)?;
-            Some(self.downhill(self.solve(start.x, round, CLEARANCE_NEAR, start.y)?, steps))
+            let found = self.solve(start.x, round, CLEARANCE_NEAR, start.y)?;
+            Some(if found.growth < DEEP { found } else { self.downhill(found, steps) })
         };
         let mut tried = Tried::default();
         starts.iter().filter_map(first).for_each(|found| tried.add(None, found));
@@ -181,6 +193,9 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let mut besides: Vec<f64> = if bent { vec![0.1, 0.5, 0.9] } else { vec![] };
         besides.extend(starts.first().map(|start| start.y));
         for t in (0..=sections).map(|k| low + k as f64 * steps.x) {
+            if tried.level() < DEEP {
+                break;
+            }
             let Some(stand) = thin.stand(t) else { continue };
             for k in 0..besides.len() {
                 besides[k] = thick.level_with(stand.centre, besides[k].clamp(0.0, 1.0));
@@ -204,7 +219,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let [thin, thick] = self.surfaces;
         let Some(other) = thick.stand(beside) else { return };
         let towards = other.centre - stand.centre;
-        let level = tried.level() + SLACK;
+        let level = tried.level() + tried.slack();
         // Too far for anything to touch here.
         let (direction, apart) = (towards.normalize_or_zero(), towards.length());
         if apart > BENT * level * (thin.reach(stand, direction) + thick.reach(&other, direction)) {
@@ -215,7 +230,7 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         let [low, high] = [f64::NEG_INFINITY, f64::INFINITY].map(|end| thick.side.held(end));
         let seen = stand.seen(towards);
         for &(round, point) in outline.iter().filter(|(_, point)| point.dot(seen) >= 0.0) {
-            let level = tried.level() + SLACK;
+            let level = tried.level() + tried.slack();
             let apart = level * stand.way(point) - towards;
             let along = apart.dot(other.tangent);
             if (apart - along * other.tangent).length_squared() > (BENT * level * thickest).powi(2) {
@@ -229,6 +244,9 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
             }
             if let Some(found) = self.solve_at(stand, at, level, beside) {
                 tried.add(Some(at), self.downhill(found, steps));
+                if tried.level() < DEEP {
+                    return;
+                }
             }
         }
     }

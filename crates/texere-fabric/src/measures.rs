@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use texere_core::{Material, Segment, Yarns};
 
 use crate::clearance::neighbours;
-use crate::reach::Reach;
+use crate::reach::{Reach, mean_reach};
 use crate::{FabricError, Thread, Woven, lengths_mm, tex_from_cotton_count};
 
 /// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a cubic, whose turning
@@ -100,12 +100,20 @@ impl Cover {
     pub fn new(cloth: &Woven) -> Self {
         let size = cloth.size_mm();
         let sets = [(cloth.warp(), size[0]), (cloth.weft(), size[1])];
-        let reaches: Vec<Reach> = cloth.sections().iter().map(Reach::new).collect();
+        let turns = |threads: &[Thread], section: usize| {
+            threads.iter().any(|thread| thread.twist != 0.0 && thread.section as usize == section)
+        };
+        // Level, and in the mean of all directions: a twisted thread shows one side after the other.
+        let widths: Vec<[f32; 2]> = (0..)
+            .zip(cloth.sections())
+            .map(|(number, section)| {
+                let twisted = sets.iter().any(|(threads, _)| turns(threads, number));
+                [section.half_width(), if twisted { mean_reach(section) } else { 0.0 }]
+            })
+            .collect();
         let fraction = sets.map(|(threads, across)| {
             let width = |thread: &Thread| {
-                let reach = &reaches[thread.section as usize];
-                // A twisted thread shows one side after the other.
-                let wide = if thread.twist == 0.0 { reach.width } else { reach.mean };
+                let wide = widths[thread.section as usize][usize::from(thread.twist != 0.0)];
                 2.0 * f64::from(thread.halves_mm()[0] * wide)
             };
             (threads.iter().map(width).sum::<f64>() / across).min(1.0)

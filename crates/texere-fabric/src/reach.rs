@@ -17,8 +17,6 @@ pub(crate) struct Reach {
     pub(crate) heights: [f32; 2],
     /// In the furthest of all directions: twist turns it to every side.
     pub(crate) furthest: f32,
-    /// In the mean of all directions.
-    pub(crate) mean: f32,
     /// By how much the ellipse of this width and height has to grow to hold the section: 1 but for boxy ones.
     boxiness: f32,
 }
@@ -36,7 +34,6 @@ impl Reach {
             width,
             heights,
             furthest: above(most(&|point| point.x.hypot(point.y)), width.max(height)),
-            mean: mean(&outline),
             boxiness: above(most(&|point| (point.x / width).hypot(point.y / height)), 1.0),
         }
     }
@@ -52,7 +49,8 @@ impl Reach {
 }
 
 /// The mean of how far a section reaches in each direction: its hull's perimeter over a full turn (Cauchy 1832).
-fn mean(outline: &[SectionPoint]) -> f32 {
+pub(crate) fn mean_reach(section: &Section) -> f32 {
+    let outline = section.outline(POINTS);
     let reach = |k: u32| {
         let (sin, cos) = (f64::from(k) / f64::from(POINTS) * std::f64::consts::TAU).sin_cos();
         let along = |point: &SectionPoint| f64::from(point.x) * cos + f64::from(point.y) * sin;

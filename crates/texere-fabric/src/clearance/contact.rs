@@ -9,7 +9,7 @@ pub const CLEARANCE_NEAR: f64 = 1.1;
 ///
 /// Of yarns with plies, corners or twisted flat sections a touch may stay unseen that is nearer by up to 0.003; where
 /// such a yarn bends as sharply as it is thick and meets itself there, more than that. Of their ratios below 0.25 no smaller one is
-/// looked for. Where a section reaches 16 times as far as its control points lie apart it counts by its hull, untwisted.
+/// looked for. Where a section reaches four times as far as its control points lie apart it counts by its hull, untwisted.
 ///
 /// Of two approaches side by side on one pair of sharply bent intervals the nearer may stay unseen: once in some
 /// 30,000 tangles of random yarns that was 0.003.

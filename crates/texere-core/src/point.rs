@@ -139,9 +139,7 @@ impl Halves {
     pub fn height(self) -> f32 {
         f16::from_bits(self.0[1]).to_f32()
     }
-}
 
-impl Halves {
     /// Whether both lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero are ordered as their bits are; those
     /// below it, infinity and NaN come after all of them.
     pub(crate) const fn within_limits(self) -> bool {
@@ -164,7 +162,7 @@ mod tests {
 
     /// All half floats that there are, each against its own value.
     #[test]
-    fn limits_of_sizes_are_told_by_their_bits() {
+    fn limits_of_sizes_are_limits_of_their_bits() {
         for bits in 0..=u16::MAX {
             let size = f16::from_bits(bits).to_f32();
             let within = (RADIUS_MIN..=RADIUS_MAX).contains(&size);

@@ -3,6 +3,8 @@
 //! Everything is evaluated on differences from the interval's first point, which is added last: from absolute
 //! coordinates the tangent of a yarn ten metres from the origin would be off by 3e-3 rad.
 
+use std::ops::{Add, Mul, Sub};
+
 use glam::Vec3;
 
 use crate::ControlPoint;
@@ -59,8 +61,8 @@ pub const ZERO_VELOCITY: f32 = 1e-12;
 /// shorter ones leave the normal range of `f32`, and some devices flush them to zero.
 pub const NO_LENGTH: f32 = 1e-30;
 
-/// The steepest growth of a half width or half height that tilts a normal. At 1e4 the normal is within 1e-4 rad of the axis, and the square of
-/// anything steeper would start to leave the range of `f32`.
+/// The steepest growth of a half width or half height that tilts a normal. At 1e4 the normal is within 1e-4 rad of the
+/// axis, and the square of anything steeper would start to leave the range of `f32`.
 pub const SLOPE_LIMIT: f32 = 1e4;
 
 /// Half width and half height between two control points never fall below this share of the smaller one.
@@ -80,7 +82,7 @@ impl Segment {
         Self {
             start: origin,
             span: b,
-            position: [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)],
+            position: coefficients(a, b, c, s),
             half_width: size(ControlPoint::half_width),
             half_height: size(ControlPoint::half_height),
             at_rest: (ZERO_VELOCITY * (a.length_squared() + b.length_squared() + c.length_squared()))
@@ -142,6 +144,16 @@ impl Segment {
     }
 }
 
+/// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at `a` and the one after
+/// next at `c`.
+#[inline]
+fn coefficients<T>(a: T, b: T, c: T, s: f32) -> [T; 3]
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
+{
+    [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)]
+}
+
 /// A half width or half height between two control points, as a polynomial of t.
 #[derive(Debug, Clone, Copy)]
 struct Size {
@@ -155,11 +167,7 @@ impl Size {
     #[inline]
     fn new([before, start, end, after]: [f32; 4], s: f32) -> Self {
         let (a, b, c) = (before - start, end - start, after - start);
-        Self {
-            start,
-            terms: [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)],
-            floor: start.min(end) * RADIUS_FLOOR,
-        }
+        Self { start, terms: coefficients(a, b, c, s), floor: start.min(end) * RADIUS_FLOOR }
     }
 
     /// The size at `t` and its growth along the yarn, where `inverse` is one over the spline's speed.

@@ -165,8 +165,8 @@ impl<P: Piece> Job for Flattened<P> {
 
 /// What becomes of rings.
 trait Sink {
-    /// Takes the first `count` rings of a vector, whose rolls are all zero without `ROLLED`. It must be inlined, so that it is compiled for the instructions of its
-    /// path.
+    /// Takes the first `count` rings of a vector, whose rolls are all zero without `ROLLED`. It must be inlined, so that it is
+    /// compiled for the instructions of its path.
     fn take<S: Simd, const FLATTENED: bool, const ROLLED: bool>(
         &mut self,
         simd: S,

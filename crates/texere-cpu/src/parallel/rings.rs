@@ -4,10 +4,10 @@
 //! branch for a rare case (a yarn at rest, a tangent along z, a yarn's last ring), the lanes only notice it, and the core's
 //! own functions are called for that ring.
 
-use texere_core::{Basis, Block, ControlPoint, PaddedPoints, Plan, Ring, SLOPE_LIMIT, VERTICAL};
+use texere_core::{Basis, Block, ControlPoint, PaddedPoints, Plan, Ring, Sample, VERTICAL};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
-use super::spline::{Cubics, Seats, all_round, xyz};
+use super::spline::{Cubics, Seats, all_round, held_size, xyz};
 
 /// What rings are made from.
 #[derive(Debug, Clone, Copy)]
@@ -132,10 +132,7 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
             self.cubics = Cubics::new::<FLATTENED>(simd, self.points, self.interval, plan.sampling().s());
         }
         let behind = simd.splat_integer((self.interval - self.first_cubic) as u32);
-        let (mut taken, mut first_rare) = (seats, 0);
-        if let Some((at_end, rare)) = &last {
-            (taken, first_rare) = (at_end, *rare);
-        }
+        let (taken, first_rare) = last.as_ref().map_or((seats, 0), |(at_end, rare)| (at_end, *rare));
         let interval = simd.load_integers(&taken.interval) + behind;
         let t = simd.load(&taken.t);
         let (mut rings, rare) = upright::<S, FLATTENED>(simd, &self.cubics, interval, t);
@@ -211,9 +208,8 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     fn fields(&self) -> [S::Floats; FIELDS] {
         let ([cx, cy, cz], [tx, ty, tz]) = (self.centre, self.tangent);
         let ([sx, sy, sz], [ux, uy, uz]) = (self.side, self.up);
-        let (width, height) = ([self.half_width, self.width_growth], [self.half_height, self.height_growth]);
-        let ([width, width_growth], [height, height_growth]) = (width, height);
-        [cx, cy, cz, width, height, tx, ty, tz, width_growth, height_growth, sx, sy, sz, ux, uy, uz]
+        let Self { half_width, half_height, width_growth, height_growth, .. } = *self;
+        [cx, cy, cz, half_width, half_height, tx, ty, tz, width_growth, height_growth, sx, sy, sz, ux, uy, uz]
     }
 
     #[cfg_attr(optimized, inline(always))]
@@ -257,11 +253,9 @@ fn mend(source: &Source<'_>, stretch: Stretch, done: u32, rare: u32, lanes: &mut
             let sample = plan.sampling().sample(padded, ring, rings, closed).sample;
             let (c, t, basis) = (sample.centre, sample.tangent, Basis::upright(sample.tangent));
             let (s, u) = (basis.side, basis.up);
-            let (halves, growths) =
-                ([sample.half_width, sample.half_height], [sample.width_growth, sample.height_growth]);
-            let ([width, height], [width_growth, height_growth]) = (halves, growths);
-            let sizes = [c.x, c.y, c.z, width, height, t.x, t.y, t.z, width_growth, height_growth];
-            let new = sizes.into_iter().chain([s.x, s.y, s.z, u.x, u.y, u.z]);
+            let Sample { half_width, half_height, width_growth, height_growth, .. } = sample;
+            let place = [c.x, c.y, c.z, half_width, half_height, t.x, t.y, t.z, width_growth, height_growth];
+            let new = place.into_iter().chain([s.x, s.y, s.z, u.x, u.y, u.z]);
             for (field, value) in lanes.0.iter_mut().zip(new) {
                 field[lane] = value;
             }
@@ -286,10 +280,8 @@ fn upright<S: Simd, const FLATTENED: bool>(
     let moves = sampled.at_rest.less(speed_squared);
     let speed_inverse = one / speed_squared.sqrt();
     let tangent = scale(velocity, speed_inverse);
-    let limit = simd.splat(SLOPE_LIMIT);
-    let growth = (sampled.velocity[3] * speed_inverse).max(-limit).min(limit);
     let size = sampled.start[3] + sampled.offset[3];
-    let held = size.less(sampled.floor);
+    let (half, growth) = held_size(simd, size, sampled.floor, sampled.velocity[3] * speed_inverse);
 
     let [x, y, z] = tangent;
     let level = x * x + y * y;
@@ -298,11 +290,11 @@ fn upright<S: Simd, const FLATTENED: bool>(
     let (side_x, side_y) = (-y * inverse, x * inverse);
     let mut rings = Rings {
         centre: plus(xyz(sampled.start), offset),
-        half_width: held.select(sampled.floor, size),
-        half_height: held.select(sampled.floor, size),
+        half_width: half,
+        half_height: half,
         tangent,
-        width_growth: held.select(zero, growth),
-        height_growth: held.select(zero, growth),
+        width_growth: growth,
+        height_growth: growth,
         side: [side_x, side_y, zero],
         up: [-z * side_y, z * side_x, x * side_y - y * side_x],
         roll: (zero, one),

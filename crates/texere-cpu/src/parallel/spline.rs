@@ -127,12 +127,22 @@ impl<S: Simd> Widths<S> {
         inverse: S::Floats,
     ) -> (S::Floats, S::Floats) {
         let (offset, velocity) = cubic(simd, self.terms, interval, t);
-        let limit = simd.splat(SLOPE_LIMIT);
-        let growth = (velocity * inverse).max(-limit).min(limit);
         let (size, floor) = (self.start.permute(interval) + offset, self.floor.permute(interval));
-        let held = size.less(floor);
-        (held.select(floor, size), held.select(simd.splat(0.0), growth))
+        held_size(simd, size, floor, velocity * inverse)
     }
+}
+
+/// A size that is held at `floor` and does not grow there, and its growth within the limit.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn held_size<S: Simd>(
+    simd: S,
+    size: S::Floats,
+    floor: S::Floats,
+    growth: S::Floats,
+) -> (S::Floats, S::Floats) {
+    let limit = simd.splat(SLOPE_LIMIT);
+    let held = size.less(floor);
+    (held.select(floor, size), held.select(simd.splat(0.0), growth.max(-limit).min(limit)))
 }
 
 /// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at `a` and the one after

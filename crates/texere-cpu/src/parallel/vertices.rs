@@ -20,7 +20,7 @@ pub(super) struct Surface<'a> {
     unrolled: Vec<SectionPoint>,
     /// Whether each normal is its point, as on a circle.
     round: bool,
-    /// Whether each normal of the first half is the opposite one turned round.
+    /// Whether each normal of the first half is the opposite one turned round; of an even number of sides.
     opposed: bool,
 }
 
@@ -99,8 +99,8 @@ fn vertices<S: Simd, V: Stances<S>, const COLUMNS: bool>(
     }
 }
 
-/// All vertices of a vector of rings in columns. A column has the same four floats of every fourth ring; first come those of ring 0,
-/// from its first floats to its last, then those of ring 1.
+/// All vertices of a vector of rings in columns. A column has the same four floats of every fourth ring; first come those of
+/// ring 0, from its first floats to its last, then those of ring 1.
 #[cfg_attr(optimized, inline(always))]
 fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let (pairs, _) = outline.as_chunks::<2>();
@@ -117,8 +117,8 @@ fn columns<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint
     }
 }
 
-/// All vertices of a vector of rings, the last ones first: a store that reaches over the end of its ring is then followed by the next
-/// ring's own.
+/// All vertices of a vector of rings, the last ones first: a store that reaches over the end of its ring is then followed by
+/// the next ring's own.
 #[cfg_attr(optimized, inline(always))]
 fn scattered<S: Simd, V: Stances<S>>(simd: S, stances: &V, outline: &[SectionPoint], out: &mut [f32]) {
     let stride = outline.len() * VERTEX;

@@ -177,13 +177,11 @@ impl Woven {
     /// **Errors**: [`FabricError::Flatness`] outside \[[`FLATNESS_MIN`], [`FLATNESS_MAX`]\], and [`FabricError::Half`] for a thread
     /// that would be too thin or too wide; the cloth is then as it was.
     pub fn set_flatness(&mut self, flatness: f32) -> Result<(), FabricError> {
-        let mut changed = self.clone();
-        for thread in changed.warp.iter_mut().chain(&mut changed.weft) {
-            thread.flatness = flatness;
-        }
-        changed.check_threads(&changed.warp, Origin::End)?;
-        changed.check_threads(&changed.weft, Origin::Pick)?;
-        *self = changed;
+        let flattened = |set: &[Thread]| set.iter().map(|thread| Thread { flatness, ..*thread }).collect();
+        let (warp, weft): (Vec<_>, Vec<_>) = (flattened(&self.warp), flattened(&self.weft));
+        self.check_threads(&warp, Origin::End)?;
+        self.check_threads(&weft, Origin::Pick)?;
+        (self.warp, self.weft) = (warp, weft);
         Ok(())
     }
 

@@ -10,7 +10,7 @@ use peak_alloc::PeakAlloc;
 
 use crate::{Input, Outcome, Reader, drive};
 
-/// How long an input may take: a hundred times as long as any takes here, so that only what hangs is caught.
+/// How long an input may take: ten times as long as the slowest takes here, so that only what hangs is caught.
 const LIMIT: Duration = Duration::from_secs(20);
 
 /// The most memory that the whole program may have taken with an input, MiB.

@@ -34,7 +34,7 @@ pub(super) const FULL: usize = 256;
 const REPORT_EVERY: u64 = 1 << 14;
 
 /// How many times as far as its interval is long a section reaches that counts by its hull alone, untwisted.
-const DISC: f64 = 4.0;
+const DISC: f64 = 64.0;
 
 /// What is worked out of an interval once it is asked for.
 #[derive(Default)]

@@ -24,6 +24,7 @@ pub(super) enum Support {
         radii: Vec<f64>,
         smooth: bool,
         extent: f64,
+        inner: f64,
         area: f64,
     },
 }
@@ -56,7 +57,22 @@ impl Support {
             .collect();
         let smooth = matches!(section, Section::Ellipse { .. });
         let radii = if matches!(section, Section::Polygon(_)) { Vec::new() } else { radii(&fine) };
-        Self::Table { furthest: furthest.collect(), radii, outline: fine, smooth, extent, area }
+        let mut table = Self::Table {
+            furthest: furthest.collect(),
+            radii,
+            outline: fine,
+            smooth,
+            extent,
+            inner: 0.0,
+            area,
+        };
+        let growths = (0..DIRECTIONS)
+            .map(|k| table.growth_at(DVec2::from_angle(k as f64 / DIRECTIONS as f64 * TAU)))
+            .fold(0.0, f64::max);
+        if let Self::Table { inner, .. } = &mut table {
+            *inner = 1.0 / growths;
+        }
+        table
     }
 
     /// Whether the outline has neither lobes nor corners.
@@ -116,6 +132,14 @@ impl Support {
         match self {
             Self::Circle => 1.0,
             Self::Table { extent, .. } => *extent,
+        }
+    }
+
+    /// The nearest to its centre that the outline comes.
+    pub(super) const fn inner(&self) -> f64 {
+        match self {
+            Self::Circle => 1.0,
+            Self::Table { inner, .. } => *inner,
         }
     }
 

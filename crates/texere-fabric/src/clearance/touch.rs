@@ -6,6 +6,7 @@
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
+use super::approach::Side;
 use super::contact::CLEARANCE_NEAR;
 use super::surface::{Stand, Surface};
 use super::tubes::Nearest;
@@ -14,11 +15,15 @@ use super::tubes::Nearest;
 const POINTS: usize = 48;
 const POINTS_LOBED: usize = 96;
 
-/// The step along the yarn from one section that is tried to the next, in least half widths or heights of either yarn.
+/// The step along the yarn from one section that is tried to the next, in the sum of both yarns' least half widths or heights.
 const STEP: f64 = 0.25;
 
 /// The same, in turns of either yarn's roll.
 const STEP_TURNS: f64 = 1.0 / 72.0;
+
+/// Lobes and flat sides that are no higher than this share of how far both surfaces reach don't show: so fine a yarn may turn as it
+/// likes beside such a thick one.
+const RELIEF: f64 = 1e-3;
 
 /// Sections of an interval that are tried at most.
 const SECTIONS_MAX: usize = 4096;
@@ -261,11 +266,16 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
     /// How many steps the thinner interval is tried in.
     fn sections(&self) -> usize {
         let [thin, thick] = self.surfaces.map(|surface| &surface.side);
-        let finest = |surface: &Surface<'_>| surface.rolls.whole() / surface.side.cubic.length();
-        let least = |floors: [f64; 2]| floors[0].min(floors[1]) * 2.0;
-        let size = least(thin.cubic.floors()).min(least(thick.cubic.floors()));
-        let turning = finest(self.surfaces[0]).max(finest(self.surfaces[1]));
-        let step = (STEP * size).min(STEP_TURNS / turning.max(f64::MIN_POSITIVE));
+        let least = |side: &Side<'_>| side.cubic.floors().into_iter().fold(f64::INFINITY, f64::min);
+        let reach = |side: &Side<'_>| side.cubic.half_bound() * side.support.extent();
+        let both = reach(thin) + reach(thick);
+        let turning = self.surfaces.map(|surface| {
+            let Surface { side, rolls } = surface;
+            let relief = side.cubic.half_bound() * (side.support.extent() - side.support.inner());
+            if relief > RELIEF * both { rolls.whole() / side.cubic.length() } else { 0.0 }
+        });
+        let finest = turning[0].max(turning[1]).max(f64::MIN_POSITIVE);
+        let step = (STEP * (least(thin) + least(thick))).min(STEP_TURNS / finest);
         let count = thin.cubic.length() / step;
         if count.is_finite() { (count.ceil() as usize).clamp(4, SECTIONS_MAX) } else { SECTIONS_MAX }
     }

@@ -23,5 +23,7 @@ mod pages;
 mod parallel;
 mod rolls;
 mod serial;
+mod settling;
 
 pub use backend::{ParallelBackend, SerialBackend};
+pub use settling::SerialSettler;

@@ -1,0 +1,6 @@
+//! Settling on a CPU.
+
+mod cells;
+mod serial;
+
+pub use serial::SerialSettler;

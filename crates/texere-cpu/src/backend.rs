@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
-use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule};
+use texere_core::{
+    Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule, SettlingPlan,
+};
 
 use crate::engine::CpuEngine;
 use crate::parallel::Parallel;
+use crate::parallel::settling::ParallelSettler;
 use crate::serial::Serial;
 
 /// One thread, one yarn after the other: the reference.
@@ -75,6 +78,12 @@ impl ParallelBackend {
         Parallel::each()
             .map(|parallel| Self::with(&format!("cpu/{}", parallel.vectors()), parallel))
             .collect()
+    }
+
+    /// Takes memory for a settling.
+    #[must_use]
+    pub fn settler(&self, plan: Arc<SettlingPlan>) -> ParallelSettler {
+        ParallelSettler::new(self.parallel, plan)
     }
 
     fn with(name: &str, parallel: Parallel) -> Self {

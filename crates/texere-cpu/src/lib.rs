@@ -18,12 +18,13 @@
 
 mod backend;
 mod caps;
+mod cells;
 mod engine;
 mod pages;
 mod parallel;
 mod rolls;
 mod serial;
-mod settling;
 
 pub use backend::{ParallelBackend, SerialBackend};
-pub use settling::SerialSettler;
+pub use parallel::settling::ParallelSettler;
+pub use serial::SerialSettler;

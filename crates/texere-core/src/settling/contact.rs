@@ -23,6 +23,13 @@ impl Chord {
         Self { at: interval.start.wrapping_add(scale.step(from)), span: offset(piece + 1) - from }
     }
 
+    /// Its middle, units.
+    #[must_use]
+    #[inline]
+    pub fn middle(&self, scale: &Scale) -> IVec3 {
+        self.at.wrapping_add(scale.step(self.span * 0.5))
+    }
+
     /// Where this chord and one that begins `way` from its beginning come nearest to one another: shares of both.
     #[must_use]
     #[inline]

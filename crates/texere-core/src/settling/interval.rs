@@ -28,6 +28,16 @@ impl Interval {
         Self { start, terms: coefficients(a, b, c, s), halves: [halves[0], growth] }
     }
 
+    /// An interval from four rows, as backends keep it: where it begins (as bits) and the growth of its half width; what goes with
+    /// u and its half width at the beginning; with u² and its half height; with u³ and the growth of that.
+    #[must_use]
+    pub fn from_rows(rows: &[[f32; 4]; 4]) -> Self {
+        let [[x, y, z, width_growth], [.., width], [.., height], [.., height_growth]] = *rows;
+        let terms = [1, 2, 3].map(|row: usize| Vec3::new(rows[row][0], rows[row][1], rows[row][2]));
+        let start = IVec3::from_array([x, y, z].map(|bits| bits.to_bits().cast_signed()));
+        Self { start, terms, halves: [[width, height], [width_growth, height_growth]] }
+    }
+
     /// The way from its beginning to `u` in \[0, 1\], mm.
     #[must_use]
     #[inline]

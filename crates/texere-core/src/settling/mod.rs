@@ -19,7 +19,10 @@ pub use contact::{Chord, Contact, MARGIN, NEAR, Pair};
 pub use error::SettlingError;
 pub use interval::{Interval, bends, weights};
 pub use neighbours::Listed;
-pub use pass::{BEND_RADIUS, Form, Gathered, Pass, Pull, freed, moves};
+pub use pass::{
+    BEND, BEND_MARGIN, BEND_PLACES, BEND_RADIUS, CONTACT, Form, Gathered, INERTIA, Pass, Pull, SOFT_BEND,
+    STRIDE, freed, moves,
+};
 pub use place::{COARSEST, FINEST, Place, REACH, Scale};
 pub use plan::{BEYOND, OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans, Strand, tag};
 pub use problem::{Length, Settling};

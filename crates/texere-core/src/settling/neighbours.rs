@@ -29,7 +29,7 @@ impl SettlingPlan {
     #[inline]
     pub fn image(&self, way: IVec3) -> [i32; 2] {
         let inverse = self.frequency();
-        [0, 1].map(|axis| -((way[axis] as f32 * inverse[axis]).round_ties_even() as i32))
+        [0, 1].map(|axis| -((way[axis] as f32 * inverse[axis] + 0.5).floor() as i32))
     }
 
     /// A way of so many units to something, to the image of that so many repeats away.

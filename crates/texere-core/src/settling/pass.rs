@@ -6,7 +6,7 @@
 use glam::Vec3;
 
 use super::plan::tag;
-use super::{Contact, Interval, Listed, MARGIN, NEAR, Pair, SettlingPlan, bends, weights};
+use super::{Contact, Interval, Listed, MARGIN, NEAR, Pair, Place, SettlingPlan, bends, weights};
 
 /// How a point's step is made from what pulls at it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,23 +36,25 @@ pub struct Pass {
 pub const BEND_RADIUS: f32 = 0.6;
 
 /// How much larger than that radii are made.
-const BEND_MARGIN: f32 = 1.02;
+pub const BEND_MARGIN: f32 = 1.02;
 
 /// How stiff yarns are where they bend less than they may, as a share of what they are beyond, while that eases.
-const SOFT_BEND: f32 = 0.02;
+pub const SOFT_BEND: f32 = 0.02;
 
-/// How much contacts count against one another, and bends beside them.
-const CONTACT: f32 = 1.12;
-const BEND: f32 = 0.6;
+/// How much contacts count.
+pub const CONTACT: f32 = 1.12;
+
+/// How much bends count beside them.
+pub const BEND: f32 = 0.6;
 
 /// How far the exact places of a contact may lie from those on the chords, in chords.
-const STRIDE: f32 = 0.6;
+pub const STRIDE: f32 = 0.6;
 
 /// What keeps a point where it is, against all that pulls at it in the block form.
-const INERTIA: f32 = 0.12;
+pub const INERTIA: f32 = 0.12;
 
 /// Where along an interval bends are looked at: with three places a yarn has 0.51 where 0.60 is claimed.
-const BEND_PLACES: [f32; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+pub const BEND_PLACES: [f32; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// What pulls at the control points of an interval.
 #[derive(Debug, Clone, Copy)]
@@ -196,6 +198,17 @@ fn add_block(slot: &mut [f32; 9], way: Vec3, direction: Vec3, weight: f32) {
     }
 }
 
+impl Pass {
+    /// The step along z that plates make a point take, mm.
+    #[must_use]
+    #[inline]
+    pub fn press(&self, plan: &SettlingPlan, place: &Place) -> f32 {
+        let Some(gap) = plan.plates() else { return 0.0 };
+        let z = place.at[2] as f32 * plan.scale().unit();
+        (0.1 * self.ease * (z.abs() + place.halves.height() - 0.5 * gap).max(0.0)).copysign(-z)
+    }
+}
+
 /// The pulls that a control point gathers: of the intervals that begin one place behind it, at it, one and two places before it.
 #[derive(Debug, Clone, Copy)]
 pub struct Gathered<'a>(pub [Option<&'a Pull>; 4]);
@@ -204,7 +217,7 @@ impl Gathered<'_> {
     /// The step that a control point takes, mm. `last` is the step that it took before.
     #[must_use]
     #[inline]
-    pub fn step(&self, plan: &SettlingPlan, pass: &Pass, place: &super::Place, last: Vec3) -> Vec3 {
+    pub fn step(&self, plan: &SettlingPlan, pass: &Pass, place: &Place, last: Vec3) -> Vec3 {
         let nothing = Pull::none();
         let pulls = self.0.map(|pull| pull.unwrap_or(&nothing));
         let (mut sums, mut near) = ([0.0_f32; 9], f32::INFINITY);
@@ -216,11 +229,7 @@ impl Gathered<'_> {
         }
         let halves = [place.halves.width(), place.halves.height()];
         let diameter = 2.0 * halves[0].min(halves[1]);
-        let mut press = 0.0;
-        if let Some(gap) = plan.plates() {
-            let z = place.at[2] as f32 * plan.scale().unit();
-            press = (0.1 * pass.ease * (z.abs() + halves[1] - 0.5 * gap).max(0.0)).copysign(-z);
-        }
+        let press = pass.press(plan, place);
         let on = last * pass.momentum;
         let step = match pass.form {
             Form::Weighted => {

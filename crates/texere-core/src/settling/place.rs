@@ -105,7 +105,7 @@ impl Scale {
     #[inline]
     pub fn step(&self, step: Vec3) -> IVec3 {
         let units = step * (1.0 / self.unit);
-        IVec3::from_array(units.to_array().map(|units| units.round_ties_even() as i32))
+        IVec3::from_array(units.to_array().map(|units| (units + 0.5).floor() as i32))
     }
 
     /// A way of so many units, mm.

@@ -198,7 +198,7 @@ fn jittered(plan: &SettlingPlan) -> Vec<Place> {
             return *place;
         }
         let far = JITTER * (place.halves.width() + place.halves.height()) / scale.unit();
-        let at = [0, 1, 2].map(|axis| (hash(3 * number + axis) * far).round_ties_even() as i32);
+        let at = [0, 1, 2].map(|axis| (hash(3 * number + axis) * far) as i32);
         place.moved(IVec3::from_array(at))
     });
     moved.collect()

@@ -11,6 +11,7 @@ mod portable;
 mod rings;
 mod runs;
 mod scan;
+pub(crate) mod settling;
 mod simd;
 mod spline;
 mod stances;

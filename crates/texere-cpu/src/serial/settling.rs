@@ -8,7 +8,7 @@ use texere_core::{
     freed, moves, tag,
 };
 
-use super::cells::Cells;
+use crate::cells::Cells;
 
 /// The reference.
 #[derive(Debug)]

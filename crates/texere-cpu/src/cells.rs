@@ -5,7 +5,7 @@ use texere_core::SettlingPlan;
 
 /// Chords by cells of a grid over x and y.
 #[derive(Debug, Default)]
-pub(super) struct Cells {
+pub(crate) struct Cells {
     /// Where the grid begins, units; 0 along an axis that repeats.
     low: [i32; 2],
     /// The size of a cell, units.
@@ -23,7 +23,7 @@ const CELLS_PER_CHORD: usize = 1;
 
 impl Cells {
     /// Sorts chords, whose middles are `middles`, into cells of at least `size` units.
-    pub(super) fn fill(&mut self, plan: &SettlingPlan, middles: &[IVec3], size: i32) {
+    pub(crate) fn fill(&mut self, plan: &SettlingPlan, middles: &[IVec3], size: i32) {
         let mut low = [i32::MAX; 2];
         let mut high = [i32::MIN; 2];
         for middle in middles {
@@ -81,7 +81,7 @@ impl Cells {
     }
 
     /// Writes the chords of the cells beside `middle`'s and its own, in the order of their numbers.
-    pub(super) fn beside(&self, plan: &SettlingPlan, middle: IVec3, chords: &mut Vec<u32>) {
+    pub(crate) fn beside(&self, plan: &SettlingPlan, middle: IVec3, chords: &mut Vec<u32>) {
         chords.clear();
         let [x, y] = self.cell(plan, middle);
         let around = |axis: usize, cell: usize| {

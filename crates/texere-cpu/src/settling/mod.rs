@@ -1,6 +1,0 @@
-//! Settling on a CPU.
-
-mod cells;
-mod serial;
-
-pub use serial::SerialSettler;

@@ -1,0 +1,212 @@
+//! Cloth before and after it settles: what the check sees, and that it is fit to be trusted.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec3, dvec3};
+use texere_conformance::rest::{
+    CROSSED, Chart, Ends, Gauge, Length, Start, StartYarn, Weave, check, linking, linking_integral, starts,
+    weft_knit, woven,
+};
+
+/// A circle as a closed yarn, about `centre` in the plane of two unit vectors.
+fn circle(centre: DVec3, plane: [DVec3; 2], size: f64, count: u32, radius: f64) -> StartYarn {
+    let point = |k| {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(count)).sin_cos();
+        centre + (plane[0] * cos + plane[1] * sin) * size
+    };
+    StartYarn { points: (0..count).map(point).collect(), radius, ends: Ends::Closed }
+}
+
+/// Two circles, each through the other's middle, the second one's plane turned about their common axis.
+fn linked_circles() -> Start {
+    start(vec![
+        circle(DVec3::ZERO, [DVec3::X, DVec3::Y], 3.0, 48, 1.5),
+        circle(DVec3::X * 3.0, [DVec3::X, DVec3::Z], 3.0, 48, 1.0),
+    ])
+}
+
+fn start(yarns: Vec<StartYarn>) -> Start {
+    Start { name: "test".to_owned(), yarns, repeat: [0.0; 2], pinned: Vec::new(), length: Length::Held }
+}
+
+/// A straight yarn along y, 10 mm a repeat.
+fn straight(x: f64, z: f64, radius: f64) -> StartYarn {
+    let points = (0..5).map(|k| dvec3(x, 2.0 * f64::from(k), z)).collect();
+    StartYarn { points, radius, ends: Ends::Repeats([0, 1]) }
+}
+
+/// Numbers in \[-1, 1\] that are the same every time.
+fn noise(points: &[Vec<DVec3>], size: f64) -> Vec<Vec<DVec3>> {
+    let mut seed = 1u64;
+    let mut next = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let mut moved = |point: &DVec3| *point + dvec3(next(), next(), next()).normalize() * size;
+    points.iter().map(|yarn| yarn.iter().map(&mut moved).collect()).collect()
+}
+
+#[test]
+fn circles_have_their_radius_length_and_distance() {
+    let start = linked_circles();
+    let report = check(&start, &start.points());
+    // The nearest places are those in the middle of the other circle.
+    assert!((report.clearance - 3.0 / 2.5).abs() < 1e-3, "{report:?}");
+    assert_eq!(report.nearest.map(|places| places.map(|place| place.yarn)), Some([0, 1]));
+    // The spline bends more at its points than between them, by 1 % with 48 of them.
+    assert!((report.bend - 1.0).abs() < 0.02, "{report:?}");
+    assert_eq!(report.sharpest.yarn, 0);
+    assert!((report.thickness - 8.0).abs() < 1e-3, "{report:?}");
+    assert_eq!((report.stretch, report.growth), (0.0, 0.0));
+}
+
+#[test]
+fn lengths_are_against_the_start() {
+    let start = linked_circles();
+    let mut points = start.points();
+    points[1].iter_mut().for_each(|point| *point *= 0.9);
+    let report = check(&start, &points);
+    assert!((report.stretch + 0.1).abs() < 1e-12 && report.stretched == 1, "{report:?}");
+    assert!((report.growth + 0.05).abs() < 1e-12, "{report:?}");
+}
+
+#[test]
+fn a_yarn_is_near_itself_only_further_along() {
+    // A tight ring is always so near itself; what counts begins half way round.
+    let ring = start(vec![circle(DVec3::ZERO, [DVec3::X, DVec3::Y], 0.6, 24, 0.5)]);
+    let report = check(&ring, &ring.points());
+    let chord = 1.2 * (TAU / 4.0 / 1.2f64).sin();
+    assert!(report.clearance > chord && report.clearance < chord + 0.02, "{report:?}");
+
+    // Two legs that bow towards one another: the spline goes through the points of a parabola as the parabola does.
+    let leg =
+        [[0.0, 0.8], [1.0, 0.5], [2.0, 0.4], [3.0, 0.5], [4.0, 0.8], [5.0, 1.3], [6.3, 1.2], [7.0, 0.0]];
+    let mirrored = leg.iter().rev().skip(1).map(|at| dvec3(at[0], -at[1], 0.0));
+    let points = leg.iter().map(|at| dvec3(at[0], at[1], 0.0)).chain(mirrored).collect();
+    let bow = start(vec![StartYarn { points, radius: 0.5, ends: Ends::Open }]);
+    let report = check(&bow, &bow.points());
+    assert!((report.clearance - 0.8).abs() < 1e-6, "{report:?}");
+}
+
+#[test]
+fn straight_yarns_are_as_far_apart_as_they_are() {
+    let mut pair = start(vec![straight(0.2, 0.0, 0.5), straight(0.8, 0.8, 0.25)]);
+    pair.repeat = [0.0, 10.0];
+    let apart = check(&pair, &pair.points());
+    assert!((apart.clearance - 1.0 / 0.75).abs() < 1e-9, "{apart:?}");
+    assert_eq!(apart.bend, f64::INFINITY);
+
+    // Over the seam, wherever the yarns are counted from.
+    for repeats in [0.0, 3.0, -2.0] {
+        pair.repeat = [10.0; 2];
+        let mut points = pair.points();
+        points[1].iter_mut().for_each(|point| point.x = 9.6 + repeats * 10.0);
+        let seam = check(&pair, &points);
+        assert!((seam.clearance - 1.0 / 0.75).abs() < 1e-9, "{seam:?}");
+    }
+
+    // Alone it meets its own image; further along it is itself.
+    let mut alone = start(vec![straight(0.0, 0.0, 0.5)]);
+    alone.repeat = [0.7, 10.0];
+    assert!((check(&alone, &alone.points()).clearance - 0.7).abs() < 1e-9);
+    alone.repeat = [0.0, 10.0];
+    let further = check(&alone, &alone.points()).clearance;
+    assert!(further > TAU / 4.0 && further < 1.1 * TAU / 4.0, "{further}");
+}
+
+#[test]
+fn the_integral_of_linked_circles_is_one() {
+    let closed = |yarn: &StartYarn| {
+        let mut points = yarn.points.clone();
+        points.push(points[0]);
+        points
+    };
+    let [one, other] = [0, 1].map(|yarn| closed(&linked_circles().yarns[yarn]));
+    let back: Vec<_> = other.iter().rev().copied().collect();
+    let integral = linking_integral(&one, &other);
+    assert!((integral.abs() - 1.0).abs() < 1e-9, "{integral}");
+    assert!((integral + linking_integral(&one, &back)).abs() < 1e-9);
+    let away: Vec<_> = other.iter().map(|point| *point + DVec3::Z * 7.0).collect();
+    assert!(linking_integral(&one, &away).abs() < 1e-9);
+}
+
+/// What a start is like. Clearance in sums of the radii, the radius of curvature and the thickness in diameters.
+///
+/// Jersey, satin and the warp knits are as rough as the prototype of settling found them; the other weft knits are clearer,
+/// since each of their loops follows its own neighbours.
+#[test]
+fn starts_are_as_they_are_listed() {
+    let listed = [
+        ("jersey-4.2", 0.995, 0.715, 2.27),
+        ("jersey-5", 1.003, 0.956, 2.22),
+        ("jersey-6", 0.999, 0.968, 2.18),
+        ("jersey-8", 0.995, 1.247, 2.16),
+        ("jersey-3.6", 0.786, 0.528, 2.27),
+    ];
+    let starts = starts();
+    for (name, clearance, bend, thickness) in listed {
+        let start = starts.iter().find(|start| start.name == name).unwrap_or_else(|| panic!("no {name}"));
+        let report = check(start, &start.points());
+        let diameter = 2.0 * start.yarns[0].radius;
+        for (what, is, listed) in [
+            ("clearance", report.clearance, clearance),
+            ("bend", report.bend, bend),
+            ("thickness", report.thickness / diameter, thickness),
+        ] {
+            assert!((is - listed).abs() < 0.006, "{name}: {what} {is}, listed {listed}: {report:?}");
+        }
+    }
+}
+
+#[test]
+fn a_jitter_is_no_crossing() {
+    for start in [jersey(), plain()] {
+        let points = start.points();
+        assert_eq!(linking(&start, &points, &points).change, 0.0);
+        for size in [0.01, 0.1] {
+            let found = linking(&start, &points, &noise(&points, size));
+            assert!(found.change > 0.0 && found.change < 0.3, "{}: {found:?}", start.name);
+        }
+    }
+}
+
+fn jersey() -> Start {
+    weft_knit("jersey", &Chart::new(&["kkk"; 3]), Gauge::new(5.0), Length::Held)
+}
+
+fn plain() -> Start {
+    woven("plain", Weave { size: 4, step: 1, order: 2, pitch: 1.8 }, Length::Held)
+}
+
+#[test]
+fn a_pulled_stitch_is_a_crossing() {
+    let start = jersey();
+    for loop_at in 0..9 {
+        let (course, wale) = (loop_at / 3, loop_at % 3);
+        let mut pulled = start.points();
+        // The upper legs and the head, lower than the feet of the loop that was drawn through.
+        for point in &mut pulled[course][12 * wale + 4..12 * wale + 9] {
+            point.y -= 0.6 * (point.y - 3.75 * course as f64);
+        }
+        for [before, after] in [[&start.points(), &pulled], [&pulled, &start.points()]] {
+            let found = linking(&start, before, after);
+            assert!(found.change > CROSSED, "{found:?}");
+            assert!(found.at.unwrap().iter().any(|place| place.yarn == course), "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn a_flipped_end_is_a_crossing() {
+    let start = plain();
+    let crossings: Vec<_> = (0..16).filter(|point| start.yarns[1].points[*point].z == 0.5).collect();
+    assert_eq!(crossings.len(), 2);
+    for crossing in crossings {
+        let mut flipped = start.points();
+        for step in [15, 0, 1] {
+            flipped[1][(crossing + step) % 16].z -= 2.0;
+        }
+        let found = linking(&start, &start.points(), &flipped);
+        assert!(found.change > CROSSED, "{found:?}");
+    }
+}

@@ -296,6 +296,12 @@ pub enum BackendError {
         /// Names that would have worked.
         found: Vec<&'static str>,
     },
+    /// The backend can't settle yarns.
+    #[error("{name} can't settle yarns")]
+    NoSettling {
+        /// The backend's name.
+        name: String,
+    },
     /// Memory could not be allocated.
     #[error("out of memory: {bytes} bytes for {what}")]
     OutOfMemory {

@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use texere_core::{
-    Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule, SettlingPlan,
+    Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule, Settler, SettlingPlan,
 };
 
 use crate::engine::CpuEngine;
-use crate::parallel::Parallel;
-use crate::parallel::settling::ParallelSettler;
-use crate::serial::Serial;
+use crate::parallel::{Parallel, ParallelSettler};
+use crate::serial::{Serial, SerialSettler};
 
 /// One thread, one yarn after the other: the reference.
 #[derive(Debug)]
@@ -80,12 +79,6 @@ impl ParallelBackend {
             .collect()
     }
 
-    /// Takes memory for a settling.
-    #[must_use]
-    pub fn settler(&self, plan: Arc<SettlingPlan>) -> ParallelSettler {
-        ParallelSettler::new(self.parallel, plan)
-    }
-
     fn with(name: &str, parallel: Parallel) -> Self {
         Self { info: info(name, Schedule::PerRing, rayon::current_num_threads()), parallel }
     }
@@ -105,6 +98,10 @@ impl Backend for SerialBackend {
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
         Ok(Box::new(CpuEngine::new(Serial, plan)?))
     }
+
+    fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
+        Ok(Box::new(SerialSettler::new(plan)))
+    }
 }
 
 impl Backend for ParallelBackend {
@@ -114,5 +111,9 @@ impl Backend for ParallelBackend {
 
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
         Ok(Box::new(CpuEngine::new(self.parallel, plan)?))
+    }
+
+    fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
+        Ok(Box::new(ParallelSettler::new(self.parallel, plan)))
     }
 }

@@ -26,5 +26,3 @@ mod rolls;
 mod serial;
 
 pub use backend::{ParallelBackend, SerialBackend};
-pub use parallel::settling::ParallelSettler;
-pub use serial::SerialSettler;

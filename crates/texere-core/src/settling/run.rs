@@ -138,11 +138,11 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
 
     /// Keeps what was seen if it is the best so far, and says whether it is at rest.
     fn weigh(&mut self, seen: &Seen) -> Result<bool, BackendError> {
-        if seen.is_better_than(&self.rest.end) {
+        self.rest.at_rest = self.is_rest(seen);
+        if self.rest.at_rest || seen.is_better_than(&self.rest.end) {
             self.settler.keep()?;
             self.rest.end = *seen;
         }
-        self.rest.at_rest = self.is_rest(seen);
         Ok(self.rest.at_rest)
     }
 
@@ -162,8 +162,7 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
     /// How much is lacking to rest: the largest share of all that is asked.
     fn lack(&self, seen: &Seen) -> f32 {
         let held = !matches!(self.plan.length, Length::Free { .. });
-        let length = if held { seen.length - LENGTH } else { 0.0 };
-        (CLEAR - seen.clearance).max(BENT - seen.radius / BEND_RADIUS).max(length)
+        seen.lack().max(if held { seen.length - LENGTH } else { 0.0 })
     }
 
     fn ended(self) -> Result<Rest, BackendError> {
@@ -235,18 +234,23 @@ impl Rest {
 }
 
 impl Seen {
-    /// Whether it is better: by clearance, and where that is the same by bends, and then by length. What is more than enough counts
-    /// as enough.
+    /// Whether it is better: by clearance, and where that is the same by bends, and then by length. What does for a picture or a
+    /// mesh counts as enough; where all are enough, the one that lacks less to rest is better.
     #[must_use]
     pub fn is_better_than(&self, other: &Self) -> bool {
         let by = |one: f32, other: f32, enough: f32, same: f32| {
             let more = one.min(enough) - other.min(enough);
             (more.abs() > same).then_some(more > 0.0)
         };
-        by(self.clearance, other.clearance, CLEAR, 0.001)
-            .or_else(|| by(self.radius, other.radius, BENT * BEND_RADIUS, 0.002))
+        by(self.clearance, other.clearance, 0.985, 0.001)
+            .or_else(|| by(self.radius, other.radius, 0.585, 0.002))
             .or_else(|| by(-self.length, -other.length, -LENGTH, 0.0005))
-            .unwrap_or(false)
+            .unwrap_or_else(|| self.lack() < other.lack())
+    }
+
+    /// How much is lacking to clear yarns and bends that are not too tight: the larger share.
+    fn lack(&self) -> f32 {
+        (CLEAR - self.clearance).max(BENT - self.radius / BEND_RADIUS)
     }
 
     /// Nothing yet.

@@ -5,7 +5,7 @@ mod scan;
 mod settling;
 mod trajectory;
 
-pub use settling::SerialSettler;
+pub(crate) use settling::SerialSettler;
 
 use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan, Ring};
 

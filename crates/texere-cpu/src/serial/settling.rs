@@ -12,7 +12,7 @@ use crate::cells::Cells;
 
 /// The reference.
 #[derive(Debug)]
-pub struct SerialSettler {
+pub(crate) struct SerialSettler {
     plan: Arc<SettlingPlan>,
     places: Vec<Place>,
     /// The step that each point has taken last, mm.
@@ -35,8 +35,7 @@ pub struct SerialSettler {
 
 impl SerialSettler {
     /// Takes memory for a plan.
-    #[must_use]
-    pub fn new(plan: Arc<SettlingPlan>) -> Self {
+    pub(crate) fn new(plan: Arc<SettlingPlan>) -> Self {
         let (places, chords) = (plan.counts().places as usize, plan.counts().chords as usize);
         let mut owners = vec![0; chords];
         for place in 0..places {

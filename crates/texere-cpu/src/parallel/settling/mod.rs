@@ -24,7 +24,7 @@ use tables::{BACK, ChordRow, FRONT, Fixed, IntervalRow, Make, PullRow, TASK};
 
 /// All cores.
 #[derive(Debug)]
-pub struct ParallelSettler {
+pub(crate) struct ParallelSettler {
     set: InstructionSet,
     plan: Arc<SettlingPlan>,
     fixed: Fixed,

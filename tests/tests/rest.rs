@@ -105,6 +105,11 @@ fn straight_yarns_are_as_far_apart_as_they_are() {
         assert!((seam.clearance - 1.0 / 0.75).abs() < 1e-9, "{seam:?}");
     }
 
+    // Further apart than what is searched first.
+    let mut wide = start(vec![straight(1.2, 0.0, 0.5), straight(2.6, 0.0, 0.5)]);
+    wide.repeat = [0.0, 10.0];
+    assert!((check(&wide, &wide.points()).clearance - 1.4).abs() < 1e-9);
+
     // Alone it meets its own image; further along it is itself.
     let mut alone = start(vec![straight(0.0, 0.0, 0.5)]);
     alone.repeat = [0.7, 10.0];
@@ -130,22 +135,60 @@ fn the_integral_of_linked_circles_is_one() {
     assert!(linking_integral(&one, &away).abs() < 1e-9);
 }
 
-/// What a start is like. Clearance in sums of the radii, the radius of curvature and the thickness in diameters.
+/// Every start: its clearance, the least radius of curvature and the thickness, both in diameters.
 ///
-/// Jersey, satin and the warp knits are as rough as the prototype of settling found them; the other weft knits are clearer,
-/// since each of their loops follows its own neighbours.
+/// Jersey, warp knits of one bar and the weaves are as their models promise. In rib, garter, tuck, miss and lace each half of a
+/// loop follows the loop that crosses it there, and what hangs on one needle lies in layers: so they begin clearer than loops
+/// of one shape would, which pierce to .4. The two bars of a warp knit always pierce one another at the start, and all warp knits
+/// fold at their feet.
+const LISTED: [(&str, f64, f64, f64); 39] = [
+    ("jersey-4.2", 0.995, 0.715, 2.27),
+    ("jersey-5", 1.003, 0.956, 2.22),
+    ("jersey-6", 0.999, 0.968, 2.18),
+    ("jersey-8", 0.995, 1.247, 2.16),
+    ("jersey-3.6", 0.786, 0.528, 2.27),
+    ("rib-4.4", 0.725, 0.509, 2.35),
+    ("rib-5", 0.721, 0.685, 2.31),
+    ("rib-6", 0.714, 0.968, 2.27),
+    ("garter-4.4", 0.777, 0.402, 2.15),
+    ("garter-5", 0.813, 0.513, 2.13),
+    ("tuck-5", 0.893, 0.634, 3.35),
+    ("miss-5", 0.900, 0.634, 2.28),
+    ("lace-4x4", 0.447, 0.541, 3.34),
+    ("random-12x12", 0.900, 0.634, 2.28),
+    ("jersey-5-piece", 0.997, 0.956, 2.24),
+    ("tricot-0.13", 1.111, 0.403, 4.38),
+    ("open-tricot-0.13", 1.121, 0.444, 4.38),
+    ("pillar-0.13", 1.121, 0.283, 4.38),
+    ("cord-0.13", 1.111, 0.303, 4.38),
+    ("open-atlas-0.13", 1.111, 0.496, 4.38),
+    ("one-bar-satin-0.13", 0.952, 0.244, 4.38),
+    ("counter-tricot-0.08", 0.339, 0.335, 6.19),
+    ("counter-tricot-0.1", 0.298, 0.336, 6.19),
+    ("counter-tricot-0.13", 0.255, 0.338, 6.19),
+    ("locknit-0.08", 0.437, 0.335, 6.19),
+    ("locknit-0.1", 0.394, 0.336, 6.19),
+    ("reverse-locknit-0.08", 0.371, 0.211, 6.19),
+    ("reverse-locknit-0.1", 0.326, 0.227, 6.19),
+    ("sharkskin-0.08", 0.390, 0.147, 6.19),
+    ("sharkskin-0.1", 0.298, 0.163, 6.19),
+    ("satin-0.08", 0.476, 0.335, 6.19),
+    ("satin-0.1", 0.350, 0.336, 6.19),
+    ("queenscord-0.08", 0.285, 0.147, 6.19),
+    ("queenscord-0.1", 0.245, 0.163, 6.19),
+    ("parallel-tricot-0.08", 0.171, 0.335, 6.19),
+    ("parallel-tricot-0.1", 0.245, 0.336, 6.19),
+    ("plain-1.8", 1.000, 0.374, 2.00),
+    ("plain-1.8-piece", 0.999, 0.240, 2.01),
+    ("satin-8-1.3", 0.790, 0.205, 2.01),
+];
+
 #[test]
 fn starts_are_as_they_are_listed() {
-    let listed = [
-        ("jersey-4.2", 0.995, 0.715, 2.27),
-        ("jersey-5", 1.003, 0.956, 2.22),
-        ("jersey-6", 0.999, 0.968, 2.18),
-        ("jersey-8", 0.995, 1.247, 2.16),
-        ("jersey-3.6", 0.786, 0.528, 2.27),
-    ];
     let starts = starts();
-    for (name, clearance, bend, thickness) in listed {
-        let start = starts.iter().find(|start| start.name == name).unwrap_or_else(|| panic!("no {name}"));
+    assert_eq!(starts.len(), LISTED.len());
+    for (start, (name, clearance, bend, thickness)) in starts.iter().zip(LISTED) {
+        assert_eq!(start.name, name);
         let report = check(start, &start.points());
         let diameter = 2.0 * start.yarns[0].radius;
         for (what, is, listed) in [
@@ -153,8 +196,12 @@ fn starts_are_as_they_are_listed() {
             ("bend", report.bend, bend),
             ("thickness", report.thickness / diameter, thickness),
         ] {
-            assert!((is - listed).abs() < 0.006, "{name}: {what} {is}, listed {listed}: {report:?}");
+            assert!(
+                (is - listed).abs() < if what == "thickness" { 0.006 } else { 0.0006 },
+                "{name}: {what} {is}, listed {listed}: {report:?}"
+            );
         }
+        assert!(start.pinned.iter().all(|&(yarn, point)| point < start.yarns[yarn].points.len()), "{name}");
     }
 }
 
@@ -192,6 +239,77 @@ fn a_pulled_stitch_is_a_crossing() {
             let found = linking(&start, before, after);
             assert!(found.change > CROSSED, "{found:?}");
             assert!(found.at.unwrap().iter().any(|place| place.yarn == course), "{found:?}");
+        }
+    }
+}
+
+/// A tuck lies between the held loop and the one that is drawn through both; a float behind the held loop is free.
+#[test]
+fn tucks_and_held_loops_are_drawn_through_and_floats_are_not() {
+    let course = 3.75;
+    let tuck = weft_knit("tuck", &Chart::new(&["kkk", "ktk", "kkk"]), Gauge::new(5.0), Length::Held);
+    // The second wale: a held loop with two points more, and a tuck with two points less.
+    for (yarn, upper) in [(0, 15..24), (1, 14..21)] {
+        let mut pulled = tuck.points();
+        for point in &mut pulled[yarn][upper] {
+            point.y -= 0.6 * (point.y - course * yarn as f64);
+        }
+        let found = linking(&tuck, &tuck.points(), &pulled);
+        assert!(found.change > CROSSED, "{yarn}: {found:?}");
+        let yarns = found.at.unwrap().map(|place| place.yarn);
+        assert_eq!((yarns[0].min(yarns[1]), yarns[0].max(yarns[1])), (yarn, 2), "{found:?}");
+    }
+
+    let miss = weft_knit("miss", &Chart::new(&["kkk", "kmk", "kkk"]), Gauge::new(5.0), Length::Held);
+    for (back, crosses) in [(-2.0, false), (3.0, true)] {
+        let mut moved = miss.points();
+        moved[1][13..15].iter_mut().for_each(|point| point.z += back);
+        let found = linking(&miss, &miss.points(), &moved);
+        assert_eq!(found.change > CROSSED, crosses, "{found:?}");
+    }
+}
+
+/// The loop that is moved hangs with its neighbour in the loop of the next course; the one on the needle that it left goes
+/// through nothing.
+#[test]
+fn lace_hangs_together() {
+    let lace = weft_knit("lace", &Chart::new(&[">kk", "kkk", "kkk"]), Gauge::new(5.0), Length::Held);
+    for (what, wale, back) in
+        [("the moved loop", 0, DVec3::new(-5.0, 0.0, 1.0)), ("its neighbour", 1, DVec3::ZERO)]
+    {
+        let mut pulled = lace.points();
+        for point in &mut pulled[0][12 * wale + 4..12 * wale + 9] {
+            *point = DVec3 { y: 0.4 * point.y, ..*point + back };
+        }
+        let found = linking(&lace, &lace.points(), &pulled);
+        assert!(found.change > CROSSED, "{what}: {found:?}");
+        assert!(found.at.unwrap().iter().any(|place| place.yarn == 1), "{what}: {found:?}");
+    }
+
+    // The left foot of the arch, lifted out of the cloth to the face: that of a loop which goes through another can't be. The
+    // right one lies behind the loop that was moved.
+    for (course, crosses) in [(1, false), (2, true)] {
+        let mut lifted = lace.points();
+        lifted[course][1..3].iter_mut().for_each(|foot| foot.z += 4.0);
+        let found = linking(&lace, &lace.points(), &lifted);
+        assert_eq!(found.change > CROSSED, crosses, "{course}: {found:?}");
+    }
+}
+
+/// In every warp knit, a loop of either bar. With thin yarn it is the same.
+#[test]
+fn warp_loops_are_drawn_through() {
+    let is_tested = |start: &Start| start.repeat == [4.0, 3.0] && start.yarns[0].radius > 0.045;
+    let warp_knits: Vec<_> = starts().into_iter().filter(is_tested).collect();
+    assert_eq!(warp_knits.len(), 14);
+    for start in warp_knits {
+        for bar in 0..start.yarns.len() / 4 {
+            let mut pulled = start.points();
+            for point in &mut pulled[4 * bar + 1][9 + 2..9 + 7] {
+                point.y -= 0.5 * (point.y - 0.75);
+            }
+            let found = linking(&start, &start.points(), &pulled);
+            assert!(found.change > CROSSED, "{}, bar {bar}: {found:?}", start.name);
         }
     }
 }

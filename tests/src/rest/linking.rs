@@ -1,7 +1,7 @@
 //! Whether yarns went through one another: Gauss's linking integral of windows of yarn, before and after.
 //!
-//! Whole loops would not do: their integral stays near where a head is pulled out of the loop above it, because what one leg
-//! loses the other gains.
+//! Windows are short, since whole loops would not do: there, what one leg loses when a head is pulled out of the loop above it
+//! another leg may gain.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;

@@ -82,8 +82,6 @@ pub fn weft_knit(name: &str, chart: &Chart, gauge: Gauge, length: Length) -> Sta
 pub fn weft_knit_piece(name: &str, chart: &Chart, gauge: Gauge, length: Length) -> Start {
     let mut start = weft_knit(name, chart, gauge, length);
     let last_course = start.yarns.len() - 1;
-    let foot = start.yarns[0].points[0].z;
-    let is_arc = |point: &DVec3| point.y == 0.0 && point.z == foot;
     let head = start.yarns[last_course].points.iter().map(|point| point.y).fold(0.0, f64::max);
     for (number, yarn) in start.yarns.iter_mut().enumerate() {
         let (from, width) = (yarn.points[0], DVec3::X * start.repeat[0]);
@@ -94,7 +92,7 @@ pub fn weft_knit_piece(name: &str, chart: &Chart, gauge: Gauge, length: Length) 
         let last = yarn.points.len() - 1;
         let pinned = yarn.points.iter().enumerate().filter(|(index, point)| {
             [0, 1, last - 1, last].contains(index)
-                || number == 0 && is_arc(point)
+                || number == 0 && point.y == 0.0
                 || number == last_course && point.y == head
         });
         start.pinned.extend(pinned.map(|(index, _)| (number, index)));
@@ -166,11 +164,14 @@ impl Cell<'_> {
             || self.chart.hanging(self.course, self.wale) == 0
     }
 
-    /// How much further back the feet are because of loops that lie one behind the other.
+    /// How much further back the feet are than behind one loop, because of others that lie between.
     fn behind(&self) -> f64 {
-        let knits = matches!(self.chart.stitch(self.course, self.wale), Stitch::Face | Stitch::Back);
-        let hanging = if knits { self.chart.hanging(self.course, self.wale) } else { 1 };
-        hanging.saturating_sub(1) as f64 * self.gauge.diameter
+        let loops = match self.chart.stitch(self.course, self.wale) {
+            Stitch::Face | Stitch::Back => self.chart.hanging(self.course, self.wale),
+            Stitch::Tuck => self.chart.fate(self.course, self.wale).layer,
+            Stitch::Miss => 0,
+        };
+        loops.saturating_sub(1) as f64 * self.gauge.diameter
     }
 
     /// z of its feet.
@@ -199,12 +200,15 @@ impl Cell<'_> {
             self.place(hand * across + way * fate.moved as f64 * wale, y * height, z)
         };
         let mut points = if self.is_arch() {
-            vec![at(0.38 * wale, 0.0, 0.2, own_z(-0.84)), at(0.38 * wale, 0.0, 0.45, next_z(0.98))]
+            let foot = self.place(hand * 0.31 * wale, 0.083 * height, self.foot());
+            vec![foot, at(0.25 * wale, 0.0, 0.4, next_z(0.98))]
         } else {
             let foot = at(0.19 * wale, 0.0, 0.083, own_z(-0.48) - own * self.behind());
-            let lower = at(narrow, 0.0, 0.285, own_z(0.41));
+            let lower = at(narrow, 0.1, 0.285, own_z(0.41));
             if own == next {
-                vec![foot, lower, at(0.25 * wale, 0.5, 0.5, next_z(0.98))]
+                // Of a loop that is moved, the leg on the side that it leaves has nothing in front of it.
+                let leaves = hand * (fate.moved as f64) < 0.0;
+                vec![foot, lower, at(0.25 * wale, 0.5, 0.5, if leaves { own_z(0.98) } else { next_z(0.98) })]
             } else {
                 // The leg goes through the plane of the cloth between what it came through and what comes through it.
                 vec![

@@ -21,7 +21,6 @@ mod woven;
 pub use chart::{Chart, Stitch};
 pub use check::{Place, Report, check};
 pub use linking::{CROSSED, Linking, linking, linking_integral};
-pub use list::starts;
 pub use list::{lace, random_misses, starts};
 pub use settle::{settle_start, settling_plan, yarns};
 pub use start::{Ends, Length, Start, StartYarn};

@@ -93,13 +93,21 @@ impl Interval {
         start[0].max(start[1]).max(end[0].max(end[1]))
     }
 
+    /// Its length between two places, by Gauss's rule of three places, mm.
+    #[must_use]
+    #[inline]
+    pub fn arc_between(&self, from: f32, to: f32) -> f32 {
+        let speed = |share: f32| self.velocity(from + (to - from) * share).length_squared().sqrt();
+        let mean = (speed(GAUSS[0]) + speed(GAUSS[2])) * (5.0 / 18.0) + speed(GAUSS[1]) * (8.0 / 18.0);
+        mean * (to - from)
+    }
+
     /// Its length by Gauss's rule of three places, mm, and the direction from its beginning to its end.
     #[must_use]
     #[inline]
     pub fn arc(&self) -> (f32, Vec3) {
         let [c1, c2, c3] = self.terms;
-        let speed = |u: f32| self.velocity(u).length_squared().sqrt();
-        let arc = (speed(GAUSS[0]) + speed(GAUSS[2])) * (5.0 / 18.0) + speed(GAUSS[1]) * (8.0 / 18.0);
+        let arc = self.arc_between(0.0, 1.0);
         let chord = c1 + c2 + c3;
         let length = chord.length_squared().sqrt();
         (arc, if length > 0.0 { chord * (1.0 / length) } else { Vec3::ZERO })

@@ -20,7 +20,7 @@ pub use error::SettlingError;
 pub use interval::{Interval, bends, weights};
 pub use neighbours::Listed;
 pub use pass::{
-    BEND, BEND_MARGIN, BEND_PLACES, BEND_RADIUS, CONTACT, Form, Gathered, INERTIA, Pass, Pull, SOFT_BEND,
+    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, CONTACT, Form, Gathered, INERTIA, Pass, Pull, SOFT_BEND,
     STRIDE, freed, moves,
 };
 pub use place::{COARSEST, FINEST, Place, REACH, Scale};

@@ -65,7 +65,8 @@ impl SettlingPlan {
             return false;
         }
         let strand = &self.strands()[yarn as usize];
-        let [one, other] = [one, other].map(|listed| self.ends_along(listed));
+        let [one, other] =
+            [one, other].map(|listed| self.along()[(self.chords()[listed.place] + listed.piece) as usize]);
         let window = (window / self.spans().along) as i32;
         let between = |end: u32, start: u32| (-2..window).contains(&(start.wrapping_sub(end) as i32));
         let here = image == [0, 0] && (between(one[1], other[0]) || between(other[1], one[0]));
@@ -75,14 +76,6 @@ impl SettlingPlan {
             ahead || (back && between(other[1], one[0].wrapping_add(strand.length)))
         });
         here || goes_on
-    }
-
-    /// How far along its yarn a chord begins and ends.
-    fn ends_along(&self, listed: Listed<'_>) -> [u32; 2] {
-        let count = listed.pieces as f32;
-        let length = self.lengths()[listed.place] / self.spans().along;
-        [listed.piece, listed.piece + 1]
-            .map(|piece| self.along()[listed.place].wrapping_add((length * (piece as f32 / count)) as u32))
     }
 
     /// The size of cells in which a chord's neighbours lie in its own cell or one beside it, mm, where no chord is longer than

@@ -53,8 +53,9 @@ pub const STRIDE: f32 = 0.6;
 /// What keeps a point where it is, against all that pulls at it in the block form.
 pub const INERTIA: f32 = 0.12;
 
-/// Where along an interval bends are looked at: with three places a yarn has 0.51 where 0.60 is claimed.
-pub const BEND_PLACES: [f32; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+/// Bends are looked at in so many equal parts of an interval, at the ends of all of them, and of all its chords where it has more:
+/// with three places a yarn has 0.51 where 0.60 is claimed.
+pub const BEND_PARTS: u32 = 8;
 
 /// What pulls at the control points of an interval.
 #[derive(Debug, Clone, Copy)]
@@ -138,8 +139,16 @@ impl Pull {
 
     /// Adds what the interval's own bends and length do.
     #[inline]
-    pub fn own(&mut self, plan: &SettlingPlan, pass: &Pass, tags: u32, interval: &Interval, length: f32) {
-        for u in BEND_PLACES {
+    pub fn own(
+        &mut self,
+        plan: &SettlingPlan,
+        pass: &Pass,
+        (tags, chords): (u32, u32),
+        interval: &Interval,
+        length: f32,
+    ) {
+        let parts = chords.max(BEND_PARTS);
+        for u in (0..=parts).map(|part| part as f32 / parts as f32) {
             let (velocity, acceleration) = (interval.velocity(u), interval.acceleration(u));
             let square = velocity.length_squared().max(1e-20);
             let across = acceleration - velocity * (acceleration.dot(velocity) / square);

@@ -111,7 +111,7 @@ pub struct SettlingPlan {
     yarns: Vec<u32>,
     chords: Vec<u32>,
     lengths: Vec<f32>,
-    along: Vec<u32>,
+    along: Vec<[u32; 2]>,
     places: Vec<Place>,
 }
 
@@ -161,7 +161,7 @@ impl SettlingPlan {
             yarns: vec![0; places as usize],
             chords: vec![0; places as usize + 1],
             lengths: vec![0.0; places as usize],
-            along: vec![0; places as usize],
+            along: Vec::new(),
             places: vec![Place::default(); places as usize],
         };
         plan.places = plan.padded(&points.iter().map(|point| scale.place(point)).collect::<Vec<_>>());
@@ -249,9 +249,9 @@ impl SettlingPlan {
         &self.lengths
     }
 
-    /// How far along its yarn each interval begins, in units of [`Spans::along`].
+    /// How far along its yarn each chord begins and ends, in units of [`Spans::along`]: as many as chords.
     #[must_use]
-    pub fn along(&self) -> &[u32] {
+    pub fn along(&self) -> &[[u32; 2]] {
         &self.along
     }
 
@@ -370,13 +370,21 @@ impl SettlingPlan {
         let longest = self.strands.iter().map(whole).fold(0.0, f64::max);
         let unit = (f64::from(thinnest) / 1024.0).max(longest / f64::from(1 << 29));
         self.spans.along = unit as f32;
-        for strand in &mut self.strands {
+        self.along = Vec::with_capacity(chords as usize);
+        let units = |length: f64| (length / unit).round() as u32;
+        for yarn in 0..self.strands.len() {
             let mut sum = 0.0;
-            for place in own(strand) {
-                self.along[place] = (sum / unit).round() as u32;
-                sum += f64::from(self.lengths[place]);
+            for place in own(&self.strands[yarn]) {
+                let interval = self.interval(&self.places, place);
+                let pieces = self.chords[place + 1] - self.chords[place];
+                for piece in 0..pieces {
+                    let [from, to] = [piece, piece + 1].map(|piece| piece as f32 / pieces as f32);
+                    let arc = f64::from(interval.arc_between(from, to) * factor);
+                    self.along.push([units(sum), units(sum + arc)]);
+                    sum += arc;
+                }
             }
-            strand.length = (sum / unit).round() as u32;
+            self.strands[yarn].length = units(sum);
         }
         Ok(())
     }

@@ -98,7 +98,8 @@ impl SerialSettler {
                 pull.meet(plan, pass, [self.listed(chord), self.listed(neighbour)]);
             }
         }
-        pull.own(plan, pass, plan.tags()[place], &self.intervals[place], self.lengths[place]);
+        let chords = plan.chords()[place + 1] - plan.chords()[place];
+        pull.own(plan, pass, (plan.tags()[place], chords), &self.intervals[place], self.lengths[place]);
         pull
     }
 }

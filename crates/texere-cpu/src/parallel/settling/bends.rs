@@ -1,7 +1,7 @@
 //! What an interval's own bends and length do, a vector of intervals at a time.
 
 use texere_core::{
-    BEND, BEND_MARGIN, BEND_PLACES, BEND_RADIUS, Form, Pass, Pull, SOFT_BEND, SettlingPlan, bends, tag,
+    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, Form, Pass, Pull, SOFT_BEND, SettlingPlan, bends, tag,
 };
 
 use super::curves::{Curve, acceleration, reach, velocity};
@@ -70,7 +70,7 @@ impl Own<'_> {
         let before = if BLOCK { slots::<S>(simd, pulls) } else { [[zero; 9]; 4] };
         let mut sums = before;
         let mut radius = simd.splat(f32::INFINITY);
-        for u in BEND_PLACES {
+        for u in (0..=BEND_PARTS).map(|part| part as f32 / BEND_PARTS as f32) {
             let weights = bends(u, plan.s());
             let sum = weights[0].abs() + weights[1].abs() + weights[2].abs() + weights[3].abs();
             let at = simd.splat(u);
@@ -161,9 +161,10 @@ impl Own<'_> {
         off.store(&mut offs);
         for (lane, (pull, made)) in pulls.iter_mut().zip(&made).enumerate() {
             let tags = self.plan.tags()[place + lane];
-            if tags & (tag::OPENS | tag::ENDS) != 0 {
-                // Its bends count otherwise: by the core's own function.
-                self.alone(place + lane, tags, pull);
+            let chords = self.plan.chords()[place + lane + 1] - self.plan.chords()[place + lane];
+            if tags & (tag::OPENS | tag::ENDS) != 0 || chords > BEND_PARTS {
+                // Its bends count otherwise, or are looked at in more places: by the core's own function.
+                self.alone(place + lane, (tags, chords), pull);
                 continue;
             }
             for (slot, made) in pull.slots.iter_mut().zip(made.slots) {
@@ -178,7 +179,7 @@ impl Own<'_> {
         }
     }
 
-    fn alone(&self, place: usize, tags: u32, pull: &mut PullRow) {
+    fn alone(&self, place: usize, tags: (u32, u32), pull: &mut PullRow) {
         let mut own = Pull::none();
         for (slot, row) in own.slots.iter_mut().zip(&pull.slots) {
             slot.copy_from_slice(&row.as_flattened()[..9]);

@@ -28,7 +28,17 @@ fn main() {
         });
         let took = begun.elapsed();
         let after = check(&start, &settled);
-        println!("{:?} {:?}", after.sharpest, { let y = &settled[after.sharpest.yarn]; let i = after.sharpest.interval; (0..5).map(|k| { let a = y[(i + k + y.len() - 2) % y.len()]; let b = y[(i + k + y.len() - 1) % y.len()]; ((a.distance(b)) * 100.0).round() / 100.0 }).collect::<Vec<_>>() });
+        println!("{:?} {:?}", after.sharpest, {
+            let y = &settled[after.sharpest.yarn];
+            let i = after.sharpest.interval;
+            (0..5)
+                .map(|k| {
+                    let a = y[(i + k + y.len() - 2) % y.len()];
+                    let b = y[(i + k + y.len() - 1) % y.len()];
+                    ((a.distance(b)) * 100.0).round() / 100.0
+                })
+                .collect::<Vec<_>>()
+        });
         let linked = linking(&start, &start.points(), &settled);
         println!(
             "{:18} {:.3}/{:.3} -> {:.3}/{:.3} seen {:.3}/{:.3}/{:.3} stretch {:+.3} growth {:+.3} thick {:.2} linking {:.2} {} passes {}+{} lists {} {:.2} s",

@@ -59,10 +59,10 @@ pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
 pub use session::{Session, Traffic};
 pub use settling::{
-    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BEYOND, COARSEST, CONTACT, Chord, Contact, FINEST, Form,
-    Gathered, INERTIA, Interval, Length, Listed, MARGIN, NEAR, OVERSHOOT, Pair, Pass, Place, Pull, REACH,
-    Rest, SKIN, SOFT_BEND, STRIDE, Scale, Seen, Settler, Settling, SettlingCounts, SettlingError,
-    SettlingPlan, Spans, Strand, bends, freed, moves, settle, settled, tag, weights,
+    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BEYOND, BLOCK_BEND, COARSEST, CONTACT, Chord, Contact,
+    FINEST, Form, Gathered, INERTIA, Interval, Length, Listed, MARGIN, NEAR, OVERSHOOT, Pair, Pass, Place,
+    Pull, REACH, Rest, SKIN, SOFT_BEND, STRIDE, Scale, Seen, Settler, Settling, SettlingCounts,
+    SettlingError, SettlingPlan, Spans, Strand, bends, freed, moves, settle, settled, tag, weights,
 };
 pub use spline::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};
 pub use topology::{End, SHARED_GAPS, Topology, index_pattern};

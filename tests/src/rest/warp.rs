@@ -24,6 +24,12 @@ const HEIGHT: f64 = 1.6 * COURSE;
 /// Half the distance of a loop's feet, mm.
 const FOOT: f64 = 0.14 * WALE;
 
+/// The length of an underlap's pieces, mm.
+const PIECE: f64 = 0.4 * WALE;
+
+/// How far behind its feet an underlap lies, in diameters.
+const UNDERLAP: f64 = 0.6;
+
 /// Wales of a repeat.
 const WALES: i32 = 4;
 
@@ -55,12 +61,15 @@ pub fn warp_knit(name: &str, lapping: Lapping<'_>) -> Start {
     let courses = COURSES.next_multiple_of(longest);
     let guides =
         chains.iter().enumerate().flat_map(|(bar, chain)| (0..WALES).map(move |guide| (bar, chain, guide)));
-    let yarns = guides.map(|(bar, chain, guide)| StartYarn {
-        points: (0..courses)
-            .flat_map(|course| loop_points(lapping, bar, course, guide, chain[course % chain.len()]))
-            .collect(),
-        radius: lapping.diameter / 2.0,
-        ends: Ends::Repeats([0, 1]),
+    let height = DVec3::new(0.0, courses as f64 * COURSE, 0.0);
+    let yarns = guides.map(|(bar, chain, guide)| {
+        let loops = (0..courses)
+            .flat_map(|course| loop_points(lapping, bar, course, guide, chain[course % chain.len()]));
+        StartYarn {
+            points: with_underlaps(&loops.collect::<Vec<_>>(), height, UNDERLAP * lapping.diameter),
+            radius: lapping.diameter / 2.0,
+            ends: Ends::Repeats([0, 1]),
+        }
     });
     Start {
         name: name.to_owned(),
@@ -69,6 +78,21 @@ pub fn warp_knit(name: &str, lapping: Lapping<'_>) -> Start {
         pinned: Vec::new(),
         length: Length::Held,
     }
+}
+
+/// Adds points to underlaps, so that none is much longer than a loop's other pieces: a spline turns sharply where a long piece
+/// follows a short one. They lie `behind` the feet, which other yarns of the same bar have between them. After the last point comes the
+/// first one, moved by `on`.
+fn with_underlaps(points: &[DVec3], on: DVec3, behind: f64) -> Vec<DVec3> {
+    let next = points[1..].iter().copied().chain([points[0] + on]);
+    let pieces = points.iter().zip(next).flat_map(|(&from, to)| {
+        let parts = (from.distance(to) / PIECE).round().max(1.0);
+        let at = move |part: usize| {
+            from.lerp(to, part as f64 / parts) - DVec3::Z * if part > 0 { behind } else { 0.0 }
+        };
+        (0..parts as usize).map(at)
+    });
+    pieces.collect()
 }
 
 /// Where a guide is before and after each lap.
@@ -96,7 +120,7 @@ fn loop_points(
     // Legs of either bar in front of heads of either, which takes more than the bars are apart.
     let (forward, tilt) = if last == 0 { (0.9, 0.0) } else { (1.0, 0.3) };
     let layer = 0.7 * front_most;
-    let behind = if last == 0 { 2.2 } else { 2.0 + 1.3 * (last - bar) as f64 };
+    let behind = if last == 0 { 2.2 } else { 2.0 + 1.8 * (last - bar) as f64 };
     // Loops of bars that lap alike would lie in one another.
     let beside = if last > 0 && bars.iter().all(|other| *other == bars[0]) { front_most } else { 0.0 };
 
@@ -111,8 +135,13 @@ fn loop_points(
             at(WALE / 4.0 + bulge * diameter, (HEIGHT + COURSE) / 2.0, -tilt),
         ]
     };
-    let foot =
-        |hand: f64, up: f64| place(middle + hand * FOOT + beside * diameter, up * slant * COURSE, -behind);
+    let foot = |hand: f64, up: f64| {
+        place(
+            middle + hand * (FOOT + front_most * diameter) + beside * diameter,
+            up * slant * COURSE,
+            -behind,
+        )
+    };
     let mut points = vec![foot(-side, -1.0)];
     points.extend(leg(-side));
     points.push(place(middle, HEIGHT, layer - forward));

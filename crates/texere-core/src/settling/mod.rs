@@ -20,8 +20,8 @@ pub use error::SettlingError;
 pub use interval::{Interval, bends, weights};
 pub use neighbours::Listed;
 pub use pass::{
-    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, CONTACT, Form, Gathered, INERTIA, Pass, Pull, SOFT_BEND,
-    STRIDE, freed, moves,
+    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, CONTACT, Form, Gathered, INERTIA, Pass, Pull,
+    SOFT_BEND, STRIDE, freed, moves,
 };
 pub use place::{COARSEST, FINEST, Place, REACH, Scale};
 pub use plan::{BEYOND, OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans, Strand, tag};

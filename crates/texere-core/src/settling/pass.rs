@@ -45,10 +45,13 @@ pub const SOFT_BEND: f32 = 0.02;
 pub const CONTACT: f32 = 1.12;
 
 /// How much bends count beside them.
-pub const BEND: f32 = 0.6;
+pub const BEND: f32 = 1.0;
 
 /// How far the exact places of a contact may lie from those on the chords, in chords.
 pub const STRIDE: f32 = 0.6;
+
+/// The same in the block form.
+pub const BLOCK_BEND: f32 = 5.0;
 
 /// What keeps a point where it is, against all that pulls at it in the block form.
 pub const INERTIA: f32 = 0.12;
@@ -170,7 +173,7 @@ impl Pull {
                     let (way, weight) = (way * -bend, bend.abs() / sum);
                     match pass.form {
                         Form::Weighted => add_weighted(slot, 4, way, weight),
-                        Form::Block => add_block(slot, way * BEND, towards, BEND * weight),
+                        Form::Block => add_block(slot, way * BLOCK_BEND, towards, BLOCK_BEND * weight),
                     }
                 }
             }

@@ -111,7 +111,7 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
             }
         }
         for _ in 0..passes {
-            let seen = self.pass(&Pass { form: Form::Block, growth: 1.0, ease: 0.0, momentum: 0.5 })?;
+            let seen = self.pass(&Pass { form: Form::Block, growth: 1.0, ease: 0.0, momentum: 0.8 })?;
             self.rest.block_passes += 1;
             if self.weigh(&seen)? {
                 break;

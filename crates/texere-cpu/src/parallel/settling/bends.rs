@@ -1,7 +1,7 @@
 //! What an interval's own bends and length do, a vector of intervals at a time.
 
 use texere_core::{
-    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, Form, Pass, Pull, SOFT_BEND, SettlingPlan, bends, tag,
+    BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, Form, Pass, Pull, SOFT_BEND, SettlingPlan, bends, tag,
 };
 
 use super::curves::{Curve, acceleration, reach, velocity};
@@ -96,7 +96,7 @@ impl Own<'_> {
                 let part = counts.select(part, zero);
                 let way = scale(way, simd.splat(-weight));
                 if BLOCK {
-                    let bend = simd.splat(BEND);
+                    let bend = simd.splat(BLOCK_BEND);
                     add_block(slot, scale(way, bend), towards, bend * part);
                 } else {
                     for (sum, add) in slot[..4].iter_mut().zip([way[0], way[1], way[2], part]) {

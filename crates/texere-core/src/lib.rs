@@ -32,7 +32,7 @@ mod ring;
 mod sampling;
 mod section;
 mod session;
-mod settling;
+pub mod settling;
 mod spline;
 mod topology;
 mod turn;
@@ -40,9 +40,11 @@ mod vertex;
 mod yarns;
 
 pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
-pub use boundary::Ends;
+pub use boundary::{Boundary, Ends};
 pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
-pub use error::{BackendError, PipelineError, PlanError, SectionError, SessionError, YarnError};
+pub use error::{
+    BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,
+};
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;
 pub use mesh::{Draw, Mesh, MeshMut, MeshPiece};
@@ -58,12 +60,7 @@ pub use ring::{Ring, Stance, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
 pub use session::{Session, Traffic};
-pub use settling::{
-    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BEYOND, BLOCK_BEND, COARSEST, CONTACT, Chord, Contact,
-    FINEST, Form, Gathered, INERTIA, Interval, Length, Listed, MARGIN, NEAR, OVERSHOOT, Pair, Pass, Place,
-    Pull, REACH, Rest, SKIN, SOFT_BEND, STRIDE, Scale, Seen, Settler, Settling, SettlingCounts,
-    SettlingError, SettlingPlan, Spans, Strand, bends, freed, moves, settle, settled, tag, weights,
-};
+pub use settling::{Settler, Settling, SettlingError, SettlingPlan, settle};
 pub use spline::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};
 pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};

@@ -1,7 +1,7 @@
 //! Which chords may be neighbours: those in cells side by side.
 
 use glam::IVec3;
-use texere_core::SettlingPlan;
+use texere_core::settling::SettlingPlan;
 
 /// Chords by cells of a grid over x and y.
 #[derive(Debug, Default)]

@@ -3,9 +3,8 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use texere_core::{
-    Backend, ControlPoint, Pass, Rest, Seen, Settling, SettlingPlan, Yarn, Yarns, settle, settled,
-};
+use texere_core::settling::{self, Pass, Rest, Seen, Settling, SettlingPlan, settle, settled};
+use texere_core::{Backend, Boundary, ControlPoint, Yarn, Yarns};
 
 use super::{Ends, Length, Start};
 
@@ -41,12 +40,13 @@ pub fn settling_plan(start: &Start) -> Arc<SettlingPlan> {
     let offsets = yarns.layout().offsets();
     let pinned = start.pinned.iter().map(|&(yarn, point)| offsets[yarn] + point as u64).collect();
     let length = match start.length {
-        Length::Held => texere_core::Length::Held,
-        Length::Given(factor) => texere_core::Length::Given(factor as f32),
-        Length::Free => texere_core::Length::Free { tension: 0.0 },
+        Length::Held => settling::Length::Held,
+        Length::Given(factor) => settling::Length::Given(factor as f32),
+        Length::Free => settling::Length::Free { tension: 0.0 },
     };
     let repeat = start.repeat.map(|repeat| repeat as f32);
-    let settling = Settling::new(&yarns).repeats(repeat, ends.collect()).pinned(pinned).length(length);
+    let boundary = Boundary::new(yarns.layout(), repeat, ends.collect()).expect("a start's boundary");
+    let settling = Settling::new(&yarns).boundary(boundary).pinned(pinned).length(length);
     Arc::new(SettlingPlan::new(&settling).expect("a start's plan"))
 }
 

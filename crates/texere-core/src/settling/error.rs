@@ -2,26 +2,15 @@
 
 use thiserror::Error;
 
+use crate::BoundaryError;
+
 /// A cloth that can't be settled as asked.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SettlingError {
-    /// A yarn's ends are not said, or those of one that is not there.
-    #[error("{ends} yarns have ends, but there are {yarns} yarns")]
-    EndsCount {
-        /// How many have ends.
-        ends: usize,
-        /// How many there are.
-        yarns: usize,
-    },
-    /// A repeat that is no length.
-    #[error("a repeat of {repeat} mm along {axis}: it has to be finite and not negative")]
-    Repeat {
-        /// `x` or `y`.
-        axis: char,
-        /// The length that was given.
-        repeat: f32,
-    },
+    /// A boundary that is not the yarns' own.
+    #[error(transparent)]
+    Boundary(#[from] BoundaryError),
     /// A repeat so short that a yarn could meet two images of another at once.
     #[error(
         "a repeat of {repeat} mm along {axis} is too short for yarns of {diameter} mm: copy it until it is {least} mm"
@@ -35,14 +24,6 @@ pub enum SettlingError {
         diameter: f32,
         /// The least length that is taken.
         least: f32,
-    },
-    /// A yarn that goes on where nothing repeats, or a closed one that goes on.
-    #[error("yarn {yarn} can't go on {shift:?} repeats away")]
-    Ends {
-        /// The yarn's number, from 0.
-        yarn: usize,
-        /// The repeats that it is said to go on in.
-        shift: [i32; 2],
     },
     /// A yarn with too few control points between its ends.
     #[error("yarn {yarn} has {points} control points, settling needs {least}")]

@@ -115,7 +115,7 @@ impl Interval {
 }
 
 /// Places of Gauss's rule on \[0, 1\]: 1/2 and 1/2 ± √0.15.
-const GAUSS: [f32; 3] = [0.112_701_67, 0.5, 0.887_298_35];
+pub const GAUSS: [f32; 3] = [0.112_701_67, 0.5, 0.887_298_35];
 
 /// What each of an interval's four control points counts at `u`: their sum is 1.
 #[must_use]

@@ -17,7 +17,7 @@ mod settler;
 
 pub use contact::{Chord, Contact, MARGIN, NEAR, Pair};
 pub use error::SettlingError;
-pub use interval::{Interval, bends, weights};
+pub use interval::{GAUSS, Interval, bends, weights};
 pub use neighbours::Listed;
 pub use pass::{
     BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, CONTACT, Form, Gathered, INERTIA, Pass, Pull,

@@ -3,8 +3,7 @@
 use glam::DVec3;
 
 use super::{COARSEST, Interval, Length, Place, Scale, Settling, SettlingError};
-use crate::boundary::Ends;
-use crate::{ControlPoint, NO_LENGTH};
+use crate::{ControlPoint, Ends, NO_LENGTH};
 
 /// Places that stand for those beyond a yarn's ends: one before it and two behind it.
 pub const BEYOND: [u64; 2] = [1, 2];
@@ -137,9 +136,9 @@ impl SettlingPlan {
         let places = layout.point_count() + yarns as u64 * (BEYOND[0] + BEYOND[1]);
         limited("places", places, u64::from(u32::MAX >> 1))?;
         let scale = scale(settling)?;
-        let period = settling.repeat.map(|repeat| scale.units(DVec3::splat(repeat.into())).x);
+        let period = settling.boundary.repeat().map(|repeat| scale.units(DVec3::splat(repeat.into())).x);
         let mut strands: Vec<Strand> = Vec::with_capacity(yarns);
-        for (yarn, &ends) in settling.ends.iter().enumerate() {
+        for (yarn, &ends) in settling.boundary.ends().iter().enumerate() {
             let (start, end) = (layout.offsets()[yarn], layout.offsets()[yarn + 1]);
             let first = (start + yarn as u64 * (BEYOND[0] + BEYOND[1]) + BEYOND[0]) as u32;
             strands.push(Strand { first, points: (end - start) as u32, ends, length: 0 });
@@ -167,7 +166,7 @@ impl SettlingPlan {
         plan.places = plan.padded(&points.iter().map(|point| scale.place(point)).collect::<Vec<_>>());
         plan.tag(&settling.pinned);
         plan.measure(settling.length)?;
-        plan.check_repeat(settling.repeat)?;
+        plan.check_repeat(settling.boundary.repeat())?;
         Ok(plan)
     }
 
@@ -428,23 +427,9 @@ fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
     if let Some(gap) = settling.plates {
         within("the gap between the plates", gap, 0.0, crate::COORDINATE_LIMIT)?;
     }
-    for (axis, repeat) in ['x', 'y'].into_iter().zip(settling.repeat) {
-        if !(0.0..=crate::COORDINATE_LIMIT).contains(&repeat) {
-            return Err(SettlingError::Repeat { axis, repeat });
-        }
-    }
-    let (ends, yarns) = (settling.ends.len(), layout.yarns().len());
-    if ends != yarns {
-        return Err(SettlingError::EndsCount { ends, yarns });
-    }
-    for (yarn, &ends) in settling.ends.iter().enumerate() {
+    settling.boundary.check(layout)?;
+    for (yarn, &ends) in settling.boundary.ends().iter().enumerate() {
         let points = layout.offsets()[yarn + 1] - layout.offsets()[yarn];
-        if let Ends::Repeats(shift) = ends {
-            let still = (0..2).any(|axis| shift[axis] != 0 && settling.repeat[axis] == 0.0);
-            if still || shift == [0, 0] || shift.iter().any(|repeats| repeats.abs() > 1024) {
-                return Err(SettlingError::Ends { yarn, shift });
-            }
-        }
         let least = if ends == Ends::Open { 2 } else { 3 };
         if points < least {
             return Err(SettlingError::TooFewPoints { yarn, points, least });
@@ -468,8 +453,8 @@ fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
     let origin = ((low + high) / 2.0).round().with_z(0.0);
     let thinnest = points.iter().map(|point| 2.0 * point.half_width().min(point.half_height()));
     let diameter = thinnest.fold(f32::INFINITY, f32::min);
-    let repeats = settling.repeat[0].max(settling.repeat[1]);
-    let extent = (high - origin).max(origin - low).max_element() as f32 + 2.0 * repeats;
+    let [x, y] = settling.boundary.repeat();
+    let extent = (high - origin).max(origin - low).max_element() as f32 + 2.0 * x.max(y);
     let room = 1.25 * extent + 64.0 * thickest(points);
     Scale::new(origin, room, diameter).ok_or(SettlingError::TooLarge { extent, diameter })
 }

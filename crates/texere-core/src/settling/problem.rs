@@ -1,7 +1,6 @@
 //! The problem: yarns, how they go on, and what is asked of their rest.
 
-use crate::boundary::Ends;
-use crate::{ControlPoint, Layout, Yarns};
+use crate::{Boundary, ControlPoint, Layout, Yarns};
 
 /// What settling does to the length of yarns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,8 +33,7 @@ pub enum Length {
 pub struct Settling<'a> {
     pub(crate) yarns: &'a Yarns,
     pub(crate) spline_tension: f32,
-    pub(crate) repeat: [f32; 2],
-    pub(crate) ends: Vec<Ends>,
+    pub(crate) boundary: Boundary,
     pub(crate) pinned: Vec<u64>,
     pub(crate) length: Length,
     pub(crate) plates: Option<f32>,
@@ -46,12 +44,10 @@ impl<'a> Settling<'a> {
     /// Yarns that lie free, keep their length and are not pressed.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
-        let ends = |closed| if closed { Ends::Closed } else { Ends::Open };
         Self {
             yarns,
             spline_tension: 0.0,
-            repeat: [0.0; 2],
-            ends: yarns.layout().yarns().iter().map(|yarn| ends(yarn.closed)).collect(),
+            boundary: Boundary::without_repeat(yarns.layout()),
             pinned: Vec::new(),
             length: Length::Held,
             plates: None,
@@ -66,10 +62,10 @@ impl<'a> Settling<'a> {
         self
     }
 
-    /// The cloth repeats every so many mm in x and in y, 0 for not at all; and how each yarn goes on at its ends.
+    /// How the cloth goes on at its edges: it may be a repeat in x, in y or in both.
     #[must_use]
-    pub fn repeats(mut self, repeat: [f32; 2], ends: Vec<Ends>) -> Self {
-        (self.repeat, self.ends) = (repeat, ends);
+    pub fn boundary(mut self, boundary: Boundary) -> Self {
+        self.boundary = boundary;
         self
     }
 

@@ -26,7 +26,7 @@ pub struct Seen {
 ///
 /// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
 pub trait Settler: Debug + Send {
-    /// Takes the places of all control points. They are at rest.
+    /// Takes the places of all control points. They have not moved yet, and lengths are the plan's.
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError>;
 
     /// Finds every chord's neighbours while yarns have `growth` of their thickness. Gives back how many there are in all.

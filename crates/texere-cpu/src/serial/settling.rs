@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use glam::{IVec3, Vec3};
-use texere_core::{
-    BackendError, Chord, Gathered, Interval, Length, Listed, Pass, Place, Pull, Seen, Settler, SettlingPlan,
-    freed, moves, tag,
+use texere_core::BackendError;
+use texere_core::settling::{
+    Chord, Gathered, Interval, Length, Listed, Pass, Place, Pull, Seen, Settler, SettlingPlan, freed, moves,
+    tag,
 };
 
 use crate::cells::Cells;
@@ -108,6 +109,7 @@ impl Settler for SerialSettler {
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
         self.places = self.plan.padded(places);
         self.steps.fill(Vec3::ZERO);
+        self.lengths.copy_from_slice(self.plan.lengths());
         Ok(())
     }
 

@@ -1,15 +1,13 @@
 //! What an interval's own bends and length do, a vector of intervals at a time.
 
-use texere_core::{
-    BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, Form, Pass, Pull, SOFT_BEND, SettlingPlan, bends, tag,
+use texere_core::settling::{
+    BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, Form, GAUSS, Interval, Pass, Pull, SOFT_BEND,
+    SettlingPlan, bends, tag,
 };
 
 use super::curves::{Curve, acceleration, reach, velocity};
 use super::tables::{Fixed, IntervalRow, PullRow};
 use crate::parallel::simd::{Floats, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
-
-/// Places of Gauss's rule on \[0, 1\], as in `Interval::arc`.
-const GAUSS: [f32; 3] = [0.112_701_67, 0.5, 0.887_298_35];
 
 /// Intervals whose own bends and lengths are worked out.
 #[derive(Debug, Clone, Copy)]
@@ -185,7 +183,7 @@ impl Own<'_> {
             slot.copy_from_slice(&row.as_flattened()[..9]);
         }
         let rows = &self.intervals[place].0;
-        let interval = texere_core::Interval::from_rows(rows);
+        let interval = Interval::from_rows(rows);
         own.own(self.plan, self.pass, tags, &interval, self.lengths[place]);
         for (slot, row) in own.slots.iter().zip(&mut pull.slots) {
             row.as_flattened_mut()[..9].copy_from_slice(slot);

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use texere_core::{CONTACT, Form, MARGIN, NEAR, Pass, STRIDE, SettlingPlan, tag};
+use texere_core::settling::{CONTACT, Form, MARGIN, NEAR, Pass, STRIDE, SettlingPlan, tag};
 
 use super::curves::{Curve, weights};
 use super::tables::{ChordRow, Fixed, IntervalRow, PullRow, rows};

@@ -2,7 +2,7 @@
 
 use glam::{IVec3, Vec3};
 use rayon::prelude::*;
-use texere_core::{Chord, Interval, Listed, SettlingPlan};
+use texere_core::settling::{Chord, Interval, Listed, SettlingPlan};
 
 use super::tables::{ChordRow, Fixed, IntervalRow};
 use crate::cells::Cells;

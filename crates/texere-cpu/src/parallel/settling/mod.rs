@@ -10,7 +10,8 @@ mod tables;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use texere_core::{BackendError, Length, Pass, Place, Seen, Settler, SettlingPlan, Strand, freed, tag};
+use texere_core::BackendError;
+use texere_core::settling::{Length, Pass, Place, Seen, Settler, SettlingPlan, Strand, freed, tag};
 
 use super::Parallel;
 use super::instruction_set::InstructionSet;
@@ -136,6 +137,7 @@ impl Settler for ParallelSettler {
         let padded = self.plan.padded(places);
         self.places[FRONT..][..padded.len()].copy_from_slice(&padded);
         self.steps.fill([0.0; 4]);
+        self.lengths[..padded.len()].copy_from_slice(self.plan.lengths());
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! The steps of control points, a vector of them at a time.
 
-use texere_core::{BEND, Form, INERTIA, Pass, Place, Seen, SettlingPlan, moves};
+use texere_core::settling::{BEND, Form, INERTIA, Pass, Place, Seen, SettlingPlan, moves};
 
 use super::tables::{FRONT, PullRow};
 use crate::parallel::simd::{Floats, Integers, LANES_MAX, Simd, difference, dot, plus, scale, select};

@@ -1,7 +1,7 @@
 //! What the lanes of a settling read: rows of four floats, so that a vector of them is four loads and a transposition.
 
 use bytemuck::{Pod, Zeroable};
-use texere_core::{Place, SettlingPlan, tag};
+use texere_core::settling::{Place, SettlingPlan, tag};
 
 use crate::parallel::simd::{Floats, Integers, Job, LANES_MAX, Simd, difference, plus, scale};
 

@@ -52,7 +52,7 @@ const SHORT: f32 = 1e-20;
 const PARALLEL: f32 = 1e-6;
 
 fn share(value: f32) -> f32 {
-    value.max(0.0).min(1.0)
+    value.clamp(0.0, 1.0)
 }
 
 /// How much further than where they touch two yarns may be from one another for their nearest places to be worked out.

@@ -247,7 +247,7 @@ impl Gathered<'_> {
             Form::Weighted => {
                 let [cx, cy, cz, contacts, bx, by, bz, bends, _] = sums;
                 // Yarns that are about to cross obey contact alone.
-                let apart = ((near / (diameter * pass.growth) - 0.3) * 2.5).max(0.0).min(1.0);
+                let apart = ((near / (diameter * pass.growth) - 0.3) * 2.5).clamp(0.0, 1.0);
                 let bend = Vec3::new(bx, by, bz) * (BEND / bends.max(0.3));
                 let mut others = bend + (pulls[1].length - pulls[2].length) + on;
                 others.z += press;

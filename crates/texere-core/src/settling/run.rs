@@ -179,7 +179,7 @@ fn weighted(number: u32, passes: u32) -> Pass {
     let step = (number / STEP_PASSES).min(STEPS);
     let growth = THIN + (1.0 - THIN) * (step as f32 / STEPS as f32);
     let share = number.saturating_sub(GROWING) as f32 / passes as f32;
-    let ease = ((EASES[1] - share) / (EASES[1] - EASES[0])).max(0.0).min(1.0);
+    let ease = ((EASES[1] - share) / (EASES[1] - EASES[0])).clamp(0.0, 1.0);
     Pass { form: Form::Weighted, growth, ease, momentum: 0.8 }
 }
 

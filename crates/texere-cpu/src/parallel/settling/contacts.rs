@@ -134,7 +134,7 @@ impl Source<'_> {
                 }
             }
             let curves = [0, 1].map(|side| Curve::<S>::new(simd, self.intervals, &owners[side]));
-            let way = frame.to_image(difference_of(curves[0].start, curves[1].start), image);
+            let way = frame.moved(difference_of(curves[0].start, curves[1].start), image);
             let way = way.map(|units| units.signed_to_floats() * unit);
             let mut at = [simd.splat(0.0); 2];
             let mut stride = at;
@@ -148,8 +148,7 @@ impl Source<'_> {
             }
             let contact = refined(simd, &curves, way, at, stride);
             let touches = Touches::new::<S, FLATTENED>(simd, &curves, &contact, self);
-            for lane in 0..S::LANES.min(pairs - k) {
-                let owner = owners[0][lane];
+            for (lane, &owner) in owners[0][..S::LANES.min(pairs - k)].iter().enumerate() {
                 touches.add(
                     lane,
                     self.pass.form,
@@ -224,11 +223,11 @@ impl<S: Simd> Images<S> {
         }
         let half = self.simd.splat(0.5);
         let image = [0, 1].map(|axis| (way[axis].signed_to_floats() * self.frequency[axis] + half).floor());
-        (self.to_image(way, image), image)
+        (self.moved(way, image), image)
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn to_image(&self, way: [S::Integers; 3], image: [S::Floats; 2]) -> [S::Integers; 3] {
+    fn moved(&self, way: [S::Integers; 3], image: [S::Floats; 2]) -> [S::Integers; 3] {
         if !self.any {
             return way;
         }
@@ -335,8 +334,8 @@ impl Touches {
             direction[axis].store(&mut touches.direction[axis]);
             back[axis].store(&mut touches.back[axis]);
         }
-        for slot in 0..4 {
-            weights[slot].store(&mut touches.weights[slot]);
+        for (weights, to) in weights.into_iter().zip(&mut touches.weights) {
+            weights.store(to);
         }
         touches
     }

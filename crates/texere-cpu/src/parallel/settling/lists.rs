@@ -13,7 +13,7 @@ const TASK: usize = 1024;
 /// Every chord's neighbours, in the order of their numbers.
 #[derive(Debug, Default)]
 pub(super) struct Lists {
-    /// Where each chord's begin, and the end of the last one's.
+    /// Where each chord's neighbours begin, and the end of the last one's.
     pub(super) starts: Vec<u32>,
     pub(super) neighbours: Vec<u32>,
     cells: Cells,
@@ -41,24 +41,21 @@ impl Lists {
         let middles: Vec<IVec3> =
             (0..count).into_par_iter().map(|number| chord(number).middle(scale)).collect();
         self.cells.fill(plan, &middles, (plan.cell(growth, longest) / scale.unit()).ceil() as i32);
+        let known = |number: u32| {
+            let place = fixed.owners[number as usize] as usize;
+            (chord(number), place, Interval::from_rows(&intervals[place].0))
+        };
         let cells = &self.cells;
         let tasks = (0..chords.len().div_ceil(TASK)).into_par_iter().map(|task| {
             let (mut counts, mut neighbours, mut beside) = (Vec::new(), Vec::new(), Vec::new());
-            for number in task * TASK..((task + 1) * TASK).min(chords.len()) {
-                let place = fixed.owners[number] as usize;
-                let (own, interval) = (chord(number as u32), Interval::from_rows(&intervals[place].0));
-                let pieces = plan.chords()[place + 1] - plan.chords()[place];
-                let piece = number as u32 - plan.chords()[place];
-                let one = Listed { chord: &own, interval: &interval, place, piece, pieces };
+            for (number, middle) in (0..).zip(&middles).skip(task * TASK).take(TASK) {
+                let (own, place, interval) = known(number);
+                let one = listed(plan, &own, place, &interval, number);
                 let before = neighbours.len();
-                cells.beside(plan, middles[number], &mut beside);
-                for &other in &beside {
-                    let place = fixed.owners[other as usize] as usize;
-                    let (own, interval) = (chord(other), Interval::from_rows(&intervals[place].0));
-                    let pieces = plan.chords()[place + 1] - plan.chords()[place];
-                    let piece = other - plan.chords()[place];
-                    let there = Listed { chord: &own, interval: &interval, place, piece, pieces };
-                    if other as usize != number && plan.are_neighbours(one, there, growth) {
+                cells.beside(plan, *middle, &mut beside);
+                for &other in beside.iter().filter(|other| **other != number) {
+                    let (own, place, interval) = known(other);
+                    if plan.are_neighbours(one, listed(plan, &own, place, &interval, other), growth) {
                         neighbours.push(other);
                     }
                 }
@@ -80,4 +77,16 @@ impl Lists {
         self.starts.push(start);
         u64::from(start)
     }
+}
+
+/// A chord of the interval at `place`, by its number.
+fn listed<'a>(
+    plan: &SettlingPlan,
+    chord: &'a Chord,
+    place: usize,
+    interval: &'a Interval,
+    number: u32,
+) -> Listed<'a> {
+    let own = &plan.chords()[place..place + 2];
+    Listed { chord, interval, place, piece: number - own[0], pieces: own[1] - own[0] }
 }

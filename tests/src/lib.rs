@@ -4,6 +4,8 @@
 //! oracle](oracle) that shares no geometry with the core, and with the gold reference, the serial CPU backend. [`compare`]
 //! has the tolerances; the broken backends of [`Sabotage`] show that the comparison can fail.
 //!
+//! [`rest`] has starts for cloth that settles, and a check of how it came to rest.
+//!
 //! A session's times, and the bytes that an edit moves, are checked on each device too. A backend from elsewhere runs the
 //! whole suite with one line: see [`run`].
 
@@ -16,6 +18,7 @@ pub mod limits;
 pub mod oracle;
 mod poison;
 mod registry;
+pub mod rest;
 mod sabotage;
 pub mod schedule;
 mod sessions;

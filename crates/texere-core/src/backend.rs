@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::{BackendError, Engine, Limits, Plan};
+use crate::{BackendError, Engine, Limits, Plan, Settler, SettlingPlan};
 
 /// What kind of machine a device is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -89,6 +89,15 @@ pub trait Backend: fmt::Debug + Send + Sync {
     ///
     /// **Errors**: [`BackendError`] where memory, the device or the schedule does not allow it.
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError>;
+
+    /// Opens a settler for a plan. It owns all the device memory that the work needs.
+    ///
+    /// **Errors**: [`BackendError::NoSettling`] where the backend has none, and other ones where memory or the device does
+    /// not allow it.
+    fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
+        let _ = plan;
+        Err(BackendError::NoSettling { name: self.info().name.clone() })
+    }
 }
 
 const _: () = {

@@ -17,6 +17,7 @@
 //! This crate does no I/O, knows no GPU and holds no unsafe code.
 
 mod backend;
+mod boundary;
 mod engine;
 mod error;
 mod frame;
@@ -31,6 +32,7 @@ mod ring;
 mod sampling;
 mod section;
 mod session;
+pub mod settling;
 mod spline;
 mod topology;
 mod turn;
@@ -38,8 +40,11 @@ mod vertex;
 mod yarns;
 
 pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
+pub use boundary::{Boundary, Ends};
 pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
-pub use error::{BackendError, PipelineError, PlanError, SectionError, SessionError, YarnError};
+pub use error::{
+    BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,
+};
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;
 pub use mesh::{Draw, Mesh, MeshMut, MeshPiece};
@@ -55,6 +60,7 @@ pub use ring::{Ring, Stance, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
 pub use session::{Session, Traffic};
+pub use settling::{Settler, Settling, SettlingError, SettlingPlan, settle};
 pub use spline::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};
 pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};

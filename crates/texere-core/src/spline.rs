@@ -147,7 +147,7 @@ impl Segment {
 /// What goes with t, t² and t³ between a point and the next, at `b` from it, with the one before at `a` and the one after
 /// next at `c`.
 #[inline]
-fn coefficients<T>(a: T, b: T, c: T, s: f32) -> [T; 3]
+pub(crate) fn coefficients<T>(a: T, b: T, c: T, s: f32) -> [T; 3]
 where
     T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f32, Output = T>,
 {

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule};
+use texere_core::{
+    Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule, Settler, SettlingPlan,
+};
 
 use crate::engine::CpuEngine;
-use crate::parallel::Parallel;
-use crate::serial::Serial;
+use crate::parallel::{Parallel, ParallelSettler};
+use crate::serial::{Serial, SerialSettler};
 
 /// One thread, one yarn after the other: the reference.
 #[derive(Debug)]
@@ -96,6 +98,10 @@ impl Backend for SerialBackend {
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
         Ok(Box::new(CpuEngine::new(Serial, plan)?))
     }
+
+    fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
+        Ok(Box::new(SerialSettler::new(plan)))
+    }
 }
 
 impl Backend for ParallelBackend {
@@ -105,5 +111,9 @@ impl Backend for ParallelBackend {
 
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
         Ok(Box::new(CpuEngine::new(self.parallel, plan)?))
+    }
+
+    fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
+        Ok(Box::new(ParallelSettler::new(self.parallel, plan)))
     }
 }

@@ -18,6 +18,7 @@
 
 mod backend;
 mod caps;
+mod cells;
 mod engine;
 mod pages;
 mod parallel;

@@ -7,12 +7,12 @@ use std::arch::x86_64::{
     _mm256_blendv_ps, _mm256_castps_si256, _mm256_castps256_ps128, _mm256_castsi256_ps, _mm256_cmp_ps,
     _mm256_cmpeq_epi32, _mm256_cvtepi32_ps, _mm256_cvtsi256_si32, _mm256_cvttps_epi32, _mm256_div_ps,
     _mm256_extractf128_ps, _mm256_floor_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_max_ps,
-    _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permute2f128_ps, _mm256_permute2x128_si256,
-    _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps, _mm256_set_m128, _mm256_set1_epi32,
-    _mm256_set1_ps, _mm256_setzero_ps, _mm256_setzero_si256, _mm256_shuffle_epi32, _mm256_shuffle_ps,
-    _mm256_slli_epi32, _mm256_slli_si256, _mm256_sqrt_ps, _mm256_srai_epi32, _mm256_srli_epi32,
-    _mm256_storeu_ps, _mm256_storeu_si256, _mm256_stream_ps, _mm256_stream_si256, _mm256_sub_epi32,
-    _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps, _mm256_xor_ps,
+    _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_mullo_epi32, _mm256_permute2f128_ps,
+    _mm256_permute2x128_si256, _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps, _mm256_set_m128,
+    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setzero_ps, _mm256_setzero_si256, _mm256_shuffle_epi32,
+    _mm256_shuffle_ps, _mm256_slli_epi32, _mm256_slli_si256, _mm256_sqrt_ps, _mm256_srai_epi32,
+    _mm256_srli_epi32, _mm256_storeu_ps, _mm256_storeu_si256, _mm256_stream_ps, _mm256_stream_si256,
+    _mm256_sub_epi32, _mm256_sub_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps, _mm256_xor_ps,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -358,6 +358,12 @@ impl Integers for U32x8 {
     fn shift_left<const BY: i32>(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm256_slli_epi32::<BY>(self.0) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn times(self, factor: u32) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm256_mullo_epi32(self.0, _mm256_set1_epi32(factor.cast_signed())) })
     }
 
     #[cfg_attr(optimized, inline(always))]

@@ -7,12 +7,12 @@ use std::arch::x86_64::{
     _mm512_castps_si512, _mm512_castps512_ps256, _mm512_castsi512_ps, _mm512_cmp_ps_mask, _mm512_cvtepi32_ps,
     _mm512_cvtsi512_si32, _mm512_cvttps_epi32, _mm512_div_ps, _mm512_extractf32x4_ps, _mm512_extractf32x8_ps,
     _mm512_loadu_ps, _mm512_loadu_si512, _mm512_mask_blend_ps, _mm512_maskz_mov_epi32, _mm512_max_ps,
-    _mm512_min_ps, _mm512_mul_ps, _mm512_permutex2var_ps, _mm512_permutexvar_epi32, _mm512_permutexvar_ps,
-    _mm512_roundscale_ps, _mm512_set1_epi32, _mm512_set1_ps, _mm512_setr_epi32, _mm512_setzero_ps,
-    _mm512_setzero_si512, _mm512_shuffle_f32x4, _mm512_shuffle_ps, _mm512_sllv_epi32, _mm512_sqrt_ps,
-    _mm512_srav_epi32, _mm512_srlv_epi32, _mm512_storeu_ps, _mm512_storeu_si512, _mm512_stream_ps,
-    _mm512_stream_si512, _mm512_sub_epi32, _mm512_sub_ps, _mm512_test_epi32_mask, _mm512_unpackhi_ps,
-    _mm512_unpacklo_ps, _mm512_xor_si512,
+    _mm512_min_ps, _mm512_mul_ps, _mm512_mullo_epi32, _mm512_permutex2var_ps, _mm512_permutexvar_epi32,
+    _mm512_permutexvar_ps, _mm512_roundscale_ps, _mm512_set1_epi32, _mm512_set1_ps, _mm512_setr_epi32,
+    _mm512_setzero_ps, _mm512_setzero_si512, _mm512_shuffle_f32x4, _mm512_shuffle_ps, _mm512_sllv_epi32,
+    _mm512_sqrt_ps, _mm512_srav_epi32, _mm512_srlv_epi32, _mm512_storeu_ps, _mm512_storeu_si512,
+    _mm512_stream_ps, _mm512_stream_si512, _mm512_sub_epi32, _mm512_sub_ps, _mm512_test_epi32_mask,
+    _mm512_unpackhi_ps, _mm512_unpacklo_ps, _mm512_xor_si512,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -366,6 +366,12 @@ impl Integers for U32x16 {
     fn shift_left<const BY: i32>(self) -> Self {
         // SAFETY: no pointers.
         Self(unsafe { _mm512_sllv_epi32(self.0, _mm512_set1_epi32(BY)) })
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn times(self, factor: u32) -> Self {
+        // SAFETY: no pointers.
+        Self(unsafe { _mm512_mullo_epi32(self.0, _mm512_set1_epi32(factor.cast_signed())) })
     }
 
     #[cfg_attr(optimized, inline(always))]

@@ -11,6 +11,8 @@ mod portable;
 mod rings;
 mod runs;
 mod scan;
+mod settling;
+
 mod simd;
 mod spline;
 mod stances;
@@ -31,6 +33,7 @@ use instruction_set::InstructionSet;
 use lines::{IndexLines, IndexTable, Lines, VertexLines};
 use rings::{Rings, Source, Stretch, Walk};
 use runs::{MeshRun, RingRun, mesh_runs, ring_runs, take};
+pub(crate) use settling::ParallelSettler;
 use simd::{Job, LANES_MAX, LINE, Line, Simd};
 use spline::Seats;
 use tiles::TileLines;

@@ -261,6 +261,11 @@ impl Integers for U32x4 {
     }
 
     #[cfg_attr(optimized, inline(always))]
+    fn times(self, factor: u32) -> Self {
+        Self(each(|lane| self.0[lane].wrapping_mul(factor)))
+    }
+
+    #[cfg_attr(optimized, inline(always))]
     fn shift_right<const BY: i32>(self) -> Self {
         Self(each(|lane| self.0[lane] >> BY))
     }

@@ -172,6 +172,9 @@ pub(super) trait Integers: Copy + Debug + Add<Output = Self> + Sub<Output = Self
     /// `self << BY`
     fn shift_left<const BY: i32>(self) -> Self;
 
+    /// `self * factor`, the lowest 32 bits of it.
+    fn times(self, factor: u32) -> Self;
+
     /// `self >> BY`
     fn shift_right<const BY: i32>(self) -> Self;
 

@@ -2,7 +2,10 @@
 
 mod mesh;
 mod scan;
+mod settling;
 mod trajectory;
+
+pub(crate) use settling::SerialSettler;
 
 use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan, Ring};
 

@@ -1,0 +1,76 @@
+//! What may be wrong with a problem.
+
+use thiserror::Error;
+
+use crate::BoundaryError;
+
+/// A cloth that can't be settled as asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SettlingError {
+    /// A boundary that is not the yarns' own.
+    #[error(transparent)]
+    Boundary(#[from] BoundaryError),
+    /// A repeat so short that a yarn could meet two images of another at once.
+    #[error(
+        "a repeat of {repeat} mm along {axis} is too short for yarns of {diameter} mm: copy it until it is {least} mm"
+    )]
+    ShortRepeat {
+        /// `x` or `y`.
+        axis: char,
+        /// The length that was given.
+        repeat: f32,
+        /// The thickest yarn's diameter.
+        diameter: f32,
+        /// The least length that is taken.
+        least: f32,
+    },
+    /// A yarn with too few control points between its ends.
+    #[error("yarn {yarn} has {points} control points, settling needs {least}")]
+    TooFewPoints {
+        /// The yarn's number, from 0.
+        yarn: usize,
+        /// Its control points.
+        points: u64,
+        /// The least that are taken.
+        least: u64,
+    },
+    /// A cloth too large for its thinnest yarn: places would be too coarse.
+    #[error("a cloth of {extent} mm is too large to settle with yarns of {diameter} mm")]
+    TooLarge {
+        /// From its middle to its furthest point, mm.
+        extent: f32,
+        /// The thinnest yarn's diameter, mm.
+        diameter: f32,
+    },
+    /// More than can be counted.
+    #[error("{count} {what} are more than {limit}")]
+    TooMany {
+        /// What.
+        what: &'static str,
+        /// How many.
+        count: u64,
+        /// How many are taken at most.
+        limit: u64,
+    },
+    /// A setting that is out of its range.
+    #[error("{setting} is {value}, not between {low} and {high}")]
+    Setting {
+        /// Its name.
+        setting: &'static str,
+        /// What was given.
+        value: f32,
+        /// The least that is taken.
+        low: f32,
+        /// The most that is taken.
+        high: f32,
+    },
+    /// A pinned control point that is not there.
+    #[error("control point {point} can't be pinned, there are {points}")]
+    Pinned {
+        /// The point's number, from 0.
+        point: u64,
+        /// How many there are.
+        points: u64,
+    },
+}

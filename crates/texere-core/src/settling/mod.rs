@@ -1,0 +1,30 @@
+//! Settling: yarns come to rest. Control points move until yarns nowhere pierce one another, nowhere fold, and have the length
+//! that is asked for.
+//!
+//! A [`Settling`] says what is asked, a [`SettlingPlan`] works out every table, a [`Settler`] does the passes on a device, and
+//! [`settle`] leads it. The definitions that all devices agree on are here: [`Interval`], [`Chord`], [`Pair`], [`Pull`].
+
+mod contact;
+mod error;
+mod interval;
+mod neighbours;
+mod pass;
+mod place;
+mod plan;
+mod problem;
+mod run;
+mod settler;
+
+pub use contact::{Chord, Contact, MARGIN, NEAR, Pair};
+pub use error::SettlingError;
+pub use interval::{GAUSS, Interval, bends, weights};
+pub use neighbours::Listed;
+pub use pass::{
+    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, CONTACT, Form, Gathered, INERTIA, Pass, Pull,
+    SOFT_BEND, STRIDE, freed, moves,
+};
+pub use place::{COARSEST, FINEST, Place, REACH, Scale};
+pub use plan::{BEYOND, OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans, Strand, tag};
+pub use problem::{Length, Settling};
+pub use run::{Rest, settle, settled};
+pub use settler::{Seen, Settler};

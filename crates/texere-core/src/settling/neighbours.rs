@@ -1,0 +1,88 @@
+//! Which chords are neighbours. Each chord's neighbours are listed in the order of their numbers, so that the way in which they
+//! were found does not matter.
+
+use std::f32::consts::FRAC_PI_2;
+
+use glam::IVec3;
+
+use super::plan::{SKIN, SettlingPlan};
+use super::{Chord, Interval, MARGIN};
+
+/// A chord, its interval and its place.
+#[derive(Debug, Clone, Copy)]
+pub struct Listed<'a> {
+    /// The chord.
+    pub chord: &'a Chord,
+    /// Its interval.
+    pub interval: &'a Interval,
+    /// The interval's place.
+    pub place: usize,
+    /// Which of the interval's chords it is, and how many there are.
+    pub piece: u32,
+    /// How many chords the interval has.
+    pub pieces: u32,
+}
+
+impl SettlingPlan {
+    /// Which image of a chord lies nearest to another one that begins `way` units before it: how many repeats away.
+    #[must_use]
+    #[inline]
+    pub fn image(&self, way: IVec3) -> [i32; 2] {
+        let inverse = self.frequency();
+        [0, 1].map(|axis| -((way[axis] as f32 * inverse[axis] + 0.5).floor() as i32))
+    }
+
+    /// A way of so many units to something, to the image of that so many repeats away.
+    #[must_use]
+    #[inline]
+    pub fn to_image(&self, way: IVec3, image: [i32; 2]) -> IVec3 {
+        let [x, y] = self.period();
+        IVec3::new(
+            way.x.wrapping_add(image[0].wrapping_mul(x)),
+            way.y.wrapping_add(image[1].wrapping_mul(y)),
+            way.z,
+        )
+    }
+
+    /// Whether two chords are neighbours while yarns have `growth` of their thickness: near one another, and not so close along
+    /// the same yarn that they can't be clear of one another.
+    #[must_use]
+    pub fn are_neighbours(&self, one: Listed<'_>, other: Listed<'_>, growth: f32) -> bool {
+        let way = other.chord.at.wrapping_sub(one.chord.at);
+        let image = self.image(way);
+        let between = self.scale().length(self.to_image(way, image));
+        let shares = one.chord.nearest(other.chord, between);
+        let gap = between + other.chord.span * shares[1] - one.chord.span * shares[0];
+        let thickness = one.interval.thickest() + other.interval.thickest();
+        let within = MARGIN * growth * thickness + SKIN * self.spans().diameter;
+        gap.length_squared() < within * within && !self.leads_on(one, other, image, FRAC_PI_2 * thickness)
+    }
+
+    /// Whether two chords lie so close along one yarn that less than `window` mm are between them.
+    fn leads_on(&self, one: Listed<'_>, other: Listed<'_>, image: [i32; 2], window: f32) -> bool {
+        let yarn = self.yarns()[one.place];
+        if yarn != self.yarns()[other.place] {
+            return false;
+        }
+        let strand = &self.strands()[yarn as usize];
+        let [one, other] =
+            [one, other].map(|listed| self.along()[(self.chords()[listed.place] + listed.piece) as usize]);
+        let window = (window / self.spans().along) as i32;
+        let between = |end: u32, start: u32| (-2..window).contains(&(start.wrapping_sub(end) as i32));
+        let here = image == [0, 0] && (between(one[1], other[0]) || between(other[1], one[0]));
+        let goes_on = strand.shift().is_some_and(|shift| {
+            let ahead = image == shift && between(one[1], other[0].wrapping_add(strand.length));
+            let back = image == shift.map(|repeats| -repeats);
+            ahead || (back && between(other[1], one[0].wrapping_add(strand.length)))
+        });
+        here || goes_on
+    }
+
+    /// The size of cells in which a chord's neighbours lie in its own cell or one beside it, mm, where no chord is longer than
+    /// `longest`.
+    #[must_use]
+    pub fn cell(&self, growth: f32, longest: f32) -> f32 {
+        let spans = self.spans();
+        1.001 * (2.0 * MARGIN * growth * spans.thickest + SKIN * spans.diameter + longest)
+    }
+}

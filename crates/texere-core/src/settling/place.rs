@@ -1,0 +1,117 @@
+//! Places of control points that settle: whole numbers, so that a cloth ten metres out rests as one at the origin does.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, IVec3, Vec3};
+
+use crate::{ControlPoint, Halves};
+
+/// A control point that settles.
+///
+/// Coordinates are whole multiples of a [`Scale`]'s unit. The difference of two is exact however far they lie from the origin,
+/// and a cloth that is moved by whole units rests in the same bits.
+///
+/// **Shape**: three `i32` and two half floats, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct Place {
+    /// x, y and z, units from the scale's origin.
+    pub at: [i32; 3],
+    /// Half the yarn's width and half its height.
+    pub halves: Halves,
+}
+
+impl Place {
+    /// The coordinates as a vector of units.
+    #[must_use]
+    #[inline]
+    pub const fn units(&self) -> IVec3 {
+        IVec3::from_array(self.at)
+    }
+
+    /// The same place, moved by `units`.
+    #[must_use]
+    #[inline]
+    pub fn moved(self, units: IVec3) -> Self {
+        Self { at: (self.units().wrapping_add(units)).to_array(), ..self }
+    }
+
+    /// `2 self - other`: the virtual end of an open yarn (the paper's equations 3 and 4). It is as thick as `self`.
+    #[must_use]
+    #[inline]
+    pub fn reflected(self, other: Self) -> Self {
+        self.moved(self.units().wrapping_sub(other.units()))
+    }
+}
+
+/// What a unit of places is, and where they are counted from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    unit: f32,
+    origin: DVec3,
+}
+
+/// Units are no finer than this share of the thinnest yarn's diameter: a millionth.
+pub const FINEST: f32 = 1.0 / (1 << 20) as f32;
+
+/// Nor may they be coarser than this one, which leaves 262,000 diameters either way.
+pub const COARSEST: f32 = 1.0 / (1 << 12) as f32;
+
+/// How many units a place may lie from the origin.
+pub const REACH: f32 = (1 << 30) as f32;
+
+impl Scale {
+    /// The finest scale for places up to `extent` mm from `origin`, on yarns of which the thinnest is `diameter` mm thick: its
+    /// unit is a power of two. None where that is coarser than [`COARSEST`] of the diameter.
+    #[must_use]
+    pub fn new(origin: DVec3, extent: f32, diameter: f32) -> Option<Self> {
+        let power = |least: f32| least.log2().ceil().exp2();
+        let unit = power(extent / REACH).max(power(diameter * FINEST));
+        (unit <= diameter * COARSEST).then_some(Self { unit, origin })
+    }
+
+    /// A unit's length, mm: a power of two.
+    #[must_use]
+    pub const fn unit(&self) -> f32 {
+        self.unit
+    }
+
+    /// Where places are counted from, mm.
+    #[must_use]
+    pub const fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// The place of a control point.
+    #[must_use]
+    pub fn place(&self, point: &ControlPoint) -> Place {
+        Place { at: self.units(point.position().as_dvec3() - self.origin).to_array(), halves: point.halves }
+    }
+
+    /// The control point at a place.
+    #[must_use]
+    pub fn point(&self, place: &Place) -> ControlPoint {
+        let at = (self.origin + place.units().as_dvec3() * f64::from(self.unit)).as_vec3();
+        ControlPoint { x: at.x, y: at.y, z: at.z, halves: place.halves }
+    }
+
+    /// A way of so many mm, in units.
+    #[must_use]
+    pub fn units(&self, way: DVec3) -> IVec3 {
+        (way / f64::from(self.unit)).round().as_ivec3()
+    }
+
+    /// The step that a place takes for `step` mm, units.
+    #[must_use]
+    #[inline]
+    pub fn step(&self, step: Vec3) -> IVec3 {
+        let units = step * (1.0 / self.unit);
+        IVec3::from_array(units.to_array().map(|units| (units + 0.5).floor() as i32))
+    }
+
+    /// A way of so many units, mm.
+    #[must_use]
+    #[inline]
+    pub fn length(&self, units: IVec3) -> Vec3 {
+        units.as_vec3() * self.unit
+    }
+}

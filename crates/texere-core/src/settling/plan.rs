@@ -1,0 +1,471 @@
+//! The plan: every count and table of a settling, made on the host before anything is launched.
+
+use glam::DVec3;
+
+use super::{COARSEST, Interval, Length, Place, Scale, Settling, SettlingError};
+use crate::{ControlPoint, Ends, NO_LENGTH};
+
+/// Places that stand for those beyond a yarn's ends: one before it and two behind it.
+pub const BEYOND: [u64; 2] = [1, 2];
+
+/// Intervals have at least so many chords.
+const CHORDS_MIN: u32 = 2;
+
+/// And so many that none is longer than this share of the thinnest yarn's diameter.
+const CHORD_MOST: f32 = 0.6;
+
+/// An interval has no more chords than that.
+const CHORDS_MAX: f32 = 4096.0;
+
+/// How much further apart than they touch at two chords may be and still be listed as neighbours, in mean diameters.
+pub const SKIN: f32 = 0.2;
+
+/// How much further a chord may move than its interval's control points do.
+pub const OVERSHOOT: f32 = 1.25;
+
+/// What is known of a place beside where it is.
+pub mod tag {
+    /// A control point; others stand beyond a yarn's ends.
+    pub const POINT: u32 = 1;
+    /// An interval begins here.
+    pub const INTERVAL: u32 = 2;
+    /// The first interval of an open yarn.
+    pub const OPENS: u32 = 4;
+    /// The last interval of an open yarn.
+    pub const ENDS: u32 = 8;
+    /// It stays where it is.
+    pub const PINNED: u32 = 16;
+}
+
+/// Where a yarn's places lie, and how it goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Strand {
+    /// Its first control point's place.
+    pub first: u32,
+    /// Its control points.
+    pub points: u32,
+    /// How it goes on.
+    pub ends: Ends,
+    /// Its length, in units of [`SettlingPlan::along`].
+    pub length: u32,
+}
+
+impl Strand {
+    /// How many intervals it has.
+    #[must_use]
+    pub const fn intervals(&self) -> u32 {
+        match self.ends {
+            Ends::Open => self.points - 1,
+            Ends::Closed | Ends::Repeats(_) => self.points,
+        }
+    }
+
+    /// How many repeats away it goes on.
+    #[must_use]
+    pub const fn shift(&self) -> Option<[i32; 2]> {
+        match self.ends {
+            Ends::Open => None,
+            Ends::Closed => Some([0, 0]),
+            Ends::Repeats(shift) => Some(shift),
+        }
+    }
+
+    /// The place of interval `interval`, counted from its first one, which may be before or behind it; none where it has none.
+    #[must_use]
+    pub fn interval(&self, interval: i64) -> Option<usize> {
+        let count = i64::from(self.intervals());
+        let own = match self.ends {
+            Ends::Open => Some(interval).filter(|interval| (0..count).contains(interval)),
+            Ends::Closed | Ends::Repeats(_) => Some(interval.rem_euclid(count)),
+        };
+        own.map(|own| self.first as usize + own as usize)
+    }
+}
+
+/// How many of everything a settling has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SettlingCounts {
+    /// Control points.
+    pub points: u64,
+    /// Places: control points and those that stand beyond yarns' ends.
+    pub places: u64,
+    /// Chords by which neighbours are found.
+    pub chords: u64,
+}
+
+/// Counts, tables and places of a settling. Lengths of slices are [`SettlingCounts::places`] unless they say otherwise.
+#[derive(Debug, Clone)]
+pub struct SettlingPlan {
+    pub(crate) scale: Scale,
+    pub(crate) s: f32,
+    pub(crate) length: Length,
+    pub(crate) plates: Option<f32>,
+    pub(crate) passes: u32,
+    pub(crate) spans: Spans,
+    strands: Vec<Strand>,
+    period: [i32; 2],
+    frequency: [f32; 2],
+    counts: SettlingCounts,
+    tags: Vec<u32>,
+    yarns: Vec<u32>,
+    chords: Vec<u32>,
+    lengths: Vec<f32>,
+    along: Vec<[u32; 2]>,
+    places: Vec<Place>,
+}
+
+/// Lengths that all passes need, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spans {
+    /// Mean diameter of all control points.
+    pub diameter: f32,
+    /// The largest half width or half height.
+    pub thickest: f32,
+    /// A unit of [`SettlingPlan::along`].
+    pub along: f32,
+}
+
+impl SettlingPlan {
+    /// Plans a settling.
+    ///
+    /// **Errors**: [`SettlingError`] for ends, repeats, pins or settings that are not sound, and for cloths too large.
+    pub fn new(settling: &Settling<'_>) -> Result<Self, SettlingError> {
+        let (layout, points) = (settling.layout(), settling.points());
+        let yarns = layout.yarns().len();
+        check(settling)?;
+        let places = layout.point_count() + yarns as u64 * (BEYOND[0] + BEYOND[1]);
+        limited("places", places, u64::from(u32::MAX >> 1))?;
+        let scale = scale(settling)?;
+        let period = settling.boundary.repeat().map(|repeat| scale.units(DVec3::splat(repeat.into())).x);
+        let mut strands: Vec<Strand> = Vec::with_capacity(yarns);
+        for (yarn, &ends) in settling.boundary.ends().iter().enumerate() {
+            let (start, end) = (layout.offsets()[yarn], layout.offsets()[yarn + 1]);
+            let first = (start + yarn as u64 * (BEYOND[0] + BEYOND[1]) + BEYOND[0]) as u32;
+            strands.push(Strand { first, points: (end - start) as u32, ends, length: 0 });
+        }
+        let s = (1.0 - settling.spline_tension) / 2.0;
+        let spans = Spans { diameter: mean_diameter(points), thickest: thickest(points), along: 0.0 };
+        let mut plan = Self {
+            scale,
+            s,
+            length: settling.length,
+            plates: settling.plates,
+            passes: settling.passes,
+            spans,
+            strands,
+            period,
+            frequency: period.map(|period| if period > 0 { 1.0 / period as f32 } else { 0.0 }),
+            counts: SettlingCounts { points: layout.point_count(), places, chords: 0 },
+            tags: vec![0; places as usize],
+            yarns: vec![0; places as usize],
+            chords: vec![0; places as usize + 1],
+            lengths: vec![0.0; places as usize],
+            along: Vec::new(),
+            places: vec![Place::default(); places as usize],
+        };
+        plan.places = plan.padded(&points.iter().map(|point| scale.place(point)).collect::<Vec<_>>());
+        plan.tag(&settling.pinned);
+        plan.measure(settling.length)?;
+        plan.check_repeat(settling.boundary.repeat())?;
+        Ok(plan)
+    }
+
+    /// How many of everything there is.
+    #[must_use]
+    pub const fn counts(&self) -> SettlingCounts {
+        self.counts
+    }
+
+    /// What a unit of places is.
+    #[must_use]
+    pub const fn scale(&self) -> &Scale {
+        &self.scale
+    }
+
+    /// `(1 - tension) / 2` of the spline.
+    #[must_use]
+    pub const fn s(&self) -> f32 {
+        self.s
+    }
+
+    /// What becomes of lengths.
+    #[must_use]
+    pub const fn length(&self) -> Length {
+        self.length
+    }
+
+    /// How far the plates lie apart, mm.
+    #[must_use]
+    pub const fn plates(&self) -> Option<f32> {
+        self.plates
+    }
+
+    /// Lengths that all passes need.
+    #[must_use]
+    pub const fn spans(&self) -> Spans {
+        self.spans
+    }
+
+    /// The repeat in x and y, units; 0 where nothing repeats.
+    #[must_use]
+    pub const fn period(&self) -> [i32; 2] {
+        self.period
+    }
+
+    /// Repeats in a unit along x and y; 0 where nothing repeats.
+    #[must_use]
+    pub const fn frequency(&self) -> [f32; 2] {
+        self.frequency
+    }
+
+    /// Every yarn's places.
+    #[must_use]
+    pub fn strands(&self) -> &[Strand] {
+        &self.strands
+    }
+
+    /// What each place is: bits of [`tag`].
+    #[must_use]
+    pub fn tags(&self) -> &[u32] {
+        &self.tags
+    }
+
+    /// The yarn that each place belongs to.
+    #[must_use]
+    pub fn yarns(&self) -> &[u32] {
+        &self.yarns
+    }
+
+    /// The number of the first chord of each place's interval, and of all chords last: one more than places.
+    #[must_use]
+    pub fn chords(&self) -> &[u32] {
+        &self.chords
+    }
+
+    /// The length that each interval is to have, mm.
+    #[must_use]
+    pub fn lengths(&self) -> &[f32] {
+        &self.lengths
+    }
+
+    /// How far along its yarn each chord begins and ends, in units of [`Spans::along`]: as many as chords.
+    #[must_use]
+    pub fn along(&self) -> &[[u32; 2]] {
+        &self.along
+    }
+
+    /// Where everything is at the start.
+    #[must_use]
+    pub fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// Places of control points with those beyond yarns' ends between them.
+    #[must_use]
+    pub fn padded(&self, points: &[Place]) -> Vec<Place> {
+        let mut places = vec![Place::default(); self.counts.places as usize];
+        let mut own = points;
+        for strand in &self.strands {
+            let (these, others) = own.split_at(strand.points as usize);
+            places[strand.first as usize..][..these.len()].copy_from_slice(these);
+            own = others;
+            self.renew_ends(strand, &mut places);
+        }
+        places
+    }
+
+    /// Makes the places beyond a yarn's ends anew.
+    pub fn renew_ends(&self, strand: &Strand, places: &mut [Place]) {
+        let (first, count) = (strand.first as usize, strand.points as usize);
+        let last = first + count - 1;
+        if let Some(shift) = strand.shift() {
+            let shift = glam::IVec3::new(shift[0] * self.period[0], shift[1] * self.period[1], 0);
+            places[first - 1] = places[last].moved(-shift);
+            places[last + 1] = places[first].moved(shift);
+            places[last + 2] = places[first + 1].moved(shift);
+        } else {
+            places[first - 1] = places[first].reflected(places[first + 1]);
+            places[last + 1] = places[last].reflected(places[last - 1]);
+            places[last + 2] = places[last + 1];
+        }
+    }
+
+    /// The interval that begins at a place.
+    #[must_use]
+    #[inline]
+    pub fn interval(&self, places: &[Place], place: usize) -> Interval {
+        let window = [places[place - 1], places[place], places[place + 1], places[place + 2]];
+        Interval::new(&window, &self.scale, self.s)
+    }
+
+    /// What control points count, where one of the four stands beyond an open yarn's end: those that it is made of count
+    /// instead.
+    #[must_use]
+    #[inline]
+    pub fn folded(tags: u32, mut weights: [f32; 4]) -> [f32; 4] {
+        if tags & tag::OPENS != 0 {
+            weights[1] += 2.0 * weights[0];
+            weights[2] -= weights[0];
+            weights[0] = 0.0;
+        }
+        if tags & tag::ENDS != 0 {
+            weights[2] += 2.0 * weights[3];
+            weights[1] -= weights[3];
+            weights[3] = 0.0;
+        }
+        weights
+    }
+
+    fn tag(&mut self, pinned: &[u64]) {
+        for (yarn, strand) in self.strands.iter().enumerate() {
+            let first = strand.first as usize;
+            let all = first - BEYOND[0] as usize..first + strand.points as usize + BEYOND[1] as usize;
+            self.yarns[all].fill(yarn as u32);
+            self.tags[first..][..strand.points as usize].fill(tag::POINT);
+            for place in first..first + strand.intervals() as usize {
+                self.tags[place] |= tag::INTERVAL;
+            }
+            if strand.ends == Ends::Open {
+                self.tags[first] |= tag::OPENS;
+                self.tags[first + strand.points as usize - 2] |= tag::ENDS;
+            }
+        }
+        for &point in pinned {
+            let yarn = self.strand_of(point);
+            self.tags[point as usize + yarn * 3 + BEYOND[0] as usize] |= tag::PINNED;
+        }
+    }
+
+    fn strand_of(&self, point: u64) -> usize {
+        let before = |(yarn, strand): (usize, &Strand)| u64::from(strand.first) - yarn as u64 * 3 - BEYOND[0];
+        let starts: Vec<u64> = self.strands.iter().enumerate().map(before).collect();
+        starts.partition_point(|&start| start <= point) - 1
+    }
+
+    /// Lengths, how far along its yarn each interval begins, and into how many chords it is cut.
+    fn measure(&mut self, length: Length) -> Result<(), SettlingError> {
+        let thinnest = self.places.iter().zip(&self.tags).filter(|(_, tags)| **tags & tag::POINT != 0);
+        let thinnest = thinnest
+            .map(|(place, _)| 2.0 * place.halves.width().min(place.halves.height()))
+            .fold(f32::INFINITY, f32::min);
+        let factor = if let Length::Given(factor) = length { factor } else { 1.0 };
+        let mut chords = 0_u64;
+        for place in 0..self.places.len() {
+            self.chords[place] = chords as u32;
+            if self.tags[place] & tag::INTERVAL != 0 {
+                let (arc, _) = self.interval(&self.places, place).arc();
+                self.lengths[place] = arc * factor;
+                chords += u64::from(
+                    ((arc / (CHORD_MOST * thinnest)).ceil().min(CHORDS_MAX) as u32).max(CHORDS_MIN),
+                );
+                limited("chords", chords, u64::from(u32::MAX >> 1))?;
+            }
+        }
+        self.chords[self.places.len()] = chords as u32;
+        self.counts.chords = chords;
+        let own = |strand: &Strand| strand.first as usize..(strand.first + strand.intervals()) as usize;
+        let whole =
+            |strand: &Strand| self.lengths[own(strand)].iter().map(|&arc| f64::from(arc)).sum::<f64>();
+        let longest = self.strands.iter().map(whole).fold(0.0, f64::max);
+        let unit = (f64::from(thinnest) / 1024.0).max(longest / f64::from(1 << 29));
+        self.spans.along = unit as f32;
+        self.along = Vec::with_capacity(chords as usize);
+        let units = |length: f64| (length / unit).round() as u32;
+        for yarn in 0..self.strands.len() {
+            let mut sum = 0.0;
+            for place in own(&self.strands[yarn]) {
+                let interval = self.interval(&self.places, place);
+                let pieces = self.chords[place + 1] - self.chords[place];
+                for piece in 0..pieces {
+                    let [from, to] = [piece, piece + 1].map(|piece| piece as f32 / pieces as f32);
+                    let arc = f64::from(interval.arc_between(from, to) * factor);
+                    self.along.push([units(sum), units(sum + arc)]);
+                    sum += arc;
+                }
+            }
+            self.strands[yarn].length = units(sum);
+        }
+        Ok(())
+    }
+
+    /// A repeat has to be so long that a chord can't meet two images of another.
+    fn check_repeat(&self, repeat: [f32; 2]) -> Result<(), SettlingError> {
+        let least = self.least_repeat();
+        for (axis, repeat) in ['x', 'y'].into_iter().zip(repeat) {
+            if repeat > 0.0 && repeat < least {
+                let diameter = 2.0 * self.spans.thickest;
+                return Err(SettlingError::ShortRepeat { axis, repeat, diameter, least });
+            }
+        }
+        Ok(())
+    }
+
+    /// The shortest repeat that is taken, mm.
+    #[must_use]
+    pub fn least_repeat(&self) -> f32 {
+        let Spans { diameter, thickest, .. } = self.spans;
+        2.0 * (2.0 * thickest + SKIN * diameter + CHORD_MOST * diameter)
+    }
+}
+
+fn limited(what: &'static str, count: u64, limit: u64) -> Result<(), SettlingError> {
+    if count > limit { Err(SettlingError::TooMany { what, count, limit }) } else { Ok(()) }
+}
+
+fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
+    let layout = settling.layout();
+    let within = |setting, value: f32, low: f32, high: f32| {
+        let sound = (low..=high).contains(&value);
+        if sound { Ok(()) } else { Err(SettlingError::Setting { setting, value, low, high }) }
+    };
+    within("the spline's tension", settling.spline_tension, 0.0, 0.99)?;
+    match settling.length {
+        Length::Held => {}
+        Length::Given(factor) => within("the length", factor, 0.5, 2.0)?,
+        Length::Free { tension } => within("the tension", tension, 0.0, 0.1)?,
+    }
+    if let Some(gap) = settling.plates {
+        within("the gap between the plates", gap, 0.0, crate::COORDINATE_LIMIT)?;
+    }
+    settling.boundary.check(layout)?;
+    for (yarn, &ends) in settling.boundary.ends().iter().enumerate() {
+        let points = layout.offsets()[yarn + 1] - layout.offsets()[yarn];
+        let least = if ends == Ends::Open { 2 } else { 3 };
+        if points < least {
+            return Err(SettlingError::TooFewPoints { yarn, points, least });
+        }
+    }
+    let points = layout.point_count();
+    match settling.pinned.iter().find(|&&point| point >= points) {
+        Some(&point) => Err(SettlingError::Pinned { point, points }),
+        None => Ok(()),
+    }
+}
+
+fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
+    let points = settling.points();
+    let far = DVec3::splat(f64::INFINITY);
+    let (low, high) = points.iter().fold((far, -far), |(low, high), point| {
+        let at = point.position().as_dvec3();
+        (low.min(at), high.max(at))
+    });
+    // Plates lie on either side of z = 0.
+    let origin = ((low + high) / 2.0).round().with_z(0.0);
+    let thinnest = points.iter().map(|point| 2.0 * point.half_width().min(point.half_height()));
+    let diameter = thinnest.fold(f32::INFINITY, f32::min);
+    let [x, y] = settling.boundary.repeat();
+    let extent = (high - origin).max(origin - low).max_element() as f32 + 2.0 * x.max(y);
+    let room = 1.25 * extent + 64.0 * thickest(points);
+    Scale::new(origin, room, diameter).ok_or(SettlingError::TooLarge { extent, diameter })
+}
+
+fn thickest(points: &[ControlPoint]) -> f32 {
+    points.iter().map(|point| point.half_width().max(point.half_height())).fold(NO_LENGTH, f32::max)
+}
+
+fn mean_diameter(points: &[ControlPoint]) -> f32 {
+    let sum: f64 = points.iter().map(|point| f64::from(point.half_width() + point.half_height())).sum();
+    (sum / points.len().max(1) as f64) as f32
+}
+
+const _: () = assert!(COARSEST > super::FINEST);

@@ -1,0 +1,107 @@
+//! The problem: yarns, how they go on, and what is asked of their rest.
+
+use crate::{Boundary, ControlPoint, Layout, Yarns};
+
+/// What settling does to the length of yarns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Length {
+    /// Every yarn keeps the length that it has.
+    Held,
+    /// Every yarn is to have so many times the length that it has.
+    Given(f32),
+    /// Yarns take the length that their course needs, evenly all along, and are drawn in by a tension, in shares of their
+    /// length a pass, while bends are still soft.
+    Free {
+        /// Tension, 0 for none.
+        tension: f32,
+    },
+}
+
+/// Yarns that are to come to rest: until they nowhere pierce one another, nowhere fold, and have the length that is asked for.
+///
+/// ```
+/// use texere_core::{ControlPoint, Settling, SettlingPlan, Yarn, Yarns};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.1, 0.2)));
+/// yarns.yarn(Yarn::default(), &[-1.0, 0.0, 1.0].map(|y| ControlPoint::new(1.0, y, -0.1, 0.2)));
+/// let yarns = yarns.build()?;
+/// let plan = SettlingPlan::new(&Settling::new(&yarns))?;
+/// assert_eq!(plan.counts().points, 6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Settling<'a> {
+    pub(crate) yarns: &'a Yarns,
+    pub(crate) spline_tension: f32,
+    pub(crate) boundary: Boundary,
+    pub(crate) pinned: Vec<u64>,
+    pub(crate) length: Length,
+    pub(crate) plates: Option<f32>,
+    pub(crate) passes: u32,
+}
+
+impl<'a> Settling<'a> {
+    /// Yarns that lie free, keep their length and are not pressed.
+    #[must_use]
+    pub fn new(yarns: &'a Yarns) -> Self {
+        Self {
+            yarns,
+            spline_tension: 0.0,
+            boundary: Boundary::without_repeat(yarns.layout()),
+            pinned: Vec::new(),
+            length: Length::Held,
+            plates: None,
+            passes: 250,
+        }
+    }
+
+    /// The tension of the spline through the control points, in \[0, 1).
+    #[must_use]
+    pub const fn spline_tension(mut self, tension: f32) -> Self {
+        self.spline_tension = tension;
+        self
+    }
+
+    /// How the cloth goes on at its edges: it may be a repeat in x, in y or in both.
+    #[must_use]
+    pub fn boundary(mut self, boundary: Boundary) -> Self {
+        self.boundary = boundary;
+        self
+    }
+
+    /// Control points that stay where they are, by number among all.
+    #[must_use]
+    pub fn pinned(mut self, points: Vec<u64>) -> Self {
+        self.pinned = points;
+        self
+    }
+
+    /// What becomes of lengths.
+    #[must_use]
+    pub const fn length(mut self, length: Length) -> Self {
+        self.length = length;
+        self
+    }
+
+    /// Presses the cloth between two plates `gap` mm apart, half of it on either side of z = 0, while bends are soft.
+    #[must_use]
+    pub const fn plates(mut self, gap: f32) -> Self {
+        self.plates = Some(gap);
+        self
+    }
+
+    /// The most passes with yarns of their full thickness.
+    #[must_use]
+    pub const fn passes(mut self, passes: u32) -> Self {
+        self.passes = passes;
+        self
+    }
+
+    pub(crate) fn layout(&self) -> &Layout {
+        self.yarns.layout()
+    }
+
+    pub(crate) fn points(&self) -> &[ControlPoint] {
+        self.yarns.points()
+    }
+}

@@ -1,0 +1,51 @@
+//! What a device does for a settling.
+
+use std::fmt::Debug;
+
+use super::{Pass, Place};
+use crate::BackendError;
+
+/// What a pass has seen, before any point took its step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// The longest step that a point has taken then, mm.
+    pub step: f32,
+    /// The least distance of two yarns over both reaches: 1 where they touch.
+    pub clearance: f32,
+    /// The least radius of curvature, in diameters of the yarn.
+    pub radius: f32,
+    /// By how much an interval's length differs from what it is to be, at most: a share of it.
+    pub length: f32,
+}
+
+/// A settling on one device. [`settle`](super::settle) calls it, and keeps these rules:
+///
+/// - `upload` comes first, with as many places as the plan has control points.
+/// - `list` comes before the first pass, and again before any chord has moved so far, or yarns have grown so much, that
+///   neighbours may be missing.
+///
+/// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
+pub trait Settler: Debug + Send {
+    /// Takes the places of all control points. They have not moved yet, and lengths are the plan's.
+    fn upload(&mut self, places: &[Place]) -> Result<(), BackendError>;
+
+    /// Finds every chord's neighbours while yarns have `growth` of their thickness. Gives back how many there are in all.
+    fn list(&mut self, growth: f32) -> Result<u64, BackendError>;
+
+    /// Moves every control point once.
+    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError>;
+
+    /// Keeps the places that the last pass has seen, before it moved them, in place of any others.
+    fn keep(&mut self) -> Result<(), BackendError>;
+
+    /// Goes back to the places that were kept. Points are at rest.
+    fn recall(&mut self) -> Result<(), BackendError>;
+
+    /// Writes the present places of all control points.
+    fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError>;
+}
+
+const _: () = {
+    const fn sends<T: Send + ?Sized>() {}
+    sends::<dyn Settler>();
+};

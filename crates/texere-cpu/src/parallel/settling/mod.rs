@@ -1,0 +1,235 @@
+//! Settling in lanes on all cores: the same bits as the reference.
+
+mod bends;
+mod contacts;
+mod curves;
+mod lists;
+mod steps;
+mod tables;
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use texere_core::BackendError;
+use texere_core::settling::{Length, Pass, Place, Seen, Settler, SettlingPlan, Strand, freed, tag};
+
+use super::Parallel;
+use super::instruction_set::InstructionSet;
+use super::simd::{Job, Simd};
+
+use bends::Own;
+use contacts::{Room, Source};
+use lists::Lists;
+use steps::Gather;
+use tables::{BACK, ChordRow, FRONT, Fixed, IntervalRow, Make, PullRow, TASK};
+
+/// All cores.
+#[derive(Debug)]
+pub(crate) struct ParallelSettler {
+    set: InstructionSet,
+    plan: Arc<SettlingPlan>,
+    fixed: Fixed,
+    /// With [`FRONT`] entries before the first place and [`BACK`] behind the last one: where everything is, will be, was when the last
+    /// pass saw it, and where it was kept.
+    places: Vec<Place>,
+    seen: Vec<Place>,
+    kept: Vec<Place>,
+    /// The step that each point has taken last, mm.
+    steps: Vec<[f32; 4]>,
+    /// The length that each interval is to have, mm.
+    lengths: Vec<f32>,
+    intervals: Vec<IntervalRow>,
+    chords: Vec<ChordRow>,
+    lists: Lists,
+    /// With [`FRONT`] entries before the first place.
+    pulls: Vec<PullRow>,
+}
+
+impl ParallelSettler {
+    pub(crate) fn new(Parallel(set): Parallel, plan: Arc<SettlingPlan>) -> Self {
+        let (places, chords) = (plan.counts().places as usize, plan.counts().chords as usize);
+        let around = |places: &[Place]| {
+            let mut all = vec![Place::default(); FRONT + places.len() + BACK];
+            all[FRONT..][..places.len()].copy_from_slice(places);
+            all
+        };
+        let mut lengths = plan.lengths().to_vec();
+        lengths.resize(places + BACK, 0.0);
+        Self {
+            set,
+            fixed: Fixed::new(&plan),
+            places: around(plan.places()),
+            seen: around(plan.places()),
+            kept: Vec::new(),
+            steps: vec![[0.0; 4]; places],
+            lengths,
+            intervals: vec![IntervalRow::default(); places],
+            chords: vec![ChordRow::default(); chords],
+            lists: Lists::default(),
+            pulls: vec![PullRow::NONE; FRONT + places + BACK],
+            plan,
+        }
+    }
+
+    /// Works out all intervals and their chords.
+    fn renew(&mut self) {
+        let Self { set, plan, fixed, places, intervals, chords, .. } = self;
+        let (plan, fixed, places) = (&**plan, &*fixed, places.as_slice());
+        let mut left = chords.as_mut_slice();
+        let tasks: Vec<_> = intervals
+            .chunks_mut(TASK)
+            .enumerate()
+            .map(|(task, intervals)| {
+                let first = task * TASK;
+                let count = plan.chords()[first + intervals.len()] - plan.chords()[first];
+                let chords = left.split_off_mut(..count as usize).unwrap_or_default();
+                Make { plan, fixed, places, first, intervals, chords }
+            })
+            .collect();
+        tasks.into_par_iter().for_each(|make| set.run(make));
+    }
+}
+
+/// What pulls at the intervals of a task.
+struct PullJob<'a> {
+    source: Source<'a>,
+    own: Own<'a>,
+    first: usize,
+    pulls: &'a mut [PullRow],
+    room: &'a mut Room,
+    seen: &'a mut Seen,
+}
+
+impl Job for PullJob<'_> {
+    #[cfg_attr(optimized, inline(always))]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { source, own, first, pulls, room, seen } = self;
+        let plan = source.plan;
+        pulls.fill(PullRow::NONE);
+        let chords = plan.chords()[first]..plan.chords()[first + pulls.len()];
+        source.add(simd, chords, first as u32, room, pulls);
+        own.add(simd, first, pulls);
+        for pull in pulls {
+            let [_, clearance, radius, length] = pull.seen;
+            *seen = seen.and(Seen { step: 0.0, clearance, radius, length });
+        }
+    }
+}
+
+/// The steps of a task's control points.
+struct StepJob<'a> {
+    gather: Gather<'a>,
+    first: usize,
+    steps: &'a mut [[f32; 4]],
+    next: &'a mut [Place],
+    longest: &'a mut f32,
+}
+
+impl Job for StepJob<'_> {
+    #[cfg_attr(optimized, inline(always))]
+    fn run<S: Simd>(self, simd: S) {
+        *self.longest = self.gather.step(simd, self.first, self.steps, self.next);
+    }
+}
+
+impl Settler for ParallelSettler {
+    fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
+        let padded = self.plan.padded(places);
+        self.places[FRONT..][..padded.len()].copy_from_slice(&padded);
+        self.steps.fill([0.0; 4]);
+        self.lengths[..padded.len()].copy_from_slice(self.plan.lengths());
+        Ok(())
+    }
+
+    fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
+        self.renew();
+        Ok(self.lists.fill(&self.plan, &self.fixed, &self.intervals, &self.chords, growth))
+    }
+
+    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+        self.renew();
+        let Self { set, plan, fixed, places, seen, steps, lengths, intervals, chords, lists, pulls, .. } =
+            self;
+        let (set, plan, fixed, count) = (*set, &**plan, &*fixed, steps.len());
+        let source = Source {
+            plan,
+            pass,
+            fixed,
+            intervals,
+            chords,
+            starts: &lists.starts,
+            neighbours: &lists.neighbours,
+        };
+        let own = Own { plan, pass, fixed, intervals, lengths };
+        let all = pulls[FRONT..][..count].par_chunks_mut(TASK).enumerate();
+        let pulled = all.map_init(Room::default, |room, (task, pulls)| {
+            let mut seen = Seen::NOTHING;
+            set.run(PullJob { source, own, first: task * TASK, pulls, room, seen: &mut seen });
+            seen
+        });
+        let what = pulled.reduce(|| Seen::NOTHING, Seen::and);
+        for strand in plan.strands() {
+            go_on(strand, pulls);
+        }
+        if let Length::Free { tension } = plan.length() {
+            free(plan, pulls, lengths, tension * pass.ease);
+        }
+        let gather = Gather { plan, pass, places, pulls };
+        let tasks = steps.par_chunks_mut(TASK).zip(seen[FRONT..][..count].par_chunks_mut(TASK)).enumerate();
+        let stepped = tasks.map(|(task, (steps, next))| {
+            let mut longest = 0.0;
+            set.run(StepJob { gather, first: task * TASK, steps, next, longest: &mut longest });
+            longest
+        });
+        let step = stepped.reduce(|| 0.0, f32::max);
+        for strand in plan.strands() {
+            plan.renew_ends(strand, &mut seen[FRONT..][..count]);
+        }
+        std::mem::swap(places, seen);
+        Ok(Seen { step, ..what })
+    }
+
+    fn keep(&mut self) -> Result<(), BackendError> {
+        self.kept.clone_from(&self.seen);
+        Ok(())
+    }
+
+    fn recall(&mut self) -> Result<(), BackendError> {
+        if self.kept.len() == self.places.len() {
+            self.places.clone_from(&self.kept);
+            self.steps.fill([0.0; 4]);
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError> {
+        let own = self.places[FRONT..].iter().zip(self.plan.tags());
+        let own = own.filter(|(_, tags)| **tags & tag::POINT != 0);
+        for (to, (place, _)) in places.iter_mut().zip(own) {
+            *to = *place;
+        }
+        Ok(())
+    }
+}
+
+/// Copies what pulls at the intervals beyond a yarn's ends that the points at its ends steer, where it goes on.
+fn go_on(strand: &Strand, pulls: &mut [PullRow]) {
+    if strand.shift().is_some() {
+        let first = FRONT + strand.first as usize;
+        let last = first + strand.points as usize - 1;
+        (pulls[first - 2], pulls[first - 1]) = (pulls[last - 1], pulls[last]);
+        pulls[last + 1] = pulls[first];
+    }
+}
+
+/// The lengths that intervals are to have from now on.
+fn free(plan: &SettlingPlan, pulls: &[PullRow], lengths: &mut [f32], tension: f32) {
+    let tasks = lengths[..plan.tags().len()].par_iter_mut().enumerate();
+    tasks.filter(|(place, _)| plan.tags()[*place] & tag::INTERVAL != 0).for_each(|(place, length)| {
+        let strand = &plan.strands()[plan.yarns()[place] as usize];
+        let own = place as i64 - i64::from(strand.first);
+        let arcs = [own - 1, own, own + 1]
+            .map(|interval| strand.interval(interval).map(|place| pulls[FRONT + place].length[3]));
+        *length = freed(*length, plan.lengths()[place], arcs, tension);
+    });
+}

@@ -1,0 +1,201 @@
+//! Settling as it reads: one interval after the other on one thread.
+
+use std::sync::Arc;
+
+use glam::{IVec3, Vec3};
+use texere_core::BackendError;
+use texere_core::settling::{
+    Chord, Gathered, Interval, Length, Listed, Pass, Place, Pull, Seen, Settler, SettlingPlan, freed, moves,
+    tag,
+};
+
+use crate::cells::Cells;
+
+/// The reference.
+#[derive(Debug)]
+pub(crate) struct SerialSettler {
+    plan: Arc<SettlingPlan>,
+    places: Vec<Place>,
+    /// The step that each point has taken last, mm.
+    steps: Vec<Vec3>,
+    /// The length that each interval is to have, mm.
+    lengths: Vec<f32>,
+    /// The places that the last pass has seen, and those that were kept.
+    seen: Vec<Place>,
+    kept: Vec<Place>,
+    /// Each place's interval and the chords of all of them.
+    intervals: Vec<Interval>,
+    chords: Vec<Chord>,
+    /// The place of each chord's interval.
+    owners: Vec<u32>,
+    /// Where each chord's neighbours begin, and the end of the last one's.
+    starts: Vec<u32>,
+    neighbours: Vec<u32>,
+    pulls: Vec<Pull>,
+}
+
+impl SerialSettler {
+    /// Takes memory for a plan.
+    pub(crate) fn new(plan: Arc<SettlingPlan>) -> Self {
+        let (places, chords) = (plan.counts().places as usize, plan.counts().chords as usize);
+        let mut owners = vec![0; chords];
+        for place in 0..places {
+            let range = plan.chords()[place] as usize..plan.chords()[place + 1] as usize;
+            owners[range].fill(place as u32);
+        }
+        Self {
+            places: plan.places().to_vec(),
+            steps: vec![Vec3::ZERO; places],
+            lengths: plan.lengths().to_vec(),
+            seen: Vec::new(),
+            kept: Vec::new(),
+            intervals: Vec::with_capacity(places),
+            chords: Vec::with_capacity(chords),
+            owners,
+            starts: Vec::new(),
+            neighbours: Vec::new(),
+            pulls: vec![Pull::none(); places],
+            plan,
+        }
+    }
+
+    /// Works out all intervals and their chords.
+    fn renew(&mut self) {
+        let plan = &self.plan;
+        self.intervals.clear();
+        self.chords.clear();
+        for place in 0..self.places.len() {
+            if plan.tags()[place] & tag::INTERVAL == 0 {
+                // A place beyond a yarn's ends may be the last of all.
+                self.intervals.push(Interval::new(&[self.places[place]; 4], plan.scale(), plan.s()));
+                continue;
+            }
+            let interval = plan.interval(&self.places, place);
+            let count = plan.chords()[place + 1] - plan.chords()[place];
+            self.chords.extend((0..count).map(|piece| Chord::new(&interval, piece, count, plan.scale())));
+            self.intervals.push(interval);
+        }
+    }
+
+    fn listed(&self, chord: u32) -> Listed<'_> {
+        let place = self.owners[chord as usize] as usize;
+        let own = &self.plan.chords()[place..place + 2];
+        Listed {
+            chord: &self.chords[chord as usize],
+            interval: &self.intervals[place],
+            place,
+            piece: chord - own[0],
+            pieces: own[1] - own[0],
+        }
+    }
+
+    /// What pulls at the interval that begins at `place`.
+    fn pull(&self, pass: &Pass, place: usize) -> Pull {
+        let plan = &*self.plan;
+        let mut pull = Pull::none();
+        for chord in plan.chords()[place]..plan.chords()[place + 1] {
+            let range = self.starts[chord as usize] as usize..self.starts[chord as usize + 1] as usize;
+            for &neighbour in &self.neighbours[range] {
+                pull.meet(plan, pass, [self.listed(chord), self.listed(neighbour)]);
+            }
+        }
+        let chords = plan.chords()[place + 1] - plan.chords()[place];
+        pull.own(plan, pass, (plan.tags()[place], chords), &self.intervals[place], self.lengths[place]);
+        pull
+    }
+}
+
+impl Settler for SerialSettler {
+    fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
+        self.places = self.plan.padded(places);
+        self.steps.fill(Vec3::ZERO);
+        self.lengths.copy_from_slice(self.plan.lengths());
+        Ok(())
+    }
+
+    fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
+        self.renew();
+        let plan = &*self.plan;
+        let scale = plan.scale();
+        let longest = self.chords.iter().map(|chord| chord.span.length_squared().sqrt()).fold(0.0, f32::max);
+        let middles: Vec<IVec3> =
+            self.chords.iter().map(|chord| chord.at.wrapping_add(scale.step(chord.span * 0.5))).collect();
+        let mut cells = Cells::default();
+        cells.fill(plan, &middles, (plan.cell(growth, longest) / scale.unit()).ceil() as i32);
+        let (mut starts, mut neighbours) = (vec![0], Vec::new());
+        let mut beside = Vec::new();
+        for (chord, middle) in (0_u32..).zip(&middles) {
+            cells.beside(plan, *middle, &mut beside);
+            let near = |other: &u32| {
+                *other != chord && plan.are_neighbours(self.listed(chord), self.listed(*other), growth)
+            };
+            neighbours.extend(beside.iter().copied().filter(near));
+            starts.push(neighbours.len() as u32);
+        }
+        (self.starts, self.neighbours) = (starts, neighbours);
+        Ok(self.neighbours.len() as u64)
+    }
+
+    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+        self.renew();
+        let mut seen = Seen::NOTHING;
+        for place in 0..self.places.len() {
+            if self.plan.tags()[place] & tag::INTERVAL != 0 {
+                let pull = self.pull(pass, place);
+                let length = self.lengths[place];
+                let off = (pull.arc - length).abs() / length;
+                let Pull { clearance, radius, .. } = pull;
+                seen = seen.and(Seen { step: 0.0, clearance, radius, length: off });
+                self.pulls[place] = pull;
+            }
+        }
+        let plan = Arc::clone(&self.plan);
+        let mut next = self.places.clone();
+        for strand in plan.strands() {
+            for point in 0..i64::from(strand.points) {
+                let place = strand.first as usize + point as usize;
+                let pull = |interval: i64| strand.interval(interval).map(|place| &self.pulls[place]);
+                if let Length::Free { tension } = plan.length()
+                    && plan.tags()[place] & tag::INTERVAL != 0
+                {
+                    let arcs =
+                        [point - 1, point, point + 1].map(|interval| pull(interval).map(|pull| pull.arc));
+                    let tension = tension * pass.ease;
+                    self.lengths[place] = freed(self.lengths[place], plan.lengths()[place], arcs, tension);
+                }
+                if !moves(plan.tags()[place]) {
+                    continue;
+                }
+                let gathered = Gathered([pull(point + 1), pull(point), pull(point - 1), pull(point - 2)]);
+                let step = gathered.step(&plan, pass, &self.places[place], self.steps[place]);
+                self.steps[place] = step;
+                next[place] = self.places[place].moved(plan.scale().step(step));
+                seen.step = seen.step.max(step.length_squared().sqrt());
+            }
+            plan.renew_ends(strand, &mut next);
+        }
+        self.seen = std::mem::replace(&mut self.places, next);
+        Ok(seen)
+    }
+
+    fn keep(&mut self) -> Result<(), BackendError> {
+        self.kept.clone_from(&self.seen);
+        Ok(())
+    }
+
+    fn recall(&mut self) -> Result<(), BackendError> {
+        if self.kept.len() == self.places.len() {
+            self.places.clone_from(&self.kept);
+            self.steps.fill(Vec3::ZERO);
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError> {
+        let own = self.places.iter().zip(self.plan.tags()).filter(|(_, tags)| **tags & tag::POINT != 0);
+        for (to, (place, _)) in places.iter_mut().zip(own) {
+            *to = *place;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,60 @@
+//! Which places of a cloth lie near one another, over all images of its repeat.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+/// Places, sorted into cells in x and y. Cloth is thin, so cells reach through it.
+pub(super) struct Cells {
+    /// Cells a repeat; 0 where nothing repeats.
+    count: [i64; 2],
+    /// Places of each cell of the first repeat, and how many repeats beyond it they lie.
+    members: BTreeMap<[i64; 2], Vec<(usize, [i64; 2])>>,
+    /// How many cells further a place may be that is near.
+    range: [i64; 2],
+}
+
+impl Cells {
+    /// Places that are near one another up to a distance of `reach`, mm.
+    pub(super) fn new(places: &[DVec3], repeat: [f64; 2], reach: f64) -> Self {
+        let count = repeat.map(|repeat| if repeat > 0.0 { ((repeat / reach) as i64).max(1) } else { 0 });
+        let size = [0, 1].map(|axis| if count[axis] > 0 { repeat[axis] / count[axis] as f64 } else { reach });
+        let mut members = BTreeMap::<_, Vec<_>>::new();
+        for (number, place) in places.iter().enumerate() {
+            let at = [(place.x / size[0]).floor() as i64, (place.y / size[1]).floor() as i64];
+            let (cell, beyond) = wrapped(at, count);
+            members.entry(cell).or_default().push((number, beyond));
+        }
+        Self { count, members, range: size.map(|size| (reach / size).ceil() as i64) }
+    }
+
+    /// Calls `visit` once with every two places that may be near, and the image of the second that is: how many repeats it is
+    /// moved in x and y. A place may be near its own image.
+    pub(super) fn each_pair(&self, mut visit: impl FnMut(usize, usize, [i32; 2])) {
+        for (&[x, y], places) in &self.members {
+            for along in -self.range[0]..=self.range[0] {
+                for up in -self.range[1]..=self.range[1] {
+                    let (cell, image) = wrapped([x + along, y + up], self.count);
+                    for &(other, other_beyond) in self.members.get(&cell).map_or(&[][..], Vec::as_slice) {
+                        for &(one, beyond) in places {
+                            let image =
+                                [0, 1].map(|axis| (image[axis] + beyond[axis] - other_beyond[axis]) as i32);
+                            if (other, image) > (one, [0; 2]) {
+                                visit(one, other, image);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The cell of the first repeat that `cell` is an image of, and how many repeats further that lies.
+fn wrapped(cell: [i64; 2], count: [i64; 2]) -> ([i64; 2], [i64; 2]) {
+    let split = [0, 1].map(|axis| match count[axis] {
+        0 => (cell[axis], 0),
+        count => (cell[axis].rem_euclid(count), cell[axis].div_euclid(count)),
+    });
+    (split.map(|part| part.0), split.map(|part| part.1))
+}

@@ -1,0 +1,176 @@
+//! What a cloth that came to rest is like: how near its yarns come, how tightly they bend, how long and how thick it is.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::DVec3;
+
+use super::Start;
+use super::chords::{Chord, Chords, PARTS};
+use super::curve::{Curve, Piece};
+use super::segments::closest;
+
+/// An interval of a yarn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Place {
+    /// The yarn's number.
+    pub yarn: usize,
+    /// The number of the control point at which the interval begins.
+    pub interval: usize,
+}
+
+/// What [`check`] finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The least distance of two centrelines over the sum of the radii, with all images of the repeat. Places of one yarn count
+    /// only if it runs further than pi/2 times the sum of the radii from one to the other, half way round a bend in which it
+    /// touches itself. So a yarn that goes straight on is pi/2 from itself, and no clearance is much larger.
+    pub clearance: f64,
+    /// Where that is; nowhere if all yarns are shorter.
+    pub nearest: Option<[Place; 2]>,
+    /// The least radius of curvature in diameters of the yarn: below a half it folds into itself.
+    pub bend: f64,
+    /// Where that is.
+    pub sharpest: Place,
+    /// How much longer the yarn is that changed its length most, as a share of what it was at the start; negative if it is
+    /// shorter.
+    pub stretch: f64,
+    /// That yarn's number.
+    pub stretched: usize,
+    /// How much longer all yarns together are, as a share likewise.
+    pub growth: f64,
+    /// From the lowest surface to the highest, mm.
+    pub thickness: f64,
+}
+
+/// Measures `settled`, the control points of `start` after they moved, in f64 and with no code of texere's crates.
+///
+/// # Panics
+///
+/// If `settled` has other yarns or other counts of points than `start`, or points that are no numbers.
+#[must_use]
+pub fn check(start: &Start, settled: &[Vec<DVec3>]) -> Report {
+    assert_eq!(settled.len(), start.yarns.len(), "{}: yarns", start.name);
+    assert!(settled.iter().flatten().all(|point| point.is_finite()), "{}: points are no numbers", start.name);
+    let at_start = start.points();
+    let curves: Vec<_> = (0..settled.len()).map(|yarn| Curve::new(start, yarn, &settled[yarn])).collect();
+    let (clearance, nearest) = clearance(start, &curves);
+    let (bend, sharpest) = bend(start, &curves);
+
+    let length = |curve: &Curve<'_>| curve.pieces().map(|piece| piece.lengths(PARTS)[PARTS - 1]).sum::<f64>();
+    let lengths: Vec<_> = curves.iter().map(length).collect();
+    let before: Vec<_> =
+        (0..settled.len()).map(|yarn| length(&Curve::new(start, yarn, &at_start[yarn]))).collect();
+    let stretches = lengths.iter().zip(&before).map(|(now, before)| now / before - 1.0);
+    let (stretched, stretch) = stretches
+        .enumerate()
+        .max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))
+        .expect("a cloth has yarns");
+    Report {
+        clearance,
+        nearest,
+        bend,
+        sharpest,
+        stretch,
+        stretched,
+        growth: lengths.iter().sum::<f64>() / before.iter().sum::<f64>() - 1.0,
+        thickness: thickness(start, &curves),
+    }
+}
+
+/// Where in \[0, 1\] the ends of an interval's parts are.
+fn parts() -> impl Iterator<Item = f64> {
+    (0..=PARTS).map(|part| part as f64 / PARTS as f64)
+}
+
+fn thickness(start: &Start, curves: &[Curve<'_>]) -> f64 {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (yarn, curve) in start.yarns.iter().zip(curves) {
+        for z in curve.pieces().flat_map(|piece| parts().map(move |u| piece.at(u).z)) {
+            (low, high) = (low.min(z - yarn.radius), high.max(z + yarn.radius));
+        }
+    }
+    high - low
+}
+
+/// The least radius of curvature in diameters, and where.
+fn bend(start: &Start, curves: &[Curve<'_>]) -> (f64, Place) {
+    let intervals = curves.iter().enumerate().flat_map(|(yarn, curve)| {
+        let diameter = 2.0 * start.yarns[yarn].radius;
+        curve
+            .pieces()
+            .enumerate()
+            .map(move |(interval, piece)| (least_radius(&piece) / diameter, Place { yarn, interval }))
+    });
+    intervals.min_by(|one, other| one.0.total_cmp(&other.0)).expect("a yarn has intervals")
+}
+
+/// The least radius of curvature of an interval: of its parts' ends, and then of ever smaller steps about the least of them.
+fn least_radius(piece: &Piece) -> f64 {
+    let mut step = 1.0 / PARTS as f64;
+    let least = |places: &mut dyn Iterator<Item = f64>| {
+        let radii = places.map(|u| (piece.radius(u), u));
+        radii.min_by(|one, other| one.0.total_cmp(&other.0)).expect("there are places")
+    };
+    let (mut radius, mut at) = least(&mut parts());
+    for _ in 0..4 {
+        step /= 4.0;
+        (radius, at) = least(&mut (-4..=4).map(|k| (at + f64::from(k) * step).clamp(0.0, 1.0)));
+    }
+    radius
+}
+
+/// The least distance over the sum of the radii, and between what.
+fn clearance(start: &Start, curves: &[Curve<'_>]) -> (f64, Option<[Place; 2]>) {
+    let chords = Chords::new(start, curves);
+    let thickest = start.yarns.iter().map(|yarn| yarn.radius).fold(0.0, f64::max);
+    let mut reach = 2.2 * thickest;
+    loop {
+        let (ratio, places) = nearest(start, curves, &chords, reach);
+        // Nothing beyond the reach is nearer, or nothing is beyond it.
+        if ratio * 2.0 * thickest <= reach || reach > chords.widest() {
+            return (ratio, places);
+        }
+        reach *= 2.0;
+    }
+}
+
+/// The least ratio of all places whose distance is at most `reach`; others may or may not be seen.
+fn nearest(start: &Start, curves: &[Curve<'_>], chords: &Chords, reach: f64) -> (f64, Option<[Place; 2]>) {
+    let mut least = (f64::INFINITY, None);
+    chords.each_pair(reach, |one, other, image| {
+        let both = start.yarns[one.place.yarn].radius + start.yarns[other.place.yarn].radius;
+        let shift = start.shift(image);
+        let way = one.middle().distance(other.middle() + shift) - one.reach() - other.reach();
+        if way >= least.0 * both || chords.arc_between(one, other, image) < FRAC_PI_2 * both {
+            return;
+        }
+        let (u, v) = closest([one.from, one.to], [other.from + shift, other.to + shift]);
+        let way = one.at(u).distance(other.at(v) + shift) - one.sag - other.sag;
+        if way < least.0 * both {
+            let ratio = refined(curves, one, other, shift, [u, v]) / both;
+            if ratio < least.0 {
+                least = (ratio, Some([one.place, other.place]));
+            }
+        }
+    });
+    least
+}
+
+/// The least distance between the curves over two chords, from `places` in \[0, 1\] along these: closest points of the tangents
+/// there, again and again.
+fn refined(curves: &[Curve<'_>], one: &Chord, other: &Chord, shift: DVec3, places: [f64; 2]) -> f64 {
+    let piece = |chord: &Chord| curves[chord.place.yarn].piece(chord.place.interval as isize);
+    let (first, second) = (piece(one), piece(other));
+    let step = 1.0 / PARTS as f64;
+    let [mut u, mut v] = places;
+    let mut least = f64::INFINITY;
+    for _ in 0..6 {
+        let (s, t) = (one.start + u * step, other.start + v * step);
+        let (here, there) = (first.at(s), second.at(t) + shift);
+        least = least.min(here.distance(there));
+        let tangent =
+            |at: DVec3, slope: DVec3, w: f64| [at - slope * (w * step), at + slope * ((1.0 - w) * step)];
+        (u, v) = closest(tangent(here, first.slope(s), u), tangent(there, second.slope(t), v));
+    }
+    least
+}

@@ -1,0 +1,202 @@
+//! Whether yarns went through one another: Gauss's linking integral of windows of yarn, before and after.
+//!
+//! Windows are short, since whole loops would not do: there, what one leg loses when a head is pulled out of the loop above it
+//! another leg may gain.
+
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::cells::Cells;
+use super::check::Place;
+use super::curve::Curve;
+use super::segments::closest;
+use super::{Ends, Start};
+
+/// A change of a window's integral above this is a crossing; 1 is one strand that passes through another, far from its ends.
+pub const CROSSED: f64 = 0.6;
+
+/// A window reaches over so many intervals to both sides of its middle.
+const HALF_WINDOW: isize = 3;
+
+/// Chords an interval.
+const PARTS: usize = 4;
+
+/// Windows are compared whose middles come as near as so many sums of both radii, before or after.
+const NEAR: f64 = 2.0;
+
+/// What [`linking`] finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linking {
+    /// The largest change of the integral of two windows of seven control points.
+    pub change: f64,
+    /// The middles of these windows: the interval that begins there.
+    pub at: Option<[Place; 2]>,
+}
+
+/// Compares which yarns of `start` go over and under which with their points `before` and `after`, over all images.
+///
+/// # Panics
+///
+/// If either has other yarns or other counts of points than `start`.
+#[must_use]
+pub fn linking(start: &Start, before: &[Vec<DVec3>], after: &[Vec<DVec3>]) -> Linking {
+    let cloths = [before, after].map(|points| Cloth::new(start, points));
+    let mut pairs: Vec<_> = cloths.iter().flat_map(|cloth| cloth.near()).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+
+    let mut largest = Linking { change: 0.0, at: None };
+    for group in pairs.chunk_by(|one, other| one.yarns() == other.yarns()) {
+        let mut changes = HashMap::new();
+        for pair in group {
+            let change = pair.intervals(&cloths[0]).map(|intervals| {
+                *changes.entry(intervals).or_insert_with(|| {
+                    let [before, after] = [0, 1].map(|cloth| cloths[cloth].integral(intervals));
+                    after - before
+                })
+            });
+            let change = change.sum::<f64>().abs();
+            if change > largest.change {
+                largest = Linking { change, at: Some([pair.one, pair.other]) };
+            }
+        }
+    }
+    largest
+}
+
+/// Gauss's linking integral of two chains of chords: an integer if both are closed.
+#[must_use]
+pub fn linking_integral(one: &[DVec3], other: &[DVec3]) -> f64 {
+    let chords = |chain: &[DVec3]| chain.windows(2).map(|chord| [chord[0], chord[1]]).collect::<Vec<_>>();
+    let others = chords(other);
+    chords(one).iter().flat_map(|&one| others.iter().map(move |&other| of_chords(one, other))).sum()
+}
+
+/// The integral of two chords: the solid angle of all directions in which one is seen to cross the other, over that of the
+/// sphere (Klenin and Langowski 2000).
+///
+/// These directions are a quadrangle on the sphere. It is cut into two triangles, whose angles come from Van Oosterom and
+/// Strackee's formula (1983): it has the sign, and gives 0 for chords in one plane.
+fn of_chords(one: [DVec3; 2], other: [DVec3; 2]) -> f64 {
+    let [a, b, c, d] = [other[0] - one[0], other[1] - one[0], other[1] - one[1], other[0] - one[1]];
+    let triangle = |a: DVec3, b: DVec3, c: DVec3| {
+        let [x, y, z] = [a.length(), b.length(), c.length()];
+        a.dot(b.cross(c)).atan2(x * y * z + a.dot(b) * z + c.dot(a) * y + b.dot(c) * x)
+    };
+    (triangle(a, b, c) + triangle(c, d, a)) / TAU
+}
+
+/// Two windows, the second one moved by so many repeats.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Pair {
+    one: Place,
+    other: Place,
+    image: [i32; 2],
+}
+
+impl Pair {
+    fn yarns(&self) -> [usize; 2] {
+        [self.one.yarn, self.other.yarn]
+    }
+
+    /// Every interval of the first window with every one of the second.
+    fn intervals(&self, cloth: &Cloth<'_>) -> impl Iterator<Item = Self> {
+        let [first, second] = [self.one, self.other].map(|middle| {
+            let steps = -HALF_WINDOW..HALF_WINDOW;
+            steps.filter_map(|step| cloth.interval(middle, step)).collect::<Vec<_>>()
+        });
+        first.into_iter().flat_map(move |(one, beyond)| {
+            let second = second.clone();
+            second.into_iter().map(move |(other, further)| {
+                let image = [0, 1].map(|axis| self.image[axis] + further[axis] - beyond[axis]);
+                Self { one, other, image }
+            })
+        })
+    }
+}
+
+/// All yarns as chords.
+struct Cloth<'a> {
+    start: &'a Start,
+    /// Each interval's chords, yarn by yarn.
+    chains: Vec<Vec<[DVec3; PARTS + 1]>>,
+}
+
+impl<'a> Cloth<'a> {
+    fn new(start: &'a Start, points: &[Vec<DVec3>]) -> Self {
+        assert_eq!(points.len(), start.yarns.len(), "{}: yarns", start.name);
+        let chain = |yarn| {
+            let pieces = Curve::new(start, yarn, &points[yarn]).pieces().collect::<Vec<_>>();
+            pieces.iter().map(|piece| std::array::from_fn(|k| piece.at(k as f64 / PARTS as f64))).collect()
+        };
+        Self { start, chains: (0..points.len()).map(chain).collect() }
+    }
+
+    /// The interval `step` intervals after `place` and how many repeats that is further; none beyond the ends of an open yarn.
+    fn interval(&self, place: Place, step: isize) -> Option<(Place, [i32; 2])> {
+        let count = self.chains[place.yarn].len() as isize;
+        let at = place.interval as isize + step;
+        let interval = Place { interval: at.rem_euclid(count) as usize, ..place };
+        let times = at.div_euclid(count) as i32;
+        match self.start.yarns[place.yarn].ends {
+            Ends::Open => (times == 0).then_some((interval, [0; 2])),
+            Ends::Closed => Some((interval, [0; 2])),
+            Ends::Repeats(repeats) => Some((interval, repeats.map(|repeats| times * repeats))),
+        }
+    }
+
+    /// The integral of two intervals.
+    fn integral(&self, Pair { one, other, image }: Pair) -> f64 {
+        let shift = self.start.shift(image);
+        let first = &self.chains[one.yarn][one.interval];
+        linking_integral(first, &self.chains[other.yarn][other.interval].map(|point| point + shift))
+    }
+
+    /// All windows whose middles come near one another, and which do not overlap.
+    fn near(&self) -> Vec<Pair> {
+        let start = self.start;
+        // A chord, and the control point next to it.
+        let mut chords = Vec::new();
+        for (yarn, chain) in self.chains.iter().enumerate() {
+            for (interval, points) in chain.iter().enumerate() {
+                for part in 0..PARTS {
+                    let middle = self.interval(Place { yarn, interval }, isize::from(part >= PARTS / 2));
+                    let middle = middle.unwrap_or((Place { yarn, interval }, [0; 2]));
+                    chords.push((middle, [points[part], points[part + 1]]));
+                }
+            }
+        }
+        let thickest = start.yarns.iter().map(|yarn| yarn.radius).fold(0.0, f64::max);
+        let longest = chords.iter().map(|(_, [from, to])| from.distance(*to)).fold(0.0, f64::max);
+        let middles: Vec<_> = chords.iter().map(|(_, [from, to])| (*from + *to) / 2.0).collect();
+        let mut pairs = Vec::new();
+        let cells = Cells::new(&middles, start.repeat, NEAR * 2.0 * thickest + longest);
+        cells.each_pair(|one, other, image| {
+            let (((one, beyond), first), ((other, further), second)) = (chords[one], chords[other]);
+            let shift = start.shift(image);
+            let second = second.map(|point| point + shift);
+            let (s, t) = closest(first, second);
+            let way = first[0].lerp(first[1], s).distance(second[0].lerp(second[1], t));
+            if way < NEAR * (start.yarns[one.yarn].radius + start.yarns[other.yarn].radius) {
+                let image = [0, 1].map(|axis| image[axis] + further[axis] - beyond[axis]);
+                let pair = Pair { one, other, image };
+                if !self.overlap(pair) {
+                    pairs.push(pair);
+                }
+            }
+        });
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
+    }
+
+    /// Whether both windows are of one yarn and have an interval or an end in common. Where they have an end in common, rounding
+    /// over the seam of a repeat would decide from where it is seen.
+    fn overlap(&self, pair: Pair) -> bool {
+        let steps = -2 * HALF_WINDOW..=2 * HALF_WINDOW;
+        pair.one.yarn == pair.other.yarn
+            && steps.into_iter().any(|step| self.interval(pair.one, step) == Some((pair.other, pair.image)))
+    }
+}

@@ -1,0 +1,29 @@
+//! Cloth before and after it settles: starts for a solver, and a check of what it gives back.
+//!
+//! A [`Start`] is the control points of one repeat, as data. [`starts`] lists those that every solver is tried on. [`check()`]
+//! measures what came to rest, [`linking()`] whether yarns went through one another on the way. Both are in f64 and share no code
+//! with texere's crates.
+
+mod cells;
+mod chart;
+mod check;
+mod chords;
+mod curve;
+mod linking;
+mod list;
+mod segments;
+mod settle;
+mod start;
+mod warp;
+mod weft;
+mod woven;
+
+pub use chart::{Chart, Stitch};
+pub use check::{Place, Report, check};
+pub use linking::{CROSSED, Linking, linking, linking_integral};
+pub use list::{lace, random_misses, starts};
+pub use settle::{settle_start, settling_plan, yarns};
+pub use start::{Ends, Length, Start, StartYarn};
+pub use warp::{Lapping, warp_knit};
+pub use weft::{Gauge, weft_knit, weft_knit_piece};
+pub use woven::{Weave, woven, woven_piece};

@@ -1,0 +1,151 @@
+//! Starts of warp knits: loops that guides lay round needles, one or two bars of them.
+//!
+//! Guide j of a bar stands in space j + a when its chain says `a-b`, goes round the needle between the spaces a and b, and waits
+//! in space b for the next course. So the loop is on needle j + min(a, b). It comes through the loops of the course below from
+//! the back to the face (+z), and all that goes from needle to needle, the underlap, lies on the back.
+//!
+//! With two bars every loop is of two yarns, and both come through both of the course below: the legs of either lie in front
+//! of the heads of either. The front bar is named first. Its loops are the foremost on the face, its underlaps the hindmost on
+//! the back.
+
+use glam::DVec3;
+
+use super::{Ends, Length, Start, StartYarn};
+
+/// Distance of neighbouring wales, mm.
+const WALE: f64 = 1.0;
+
+/// Distance of neighbouring courses, mm.
+const COURSE: f64 = 0.75 * WALE;
+
+/// Height of a loop from foot to head, mm.
+const HEIGHT: f64 = 1.6 * COURSE;
+
+/// Half the distance of a loop's feet, mm.
+const FOOT: f64 = 0.14 * WALE;
+
+/// The length of an underlap's pieces, mm.
+const PIECE: f64 = 0.4 * WALE;
+
+/// How far behind its feet an underlap lies, in diameters.
+const UNDERLAP: f64 = 0.6;
+
+/// Wales of a repeat.
+const WALES: i32 = 4;
+
+/// Courses of a repeat: the least, since chains come as often as they need to.
+const COURSES: usize = 4;
+
+/// What guides do, and how thick their yarn is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lapping<'a> {
+    /// Each bar's chain, as in `1-0/1-2`, the front bar first.
+    pub bars: &'a [&'a str],
+    /// The yarn's diameter, mm; wales are 1 mm apart.
+    pub diameter: f64,
+    /// By how much a loop is narrower below, where it comes through another, and wider above, in diameters either way.
+    pub bulge: f64,
+    /// How far a loop begins below and ends above its course, in courses.
+    pub slant: f64,
+}
+
+/// Four wales of `lapping`, every guide threaded.
+///
+/// # Panics
+///
+/// For chains that are none.
+#[must_use]
+pub fn warp_knit(name: &str, lapping: Lapping<'_>) -> Start {
+    let chains: Vec<_> = lapping.bars.iter().map(|bar| chain(bar)).collect();
+    let longest = chains.iter().map(Vec::len).max().unwrap_or(1);
+    let courses = COURSES.next_multiple_of(longest);
+    let guides =
+        chains.iter().enumerate().flat_map(|(bar, chain)| (0..WALES).map(move |guide| (bar, chain, guide)));
+    let height = DVec3::new(0.0, courses as f64 * COURSE, 0.0);
+    let yarns = guides.map(|(bar, chain, guide)| {
+        let loops = (0..courses)
+            .flat_map(|course| loop_points(lapping, bar, course, guide, chain[course % chain.len()]));
+        StartYarn {
+            points: with_underlaps(&loops.collect::<Vec<_>>(), height, UNDERLAP * lapping.diameter),
+            radius: lapping.diameter / 2.0,
+            ends: Ends::Repeats([0, 1]),
+        }
+    });
+    Start {
+        name: name.to_owned(),
+        yarns: yarns.collect(),
+        repeat: [f64::from(WALES) * WALE, courses as f64 * COURSE],
+        pinned: Vec::new(),
+        length: Length::Held,
+    }
+}
+
+/// Adds points to underlaps, so that none is much longer than a loop's other pieces: a spline turns sharply where a long piece
+/// follows a short one. They lie `behind` the feet, which other yarns of the same bar have between them. After the last point comes the
+/// first one, moved by `on`.
+fn with_underlaps(points: &[DVec3], on: DVec3, behind: f64) -> Vec<DVec3> {
+    let next = points[1..].iter().copied().chain([points[0] + on]);
+    let pieces = points.iter().zip(next).flat_map(|(&from, to)| {
+        let parts = (from.distance(to) / PIECE).round().max(1.0);
+        let at = move |part: usize| {
+            from.lerp(to, part as f64 / parts) - DVec3::Z * if part > 0 { behind } else { 0.0 }
+        };
+        (0..parts as usize).map(at)
+    });
+    pieces.collect()
+}
+
+/// Where a guide is before and after each lap.
+fn chain(text: &str) -> Vec<[i32; 2]> {
+    let lap = |lap: &str| {
+        let (from, to) = lap.split_once('-')?;
+        Some([from.parse().ok()?, to.parse().ok()?])
+    };
+    let laps: Option<Vec<[i32; 2]>> = text.split('/').map(lap).collect();
+    let laps = laps.unwrap_or_else(|| panic!("no chain: {text}"));
+    assert!(laps.iter().all(|[from, to]| from.abs_diff(*to) == 1), "{text} does not go round one needle");
+    laps
+}
+
+/// One loop, from the foot at which the yarn comes in to the one at which it goes out.
+fn loop_points(
+    lapping: Lapping<'_>,
+    bar: usize,
+    course: usize,
+    guide: i32,
+    [from, to]: [i32; 2],
+) -> Vec<DVec3> {
+    let Lapping { bars, diameter, bulge, slant } = lapping;
+    let (last, front_most) = (bars.len() - 1, 0.5 * (bars.len() - 1) as f64 - bar as f64);
+    // Legs of either bar in front of heads of either, which takes more than the bars are apart.
+    let (forward, tilt) = if last == 0 { (0.9, 0.0) } else { (1.0, 0.3) };
+    let layer = 0.7 * front_most;
+    let behind = if last == 0 { 2.2 } else { 2.0 + 1.8 * (last - bar) as f64 };
+    // Loops of bars that lap alike would lie in one another.
+    let beside = if last > 0 && bars.iter().all(|other| *other == bars[0]) { front_most } else { 0.0 };
+
+    let side = f64::from(to - from);
+    let middle = (f64::from(guide + from.min(to)) + 0.5) * WALE;
+    let place = |x: f64, y: f64, z: f64| DVec3::new(x, course as f64 * COURSE + y, z * diameter);
+    let leg = |hand: f64| {
+        let at = |width: f64, y: f64, z: f64| place(middle + hand * width + beside * diameter, y, z + layer);
+        [
+            at(WALE / 4.0 - bulge * diameter, (HEIGHT - COURSE) / 2.0, tilt),
+            at(WALE / 4.0, HEIGHT / 2.0, forward),
+            at(WALE / 4.0 + bulge * diameter, (HEIGHT + COURSE) / 2.0, -tilt),
+        ]
+    };
+    let foot = |hand: f64, up: f64| {
+        place(
+            middle + hand * (FOOT + front_most * diameter) + beside * diameter,
+            up * slant * COURSE,
+            -behind,
+        )
+    };
+    let mut points = vec![foot(-side, -1.0)];
+    points.extend(leg(-side));
+    points.push(place(middle, HEIGHT, layer - forward));
+    points.extend(leg(side).into_iter().rev());
+    points.push(foot(side, 1.0));
+    points
+}

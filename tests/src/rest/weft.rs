@@ -1,0 +1,232 @@
+//! Starts of weft knits: a chart's stitches as paths of yarn.
+//!
+//! A plain loop has twelve points: round arcs, and legs that make a V. What is said here holds for loops that are drawn to the
+//! face; to the back, z changes its sign.
+//!
+//! - A loop comes through what hangs on its needle: its feet pass behind the upper legs of that, its own legs in front of the
+//!   heads. So the lower half of a loop follows the side to which it is drawn itself, the upper half that of the loop which is
+//!   drawn through it.
+//! - A needle that does not knit keeps its loop: the upper half lies as many courses higher. The yarn of a missed course
+//!   floats past behind it.
+//! - A tuck is an arch that hangs on the needle beside the held loop and behind it, and the next loop is drawn through both. So
+//!   the feet of that loop pass behind the tuck, and the tuck lies between: its legs behind those of the held loop.
+//! - A loop that is moved to the next needle lies behind the one that hangs there: the machine puts it nearer the tip of the
+//!   hook. The needle that it left makes an arch which goes through nothing: the eyelet.
+
+use glam::DVec3;
+
+use super::chart::{Chart, Stitch};
+use super::{Ends, Length, Start, StartYarn};
+
+/// Depths that give loops of round yarn a clearance of one, by the wale spacing in diameters.
+const DEPTHS: [(f64, f64); 6] =
+    [(4.2, 0.70), (4.5, 0.68), (5.0, 0.67), (6.0, 0.65), (8.0, 0.64), (10.0, 0.64)];
+
+/// How close stitches lie.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gauge {
+    /// Distance of neighbouring wales, mm.
+    pub wale: f64,
+    /// Distance of neighbouring courses, mm.
+    pub course: f64,
+    /// Diameter of the yarn, mm.
+    pub diameter: f64,
+    /// How far loops reach out of the plane of the cloth, in diameters: their centreline from -0.84 to 0.98 times it.
+    pub depth: f64,
+}
+
+impl Gauge {
+    /// Wales `wale` diameters apart, of a yarn with a diameter of 1 mm, and three quarters of that from course to course.
+    #[must_use]
+    pub fn new(wale: f64) -> Self {
+        let depth = DEPTHS.windows(2).find(|pair| wale <= pair[1].0).map_or(0.64, |pair| {
+            let [(low, deep), (high, shallow)] = [pair[0], pair[1]];
+            deep + (shallow - deep) * (wale - low).max(0.0) / (high - low)
+        });
+        Self { wale, course: 0.75 * wale, diameter: 1.0, depth }
+    }
+
+    /// Height of a loop from foot to head.
+    fn height(&self) -> f64 {
+        1.76 * self.course
+    }
+
+    /// Half the width of a loop where it is narrowest: both feet, or the space between two heads.
+    fn narrow(&self) -> f64 {
+        (0.53 * self.diameter).max(0.09 * self.wale)
+    }
+}
+
+/// A repeat of `chart`.
+#[must_use]
+pub fn weft_knit(name: &str, chart: &Chart, gauge: Gauge, length: Length) -> Start {
+    let yarn = |course| StartYarn {
+        points: course_points(chart, gauge, course),
+        radius: gauge.diameter / 2.0,
+        ends: Ends::Repeats([1, 0]),
+    };
+    Start {
+        name: name.to_owned(),
+        yarns: (0..chart.courses() as i64).map(yarn).collect(),
+        repeat: [chart.wales() as f64 * gauge.wale, chart.courses() as f64 * gauge.course],
+        pinned: Vec::new(),
+        length,
+    }
+}
+
+/// `chart` cut off: each course begins and ends level, half a wale beyond its outer loops.
+///
+/// Pinned is what no other yarn crosses: both ends of each course, the arcs of the first course and the heads of the last.
+/// Nothing else would keep these in place.
+#[must_use]
+pub fn weft_knit_piece(name: &str, chart: &Chart, gauge: Gauge, length: Length) -> Start {
+    let mut start = weft_knit(name, chart, gauge, length);
+    let last_course = start.yarns.len() - 1;
+    let head = start.yarns[last_course].points.iter().map(|point| point.y).fold(0.0, f64::max);
+    for (number, yarn) in start.yarns.iter_mut().enumerate() {
+        let (from, width) = (yarn.points[0], DVec3::X * start.repeat[0]);
+        let out = DVec3::X * gauge.wale / 2.0;
+        yarn.points.insert(0, from - out);
+        yarn.points.extend([from + width, from + width + out]);
+        yarn.ends = Ends::Open;
+        let last = yarn.points.len() - 1;
+        let pinned = yarn.points.iter().enumerate().filter(|(index, point)| {
+            [0, 1, last - 1, last].contains(index)
+                || number == 0 && point.y == 0.0
+                || number == last_course && point.y == head
+        });
+        start.pinned.extend(pinned.map(|(index, _)| (number, index)));
+    }
+    start.repeat = [0.0; 2];
+    start
+}
+
+/// One course from left to right, each wale from the middle of the arc to its left.
+fn course_points(chart: &Chart, gauge: Gauge, course: i64) -> Vec<DVec3> {
+    let mut points = Vec::new();
+    for wale in 0..chart.wales() as i64 {
+        let cell = Cell { chart, gauge, course, wale };
+        let left = Cell { wale: wale - 1, ..cell };
+        points.push(cell.place(-0.5 * gauge.wale, 0.0, between(left.foot(), cell.foot())));
+        match chart.stitch(course, wale) {
+            Stitch::Miss => {
+                points.extend([-1.0, 1.0].map(|side| cell.place(side * gauge.wale / 6.0, 0.0, cell.foot())));
+            }
+            Stitch::Face | Stitch::Back | Stitch::Tuck => {
+                points.extend(cell.half(-1.0));
+                points.push(cell.head());
+                points.extend(cell.half(1.0).into_iter().rev());
+            }
+        }
+    }
+    points
+}
+
+/// Height of the arc between two feet: as far back as the further one, half way if they lie on opposite sides.
+fn between(left: f64, right: f64) -> f64 {
+    if left * right < 0.0 {
+        (left + right) / 2.0
+    } else if left.abs() > right.abs() {
+        left
+    } else {
+        right
+    }
+}
+
+/// One stitch.
+#[derive(Clone, Copy)]
+struct Cell<'a> {
+    chart: &'a Chart,
+    gauge: Gauge,
+    course: i64,
+    wale: i64,
+}
+
+impl Cell<'_> {
+    /// `x` from the middle of the wale, `y` from the course.
+    fn place(&self, x: f64, y: f64, z: f64) -> DVec3 {
+        let Gauge { wale, course, .. } = self.gauge;
+        DVec3::new((self.wale as f64 + 0.5) * wale + x, self.course as f64 * course + y, z)
+    }
+
+    /// To which side the loop itself is drawn; where none is, the one that will be drawn next.
+    fn side(&self) -> f64 {
+        match self.chart.stitch(self.course, self.wale) {
+            Stitch::Face => 1.0,
+            Stitch::Back => -1.0,
+            Stitch::Tuck | Stitch::Miss => self.chart.next_side(self.course, self.wale),
+        }
+    }
+
+    /// Whether a loop is drawn through nothing.
+    fn is_arch(&self) -> bool {
+        self.chart.stitch(self.course, self.wale) == Stitch::Tuck
+            || self.chart.hanging(self.course, self.wale) == 0
+    }
+
+    /// How much further back the feet are than behind one loop, because of others that lie between.
+    fn behind(&self) -> f64 {
+        let loops = match self.chart.stitch(self.course, self.wale) {
+            Stitch::Face | Stitch::Back => self.chart.hanging(self.course, self.wale),
+            Stitch::Tuck => self.chart.fate(self.course, self.wale).layer,
+            Stitch::Miss => 0,
+        };
+        loops.saturating_sub(1) as f64 * self.gauge.diameter
+    }
+
+    /// z of its feet.
+    fn foot(&self) -> f64 {
+        -self.side() * (0.84 * self.gauge.depth * self.gauge.diameter + self.behind())
+    }
+
+    /// The head's middle.
+    fn head(&self) -> DVec3 {
+        let fate = self.chart.fate(self.course, self.wale);
+        let Gauge { wale, course, diameter, depth } = self.gauge;
+        let y = self.gauge.height() + fate.held as f64 * course;
+        self.place(fate.moved as f64 * wale, y, fate.side * (-0.84 * depth - fate.layer as f64) * diameter)
+    }
+
+    /// From foot to head, `hand` -1 the left one, 1 the right one.
+    fn half(&self, hand: f64) -> Vec<DVec3> {
+        let Gauge { wale, course, diameter, depth } = self.gauge;
+        let (height, narrow) = (self.gauge.height(), self.gauge.narrow());
+        let fate = self.chart.fate(self.course, self.wale);
+        let (own, next) = (self.side(), fate.side);
+        let own_z = |z: f64| own * z * depth * diameter;
+        let next_z = |z: f64| next * (z * depth - fate.layer as f64) * diameter;
+        // How far along the way from the own needle to the one that it is moved to.
+        let at = |across: f64, way: f64, y: f64, z: f64| {
+            self.place(hand * across + way * fate.moved as f64 * wale, y * height, z)
+        };
+        let mut points = if self.is_arch() {
+            let foot = self.place(hand * 0.31 * wale, 0.083 * height, self.foot());
+            vec![foot, at(0.25 * wale, 0.0, 0.4, next_z(0.98))]
+        } else {
+            let foot = at(0.19 * wale, 0.0, 0.083, own_z(-0.48) - own * self.behind());
+            let lower = at(narrow, 0.1, 0.285, own_z(0.41));
+            if own == next {
+                // Of a loop that is moved, the leg on the side that it leaves has nothing in front of it.
+                let leaves = hand * (fate.moved as f64) < 0.0;
+                vec![foot, lower, at(0.25 * wale, 0.5, 0.5, if leaves { own_z(0.98) } else { next_z(0.98) })]
+            } else {
+                // The leg goes through the plane of the cloth between what it came through and what comes through it.
+                vec![
+                    foot,
+                    lower,
+                    at(0.2 * wale, 0.5, 0.42, own_z(0.6)),
+                    at(0.3 * wale, 0.5, 0.58, next_z(0.6)),
+                ]
+            }
+        };
+        if let (Some(&leg), true) = (points.last(), fate.held > 0) {
+            points.extend((1..=fate.held).map(|up| leg + DVec3::Y * (up as f64 * course)));
+        }
+        let up = fate.held as f64 * course / height;
+        points.extend([
+            at(0.5 * wale - narrow, 1.0, 0.715 + up, next_z(0.41)),
+            at(0.31 * wale, 1.0, 0.917 + up, next_z(-0.48)),
+        ]);
+        points
+    }
+}

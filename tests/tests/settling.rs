@@ -1,0 +1,271 @@
+//! Yarns come to rest: every start of the list on the `cpu` backend, by a check of its own; and the same bits on every schedule of
+//! the CPU.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use texere_conformance::rest::{
+    CROSSED, Chart, Ends, Gauge, Length, Start, StartYarn, Weave, check, linking, settle_start,
+    settling_plan, starts, weft_knit, woven,
+};
+use texere_core::settling::{
+    Form, Pass, Place, Seen, Settler, Settling, SettlingError, SettlingPlan, settle, settled, tag,
+};
+use texere_core::{Backend, Boundary, BoundaryError, ControlPoint, NullBackend, Yarn, Yarns};
+use texere_cpu::{ParallelBackend, SerialBackend};
+
+fn cpu() -> ParallelBackend {
+    ParallelBackend::open().expect("the CPU")
+}
+
+/// What is asked of every start, by an independent check of splines, distances and linking in f64.
+#[test]
+fn starts_come_to_rest() {
+    let mut failed = Vec::new();
+    for start in starts() {
+        let (rest, points) = settle_start(&start, &cpu(), |_, _| {});
+        let report = check(&start, &points);
+        let linked = linking(&start, &start.points(), &points);
+        let length = match start.length {
+            Length::Held => report.stretch.abs(),
+            Length::Given(factor) => ((1.0 + report.stretch) / factor - 1.0).abs(),
+            Length::Free => 0.0,
+        };
+        // An open piece of a jammed weave is held by its ends: its bends stay what they are.
+        let bend = if start.name == "plain-1.8-piece" { 0.5 } else { 0.58 };
+        if report.clearance < 0.98 || report.bend < bend || length > 0.01 || linked.change > CROSSED {
+            failed.push(format!("{}: {rest:?} {report:?} {linked:?}", start.name));
+        }
+        for &(yarn, point) in &start.pinned {
+            let moved = points[yarn][point].distance(start.yarns[yarn].points[point]);
+            assert!(moved < 1e-4, "{}: a pinned point moved {moved} mm", start.name);
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// A repeat of plain weave as it lies, its yarns flattened or not.
+fn plain(pitch: f64, flattened: bool) -> (Start, Yarns) {
+    let start = woven("plain", Weave { size: 4, step: 1, order: 2, pitch }, Length::Free);
+    let mut yarns = Yarns::builder();
+    for yarn in &start.yarns {
+        let (width, height) = if flattened { (1.3, 0.7) } else { (1.0, 1.0) };
+        let point = |at: &DVec3| {
+            let radius = yarn.radius as f32;
+            ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, radius)
+                .flattened(radius * width, radius * height)
+        };
+        yarns.yarn(Yarn::default(), &yarn.points.iter().map(point).collect::<Vec<_>>());
+    }
+    (start, yarns.build().expect("yarns"))
+}
+
+/// Plans that between them have everything that passes distinguish.
+fn plans() -> Vec<(&'static str, Arc<SettlingPlan>)> {
+    let mut plans: Vec<_> = starts()
+        .iter()
+        .filter_map(|start| {
+            let names =
+                ["jersey-3.6", "tuck-5", "lace-4x4", "jersey-5-piece", "queenscord-0.1", "plain-1.8-piece"];
+            let name = names.into_iter().find(|name| *name == start.name)?;
+            Some((name, settling_plan(start)))
+        })
+        .collect();
+    assert_eq!(plans.len(), 6, "starts by name");
+    let (start, yarns) = plain(2.2, true);
+    let ends = start.yarns.iter().map(|yarn| match yarn.ends {
+        Ends::Repeats(shift) => texere_core::Ends::Repeats(shift),
+        Ends::Open | Ends::Closed => panic!("a repeat"),
+    });
+    let boundary = Boundary::new(yarns.layout(), start.repeat.map(|repeat| repeat as f32), ends.collect());
+    let settling = Settling::new(&yarns).boundary(boundary.expect("a boundary")).plates(0.3);
+    plans.push(("flattened, pressed", Arc::new(SettlingPlan::new(&settling).expect("a plan"))));
+    let mut rings = Yarns::builder();
+    for ring in 0..2 {
+        let point = |k: usize| {
+            let (sin, cos) = (k as f32 * std::f32::consts::TAU / 12.0).sin_cos();
+            let (x, far) = (ring as f32 + cos, sin);
+            let [y, z] = if ring == 0 { [far, 0.0] } else { [0.0, far] };
+            ControlPoint::new(x, y, z, 0.3)
+        };
+        rings.yarn(Yarn { closed: true, ..Yarn::default() }, &(0..12).map(point).collect::<Vec<_>>());
+    }
+    let rings = rings.build().expect("yarns");
+    plans.push(("linked rings", Arc::new(SettlingPlan::new(&Settling::new(&rings)).expect("a plan"))));
+    plans
+}
+
+/// The places of all control points at the start, in order.
+fn places(plan: &SettlingPlan) -> Vec<Place> {
+    let all = plan.places().iter().zip(plan.tags());
+    all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
+}
+
+/// Eight passes of either form, with neighbours listed twice: what each saw, and where everything was after it.
+fn eight_passes(plan: &SettlingPlan, settler: &mut dyn Settler, form: Form) -> Vec<(Seen, Vec<Place>)> {
+    let mut now = places(plan);
+    settler.upload(&now).expect("an upload");
+    let mut all = Vec::new();
+    for number in 0..8 {
+        let growth = if number < 4 { 0.8 } else { 1.0 };
+        if number % 4 == 0 {
+            settler.list(growth).expect("a list");
+        }
+        let seen = settler.pass(&Pass { form, growth, ease: 0.5, momentum: 0.8 }).expect("a pass");
+        settler.read(&mut now).expect("places");
+        all.push((seen, now.clone()));
+    }
+    all
+}
+
+#[test]
+fn all_schedules_of_the_cpu_give_the_same_bits() {
+    for (name, plan) in plans() {
+        for form in [Form::Weighted, Form::Block] {
+            let mut serial = SerialBackend::new().settler(Arc::clone(&plan)).expect("a settler");
+            let reference = eight_passes(&plan, serial.as_mut(), form);
+            assert!(reference[7].1 != places(&plan), "{name}: nothing moved");
+            assert!(eight_passes(&plan, serial.as_mut(), form) == reference, "{name}: again");
+            for backend in ParallelBackend::each() {
+                let mut settler = backend.settler(Arc::clone(&plan)).expect("a settler");
+                let found = eight_passes(&plan, settler.as_mut(), form);
+                for (pass, (found, expected)) in found.iter().zip(&reference).enumerate() {
+                    let device = &backend.info().name;
+                    assert_eq!(found.0, expected.0, "{name}, {form:?}, {device}: seen by pass {pass}");
+                    assert!(found.1 == expected.1, "{name}, {form:?}, {device}: places after pass {pass}");
+                }
+            }
+        }
+    }
+}
+
+/// The course that leads passes is the same, too.
+#[test]
+fn whole_settlings_end_in_the_same_bits() {
+    let start = weft_knit("jersey", &Chart::new(&["kk"; 2]), Gauge::new(4.2), Length::Held);
+    let plan = settling_plan(&start);
+    let end = |device: &dyn Backend| {
+        let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
+        let rest = settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+        (rest, settled(&plan, settler.as_mut()).expect("points"))
+    };
+    let reference = end(&SerialBackend::new());
+    assert!(reference.0.at_rest && reference.0.passes > 100, "{:?}", reference.0);
+    assert_eq!(end(&cpu()), reference);
+}
+
+/// Ten metres out a cloth rests just as it does at the origin: coordinates are chosen so that they are exact in both places.
+#[test]
+fn a_cloth_far_out_rests_as_one_at_the_origin() {
+    let at = |far: DVec3| {
+        let mut start = weft_knit("jersey", &Chart::new(&["kk"; 2]), Gauge::new(4.2), Length::Held);
+        let fine = 1024.0;
+        start.repeat = start.repeat.map(|repeat| (64.0 * repeat * fine).round() / fine);
+        for yarn in &mut start.yarns {
+            yarn.radius *= 64.0;
+            for point in &mut yarn.points {
+                *point = (*point * 64.0 * fine).round() / fine + far;
+            }
+        }
+        settle_start(&start, &cpu(), |_, _| {})
+    };
+    let far = DVec3::new(10_240.0, -9_216.0, 0.0);
+    let ((here, near), (there, moved)) = (at(DVec3::ZERO), at(far));
+    assert_eq!(here, there);
+    for (one, other) in near.iter().flatten().zip(moved.iter().flatten()) {
+        let apart = (*other - far).distance(*one);
+        assert!(apart <= 1e-3, "{apart} mm: more than coordinates are rounded there");
+    }
+}
+
+/// A weave too dense for round yarns can't come to rest; it is not made worse.
+#[test]
+fn what_comes_back_is_no_worse_than_what_came_in() {
+    for pitch in [1.2, 1.5] {
+        let start = woven("jammed", Weave { size: 4, step: 1, order: 2, pitch }, Length::Held);
+        let (rest, points) = settle_start(&start, &cpu(), |_, _| {});
+        assert!(!rest.at_rest, "{pitch}: {rest:?}");
+        assert!(!rest.start.is_better_than(&rest.end), "{pitch}: {rest:?}");
+        let linked = linking(&start, &start.points(), &points);
+        assert!(linked.change < CROSSED, "{pitch}: {linked:?}");
+    }
+}
+
+/// Plates press a knit flat and leave its yarns clear of one another.
+#[test]
+fn plates_press() {
+    let start = weft_knit("rib", &Chart::new(&["kpkp"; 4]), Gauge::new(5.0), Length::Free);
+    let yarns = texere_conformance::rest::yarns(&start);
+    let ends: Vec<_> = start.yarns.iter().map(|_| texere_core::Ends::Repeats([1, 0])).collect();
+    let repeat = start.repeat.map(|repeat| repeat as f32);
+    let boundary = Boundary::new(yarns.layout(), repeat, ends).expect("a boundary");
+    let free = texere_core::settling::Length::Free { tension: 0.0 };
+    let diameter = 2.0 * start.yarns[0].radius;
+    let settled_between = |gap: Option<f32>| {
+        let settling = Settling::new(&yarns).boundary(boundary.clone()).length(free);
+        let settling = if let Some(gap) = gap { settling.plates(gap) } else { settling };
+        let plan = Arc::new(SettlingPlan::new(&settling).expect("a plan"));
+        let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
+        settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+        let points = settled(&plan, settler.as_mut()).expect("points");
+        let mut points = points.iter().map(|point| point.position().as_dvec3());
+        let all: Vec<Vec<_>> =
+            start.yarns.iter().map(|yarn| points.by_ref().take(yarn.points.len()).collect()).collect();
+        check(&start, &all)
+    };
+    let (free, pressed) = (settled_between(None), settled_between(Some(2.0 * diameter as f32)));
+    assert!(pressed.thickness < free.thickness - 0.05 * diameter, "{free:?} {pressed:?}");
+    assert!(pressed.clearance > 0.98, "{pressed:?}");
+}
+
+#[test]
+fn unsound_problems_are_refused_by_name() {
+    let straight = |y: f32| [0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y, 0.0, 0.1));
+    let mut yarns = Yarns::builder();
+    yarns.yarn(Yarn::default(), &straight(0.0));
+    yarns.yarn(Yarn::default(), &straight(1.0));
+    let yarns = yarns.build().expect("yarns");
+    let refused = |settling: Settling<'_>| match SettlingPlan::new(&settling) {
+        Ok(plan) => panic!("taken: {:?}", plan.counts()),
+        Err(error) => error.to_string(),
+    };
+    let goes_on = texere_core::Ends::Repeats([1, 0]);
+    let short = Boundary::new(yarns.layout(), [0.5, 0.0], vec![goes_on; 2]).expect("a boundary");
+    let message = refused(Settling::new(&yarns).boundary(short));
+    assert!(message.starts_with("a repeat of 0.5 mm along x is too short for yarns of 0.19995"), "{message}");
+    assert_eq!(
+        refused(Settling::new(&yarns).pinned(vec![5, 6])),
+        "control point 6 can't be pinned, there are 6"
+    );
+    assert_eq!(
+        refused(Settling::new(&yarns).spline_tension(1.0)),
+        "the spline's tension is 1, not between 0 and 0.99"
+    );
+    let length = texere_core::settling::Length::Given(f32::NAN);
+    assert_eq!(refused(Settling::new(&yarns).length(length)), "the length is NaN, not between 0.5 and 2");
+    let mut one = Yarns::builder();
+    one.yarn(Yarn::default(), &straight(0.0));
+    let one = one.build().expect("yarns");
+    let other = Boundary::without_repeat(one.layout());
+    let wrong = SettlingPlan::new(&Settling::new(&yarns).boundary(other));
+    let counts = BoundaryError::EndsCount { ends: 1, yarns: 2 };
+    assert_eq!(wrong.err(), Some(SettlingError::Boundary(counts)));
+    let mut wide = Yarns::builder();
+    wide.yarn(Yarn::default(), &[-9e8, 9e8].map(|x| ControlPoint::new(x, 0.0, 0.0, 1e-3)));
+    let wide = wide.build().expect("yarns");
+    let message = refused(Settling::new(&wide));
+    assert!(message.starts_with("a cloth of 9"), "{message}");
+}
+
+#[test]
+fn a_backend_without_settling_says_so() {
+    let start = Start {
+        name: "two".into(),
+        yarns: vec![StartYarn { points: vec![DVec3::ZERO, DVec3::X], radius: 0.1, ends: Ends::Open }],
+        repeat: [0.0; 2],
+        pinned: Vec::new(),
+        length: Length::Held,
+    };
+    let error = NullBackend::default().settler(settling_plan(&start)).expect_err("no settler");
+    assert_eq!(error.to_string(), "null can't settle yarns");
+}

@@ -230,6 +230,43 @@ pub(super) fn difference<F: Floats>(a: [F; 3], b: [F; 3]) -> [F; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+/// The vectors' bits.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn to_bits<F: Floats>([x, y, z]: [F; 3]) -> [F::Integers; 3] {
+    [x.to_bits(), y.to_bits(), z.to_bits()]
+}
+
+/// The floats that have the vectors' bits.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn bit_cast<I: Integers>([x, y, z]: [I; 3]) -> [I::Floats; 3] {
+    [x.bit_cast(), y.bit_cast(), z.bit_cast()]
+}
+
+/// The nearest floats to lanes taken as `i32`.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn to_floats<I: Integers>([x, y, z]: [I; 3]) -> [I::Floats; 3] {
+    [x.signed_to_floats(), y.signed_to_floats(), z.signed_to_floats()]
+}
+
+/// `to - from`
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn between<I: Integers>(from: [I; 3], to: [I; 3]) -> [I; 3] {
+    [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
+}
+
+/// Within 0 and 1.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn share<S: Simd>(simd: S, value: S::Floats) -> S::Floats {
+    value.max(simd.splat(0.0)).min(simd.splat(1.0))
+}
+
+/// The nearest whole numbers, of two the larger one.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn rounded<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3]) -> [S::Integers; 3] {
+    let half = simd.splat(0.5);
+    [(x + half).floor().to_signed(), (y + half).floor().to_signed(), (z + half).floor().to_signed()]
+}
+
 /// `yes` where `mask` says so, else `no`.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn select<M: Mask<Floats: Copy>>(

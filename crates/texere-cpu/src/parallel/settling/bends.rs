@@ -103,12 +103,8 @@ impl Own<'_> {
                 }
             }
         }
-        let speed = |u: f32| {
-            let velocity = velocity(simd, &curve.terms, simd.splat(u));
-            dot(velocity, velocity).sqrt()
-        };
-        let arc = (speed(GAUSS[0]) + speed(GAUSS[2])) * simd.splat(5.0 / 18.0)
-            + speed(GAUSS[1]) * simd.splat(8.0 / 18.0);
+        let ends = curve.speed(simd, GAUSS[0]) + curve.speed(simd, GAUSS[2]);
+        let arc = ends * simd.splat(5.0 / 18.0) + curve.speed(simd, GAUSS[1]) * simd.splat(8.0 / 18.0);
         let [c1, c2, c3] = curve.terms;
         let chord = plus(plus(c1, c2), c3);
         let span = dot(chord, chord).sqrt();
@@ -117,7 +113,7 @@ impl Own<'_> {
         let ahead = scale(along, (arc - length) * simd.splat(0.5));
         if BLOCK {
             add_block(&mut sums[1], ahead, along, simd.splat(1.0));
-            add_block(&mut sums[2], ahead.map(|way| -way), along, simd.splat(1.0));
+            add_block(&mut sums[2], [-ahead[0], -ahead[1], -ahead[2]], along, simd.splat(1.0));
         }
         self.write::<S, BLOCK>(
             simd,

@@ -9,7 +9,10 @@ use texere_core::settling::{CONTACT, Form, MARGIN, NEAR, Pass, STRIDE, SettlingP
 
 use super::curves::{Curve, weights};
 use super::tables::{ChordRow, Fixed, IntervalRow, PullRow, rows};
-use crate::parallel::simd::{Floats, Integers, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
+use crate::parallel::simd::{
+    Floats, Integers, LANES_MAX, Mask, Simd, between, difference, dot, plus, scale, select, share, to_bits,
+    to_floats,
+};
 
 /// What pairs are made from.
 #[derive(Debug, Clone, Copy)]
@@ -63,28 +66,24 @@ impl Source<'_> {
         let nearer = simd.splat(NEAR * MARGIN * self.pass.growth);
         let frame = Images::new(simd, self.plan);
         let pairs = room.ones.len();
-        let (short, one, zero) = (simd.splat(1e-20), simd.splat(1.0), simd.splat(0.0));
-        let share = |value: S::Floats| value.max(zero).min(one);
+        let short = simd.splat(1e-20);
         for k in (0..pairs).step_by(S::LANES) {
             let numbers = [lanes::<S>(&room.ones[k..]), lanes::<S>(&room.others[k..])];
-            let [from, to] = [0, 1].map(|side| {
-                let [x, y, z, _] = rows::<S, 2, 0>(simd, chords, &numbers[side]);
-                [x, y, z].map(Floats::to_bits)
-            });
-            let [d, e] = [0, 1].map(|side| rows::<S, 2, 1>(simd, chords, &numbers[side]));
-            let most = d[3] + e[3];
-            let ([d, e], way) = ([[d[0], d[1], d[2]], [e[0], e[1], e[2]]], difference_of(from, to));
-            let (way, _) = frame.nearest(way);
-            let between = way.map(|units| units.signed_to_floats() * unit);
+            let (from, to) = (begins(simd, chords, &numbers[0]), begins(simd, chords, &numbers[1]));
+            let [dx, dy, dz, one] = rows::<S, 2, 1>(simd, chords, &numbers[0]);
+            let [ex, ey, ez, other] = rows::<S, 2, 1>(simd, chords, &numbers[1]);
+            let (d, e, most) = ([dx, dy, dz], [ex, ey, ez], one + other);
+            let (way, _) = frame.nearest(between(from, to));
+            let between = scale(to_floats(way), unit);
             // As `Chord::nearest`.
             let (a, c) = (dot(d, d).max(short), -dot(d, between));
             let (e2, f) = (dot(e, e).max(short), -dot(e, between));
             let b = dot(d, e);
             let determinant = a * e2 - b * b;
             let slanted = (simd.splat(1e-6) * (a * e2)).less(determinant);
-            let s = slanted.select(share((b * f - c * e2) / determinant), simd.splat(0.5));
-            let t = share((b * s + f) / e2);
-            let s = share((b * t - c) / a);
+            let s = slanted.select(share(simd, (b * f - c * e2) / determinant), simd.splat(0.5));
+            let t = share(simd, (b * s + f) / e2);
+            let s = share(simd, (b * t - c) / a);
             let apart = difference(plus(between, scale(e, t)), scale(d, s));
             let distance = dot(apart, apart).sqrt();
             let near = distance.less(nearer * most).bits();
@@ -117,38 +116,24 @@ impl Source<'_> {
         let frame = Images::new(simd, self.plan);
         let pairs = room.near[0].len();
         for k in (0..pairs).step_by(S::LANES) {
-            let numbers = [0, 1].map(|side| lanes::<S>(&room.near[side][k..]));
+            let count = S::LANES.min(pairs - k);
+            let numbers = [lanes::<S>(&room.near[0][k..]), lanes::<S>(&room.near[1][k..])];
             // The image, as it was found on the chords.
-            let [from, to] = [0, 1].map(|side| {
-                let [x, y, z, _] = rows::<S, 2, 0>(simd, chords, &numbers[side]);
-                [x, y, z].map(Floats::to_bits)
-            });
-            let (_, image) = frame.nearest(difference_of(from, to));
-            let mut owners = [[0; LANES_MAX]; 2];
-            let mut shares = [[[0.0; 4]; LANES_MAX]; 2];
-            for side in 0..2 {
-                for lane in 0..S::LANES {
-                    let number = numbers[side][lane] as usize;
-                    owners[side][lane] = self.fixed.owners[number];
-                    shares[side][lane] = self.fixed.shares[number];
-                }
-            }
-            let curves = [0, 1].map(|side| Curve::<S>::new(simd, self.intervals, &owners[side]));
-            let way = frame.moved(difference_of(curves[0].start, curves[1].start), image);
-            let way = way.map(|units| units.signed_to_floats() * unit);
-            let mut at = [simd.splat(0.0); 2];
-            let mut stride = at;
-            for side in 0..2 {
-                let [_, _, piece, step] = simd.components(&shares[side]);
-                let mut share = [0.0; LANES_MAX];
-                let count = S::LANES.min(pairs - k);
-                share[..count].copy_from_slice(&room.shares[side][k..][..count]);
-                at[side] = (piece + simd.load(&share)) * step;
-                stride[side] = simd.splat(STRIDE) * step;
-            }
+            let chord_way = between(begins(simd, chords, &numbers[0]), begins(simd, chords, &numbers[1]));
+            let (_, image) = frame.nearest(chord_way);
+            let owners = [self.owners(&numbers[0]), self.owners(&numbers[1])];
+            let curves = [
+                Curve::<S>::new(simd, self.intervals, &owners[0]),
+                Curve::<S>::new(simd, self.intervals, &owners[1]),
+            ];
+            let way = frame.moved(between(curves[0].start, curves[1].start), image);
+            let way = scale(to_floats(way), unit);
+            let (u, stride) = self.places(simd, &numbers[0], &room.shares[0][k..][..count]);
+            let (v, other_stride) = self.places(simd, &numbers[1], &room.shares[1][k..][..count]);
+            let (at, stride) = ([u, v], [stride, other_stride]);
             let contact = refined(simd, &curves, way, at, stride);
             let touches = Touches::new::<S, FLATTENED>(simd, &curves, &contact, self);
-            for (lane, &owner) in owners[0][..S::LANES.min(pairs - k)].iter().enumerate() {
+            for (lane, &owner) in owners[0][..count].iter().enumerate() {
                 touches.add(
                     lane,
                     self.pass.form,
@@ -158,6 +143,37 @@ impl Source<'_> {
             }
         }
     }
+}
+
+impl Source<'_> {
+    /// The places of the chords' intervals.
+    #[cfg_attr(optimized, inline(always))]
+    fn owners(&self, chords: &[u32; LANES_MAX]) -> [u32; LANES_MAX] {
+        let mut owners = [0; LANES_MAX];
+        for (owner, chord) in owners.iter_mut().zip(chords) {
+            *owner = self.fixed.owners[*chord as usize];
+        }
+        owners
+    }
+
+    /// Where along their intervals places on chords are, and how far from there the exact ones may be.
+    #[cfg_attr(optimized, inline(always))]
+    fn places<S: Simd>(&self, simd: S, chords: &[u32; LANES_MAX], on: &[f32]) -> (S::Floats, S::Floats) {
+        let (mut shares, mut share) = ([[0.0; 4]; LANES_MAX], [0.0; LANES_MAX]);
+        for (shares, chord) in shares.iter_mut().zip(chords) {
+            *shares = self.fixed.shares[*chord as usize];
+        }
+        share[..on.len()].copy_from_slice(on);
+        let [_, _, piece, step] = simd.components(&shares);
+        ((piece + simd.load(&share)) * step, simd.splat(STRIDE) * step)
+    }
+}
+
+/// Where chords begin.
+#[cfg_attr(optimized, inline(always))]
+fn begins<S: Simd>(simd: S, chords: &[[[f32; 4]; 2]], numbers: &[u32]) -> [S::Integers; 3] {
+    let [x, y, z, _] = rows::<S, 2, 0>(simd, chords, numbers);
+    to_bits([x, y, z])
 }
 
 impl Room {
@@ -188,11 +204,6 @@ fn lanes<S: Simd>(list: &[u32]) -> [u32; LANES_MAX] {
     lanes
 }
 
-#[cfg_attr(optimized, inline(always))]
-fn difference_of<I: Integers>(from: [I; 3], to: [I; 3]) -> [I; 3] {
-    [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
-}
-
 /// Images of what repeats.
 #[derive(Clone, Copy)]
 struct Images<S: Simd> {
@@ -211,7 +222,7 @@ impl<S: Simd> Images<S> {
             simd,
             any: period != [0; 2],
             period,
-            frequency: plan.frequency().map(|frequency| simd.splat(frequency)),
+            frequency: [simd.splat(plan.frequency()[0]), simd.splat(plan.frequency()[1])],
         }
     }
 
@@ -222,18 +233,24 @@ impl<S: Simd> Images<S> {
             return (way, [self.simd.splat(0.0); 2]);
         }
         let half = self.simd.splat(0.5);
-        let image = [0, 1].map(|axis| (way[axis].signed_to_floats() * self.frequency[axis] + half).floor());
+        let image = [
+            (way[0].signed_to_floats() * self.frequency[0] + half).floor(),
+            (way[1].signed_to_floats() * self.frequency[1] + half).floor(),
+        ];
         (self.moved(way, image), image)
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn moved(&self, way: [S::Integers; 3], image: [S::Floats; 2]) -> [S::Integers; 3] {
+    fn moved(&self, [x, y, z]: [S::Integers; 3], image: [S::Floats; 2]) -> [S::Integers; 3] {
         if !self.any {
-            return way;
+            return [x, y, z];
         }
-        let [x, y] =
-            [0, 1].map(|axis| way[axis] - image[axis].to_signed().times(self.period[axis].cast_unsigned()));
-        [x, y, way[2]]
+        let [width, height] = self.period;
+        [
+            x - image[0].to_signed().times(width.cast_unsigned()),
+            y - image[1].to_signed().times(height.cast_unsigned()),
+            z,
+        ]
     }
 }
 
@@ -254,34 +271,44 @@ fn refined<S: Simd>(
     at: [S::Floats; 2],
     stride: [S::Floats; 2],
 ) -> Contacts<S> {
-    let [one, other] = curves;
-    let contact = |at: [S::Floats; 2]| {
-        let way = difference(plus(way, other.offset(at[1])), one.offset(at[0]));
-        Contacts::<S> { at, way, distance: dot(way, way).sqrt() }
-    };
-    let start = contact(at);
-    let velocities = [one.velocity(simd, at[0]), other.velocity(simd, at[1])];
-    let squares = velocities.map(|velocity| dot(velocity, velocity));
+    let start = Contacts::new(curves, way, at);
+    let velocities = [curves[0].velocity(simd, at[0]), curves[1].velocity(simd, at[1])];
+    let squares = [dot(velocities[0], velocities[0]), dot(velocities[1], velocities[1])];
     let slopes = [-dot(start.way, velocities[0]), dot(start.way, velocities[1])];
-    let bends =
-        [-dot(start.way, one.acceleration(simd, at[0])), dot(start.way, other.acceleration(simd, at[1]))];
+    let bends = [
+        -dot(start.way, curves[0].acceleration(simd, at[0])),
+        dot(start.way, curves[1].acceleration(simd, at[1])),
+    ];
     let (fifth, short) = (simd.splat(0.2), simd.splat(1e-20));
-    let h = [0, 1].map(|side| (squares[side] + bends[side]).max(fifth * squares[side]).max(short));
+    let h = [
+        (squares[0] + bends[0]).max(fifth * squares[0]).max(short),
+        (squares[1] + bends[1]).max(fifth * squares[1]).max(short),
+    ];
     let mixed = -dot(velocities[0], velocities[1]);
     let determinant = (h[0] * h[1] - mixed * mixed).max(simd.splat(0.05) * (h[0] * h[1]));
     let step = [
         (mixed * slopes[1] - h[1] * slopes[0]) / determinant,
         (mixed * slopes[0] - h[0] * slopes[1]) / determinant,
     ];
-    let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
-    let next =
-        [0, 1].map(|side| (at[side] + step[side].max(-stride[side]).min(stride[side])).max(zero).min(one));
-    let found = contact(next);
+    let next = [
+        share(simd, at[0] + step[0].max(-stride[0]).min(stride[0])),
+        share(simd, at[1] + step[1].max(-stride[1]).min(stride[1])),
+    ];
+    let found = Contacts::new(curves, way, next);
     let nearer = found.distance.less(start.distance);
     Contacts {
-        at: [0, 1].map(|side| nearer.select(found.at[side], start.at[side])),
+        at: [nearer.select(found.at[0], start.at[0]), nearer.select(found.at[1], start.at[1])],
         way: select(nearer, found.way, start.way),
         distance: nearer.select(found.distance, start.distance),
+    }
+}
+
+impl<S: Simd> Contacts<S> {
+    /// Two places, on intervals of which the second begins `way` from the first.
+    #[cfg_attr(optimized, inline(always))]
+    fn new(curves: &[Curve<S>; 2], way: [S::Floats; 3], at: [S::Floats; 2]) -> Self {
+        let way = difference(plus(way, curves[1].offset(at[1])), curves[0].offset(at[0]));
+        Self { at, way, distance: dot(way, way).sqrt() }
     }
 }
 

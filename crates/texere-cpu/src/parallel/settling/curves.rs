@@ -1,7 +1,7 @@
 //! Intervals in lanes.
 
 use super::tables::{IntervalRow, rows};
-use crate::parallel::simd::{Floats, Mask, Simd, plus, scale};
+use crate::parallel::simd::{Floats, Mask, Simd, dot, plus, scale, to_bits};
 
 /// A vector of intervals.
 #[derive(Clone, Copy)]
@@ -21,7 +21,7 @@ impl<S: Simd> Curve<S> {
         let [d, e, f, height] = rows::<S, 4, 2>(simd, intervals, numbers);
         let [g, h, i, height_growth] = rows::<S, 4, 3>(simd, intervals, numbers);
         Self {
-            start: [x, y, z].map(Floats::to_bits),
+            start: to_bits([x, y, z]),
             terms: [[a, b, c], [d, e, f], [g, h, i]],
             halves: [[width, height], [width_growth, height_growth]],
         }
@@ -41,6 +41,13 @@ impl<S: Simd> Curve<S> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn acceleration(&self, simd: S, u: S::Floats) -> [S::Floats; 3] {
         acceleration(simd, &self.terms, u)
+    }
+
+    /// How fast it moves at `u`.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn speed(&self, simd: S, u: f32) -> S::Floats {
+        let velocity = self.velocity(simd, simd.splat(u));
+        dot(velocity, velocity).sqrt()
     }
 
     /// As `Interval::reach`.

@@ -3,7 +3,9 @@
 use texere_core::settling::{BEND, Form, INERTIA, Pass, Place, Seen, SettlingPlan, moves};
 
 use super::tables::{FRONT, PullRow};
-use crate::parallel::simd::{Floats, Integers, LANES_MAX, Simd, difference, dot, plus, scale, select};
+use crate::parallel::simd::{
+    Floats, Integers, LANES_MAX, Simd, difference, dot, plus, rounded, scale, select, share,
+};
 
 /// What control points gather from.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +36,7 @@ impl Gather<'_> {
             let [x, y, z, _] = simd.components(&lasts);
             let step = self.vector(simd, place, [x, y, z]);
             let length = dot(step, step).sqrt();
-            let moved = step.map(|step| (step * units + simd.splat(0.5)).floor().to_signed());
+            let moved = rounded(simd, scale(step, units));
             let (mut lengths, mut made) = ([0.0; LANES_MAX], [[0.0; 4]; LANES_MAX]);
             length.store(&mut lengths);
             simd.scatter([step[0], step[1], step[2], zero], made.as_flattened_mut(), 4);
@@ -91,15 +93,13 @@ impl Gather<'_> {
             step
         } else {
             let [cx, cy, cz, contacts, bx, by, bz, bends, ..] = sums;
-            let share = (near / (diameter * simd.splat(pass.growth)) - simd.splat(0.3)) * simd.splat(2.5);
-            let apart = share.max(zero).min(one);
+            let room = (near / (diameter * simd.splat(pass.growth)) - simd.splat(0.3)) * simd.splat(2.5);
+            let apart = share(simd, room);
             let bend = scale([bx, by, bz], simd.splat(BEND) / bends.max(simd.splat(0.3)));
-            let length = |back: usize| {
-                let [x, y, z, _] =
-                    lanes(simd, &self.pulls[FRONT + place - back..][..S::LANES], |pull| pull.length);
-                [x, y, z]
-            };
-            let mut others = plus(plus(bend, difference(length(0), length(1))), on);
+            let [x, y, z, _] = lanes(simd, &self.pulls[FRONT + place..][..S::LANES], |pull| pull.length);
+            let [bx, by, bz, _] =
+                lanes(simd, &self.pulls[FRONT + place - 1..][..S::LANES], |pull| pull.length);
+            let mut others = plus(plus(bend, difference([x, y, z], [bx, by, bz])), on);
             others[2] = others[2] + press;
             plus(scale([cx, cy, cz], one / contacts.max(simd.splat(0.64))), scale(others, apart))
         };

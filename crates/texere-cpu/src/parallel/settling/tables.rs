@@ -3,7 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 use texere_core::settling::{Place, SettlingPlan, tag};
 
-use crate::parallel::simd::{Floats, Integers, Job, LANES_MAX, Simd, difference, plus, scale};
+use super::curves::Curve;
+use crate::parallel::simd::{
+    Job, LANES_MAX, Simd, between, bit_cast, difference, plus, rounded, scale, to_bits, to_floats,
+};
 
 /// Places that one task works on.
 pub(super) const TASK: usize = 512;
@@ -137,32 +140,23 @@ impl Make<'_> {
         let places: &[[f32; 4]] = bytemuck::cast_slice(&self.places[FRONT + self.first - 1..]);
         for (number, out) in self.intervals.chunks_mut(S::LANES).enumerate() {
             let done = number * S::LANES;
-            let window = |ahead: usize| {
-                let [x, y, z, _] = simd.components(&places[done + ahead..]);
-                [x, y, z].map(Floats::to_bits)
-            };
-            let [before, start, end, after] = [window(0), window(1), window(2), window(3)];
-            let way = |to: [S::Integers; 3]| {
-                [0, 1, 2].map(|axis| (to[axis] - start[axis]).signed_to_floats() * unit)
-            };
-            let (a, b, c) = (way(before), way(end), way(after));
-            let by = |v, factor| scale(v, simd.splat(factor));
-            let c1 = by(difference(b, a), s);
-            let c2 = difference(plus(by(a, 2.0 * s), by(b, 3.0 - 2.0 * s)), by(c, s));
-            let c3 = plus(by(difference(c, a), s), by(b, s - 2.0));
+            let start = corner(simd, &places[done + 1..]);
+            let a = scale(to_floats(between(start, corner(simd, &places[done..]))), unit);
+            let b = scale(to_floats(between(start, corner(simd, &places[done + 2..]))), unit);
+            let c = scale(to_floats(between(start, corner(simd, &places[done + 3..]))), unit);
+            // As the core's coefficients.
+            let c1 = scale(difference(b, a), simd.splat(s));
+            let sum = plus(scale(a, simd.splat(2.0 * s)), scale(b, simd.splat(3.0 - 2.0 * s)));
+            let c2 = difference(sum, scale(c, simd.splat(s)));
+            let c3 = plus(scale(difference(c, a), simd.splat(s)), scale(b, simd.splat(s - 2.0)));
             let halves = simd.components(&self.fixed.halves[self.first + done..]);
-            let [x, y, z] = start.map(Integers::bit_cast);
-            let rows = [
-                [x, y, z, halves[0]],
-                [c1[0], c1[1], c1[2], halves[1]],
-                [c2[0], c2[1], c2[2], halves[2]],
-                [c3[0], c3[1], c3[2], halves[3]],
-            ];
+            let [x, y, z] = bit_cast(start);
             let mut made = [IntervalRow::default(); LANES_MAX];
             let floats: &mut [f32] = bytemuck::cast_slice_mut(&mut made);
-            for (row, values) in rows.into_iter().enumerate() {
-                simd.scatter(values, &mut floats[4 * row..], 16);
-            }
+            simd.scatter([x, y, z, halves[0]], floats, 16);
+            simd.scatter([c1[0], c1[1], c1[2], halves[1]], &mut floats[4..], 16);
+            simd.scatter([c2[0], c2[1], c2[2], halves[2]], &mut floats[8..], 16);
+            simd.scatter([c3[0], c3[1], c3[2], halves[3]], &mut floats[12..], 16);
             out.copy_from_slice(&made[..out.len()]);
         }
     }
@@ -170,7 +164,6 @@ impl Make<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn make_chords<S: Simd>(&mut self, simd: S) {
         let Self { plan, fixed, .. } = *self;
-        let intervals: &[[[f32; 4]; 4]] = bytemuck::cast_slice(self.intervals);
         let first = plan.chords()[self.first] as usize;
         let units = simd.splat(1.0 / plan.scale().unit());
         for (number, out) in self.chords.chunks_mut(S::LANES).enumerate() {
@@ -179,16 +172,13 @@ impl Make<'_> {
             for (lane, &owner) in fixed.owners[chord..][..out.len()].iter().enumerate() {
                 (own[lane], thickest[lane]) = (owner - self.first as u32, fixed.thickest[owner as usize]);
             }
-            let [x, y, z, _] = rows::<S, 4, 0>(simd, intervals, &own);
-            let start = [x, y, z].map(Floats::to_bits);
-            let [c1, c2, c3] = terms(simd, intervals, &own);
+            let curve = Curve::<S>::new(simd, self.intervals, &own);
             let [from, to, ..] = simd.components(&fixed.shares[chord..]);
-            let offset = |u| scale(plus(c1, scale(plus(c2, scale(c3, u)), u)), u);
-            let begins = offset(from);
-            let span = difference(offset(to), begins);
-            let half = simd.splat(0.5);
-            let at = [0, 1, 2].map(|axis| start[axis] + (begins[axis] * units + half).floor().to_signed());
-            let [x, y, z] = at.map(Integers::bit_cast);
+            let begins = curve.offset(from);
+            let span = difference(curve.offset(to), begins);
+            let [dx, dy, dz] = rounded(simd, scale(begins, units));
+            let [x, y, z] = curve.start;
+            let [x, y, z] = bit_cast([x + dx, y + dy, z + dz]);
             let mut made = [ChordRow::default(); LANES_MAX];
             let floats: &mut [f32] = bytemuck::cast_slice_mut(&mut made);
             simd.scatter([x, y, z, simd.splat(0.0)], floats, 8);
@@ -201,11 +191,9 @@ impl Make<'_> {
     }
 }
 
-/// What goes with u, u² and u³ of the intervals numbered `numbers`.
+/// The coordinates of consecutive places.
 #[cfg_attr(optimized, inline(always))]
-pub(super) fn terms<S: Simd>(simd: S, intervals: &[[[f32; 4]; 4]], numbers: &[u32]) -> [[S::Floats; 3]; 3] {
-    let [a, b, c, _] = rows::<S, 4, 1>(simd, intervals, numbers);
-    let [d, e, f, _] = rows::<S, 4, 2>(simd, intervals, numbers);
-    let [g, h, i, _] = rows::<S, 4, 3>(simd, intervals, numbers);
-    [[a, b, c], [d, e, f], [g, h, i]]
+fn corner<S: Simd>(simd: S, places: &[[f32; 4]]) -> [S::Integers; 3] {
+    let [x, y, z, _] = simd.components(places);
+    to_bits([x, y, z])
 }

@@ -64,7 +64,7 @@ pub fn settle_start(
     let plan = settling_plan(start);
     let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
     let rest = settle(&plan, settler.as_mut(), watch).expect("a settling");
-    let points = settled(&plan, settler.as_mut()).expect("points");
+    let points = settled(&plan, settler.as_mut(), yarns(start).points()).expect("points");
     let mut points = points.iter().map(|point| point.position().as_dvec3());
     let yarns = start.yarns.iter().map(|yarn| points.by_ref().take(yarn.points.len()).collect());
     (rest, yarns.collect())

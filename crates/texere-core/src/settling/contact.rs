@@ -45,14 +45,17 @@ impl Chord {
     }
 }
 
-/// The least squared length that a chord is taken to have, mm².
-const SHORT: f32 = 1e-20;
+/// The least squared length that a chord or a velocity is taken to have, mm²: its square is still a normal number.
+pub const SHORT: f32 = 1e-15;
 
 /// The squared sine of the angle below which two chords are parallel.
 const PARALLEL: f32 = 1e-6;
 
-fn share(value: f32) -> f32 {
-    value.clamp(0.0, 1.0)
+/// Within 0 and 1; -0 becomes 0, as it does in vectors.
+#[allow(clippy::manual_clamp, reason = "clamp keeps -0")]
+#[inline]
+pub(super) fn share(value: f32) -> f32 {
+    value.max(0.0).min(1.0)
 }
 
 /// How much further than where they touch two yarns may be from one another for their nearest places to be worked out.

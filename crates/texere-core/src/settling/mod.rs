@@ -14,8 +14,9 @@ mod plan;
 mod problem;
 mod run;
 mod settler;
+mod strand;
 
-pub use contact::{Chord, Contact, MARGIN, NEAR, Pair};
+pub use contact::{Chord, Contact, MARGIN, NEAR, Pair, SHORT};
 pub use error::SettlingError;
 pub use interval::{GAUSS, Interval, bends, weights};
 pub use neighbours::Listed;
@@ -23,8 +24,9 @@ pub use pass::{
     BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, CONTACT, Form, Gathered, INERTIA, Pass, Pull,
     SOFT_BEND, STRIDE, freed, moves,
 };
-pub use place::{COARSEST, FINEST, Place, REACH, Scale};
-pub use plan::{BEYOND, OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans, Strand, tag};
+pub use place::{Place, Scale};
+pub use plan::{OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans};
 pub use problem::{Length, Settling};
 pub use run::{Rest, settle, settled};
 pub use settler::{Seen, Settler};
+pub use strand::{BEYOND, Strand, tag};

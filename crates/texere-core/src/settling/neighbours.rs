@@ -17,19 +17,21 @@ pub struct Listed<'a> {
     pub interval: &'a Interval,
     /// The interval's place.
     pub place: usize,
-    /// Which of the interval's chords it is, and how many there are.
+    /// Which of the interval's chords it is.
     pub piece: u32,
     /// How many chords the interval has.
     pub pieces: u32,
 }
 
 impl SettlingPlan {
-    /// Which image of a chord lies nearest to another one that begins `way` units before it: how many repeats away.
+    /// Which image of a chord lies nearest to another one that begins `way` units before it: how many repeats away, by their
+    /// middles.
     #[must_use]
     #[inline]
-    pub fn image(&self, way: IVec3) -> [i32; 2] {
+    pub fn image(&self, [one, other]: [&Chord; 2], way: IVec3) -> [i32; 2] {
+        let apart = self.scale().length(way) + (other.span - one.span) * 0.5;
         let inverse = self.frequency();
-        [0, 1].map(|axis| -((way[axis] as f32 * inverse[axis] + 0.5).floor() as i32))
+        [0, 1].map(|axis| -((apart[axis] * inverse[axis] + 0.5).floor() as i32))
     }
 
     /// A way of so many units to something, to the image of that so many repeats away.
@@ -49,7 +51,7 @@ impl SettlingPlan {
     #[must_use]
     pub fn are_neighbours(&self, one: Listed<'_>, other: Listed<'_>, growth: f32) -> bool {
         let way = other.chord.at.wrapping_sub(one.chord.at);
-        let image = self.image(way);
+        let image = self.image([one.chord, other.chord], way);
         let between = self.scale().length(self.to_image(way, image));
         let shares = one.chord.nearest(other.chord, between);
         let gap = between + other.chord.span * shares[1] - one.chord.span * shares[0];

@@ -5,8 +5,9 @@
 
 use glam::Vec3;
 
-use super::plan::tag;
-use super::{Contact, Interval, Listed, MARGIN, NEAR, Pair, Place, SettlingPlan, bends, weights};
+use super::contact::share;
+use super::strand::tag;
+use super::{Contact, Interval, Listed, MARGIN, NEAR, Pair, Place, SHORT, SettlingPlan, bends, weights};
 
 /// How a point's step is made from what pulls at it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -47,11 +48,15 @@ pub const CONTACT: f32 = 1.12;
 /// How much bends count beside them.
 pub const BEND: f32 = 1.0;
 
+/// The same in the block form.
+pub const BLOCK_BEND: f32 = 5.0;
+
 /// How far the exact places of a contact may lie from those on the chords, in chords.
 pub const STRIDE: f32 = 0.6;
 
-/// The same in the block form.
-pub const BLOCK_BEND: f32 = 5.0;
+/// Where lengths are free, an interval may become so many times as long as it was.
+const FREE_LEAST: f32 = 0.8;
+pub(super) const FREE_MOST: f32 = 1.15;
 
 /// What keeps a point where it is, against all that pulls at it in the block form.
 pub const INERTIA: f32 = 0.12;
@@ -98,7 +103,7 @@ impl Pull {
     pub fn meet(&mut self, plan: &SettlingPlan, pass: &Pass, pair: [Listed<'_>; 2]) {
         let [one, other] = pair;
         let way = other.chord.at.wrapping_sub(one.chord.at);
-        let image = plan.image(way);
+        let image = plan.image([one.chord, other.chord], way);
         let between = plan.scale().length(plan.to_image(way, image));
         let shares = one.chord.nearest(other.chord, between);
         let apart = between + other.chord.span * shares[1] - one.chord.span * shares[0];
@@ -153,7 +158,7 @@ impl Pull {
         let parts = chords.max(BEND_PARTS);
         for u in (0..=parts).map(|part| part as f32 / parts as f32) {
             let (velocity, acceleration) = (interval.velocity(u), interval.acceleration(u));
-            let square = velocity.length_squared().max(1e-20);
+            let square = velocity.length_squared().max(SHORT);
             let across = acceleration - velocity * (acceleration.dot(velocity) / square);
             let bend = across.length_squared().sqrt();
             if bend <= 0.0 {
@@ -232,12 +237,13 @@ impl Gathered<'_> {
     pub fn step(&self, plan: &SettlingPlan, pass: &Pass, place: &Place, last: Vec3) -> Vec3 {
         let nothing = Pull::none();
         let pulls = self.0.map(|pull| pull.unwrap_or(&nothing));
-        let (mut sums, mut near) = ([0.0_f32; 9], f32::INFINITY);
+        let (mut sums, mut near, mut clearance) = ([0.0_f32; 9], f32::INFINITY, f32::INFINITY);
         for (slot, pull) in pulls.into_iter().enumerate() {
             for (sum, value) in sums.iter_mut().zip(pull.slots[slot]) {
                 *sum += value;
             }
             near = near.min(pull.near);
+            clearance = clearance.min(pull.clearance);
         }
         let halves = [place.halves.width(), place.halves.height()];
         let diameter = 2.0 * halves[0].min(halves[1]);
@@ -247,7 +253,7 @@ impl Gathered<'_> {
             Form::Weighted => {
                 let [cx, cy, cz, contacts, bx, by, bz, bends, _] = sums;
                 // Yarns that are about to cross obey contact alone.
-                let apart = ((near / (diameter * pass.growth) - 0.3) * 2.5).clamp(0.0, 1.0);
+                let apart = share((clearance / pass.growth - 0.3) * 2.5);
                 let bend = Vec3::new(bx, by, bz) * (BEND / bends.max(0.3));
                 let mut others = bend + (pulls[1].length - pulls[2].length) + on;
                 others.z += press;
@@ -289,7 +295,7 @@ pub fn freed(length: f32, start: f32, arcs: [Option<f32>; 3], tension: f32) -> f
     let (sum, count) =
         arcs.into_iter().flatten().fold((0.0, 0.0), |(sum, count), arc| (sum + arc, count + 1.0));
     let next = length + 0.05 * (sum / count - length) - tension * length;
-    next.max(0.8 * start).min(1.15 * start)
+    next.max(FREE_LEAST * start).min(FREE_MOST * start)
 }
 
 /// Whether a place is a control point that may move.

@@ -51,13 +51,13 @@ pub struct Scale {
 }
 
 /// Units are no finer than this share of the thinnest yarn's diameter: a millionth.
-pub const FINEST: f32 = 1.0 / (1 << 20) as f32;
+const FINEST: f32 = 1.0 / (1 << 20) as f32;
 
-/// Nor may they be coarser than this one, which leaves 262,000 diameters either way.
-pub const COARSEST: f32 = 1.0 / (1 << 12) as f32;
+/// Nor may they be coarser than this one, which leaves 131,000 diameters either way.
+const COARSEST: f32 = 1.0 / (1 << 11) as f32;
 
-/// How many units a place may lie from the origin.
-pub const REACH: f32 = (1 << 30) as f32;
+/// How many units a place may lie from the origin: virtual ends may lie three times as far, and the way to them is to fit an `i32`.
+const REACH: f32 = (1 << 28) as f32;
 
 impl Scale {
     /// The finest scale for places up to `extent` mm from `origin`, on yarns of which the thinnest is `diameter` mm thick: its

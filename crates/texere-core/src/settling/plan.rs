@@ -2,16 +2,15 @@
 
 use glam::DVec3;
 
-use super::{COARSEST, Interval, Length, Place, Scale, Settling, SettlingError};
+use super::pass::FREE_MOST;
+use super::strand::{BEYOND, Strand, tag};
+use super::{Interval, Length, MARGIN, Place, Scale, Settling, SettlingError};
 use crate::{ControlPoint, Ends, NO_LENGTH};
-
-/// Places that stand for those beyond a yarn's ends: one before it and two behind it.
-pub const BEYOND: [u64; 2] = [1, 2];
 
 /// Intervals have at least so many chords.
 const CHORDS_MIN: u32 = 2;
 
-/// And so many that none is longer than this share of the thinnest yarn's diameter.
+/// And so many that their mean length is no longer than this share of the yarn's diameter there.
 const CHORD_MOST: f32 = 0.6;
 
 /// An interval has no more chords than that.
@@ -22,65 +21,6 @@ pub const SKIN: f32 = 0.2;
 
 /// How much further a chord may move than its interval's control points do.
 pub const OVERSHOOT: f32 = 1.25;
-
-/// What is known of a place beside where it is.
-pub mod tag {
-    /// A control point; others stand beyond a yarn's ends.
-    pub const POINT: u32 = 1;
-    /// An interval begins here.
-    pub const INTERVAL: u32 = 2;
-    /// The first interval of an open yarn.
-    pub const OPENS: u32 = 4;
-    /// The last interval of an open yarn.
-    pub const ENDS: u32 = 8;
-    /// It stays where it is.
-    pub const PINNED: u32 = 16;
-}
-
-/// Where a yarn's places lie, and how it goes on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Strand {
-    /// Its first control point's place.
-    pub first: u32,
-    /// Its control points.
-    pub points: u32,
-    /// How it goes on.
-    pub ends: Ends,
-    /// Its length, in units of [`SettlingPlan::along`].
-    pub length: u32,
-}
-
-impl Strand {
-    /// How many intervals it has.
-    #[must_use]
-    pub const fn intervals(&self) -> u32 {
-        match self.ends {
-            Ends::Open => self.points - 1,
-            Ends::Closed | Ends::Repeats(_) => self.points,
-        }
-    }
-
-    /// How many repeats away it goes on.
-    #[must_use]
-    pub const fn shift(&self) -> Option<[i32; 2]> {
-        match self.ends {
-            Ends::Open => None,
-            Ends::Closed => Some([0, 0]),
-            Ends::Repeats(shift) => Some(shift),
-        }
-    }
-
-    /// The place of interval `interval`, counted from its first one, which may be before or behind it; none where it has none.
-    #[must_use]
-    pub fn interval(&self, interval: i64) -> Option<usize> {
-        let count = i64::from(self.intervals());
-        let own = match self.ends {
-            Ends::Open => Some(interval).filter(|interval| (0..count).contains(interval)),
-            Ends::Closed | Ends::Repeats(_) => Some(interval.rem_euclid(count)),
-        };
-        own.map(|own| self.first as usize + own as usize)
-    }
-}
 
 /// How many of everything a settling has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -123,6 +63,8 @@ pub struct Spans {
     pub thickest: f32,
     /// A unit of [`SettlingPlan::along`].
     pub along: f32,
+    /// The longest chord at the start.
+    pub longest_chord: f32,
 }
 
 impl SettlingPlan {
@@ -144,7 +86,12 @@ impl SettlingPlan {
             strands.push(Strand { first, points: (end - start) as u32, ends, length: 0 });
         }
         let s = (1.0 - settling.spline_tension) / 2.0;
-        let spans = Spans { diameter: mean_diameter(points), thickest: thickest(points), along: 0.0 };
+        let spans = Spans {
+            diameter: mean_diameter(points),
+            thickest: thickest(points),
+            along: 0.0,
+            longest_chord: 0.0,
+        };
         let mut plan = Self {
             scale,
             s,
@@ -154,7 +101,11 @@ impl SettlingPlan {
             spans,
             strands,
             period,
-            frequency: period.map(|period| if period > 0 { 1.0 / period as f32 } else { 0.0 }),
+            frequency: period.map(
+                |period| {
+                    if period > 0 { 1.0 / (period as f32 * scale.unit()) } else { 0.0 }
+                },
+            ),
             counts: SettlingCounts { points: layout.point_count(), places, chords: 0 },
             tags: vec![0; places as usize],
             yarns: vec![0; places as usize],
@@ -164,7 +115,7 @@ impl SettlingPlan {
             places: vec![Place::default(); places as usize],
         };
         plan.places = plan.padded(&points.iter().map(|point| scale.place(point)).collect::<Vec<_>>());
-        plan.tag(&settling.pinned);
+        plan.tag(layout.offsets(), &settling.pinned);
         plan.measure(settling.length)?;
         plan.check_repeat(settling.boundary.repeat())?;
         Ok(plan)
@@ -212,7 +163,7 @@ impl SettlingPlan {
         self.period
     }
 
-    /// Repeats in a unit along x and y; 0 where nothing repeats.
+    /// Repeats in a mm along x and y; 0 where nothing repeats.
     #[must_use]
     pub const fn frequency(&self) -> [f32; 2] {
         self.frequency
@@ -316,7 +267,7 @@ impl SettlingPlan {
         weights
     }
 
-    fn tag(&mut self, pinned: &[u64]) {
+    fn tag(&mut self, offsets: &[u64], pinned: &[u64]) {
         for (yarn, strand) in self.strands.iter().enumerate() {
             let first = strand.first as usize;
             let all = first - BEYOND[0] as usize..first + strand.points as usize + BEYOND[1] as usize;
@@ -331,15 +282,10 @@ impl SettlingPlan {
             }
         }
         for &point in pinned {
-            let yarn = self.strand_of(point);
-            self.tags[point as usize + yarn * 3 + BEYOND[0] as usize] |= tag::PINNED;
+            let yarn = offsets.partition_point(|&start| start <= point) - 1;
+            let before = yarn as u64 * (BEYOND[0] + BEYOND[1]) + BEYOND[0];
+            self.tags[(point + before) as usize] |= tag::PINNED;
         }
-    }
-
-    fn strand_of(&self, point: u64) -> usize {
-        let before = |(yarn, strand): (usize, &Strand)| u64::from(strand.first) - yarn as u64 * 3 - BEYOND[0];
-        let starts: Vec<u64> = self.strands.iter().enumerate().map(before).collect();
-        starts.partition_point(|&start| start <= point) - 1
     }
 
     /// Lengths, how far along its yarn each interval begins, and into how many chords it is cut.
@@ -349,15 +295,22 @@ impl SettlingPlan {
             .map(|(place, _)| 2.0 * place.halves.width().min(place.halves.height()))
             .fold(f32::INFINITY, f32::min);
         let factor = if let Length::Given(factor) = length { factor } else { 1.0 };
+        // As long as it may become.
+        let most = if let Length::Free { .. } = length { FREE_MOST } else { factor };
         let mut chords = 0_u64;
         for place in 0..self.places.len() {
             self.chords[place] = chords as u32;
             if self.tags[place] & tag::INTERVAL != 0 {
                 let (arc, _) = self.interval(&self.places, place).arc();
                 self.lengths[place] = arc * factor;
-                chords += u64::from(
-                    ((arc / (CHORD_MOST * thinnest)).ceil().min(CHORDS_MAX) as u32).max(CHORDS_MIN),
-                );
+                let ends = [self.places[place].halves, self.places[place + 1].halves];
+                let thickness = ends.map(|halves| 2.0 * halves.width().min(halves.height()));
+                let pieces = (arc * most / (CHORD_MOST * thickness[0].min(thickness[1]))).ceil();
+                if pieces > CHORDS_MAX {
+                    let (what, count) = ("chords of one interval", pieces as u64);
+                    return Err(SettlingError::TooMany { what, count, limit: CHORDS_MAX as u64 });
+                }
+                chords += u64::from((pieces as u32).max(CHORDS_MIN));
                 limited("chords", chords, u64::from(u32::MAX >> 1))?;
             }
         }
@@ -379,6 +332,7 @@ impl SettlingPlan {
                 for piece in 0..pieces {
                     let [from, to] = [piece, piece + 1].map(|piece| piece as f32 / pieces as f32);
                     let arc = f64::from(interval.arc_between(from, to) * factor);
+                    self.spans.longest_chord = self.spans.longest_chord.max(arc as f32);
                     self.along.push([units(sum), units(sum + arc)]);
                     sum += arc;
                 }
@@ -400,11 +354,11 @@ impl SettlingPlan {
         Ok(())
     }
 
-    /// The shortest repeat that is taken, mm.
+    /// The shortest repeat that is taken, mm: of two chords that are neighbours the middles are then nearer than half of it.
     #[must_use]
     pub fn least_repeat(&self) -> f32 {
-        let Spans { diameter, thickest, .. } = self.spans;
-        2.0 * (2.0 * thickest + SKIN * diameter + CHORD_MOST * diameter)
+        let Spans { diameter, thickest, longest_chord, .. } = self.spans;
+        2.0 * (2.0 * MARGIN * thickest + SKIN * diameter + OVERSHOOT * longest_chord)
     }
 }
 
@@ -424,6 +378,7 @@ fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
         Length::Given(factor) => within("the length", factor, 0.5, 2.0)?,
         Length::Free { tension } => within("the tension", tension, 0.0, 0.1)?,
     }
+    within("the number of passes", settling.passes as f32, 1.0, 1e6)?;
     if let Some(gap) = settling.plates {
         within("the gap between the plates", gap, 0.0, crate::COORDINATE_LIMIT)?;
     }
@@ -453,8 +408,14 @@ fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
     let origin = ((low + high) / 2.0).round().with_z(0.0);
     let thinnest = points.iter().map(|point| 2.0 * point.half_width().min(point.half_height()));
     let diameter = thinnest.fold(f32::INFINITY, f32::min);
-    let [x, y] = settling.boundary.repeat();
-    let extent = (high - origin).max(origin - low).max_element() as f32 + 2.0 * x.max(y);
+    // A yarn that goes on lies beyond its first and last points by the whole way to its next round.
+    let [x, y] = settling.boundary.repeat().map(f64::from);
+    let onward = settling.boundary.ends().iter().map(|ends| match ends {
+        Ends::Repeats([right, up]) => (f64::from(*right) * x).abs().max((f64::from(*up) * y).abs()),
+        Ends::Open | Ends::Closed => 0.0,
+    });
+    let onward = onward.fold(x.max(y), f64::max);
+    let extent = ((high - origin).max(origin - low).max_element() + onward) as f32;
     let room = 1.25 * extent + 64.0 * thickest(points);
     Scale::new(origin, room, diameter).ok_or(SettlingError::TooLarge { extent, diameter })
 }
@@ -467,5 +428,3 @@ fn mean_diameter(points: &[ControlPoint]) -> f32 {
     let sum: f64 = points.iter().map(|point| f64::from(point.half_width() + point.half_height())).sum();
     (sum / points.len().max(1) as f64) as f32
 }
-
-const _: () = assert!(COARSEST > super::FINEST);

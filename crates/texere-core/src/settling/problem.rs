@@ -5,14 +5,14 @@ use crate::{Boundary, ControlPoint, Layout, Yarns};
 /// What settling does to the length of yarns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Length {
-    /// Every yarn keeps the length that it has.
+    /// Every interval keeps the length that it has, so that no yarn is drawn through.
     Held,
-    /// Every yarn is to have so many times the length that it has.
+    /// Every interval is to have so many times the length that it has, 0.5 to 2.
     Given(f32),
     /// Yarns take the length that their course needs, evenly all along, and are drawn in by a tension, in shares of their
     /// length a pass, while bends are still soft.
     Free {
-        /// Tension, 0 for none.
+        /// Tension, 0 for none, 0.1 at most.
         tension: f32,
     },
 }
@@ -55,7 +55,7 @@ impl<'a> Settling<'a> {
         }
     }
 
-    /// The tension of the spline through the control points, in \[0, 1).
+    /// The tension of the spline through the control points, 0 to 0.99.
     #[must_use]
     pub const fn spline_tension(mut self, tension: f32) -> Self {
         self.spline_tension = tension;
@@ -90,7 +90,7 @@ impl<'a> Settling<'a> {
         self
     }
 
-    /// The most passes with yarns of their full thickness.
+    /// The most passes of either form with yarns of their full thickness, 1 to a million. Forty in which they grow come before.
     #[must_use]
     pub const fn passes(mut self, passes: u32) -> Self {
         self.passes = passes;

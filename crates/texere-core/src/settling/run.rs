@@ -139,7 +139,9 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
     /// Keeps what was seen if it is the best so far, and says whether it is at rest.
     fn weigh(&mut self, seen: &Seen) -> Result<bool, BackendError> {
         self.rest.at_rest = self.is_rest(seen);
-        if self.rest.at_rest || seen.is_better_than(&self.rest.end) {
+        // Where lengths are free nothing is asked of them.
+        let asked = |seen: &Seen| if self.holds() { *seen } else { Seen { length: 0.0, ..*seen } };
+        if self.rest.at_rest || asked(seen).is_better_than(&asked(&self.rest.end)) {
             self.settler.keep()?;
             self.rest.end = *seen;
         }
@@ -161,8 +163,12 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
 
     /// How much is lacking to rest: the largest share of all that is asked.
     fn lack(&self, seen: &Seen) -> f32 {
-        let held = !matches!(self.plan.length, Length::Free { .. });
-        seen.lack().max(if held { seen.length - LENGTH } else { 0.0 })
+        seen.lack().max(if self.holds() { seen.length - LENGTH } else { f32::NEG_INFINITY })
+    }
+
+    /// Whether lengths are held or given.
+    const fn holds(&self) -> bool {
+        !matches!(self.plan.length, Length::Free { .. })
     }
 
     fn ended(self) -> Result<Rest, BackendError> {
@@ -212,13 +218,19 @@ fn hash(seed: u32) -> f32 {
     (bits >> 8) as f32 / (1 << 23) as f32 - 1.0
 }
 
-/// The control points where everything lies now.
+/// The control points where everything lies now. `points` are those that the plan was made of: one that has not moved is the same.
 ///
 /// **Errors**: [`BackendError`] of the device.
-pub fn settled(plan: &SettlingPlan, settler: &mut dyn Settler) -> Result<Vec<ControlPoint>, BackendError> {
+pub fn settled(
+    plan: &SettlingPlan,
+    settler: &mut dyn Settler,
+    points: &[ControlPoint],
+) -> Result<Vec<ControlPoint>, BackendError> {
     let mut places = vec![Place::default(); plan.counts().points as usize];
     settler.read(&mut places)?;
-    Ok(places.iter().map(|place| plan.scale().point(place)).collect())
+    let starts = own_places(plan).map(|(place, _)| place);
+    let now = places.iter().zip(starts).zip(points);
+    Ok(now.map(|((now, start), point)| if now == start { *point } else { plan.scale().point(now) }).collect())
 }
 
 impl Rest {
@@ -234,18 +246,22 @@ impl Rest {
 }
 
 impl Seen {
-    /// Whether it is better: by clearance, and where that is the same by bends, and then by length. What does for a picture or a
-    /// mesh counts as enough; where all are enough, the one that lacks less to rest is better.
+    /// Whether it is better: by clearance in thousandths, where that is the same by the radius of curvature in steps of 0.002 diameters,
+    /// then by length in steps of 0.0005, and last by what is lacking to rest. A clearance of 0.985 is enough, as are a radius of
+    /// 0.585 diameters and a length that is off by 1 %: what is more does not count.
     #[must_use]
     pub fn is_better_than(&self, other: &Self) -> bool {
-        let by = |one: f32, other: f32, enough: f32, same: f32| {
-            let more = one.min(enough) - other.min(enough);
-            (more.abs() > same).then_some(more > 0.0)
-        };
-        by(self.clearance, other.clearance, 0.985, 0.001)
-            .or_else(|| by(self.radius, other.radius, 0.585, 0.002))
-            .or_else(|| by(-self.length, -other.length, -LENGTH, 0.0005))
-            .unwrap_or_else(|| self.lack() < other.lack())
+        self.rank() > other.rank()
+    }
+
+    fn rank(&self) -> [f32; 4] {
+        let steps = |value: f32, enough: f32, step: f32| (value.min(enough) / step).floor();
+        [
+            steps(self.clearance, 0.985, 0.001),
+            steps(self.radius, 0.585, 0.002),
+            steps(-self.length, -LENGTH, 0.0005),
+            -self.lack(),
+        ]
     }
 
     /// How much is lacking to clear yarns and bends that are not too tight: the larger share.

@@ -26,7 +26,7 @@ pub struct Seen {
 ///
 /// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
 pub trait Settler: Debug + Send {
-    /// Takes the places of all control points. They have not moved yet, and lengths are the plan's.
+    /// Takes the places of all control points, with the halves that the plan has. Sets all steps to zero, and lengths to the plan's.
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError>;
 
     /// Finds every chord's neighbours while yarns have `growth` of their thickness. Gives back how many there are in all.
@@ -38,7 +38,8 @@ pub trait Settler: Debug + Send {
     /// Keeps the places that the last pass has seen, before it moved them, in place of any others.
     fn keep(&mut self) -> Result<(), BackendError>;
 
-    /// Goes back to the places that were kept. Points are at rest.
+    /// Goes back to the places that were kept, if any were, and sets all steps to zero. Lengths stay as they are, and neighbours have to be
+    /// listed again before a pass.
     fn recall(&mut self) -> Result<(), BackendError>;
 
     /// Writes the present places of all control points.

@@ -9,7 +9,7 @@ use texere_core::settling::{
     tag,
 };
 
-use crate::cells::Cells;
+use crate::cells::{Cells, countable};
 
 /// The reference.
 #[derive(Debug)]
@@ -130,6 +130,7 @@ impl Settler for SerialSettler {
                 *other != chord && plan.are_neighbours(self.listed(chord), self.listed(*other), growth)
             };
             neighbours.extend(beside.iter().copied().filter(near));
+            countable(neighbours.len() as u64)?;
             starts.push(neighbours.len() as u32);
         }
         (self.starts, self.neighbours) = (starts, neighbours);

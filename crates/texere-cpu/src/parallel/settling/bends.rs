@@ -1,7 +1,7 @@
 //! What an interval's own bends and length do, a vector of intervals at a time.
 
 use texere_core::settling::{
-    BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, Form, GAUSS, Interval, Pass, Pull, SOFT_BEND,
+    BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, Form, GAUSS, Interval, Pass, Pull, SHORT, SOFT_BEND,
     SettlingPlan, bends, tag,
 };
 
@@ -74,7 +74,7 @@ impl Own<'_> {
             let at = simd.splat(u);
             let (velocity, acceleration) =
                 (velocity(simd, &curve.terms, at), acceleration(simd, &curve.terms, at));
-            let square = dot(velocity, velocity).max(simd.splat(1e-20));
+            let square = dot(velocity, velocity).max(simd.splat(SHORT));
             let across = difference(acceleration, scale(velocity, dot(acceleration, velocity) / square));
             let bend = dot(across, across).sqrt();
             let bends = zero.less(bend);

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use texere_core::settling::{CONTACT, Form, MARGIN, NEAR, Pass, STRIDE, SettlingPlan, tag};
+use texere_core::settling::{CONTACT, Form, MARGIN, NEAR, Pass, SHORT, STRIDE, SettlingPlan, tag};
 
 use super::curves::{Curve, weights};
 use super::tables::{ChordRow, Fixed, IntervalRow, PullRow, rows};
@@ -66,14 +66,14 @@ impl Source<'_> {
         let nearer = simd.splat(NEAR * MARGIN * self.pass.growth);
         let frame = Images::new(simd, self.plan);
         let pairs = room.ones.len();
-        let short = simd.splat(1e-20);
+        let (short, half) = (simd.splat(SHORT), simd.splat(0.5));
         for k in (0..pairs).step_by(S::LANES) {
             let numbers = [lanes::<S>(&room.ones[k..]), lanes::<S>(&room.others[k..])];
             let (from, to) = (begins(simd, chords, &numbers[0]), begins(simd, chords, &numbers[1]));
             let [dx, dy, dz, one] = rows::<S, 2, 1>(simd, chords, &numbers[0]);
             let [ex, ey, ez, other] = rows::<S, 2, 1>(simd, chords, &numbers[1]);
             let (d, e, most) = ([dx, dy, dz], [ex, ey, ez], one + other);
-            let (way, _) = frame.nearest(between(from, to));
+            let (way, _) = frame.nearest(between(from, to), unit, scale(difference(e, d), half));
             let between = scale(to_floats(way), unit);
             // As `Chord::nearest`.
             let (a, c) = (dot(d, d).max(short), -dot(d, between));
@@ -114,13 +114,14 @@ impl Source<'_> {
         let chords: &[[[f32; 4]; 2]] = bytemuck::cast_slice(self.chords);
         let unit = simd.splat(self.plan.scale().unit());
         let frame = Images::new(simd, self.plan);
-        let pairs = room.near[0].len();
+        let (pairs, half) = (room.near[0].len(), simd.splat(0.5));
         for k in (0..pairs).step_by(S::LANES) {
             let count = S::LANES.min(pairs - k);
             let numbers = [lanes::<S>(&room.near[0][k..]), lanes::<S>(&room.near[1][k..])];
             // The image, as it was found on the chords.
             let chord_way = between(begins(simd, chords, &numbers[0]), begins(simd, chords, &numbers[1]));
-            let (_, image) = frame.nearest(chord_way);
+            let (one, other) = (spans(simd, chords, &numbers[0]), spans(simd, chords, &numbers[1]));
+            let (_, image) = frame.nearest(chord_way, unit, scale(difference(other, one), half));
             let owners = [self.owners(&numbers[0]), self.owners(&numbers[1])];
             let curves = [
                 Curve::<S>::new(simd, self.intervals, &owners[0]),
@@ -176,6 +177,13 @@ fn begins<S: Simd>(simd: S, chords: &[[[f32; 4]; 2]], numbers: &[u32]) -> [S::In
     to_bits([x, y, z])
 }
 
+/// The spans of chords.
+#[cfg_attr(optimized, inline(always))]
+fn spans<S: Simd>(simd: S, chords: &[[[f32; 4]; 2]], numbers: &[u32]) -> [S::Floats; 3] {
+    let [x, y, z, _] = rows::<S, 2, 1>(simd, chords, numbers);
+    [x, y, z]
+}
+
 impl Room {
     fn list(&mut self, source: &Source<'_>, own: Range<u32>) {
         for list in [&mut self.ones, &mut self.others].into_iter().chain(&mut self.near) {
@@ -226,16 +234,22 @@ impl<S: Simd> Images<S> {
         }
     }
 
-    /// The way to the nearest image, and how many repeats away that is, negated.
+    /// The way to the nearest image, and how many repeats away that is, negated. `middles` lead from the ends of the way to what is to be
+    /// near, mm.
     #[cfg_attr(optimized, inline(always))]
-    fn nearest(&self, way: [S::Integers; 3]) -> ([S::Integers; 3], [S::Floats; 2]) {
+    fn nearest(
+        &self,
+        way: [S::Integers; 3],
+        unit: S::Floats,
+        middles: [S::Floats; 3],
+    ) -> ([S::Integers; 3], [S::Floats; 2]) {
         if !self.any {
             return (way, [self.simd.splat(0.0); 2]);
         }
         let half = self.simd.splat(0.5);
         let image = [
-            (way[0].signed_to_floats() * self.frequency[0] + half).floor(),
-            (way[1].signed_to_floats() * self.frequency[1] + half).floor(),
+            ((way[0].signed_to_floats() * unit + middles[0]) * self.frequency[0] + half).floor(),
+            ((way[1].signed_to_floats() * unit + middles[1]) * self.frequency[1] + half).floor(),
         ];
         (self.moved(way, image), image)
     }
@@ -279,7 +293,7 @@ fn refined<S: Simd>(
         -dot(start.way, curves[0].acceleration(simd, at[0])),
         dot(start.way, curves[1].acceleration(simd, at[1])),
     ];
-    let (fifth, short) = (simd.splat(0.2), simd.splat(1e-20));
+    let (fifth, short) = (simd.splat(0.2), simd.splat(SHORT));
     let h = [
         (squares[0] + bends[0]).max(fifth * squares[0]).max(short),
         (squares[1] + bends[1]).max(fifth * squares[1]).max(short),

@@ -2,10 +2,11 @@
 
 use glam::{IVec3, Vec3};
 use rayon::prelude::*;
+use texere_core::BackendError;
 use texere_core::settling::{Chord, Interval, Listed, SettlingPlan};
 
 use super::tables::{ChordRow, Fixed, IntervalRow};
-use crate::cells::Cells;
+use crate::cells::{Cells, countable};
 
 /// Chords that one task lists the neighbours of.
 const TASK: usize = 1024;
@@ -28,7 +29,7 @@ impl Lists {
         intervals: &[IntervalRow],
         chords: &[ChordRow],
         growth: f32,
-    ) -> u64 {
+    ) -> Result<u64, BackendError> {
         let scale = plan.scale();
         let chord = |number: u32| {
             let [[x, y, z, _], [sx, sy, sz, _]] = chords[number as usize].0;
@@ -64,6 +65,8 @@ impl Lists {
             (counts, neighbours)
         });
         let tasks: Vec<_> = tasks.collect();
+        let count = tasks.iter().map(|(_, neighbours)| neighbours.len() as u64).sum();
+        countable(count)?;
         self.starts.clear();
         self.neighbours.clear();
         let mut start = 0;
@@ -75,7 +78,7 @@ impl Lists {
             self.neighbours.extend(neighbours);
         }
         self.starts.push(start);
-        u64::from(start)
+        Ok(count)
     }
 }
 

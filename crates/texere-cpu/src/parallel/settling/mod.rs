@@ -29,10 +29,11 @@ pub(crate) struct ParallelSettler {
     set: InstructionSet,
     plan: Arc<SettlingPlan>,
     fixed: Fixed,
-    /// With [`FRONT`] entries before the first place and [`BACK`] behind the last one: where everything is, will be, was when the last
-    /// pass saw it, and where it was kept.
+    /// Where everything is, with [`FRONT`] entries before the first place and [`BACK`] behind the last one.
     places: Vec<Place>,
+    /// Where everything was when the last pass saw it, likewise; the next places while a pass makes them.
     seen: Vec<Place>,
+    /// Where everything was kept, likewise; empty before that.
     kept: Vec<Place>,
     /// The step that each point has taken last, mm.
     steps: Vec<[f32; 4]>,
@@ -143,7 +144,7 @@ impl Settler for ParallelSettler {
 
     fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
         self.renew();
-        Ok(self.lists.fill(&self.plan, &self.fixed, &self.intervals, &self.chords, growth))
+        self.lists.fill(&self.plan, &self.fixed, &self.intervals, &self.chords, growth)
     }
 
     fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {

@@ -65,6 +65,7 @@ impl Gather<'_> {
         let block = pass.form == Form::Block;
         let mut sums = [zero; 12];
         let mut near = simd.splat(f32::INFINITY);
+        let mut clearance = near;
         for slot in 0..4 {
             let pulls = &self.pulls[FRONT + place + 1 - slot..][..S::LANES];
             for row in 0..if block { 3 } else { 2 } {
@@ -73,7 +74,8 @@ impl Gather<'_> {
                     *sum = *sum + value;
                 }
             }
-            near = near.min(lanes(simd, pulls, |pull| pull.seen)[0]);
+            let [distance, ratio, ..] = lanes(simd, pulls, |pull| pull.seen);
+            (near, clearance) = (near.min(distance), clearance.min(ratio));
         }
         let places = &self.places[FRONT + place..];
         let (mut diameters, mut presses) = ([0.0; LANES_MAX], [0.0; LANES_MAX]);
@@ -93,7 +95,7 @@ impl Gather<'_> {
             step
         } else {
             let [cx, cy, cz, contacts, bx, by, bz, bends, ..] = sums;
-            let room = (near / (diameter * simd.splat(pass.growth)) - simd.splat(0.3)) * simd.splat(2.5);
+            let room = (clearance / simd.splat(pass.growth) - simd.splat(0.3)) * simd.splat(2.5);
             let apart = share(simd, room);
             let bend = scale([bx, by, bz], simd.splat(BEND) / bends.max(simd.splat(0.3)));
             let [x, y, z, _] = lanes(simd, &self.pulls[FRONT + place..][..S::LANES], |pull| pull.length);

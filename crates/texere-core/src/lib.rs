@@ -17,6 +17,7 @@
 //! This crate does no I/O, knows no GPU and holds no unsafe code.
 
 mod backend;
+mod boundary;
 mod engine;
 mod error;
 mod frame;
@@ -38,8 +39,11 @@ mod vertex;
 mod yarns;
 
 pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
+pub use boundary::{Boundary, Ends};
 pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
-pub use error::{BackendError, PipelineError, PlanError, SectionError, SessionError, YarnError};
+pub use error::{
+    BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,
+};
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use material::Material;
 pub use mesh::{Draw, Mesh, MeshMut, MeshPiece};

@@ -1,0 +1,139 @@
+//! Where yarns end, close up, or go on beyond their control points, and the repeat that they go on in.
+
+use crate::{BoundaryError, COORDINATE_LIMIT, Layout};
+
+/// What comes after a yarn's last control point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Ends {
+    /// Nothing: the yarn is cut off at both its ends.
+    #[default]
+    Open,
+    /// Its first control point: the yarn is a ring.
+    Closed,
+    /// Its first control point again, moved by so many whole repeats along x and along y, and so on without end both ways.
+    Repeats([i32; 2]),
+}
+
+impl Ends {
+    /// Control intervals of a yarn of `points` control points. Only an open one has none after its last.
+    ///
+    /// ```
+    /// use texere_core::Ends;
+    /// assert_eq!([Ends::Open, Ends::Closed, Ends::Repeats([1, 0])].map(|ends| ends.intervals(12)), [11, 12, 12]);
+    /// ```
+    #[must_use]
+    pub const fn intervals(self, points: usize) -> usize {
+        match self {
+            Self::Open => points.saturating_sub(1),
+            Self::Closed | Self::Repeats(_) => points,
+        }
+    }
+}
+
+/// How a piece of cloth goes on at its edges: the repeat's size, and the ends of each yarn.
+///
+/// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis that has a period.
+/// Control points may lie anywhere, also beyond the repeat's edge; what counts is that the yarn's next round begins
+/// where this one leaves off.
+///
+/// ```
+/// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
+/// // A thread that crosses a repeat of 2 mm along x in four points, and goes on in the next one.
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 0.5, 1.0, 1.5].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let yarns = yarns.build()?;
+/// let boundary = Boundary::new(yarns.layout(), [2.0, 0.0], vec![Ends::Repeats([1, 0])])?;
+/// assert_eq!(boundary.onward_mm(0), [2.0, 0.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boundary {
+    repeat: [f32; 2],
+    ends: Vec<Ends>,
+}
+
+impl Boundary {
+    /// A repeat of `repeat` mm along x and y (0 where there is none) for the yarns of `layout`, with the ends of each.
+    ///
+    /// **Errors**: [`BoundaryError`] for a repeat that is not finite, negative or beyond [`COORDINATE_LIMIT`], and
+    /// those of [`Boundary::check`].
+    pub fn new(layout: &Layout, repeat: [f32; 2], ends: Vec<Ends>) -> Result<Self, BoundaryError> {
+        for (axis, length) in ['x', 'y'].into_iter().zip(repeat) {
+            if !(0.0..=COORDINATE_LIMIT).contains(&length) {
+                return Err(BoundaryError::Repeat { axis, length, limit: COORDINATE_LIMIT });
+            }
+        }
+        let boundary = Self { repeat, ends };
+        boundary.check(layout)?;
+        Ok(boundary)
+    }
+
+    /// No repeat: each yarn is closed or open as `layout` says.
+    ///
+    /// ```
+    /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// # let yarns = yarns.build()?;
+    /// assert_eq!(Boundary::without_repeat(yarns.layout()).ends(), [Ends::Open]); // one open yarn
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    #[must_use]
+    pub fn without_repeat(layout: &Layout) -> Self {
+        let ends = layout.yarns().iter().map(|yarn| if yarn.closed { Ends::Closed } else { Ends::Open });
+        Self { repeat: [0.0; 2], ends: ends.collect() }
+    }
+
+    /// Whether these are the boundaries of the yarns of `layout`.
+    ///
+    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed here alone or in `layout`
+    /// alone, one that goes on along an axis without a period, and one that goes on by no repeat at all.
+    pub fn check(&self, layout: &Layout) -> Result<(), BoundaryError> {
+        if self.ends.len() != layout.yarns().len() {
+            return Err(BoundaryError::EndsCount { ends: self.ends.len(), yarns: layout.yarns().len() });
+        }
+        for (yarn, (&ends, each)) in self.ends.iter().zip(layout.yarns()).enumerate() {
+            if each.closed != (ends == Ends::Closed) {
+                return Err(BoundaryError::Closed { yarn, closed: each.closed });
+            }
+            if let Ends::Repeats(repeats) = ends {
+                for (axis, (count, length)) in
+                    ['x', 'y'].into_iter().zip(repeats.into_iter().zip(self.repeat))
+                {
+                    if count != 0 && length == 0.0 {
+                        return Err(BoundaryError::NoRepeat { yarn, axis });
+                    }
+                }
+                if repeats == [0; 2] {
+                    return Err(BoundaryError::NoWayOn { yarn });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The repeat's length along x and y, mm; 0 where there is none.
+    #[must_use]
+    pub const fn repeat(&self) -> [f32; 2] {
+        self.repeat
+    }
+
+    /// The ends of each yarn.
+    #[must_use]
+    pub fn ends(&self) -> &[Ends] {
+        &self.ends
+    }
+
+    /// How far along x and y a yarn's next round lies from this one, mm: nothing but for a yarn that repeats.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn onward_mm(&self, yarn: usize) -> [f64; 2] {
+        match self.ends[yarn] {
+            Ends::Open | Ends::Closed => [0.0; 2],
+            Ends::Repeats(repeats) => {
+                [0, 1].map(|axis| f64::from(repeats[axis]) * f64::from(self.repeat[axis]))
+            }
+        }
+    }
+}

@@ -31,12 +31,14 @@
 mod clearance;
 mod diagnosis;
 mod error;
+mod grid;
 mod length;
 mod measures;
 mod memory;
 mod reach;
 mod structure;
 mod warning;
+mod watch;
 mod woven;
 mod yarn_size;
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use texere_conformance::schedule::able_devices;
 use texere_core::{
-    ControlPoint, Frame, Layout, Limits, Material, NullBackend, Pipeline, PipelineError, Plan, PlanError,
-    Section, SectionError, Settings, Topology, Yarn, YarnError, Yarns,
+    Boundary, BoundaryError, ControlPoint, Ends, Frame, Layout, Limits, Material, NullBackend, Pipeline,
+    PipelineError, Plan, PlanError, Section, SectionError, Settings, Topology, Yarn, YarnError, Yarns,
 };
 
 fn straight(count: u16) -> Vec<ControlPoint> {
@@ -113,6 +113,40 @@ fn offsets_that_are_no_prefix_sums() {
     assert_eq!(layout(1, vec![]), YarnError::OffsetCount { offsets: 0, yarns: 1 });
     assert!(matches!(layout(1, vec![3, 5]), YarnError::OffsetOrder { yarn: 0, .. }));
     assert_eq!(layout(2, vec![0, 5, 2]), YarnError::OffsetOrder { yarn: 1, start: 5, end: 2 });
+}
+
+#[test]
+fn boundaries_that_are_not_those_of_the_yarns() {
+    let mut yarns = Yarns::builder();
+    yarns.yarn(Yarn::default(), &straight(3)).yarn(Yarn { closed: true, ..Yarn::default() }, &straight(3));
+    let yarns = yarns.build().unwrap();
+    let refused = |repeat, ends: &[Ends]| Boundary::new(yarns.layout(), repeat, ends.to_vec()).unwrap_err();
+    let (both, on) = ([Ends::Open, Ends::Closed], Ends::Repeats([1, 0]));
+    for (axis, repeat) in
+        [('x', [f32::NAN, 0.0]), ('y', [1.0, f32::INFINITY]), ('x', [-1.0, 1.0]), ('y', [0.0, 2e9])]
+    {
+        let BoundaryError::Repeat { axis: told, limit: 1e9, .. } = refused(repeat, &both) else {
+            panic!("{repeat:?}")
+        };
+        assert_eq!(told, axis, "{repeat:?}");
+    }
+    assert_eq!(refused([0.0; 2], &both[..1]), BoundaryError::EndsCount { ends: 1, yarns: 2 });
+    assert_eq!(refused([0.0; 2], &[Ends::Closed; 2]), BoundaryError::Closed { yarn: 0, closed: false });
+    assert_eq!(refused([0.0; 2], &[Ends::Open; 2]), BoundaryError::Closed { yarn: 1, closed: true });
+    assert_eq!(refused([1.0; 2], &[Ends::Open, on]), BoundaryError::Closed { yarn: 1, closed: true });
+    assert_eq!(refused([0.0, 1.0], &[on, Ends::Closed]), BoundaryError::NoRepeat { yarn: 0, axis: 'x' });
+    let diagonal = Ends::Repeats([1, -2]);
+    assert_eq!(
+        refused([1.0, 0.0], &[diagonal, Ends::Closed]),
+        BoundaryError::NoRepeat { yarn: 0, axis: 'y' }
+    );
+    assert_eq!(refused([1.0; 2], &[Ends::Repeats([0; 2]), Ends::Closed]), BoundaryError::NoWayOn { yarn: 0 });
+
+    let boundary = Boundary::new(yarns.layout(), [1.5, 2.0], vec![diagonal, Ends::Closed]).unwrap();
+    assert_eq!((boundary.onward_mm(0), boundary.onward_mm(1)), ([1.5, -4.0], [0.0; 2]));
+    assert_eq!(Boundary::without_repeat(yarns.layout()).ends(), both);
+    let other = one_yarn(Yarn::default(), &straight(3)).unwrap();
+    assert_eq!(boundary.check(other.layout()), Err(BoundaryError::EndsCount { ends: 2, yarns: 1 }));
 }
 
 #[test]

@@ -32,9 +32,9 @@ impl Ends {
 
 /// How a piece of cloth goes on at its edges: the repeat's size, and the ends of each yarn.
 ///
-/// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis that has a period. Control
-/// points may lie anywhere, also beyond the repeat's edge; what counts is that the yarn's next round begins where this one
-/// leaves off.
+/// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis that has a period.
+/// Control points may lie anywhere, also beyond the repeat's edge; what counts is that the yarn's next round begins
+/// where this one leaves off.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
@@ -55,8 +55,8 @@ pub struct Boundary {
 impl Boundary {
     /// A repeat of `repeat` mm along x and y (0 where there is none) for the yarns of `layout`, with the ends of each.
     ///
-    /// **Errors**: [`BoundaryError`] for a repeat that is not finite, negative or beyond [`COORDINATE_LIMIT`], and those of
-    /// [`Boundary::check`].
+    /// **Errors**: [`BoundaryError`] for a repeat that is not finite, negative or beyond [`COORDINATE_LIMIT`], and
+    /// those of [`Boundary::check`].
     pub fn new(layout: &Layout, repeat: [f32; 2], ends: Vec<Ends>) -> Result<Self, BoundaryError> {
         for (axis, length) in ['x', 'y'].into_iter().zip(repeat) {
             if !(0.0..=COORDINATE_LIMIT).contains(&length) {
@@ -86,8 +86,8 @@ impl Boundary {
 
     /// Whether these are the boundaries of the yarns of `layout`.
     ///
-    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed here alone or in `layout` alone, one
-    /// that goes on along an axis without a period, and one that goes on by no repeat at all.
+    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed here alone or in `layout`
+    /// alone, one that goes on along an axis without a period, and one that goes on by no repeat at all.
     pub fn check(&self, layout: &Layout) -> Result<(), BoundaryError> {
         if self.ends.len() != layout.yarns().len() {
             return Err(BoundaryError::EndsCount { ends: self.ends.len(), yarns: layout.yarns().len() });

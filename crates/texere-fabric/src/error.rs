@@ -1,6 +1,6 @@
 //! What can go wrong between a design and its yarns.
 
-use texere_core::{Origin, PlanError, SectionError, YarnError};
+use texere_core::{BoundaryError, Origin, PlanError, SectionError, YarnError};
 use thiserror::Error;
 
 /// A structure that can't be taken. Threads are counted from 1, as weavers do.
@@ -247,6 +247,23 @@ pub enum FabricError {
         /// Most taken.
         limit: u64,
     },
+    /// More control intervals than linking is compared for, with all their copies in a repeat that they reach into.
+    #[error("linking of {intervals} control intervals with their copies; {limit} are compared at most")]
+    LinkingSize {
+        /// Intervals of all yarns, with their copies.
+        intervals: u64,
+        /// Most taken.
+        limit: u64,
+    },
+    /// Yarns whose linking can't be compared, for they are not the same ones.
+    #[error("yarn {yarn} after is not the same as before: another number of control points, or another yarn")]
+    OtherLayout {
+        /// The first yarn that differs, from 0.
+        yarn: usize,
+    },
+    /// A boundary that is not that of the yarns.
+    #[error("the boundary is not that of the yarns")]
+    Boundary(#[from] BoundaryError),
     /// The progress callback asked to stop.
     #[error("cancelled")]
     Cancelled,

@@ -14,8 +14,8 @@
 //! fabric ([`Structure::diagnose`]) and which single changes would cure it ([`Structure::cures`]).
 //!
 //! Beside structures there are the measures that designers ask for: [`Measures`] (yarn consumption, crimp, cover, weight,
-//! thickness), [`clearance()`] (whether yarns pierce one another), [`length_mm`] of yarn, and the diameter of a yarn of
-//! known weight ([`diameter_mm`]).
+//! thickness), [`clearance()`] (whether yarns pierce one another), [`linking()`] (whether they have passed through one
+//! another when they were moved), [`length_mm`] of yarn, and the diameter of a yarn of known weight ([`diameter_mm`]).
 //!
 //! ```
 //! use texere_core::{Material, Section};
@@ -31,12 +31,15 @@
 mod clearance;
 mod diagnosis;
 mod error;
+mod grid;
 mod length;
+mod linking;
 mod measures;
 mod memory;
 mod reach;
 mod structure;
 mod warning;
+mod watch;
 mod woven;
 mod yarn_size;
 
@@ -50,6 +53,10 @@ pub use diagnosis::{
 };
 pub use error::FabricError;
 pub use length::{length_mm, lengths_mm};
+pub use linking::{
+    LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
+    WINDOW_REACH, linking, linking_with_progress,
+};
 pub use measures::{Cover, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use structure::Structure;
 pub use warning::FabricWarning;

@@ -34,16 +34,18 @@ mod device;
 pub use device::open_renderer;
 pub use device::{Devices, devices, open};
 pub use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, Counts, DeviceInfo, DeviceKind, Frame, Limits, Material,
-    Mesh, MeshPiece, Origin, Pipeline, PipelineError, Plan, PlanError, Progress, Ring, Schedule, Section,
-    SectionError, Settings, Topology, Trajectory, Vertex, Yarn, YarnError, Yarns, YarnsBuilder,
+    Backend, BackendError, Boundary, BoundaryError, Chunk, ControlPoint, Counts, DeviceInfo, DeviceKind,
+    Ends, Frame, Limits, Material, Mesh, MeshPiece, Origin, Pipeline, PipelineError, Plan, PlanError,
+    Progress, Ring, Schedule, Section, SectionError, Settings, Topology, Trajectory, Vertex, Yarn, YarnError,
+    Yarns, YarnsBuilder,
 };
 pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
-    FabricWarning, FaultKind, Faults, JamReport, Jams, Measures, NO_CROSSING, Pitch, Relief, Remedy, Shape,
-    Shedding, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave,
-    Woven, WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm,
+    FabricWarning, FaultKind, Faults, JamReport, Jams, LINKING_CHANGE, Linking, Measures, NO_CROSSING,
+    Passage, Pitch, Relief, Remedy, Shape, Shedding, Structure, Thread, ThreadBend, ThreadContact,
+    ThreadCrowd, ThreadPlace, Tightness, Weave, Woven, WovenDesign, YarnPlace, clearance,
+    clearance_with_progress, length_mm, lengths_mm, linking, linking_with_progress,
 };
 pub use texere_formats::write::{
     Format, Output, Side, Written, abandon, draft as write_draft, file as write_file, mesh as write,

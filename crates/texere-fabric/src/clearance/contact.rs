@@ -1,6 +1,6 @@
 //! Contacts of yarns: where they are, how near they come, and how many are looked for.
 
-use super::grid;
+use crate::grid;
 
 /// Contacts further apart than this factor are not looked for.
 pub const CLEARANCE_NEAR: f64 = 1.1;

@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 
 use super::contact::YarnPlace;
-use super::grid::Bounds;
 use super::part::Part;
+use crate::grid::Bounds;
 
 /// A place that is not measured, because its yarns lie in one another many times over.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use texere_core::{ControlPoint, Yarns};
 
 use super::contact::{CLEARANCE_NEAR, YarnPlace};
-use super::grid::Bounds;
 use super::interval::Cubic;
 use super::support::Support;
+use crate::grid::Bounds;
 
 /// Intervals after the first over which a yarn may be seen to lead straight on.
 const LEAD: usize = 3;

@@ -5,7 +5,6 @@ mod contact;
 mod crowd;
 mod curvature;
 mod found;
-mod grid;
 mod interval;
 mod line;
 mod part;
@@ -16,7 +15,6 @@ mod support;
 mod surface;
 mod touch;
 mod tubes;
-mod watch;
 
 use std::ops::ControlFlow;
 
@@ -31,11 +29,11 @@ pub use self::crowd::Crowd;
 pub(crate) use self::line::neighbours;
 
 use self::found::Found;
-use self::grid::Grid;
 use self::rolls::Rolls;
 use self::search::{FULL, Probe, cell_work};
-use self::watch::Watch;
 use crate::FabricError;
+use crate::grid::Grid;
+use crate::watch::Watch;
 
 const _: () = assert!(FULL / 2 <= CLEARANCE_BESIDE);
 

@@ -2,8 +2,8 @@
 
 use glam::UVec3;
 
-use super::grid::Bounds;
 use super::line::Line;
+use crate::grid::Bounds;
 
 /// One interval in a cell.
 pub(super) struct Part<'a> {

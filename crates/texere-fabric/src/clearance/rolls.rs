@@ -10,9 +10,9 @@ use texere_core::{
 
 use super::interval::Cubic;
 use super::line::neighbours;
-use super::watch::Watch;
 use crate::FabricError;
 use crate::memory::zeroed;
+use crate::watch::Watch;
 
 /// The rolls of all yarns whose surface depends on them.
 #[derive(Debug)]

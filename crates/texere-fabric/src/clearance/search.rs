@@ -12,7 +12,6 @@ use super::contact::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace};
 use super::crowd::Crowd;
 use super::curvature;
 use super::found::Found;
-use super::grid::{Bounds, Grid};
 use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{self, Line, Span};
 use super::part::Part;
@@ -22,9 +21,10 @@ use super::support::Support;
 use super::surface::Surface;
 use super::touch::{touch, touch_near};
 use super::tubes;
-use super::watch::Watch;
 use crate::FabricError;
+use crate::grid::{Bounds, Grid};
 use crate::memory::room_for;
+use crate::watch::Watch;
 
 /// The most intervals of a cell that are simply compared with one another. Threads that are clear of one another come to
 /// some 60, with one control point a crossing or several.

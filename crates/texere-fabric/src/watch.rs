@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use crate::FabricError;
 
 /// Reports to a caller, from any thread that works, how much is done.
-pub(super) struct Watch<T> {
+pub(crate) struct Watch<T> {
     total: AtomicU64,
     done: AtomicU64,
     stopped: AtomicBool,
@@ -23,7 +23,7 @@ impl<T> fmt::Debug for Watch<T> {
 
 impl<T: FnMut(f64) -> ControlFlow<()> + Send> Watch<T> {
     /// For work of `total` units.
-    pub(super) fn new(total: u64, report: T) -> Self {
+    pub(crate) fn new(total: u64, report: T) -> Self {
         Self {
             total: total.into(),
             done: AtomicU64::new(0),
@@ -33,14 +33,14 @@ impl<T: FnMut(f64) -> ControlFlow<()> + Send> Watch<T> {
     }
 
     /// There are so many units more to do, before the first is done.
-    pub(super) fn expect(&self, units: u64) {
+    pub(crate) fn expect(&self, units: u64) {
         self.total.fetch_add(units, Ordering::Relaxed);
     }
 
     /// So many units more are done.
     ///
     /// **Errors**: [`FabricError::Cancelled`] once the caller has asked to stop.
-    pub(super) fn advance(&self, units: u64) -> Result<(), FabricError> {
+    pub(crate) fn advance(&self, units: u64) -> Result<(), FabricError> {
         self.done.fetch_add(units, Ordering::Relaxed);
         // A thread that finds another one reporting goes on with its work.
         if let Ok(mut report) = self.report.try_lock() {

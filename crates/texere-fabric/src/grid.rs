@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::FabricError;
 
 /// The most cells that an interval lies in on average, before larger cells are taken.
-pub(super) const ENTRIES: u64 = 6;
+pub(crate) const ENTRIES: u64 = 6;
 
 /// A cell's side, in those of boxes on average: so large that most boxes lie in one or two, and few are far from one another.
 const CELL: f64 = 1.75;
@@ -19,26 +19,26 @@ const LAYERS: f32 = 4.0;
 
 /// A box with sides along the axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bounds {
-    pub(super) low: Vec3A,
-    pub(super) high: Vec3A,
+pub(crate) struct Bounds {
+    pub(crate) low: Vec3A,
+    pub(crate) high: Vec3A,
 }
 
 impl Bounds {
-    pub(super) const NOTHING: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
+    pub(crate) const NOTHING: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
 
-    pub(super) fn joined(self, other: Self) -> Self {
+    pub(crate) fn joined(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    pub(super) fn meets(&self, other: &Self) -> bool {
+    pub(crate) fn meets(&self, other: &Self) -> bool {
         (self.low.cmple(other.high) & other.low.cmple(self.high)).all()
     }
 }
 
 /// Which boxes reach into which cell.
 #[derive(Debug)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     low: Vec3A,
     /// Cells to the millimetre.
     scale: Vec3A,
@@ -52,7 +52,7 @@ impl Grid {
     /// Sorts numbered boxes into cells; `boxes(task)` gives those of one of `tasks`.
     ///
     /// **Errors**: [`FabricError::OutOfMemory`].
-    pub(super) fn new<I: Iterator<Item = (usize, Bounds)>>(
+    pub(crate) fn new<I: Iterator<Item = (usize, Bounds)>>(
         tasks: usize,
         boxes: impl Fn(usize) -> I + Sync,
     ) -> Result<Self, FabricError> {
@@ -139,12 +139,12 @@ impl Grid {
     }
 
     /// The cell that `corner` lies in. Rounding moves none past another.
-    pub(super) fn cell(&self, corner: Vec3A) -> UVec3 {
+    pub(crate) fn cell(&self, corner: Vec3A) -> UVec3 {
         ((corner - self.low) * self.scale).as_uvec3().min(self.cells - 1)
     }
 
     /// The number of `cell`.
-    pub(super) fn number(&self, cell: UVec3) -> usize {
+    pub(crate) fn number(&self, cell: UVec3) -> usize {
         (cell.z as usize * self.cells.y as usize + cell.y as usize) * self.cells.x as usize + cell.x as usize
     }
 
@@ -160,7 +160,7 @@ impl Grid {
     }
 
     /// How many cells there are.
-    pub(super) const fn len(&self) -> usize {
+    pub(crate) const fn len(&self) -> usize {
         self.ends.len()
     }
 
@@ -170,12 +170,12 @@ impl Grid {
     }
 
     /// How many boxes reach into `cell`.
-    pub(super) fn count_in(&self, cell: usize) -> usize {
+    pub(crate) fn count_in(&self, cell: usize) -> usize {
         self.places(cell).len()
     }
 
     /// The numbers of the boxes that reach into `cell`, in no particular order.
-    pub(super) fn entries(&self, cell: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn entries(&self, cell: usize) -> impl Iterator<Item = usize> + '_ {
         self.entries[self.places(cell)].iter().map(|entry| entry.load(Ordering::Relaxed) as usize)
     }
 }

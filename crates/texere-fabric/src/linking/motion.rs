@@ -1,0 +1,71 @@
+//! Whether two chords meet while their ends move straight on.
+
+use glam::Vec3A;
+
+/// How often a stretch of time is halved before the chords are taken to meet in it.
+const HALVINGS: u32 = 10;
+
+/// A chord whose ends move straight on from one time to another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Chord {
+    pub(super) before: [Vec3A; 2],
+    pub(super) after: [Vec3A; 2],
+}
+
+impl Chord {
+    fn at(&self, time: f32) -> [Vec3A; 2] {
+        [0, 1].map(|end| self.before[end].lerp(self.after[end], time))
+    }
+
+    /// How far the other chord moves against this one, at most, mm.
+    pub(super) fn motion(&self, other: &Self) -> f32 {
+        let [one, two] = [self, other].map(|chord| [0, 1].map(|end| chord.after[end] - chord.before[end]));
+        let squared = |a: usize, b: usize| one[a].distance_squared(two[b]);
+        squared(0, 0).max(squared(0, 1)).max(squared(1, 0)).max(squared(1, 1)).sqrt()
+    }
+
+    /// Whether the two may come within `apart` mm on the way; `motion` is how far they move against one another at most.
+    pub(super) fn may_meet(&self, other: &Self, motion: f32, apart: f32) -> bool {
+        let distance = |time: f32| distance(self.at(time), other.at(time));
+        let start = distance(0.0);
+        start <= motion + apart
+            && meets(&distance, motion, apart, [(0.0, start), (1.0, distance(1.0))], HALVINGS)
+    }
+}
+
+/// Whether a distance that changes by `motion` at most in the time from 0 to 1 may fall to `apart` between two times
+/// at which it is known.
+fn meets(
+    distance: &impl Fn(f32) -> f32,
+    motion: f32,
+    apart: f32,
+    [start, end]: [(f32, f32); 2],
+    halvings: u32,
+) -> bool {
+    // From both ends it falls no faster than that, and is least where the two falls meet.
+    if start.1 + end.1 - motion * (end.0 - start.0) > 2.0 * apart {
+        return false;
+    }
+    if start.1.min(end.1) <= apart || halvings == 0 {
+        return true;
+    }
+    let middle = (start.0 + end.0) / 2.0;
+    let middle = (middle, distance(middle));
+    meets(distance, motion, apart, [start, middle], halvings - 1)
+        || meets(distance, motion, apart, [middle, end], halvings - 1)
+}
+
+/// The distance of two straight segments.
+///
+/// **Source**: Ericson, "Real-time collision detection", Morgan Kaufmann 2005, section 5.1.9.
+fn distance([p, p_end]: [Vec3A; 2], [q, q_end]: [Vec3A; 2]) -> f32 {
+    let share = |over: f32, under: f32| if under > 0.0 { (over / under).clamp(0.0, 1.0) } else { 0.0 };
+    let (along, other, apart) = (p_end - p, q_end - q, p - q);
+    let (a, e, f) = (along.length_squared(), other.length_squared(), other.dot(apart));
+    let (c, b) = (along.dot(apart), along.dot(other));
+    let s = share(b * f - c * e, a * e - b * b);
+    // The other end's best place may lie off it; then the first one's best place for that end counts.
+    let t = share(b * s + f, e);
+    let s = share(b * t - c, a);
+    (p + along * s).distance(q + other * t)
+}

@@ -61,7 +61,7 @@ pub struct Spans {
     pub diameter: f32,
     /// The largest half width or half height.
     pub thickest: f32,
-    /// A unit of [`SettlingPlan::along`].
+    /// A unit of [`SettlingPlan::along`], mm.
     pub along: f32,
     /// The longest chord at the start.
     pub longest_chord: f32,

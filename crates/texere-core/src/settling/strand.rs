@@ -28,7 +28,7 @@ pub struct Strand {
     pub points: u32,
     /// How it goes on.
     pub ends: Ends,
-    /// Its length, in units of [`SettlingPlan::along`].
+    /// Its length, in units of [`Spans::along`](super::Spans::along).
     pub length: u32,
 }
 

@@ -220,7 +220,9 @@ fn a_report_is_of_what_comes_back() {
 #[test]
 fn lists_are_complete() {
     let mut plans = plans();
-    plans.push(("uprights", Arc::new(uprights())));
+    for seed in 0..12 {
+        plans.push(("strewn", Arc::new(strewn(3.0 + 0.3 * seed as f32, seed))));
+    }
     for (name, plan) in plans {
         for growth in [0.25, 0.7, 1.0] {
             let intervals: Vec<_> = (0..plan.places().len())
@@ -262,20 +264,19 @@ fn lists_are_complete() {
     }
 }
 
-/// Upright yarns and a level one, scattered so that cells must not be narrower than asked.
-fn uprights() -> SettlingPlan {
-    let mut yarns = Yarns::builder();
-    let mut add = |from: [f32; 2], to: [f32; 2]| {
-        let point = |share: f32| {
-            let at = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
-            ControlPoint::new(at[0], at[1], 0.0, 0.5)
-        };
-        yarns.yarn(Yarn::default(), &[0.0, 0.5, 1.0].map(point));
+/// Short yarns strewn over a field of `width` by 4 mm, all at one height.
+fn strewn(width: f32, seed: u32) -> SettlingPlan {
+    let mut bits = seed;
+    let mut next = || {
+        bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (bits >> 8) as f32 / (1 << 24) as f32
     };
-    add([0.0, 10.0], [0.0, 11.0]);
-    add([3.637, 10.0], [3.637, 11.0]);
-    add([2.43, -1.0], [2.43, 1.0]);
-    add([-0.281, 0.0], [1.509, 0.0]);
+    let mut yarns = Yarns::builder();
+    for _ in 0..60 {
+        let (x, y, angle) = (width * next(), 4.0 * next(), std::f32::consts::TAU * next());
+        let end = [x + 0.8 * angle.cos(), y + 0.8 * angle.sin()];
+        yarns.yarn(Yarn::default(), &[[x, y], end].map(|[x, y]| ControlPoint::new(x, y, 0.0, 0.5)));
+    }
     SettlingPlan::new(&Settling::new(&yarns.build().expect("yarns"))).expect("a plan")
 }
 

@@ -23,6 +23,22 @@ pub struct Listed<'a> {
     pub pieces: u32,
 }
 
+impl<'a> Listed<'a> {
+    /// Chord `number` of all, on the interval that begins at `place`.
+    #[must_use]
+    #[inline]
+    pub fn new(
+        plan: &SettlingPlan,
+        number: u32,
+        chord: &'a Chord,
+        place: usize,
+        interval: &'a Interval,
+    ) -> Self {
+        let [first, end] = [plan.chords()[place], plan.chords()[place + 1]];
+        Self { chord, interval, place, piece: number - first, pieces: end - first }
+    }
+}
+
 impl SettlingPlan {
     /// Which image of a chord lies nearest to another one that begins `way` units before it: how many repeats away, by their
     /// middles.

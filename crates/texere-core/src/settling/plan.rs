@@ -225,6 +225,16 @@ impl SettlingPlan {
         places
     }
 
+    /// Writes the places of control points alone, out of those that [`SettlingPlan::padded`] makes.
+    pub fn unpad(&self, places: &[Place], points: &mut [Place]) {
+        let mut own = points;
+        for strand in &self.strands {
+            let (these, others) = own.split_at_mut(strand.points as usize);
+            these.copy_from_slice(&places[strand.first as usize..][..these.len()]);
+            own = others;
+        }
+    }
+
     /// Makes the places beyond a yarn's ends anew.
     pub fn renew_ends(&self, strand: &Strand, places: &mut [Place]) {
         let (first, count) = (strand.first as usize, strand.points as usize);

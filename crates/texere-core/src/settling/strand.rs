@@ -36,10 +36,7 @@ impl Strand {
     /// How many intervals it has.
     #[must_use]
     pub const fn intervals(&self) -> u32 {
-        match self.ends {
-            Ends::Open => self.points - 1,
-            Ends::Closed | Ends::Repeats(_) => self.points,
-        }
+        self.ends.intervals(self.points as usize) as u32
     }
 
     /// How many repeats away it goes on.

@@ -79,14 +79,7 @@ impl SerialSettler {
 
     fn listed(&self, chord: u32) -> Listed<'_> {
         let place = self.owners[chord as usize] as usize;
-        let own = &self.plan.chords()[place..place + 2];
-        Listed {
-            chord: &self.chords[chord as usize],
-            interval: &self.intervals[place],
-            place,
-            piece: chord - own[0],
-            pieces: own[1] - own[0],
-        }
+        Listed::new(&self.plan, chord, &self.chords[chord as usize], place, &self.intervals[place])
     }
 
     /// What pulls at the interval that begins at `place`.
@@ -118,8 +111,7 @@ impl Settler for SerialSettler {
         let plan = &*self.plan;
         let scale = plan.scale();
         let longest = self.chords.iter().map(|chord| chord.span.length_squared().sqrt()).fold(0.0, f32::max);
-        let middles: Vec<IVec3> =
-            self.chords.iter().map(|chord| chord.at.wrapping_add(scale.step(chord.span * 0.5))).collect();
+        let middles: Vec<IVec3> = self.chords.iter().map(|chord| chord.middle(scale)).collect();
         let mut cells = Cells::default();
         cells.fill(plan, &middles, (plan.cell(growth, longest) / scale.unit()).ceil() as i32);
         let (mut starts, mut neighbours) = (vec![0], Vec::new());
@@ -193,10 +185,7 @@ impl Settler for SerialSettler {
     }
 
     fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError> {
-        let own = self.places.iter().zip(self.plan.tags()).filter(|(_, tags)| **tags & tag::POINT != 0);
-        for (to, (place, _)) in places.iter_mut().zip(own) {
-            *to = *place;
-        }
+        self.plan.unpad(&self.places, places);
         Ok(())
     }
 }

@@ -51,12 +51,13 @@ impl Lists {
             let (mut counts, mut neighbours, mut beside) = (Vec::new(), Vec::new(), Vec::new());
             for (number, middle) in (0..).zip(&middles).skip(task * TASK).take(TASK) {
                 let (own, place, interval) = known(number);
-                let one = listed(plan, &own, place, &interval, number);
+                let one = Listed::new(plan, number, &own, place, &interval);
                 let before = neighbours.len();
                 cells.beside(plan, *middle, &mut beside);
                 for &other in beside.iter().filter(|other| **other != number) {
                     let (own, place, interval) = known(other);
-                    if plan.are_neighbours(one, listed(plan, &own, place, &interval, other), growth) {
+                    let there = Listed::new(plan, other, &own, place, &interval);
+                    if plan.are_neighbours(one, there, growth) {
                         neighbours.push(other);
                     }
                 }
@@ -80,16 +81,4 @@ impl Lists {
         self.starts.push(start);
         Ok(count)
     }
-}
-
-/// A chord of the interval at `place`, by its number.
-fn listed<'a>(
-    plan: &SettlingPlan,
-    chord: &'a Chord,
-    place: usize,
-    interval: &'a Interval,
-    number: u32,
-) -> Listed<'a> {
-    let own = &plan.chords()[place..place + 2];
-    Listed { chord, interval, place, piece: number - own[0], pieces: own[1] - own[0] }
 }

@@ -204,11 +204,7 @@ impl Settler for ParallelSettler {
     }
 
     fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError> {
-        let own = self.places[FRONT..].iter().zip(self.plan.tags());
-        let own = own.filter(|(_, tags)| **tags & tag::POINT != 0);
-        for (to, (place, _)) in places.iter_mut().zip(own) {
-            *to = *place;
-        }
+        self.plan.unpad(&self.places[FRONT..], places);
         Ok(())
     }
 }

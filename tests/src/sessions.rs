@@ -4,22 +4,26 @@ use std::ops::{ControlFlow, Range};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
+use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
+use texere_core::settling::{Form, Pass, settled};
 use texere_core::{
-    Backend, Chunk, ControlPoint, Frame, Limits, Plan, Schedule, Session, SessionError, Settings,
-    StageTimings, Vertex, Yarn, Yarns,
+    Backend, BackendError, Chunk, ControlPoint, Frame, Limits, Plan, Schedule, Session, SessionError,
+    Settings, StageTimings, Vertex, Yarn, Yarns,
 };
 
 use crate::cases;
 use crate::drive::Lent;
+use crate::rest;
 
 /// A guarantee's name, and the check of a device for it.
 type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);
 
-const PROMISES: [Promise; 3] = [
+const PROMISES: [Promise; 4] = [
     ("every-stage-is-timed", every_stage_is_timed),
     ("a-second-scan-is-no-work", a_second_scan_is_no_work),
     ("an-edit-moves-one-yarn", an_edit_moves_one_yarn),
+    ("settled-yarns-stay-on-their-device", settled_yarns_stay_on_their_device),
 ];
 
 /// One trial for each promise.
@@ -181,6 +185,60 @@ fn meshes(session: &mut Session, chunks: &[Chunk]) -> Result<Vec<Lent>, SessionE
         Lent::read(session, chunk)
     };
     chunks.iter().map(read).collect()
+}
+
+/// Yarns that a settler has moved are meshed where it left them: as those that are read from it and sent again, but no byte goes
+/// over the host where that is not the device's own memory.
+fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed> {
+    let settings = all_of(device).0;
+    for start in
+        rest::starts().iter().filter(|start| ["tuck-5", "jersey-5-piece"].contains(&start.name.as_str()))
+    {
+        let (yarns, settling) = (rest::yarns(start), rest::settling_plan(start));
+        let mut settler = match device.settler(settling.clone()) {
+            Err(BackendError::NoSettling { .. }) => return Ok(()),
+            opened => opened?,
+        };
+        settler.upload(
+            yarns.points().iter().map(|point| settling.scale().place(point)).collect::<Vec<_>>().as_slice(),
+        )?;
+        settler.list(1.0)?;
+        for _ in 0..4 {
+            settler.pass(&Pass { form: Form::Weighted, growth: 1.0, ease: 1.0, momentum: 0.8 })?;
+        }
+        let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+        let chunks: Vec<_> = plan.chunks(&device.info().limits)?.collect();
+        let mut session = Session::new(device, plan.clone())?;
+        session.take_settled(&mut *settler)?;
+        let traffic = session.traffic();
+        if !session.engine().lends_its_own() {
+            moved("points at rest", traffic.uploaded + traffic.read, 0)?;
+        }
+        session.scan()?;
+        let taken = meshes(&mut session, &chunks)?;
+
+        let points = settled(&settling, &mut *settler, yarns.points())?;
+        let mut sent = Session::new(device, plan.clone())?;
+        sent.upload(0, &points)?;
+        sent.scan()?;
+        let sent = meshes(&mut sent, &chunks)?;
+        // A unit of places, and the last bit of coordinates of a few mm.
+        let most = 4.0 * settling.scale().unit() + 2e-6;
+        let vertices = |meshes: Vec<Lent>| meshes.into_iter().flat_map(|mesh| mesh.vertices);
+        let mut count = 0;
+        for (taken, sent) in vertices(taken).zip(vertices(sent)) {
+            let apart = Vec3::from(taken.position).distance(Vec3::from(sent.position));
+            if apart.is_nan() || apart > most {
+                return Err(
+                    format!("{}: vertex {count} is {apart} mm from where it was sent", start.name).into()
+                );
+            }
+            count += 1;
+        }
+        let planned = chunks.iter().map(|chunk| u64::from(chunk.vertices())).sum();
+        moved("vertices", count, planned)?;
+    }
+    Ok(())
 }
 
 /// Where in a chunk's vertices the edited yarn's lie: its tube's, and those of its caps.

@@ -4,7 +4,8 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::{BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, Ring};
+use crate::settling::{Settler, points_of};
+use crate::{BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, Ring, Traffic};
 
 /// One of a session's two places for a chunk in flight. The chunk's tables, rings and mesh lie there until another chunk
 /// takes the slot.
@@ -79,6 +80,16 @@ pub trait Engine: fmt::Debug + Send {
     /// Takes control points, the first of which is number `first` of the fabric. Gives back the bytes sent, virtual ends
     /// included.
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError>;
+
+    /// Takes all control points from where a settler has left them, whose yarns have as many as the plan's. Gives back the bytes
+    /// that went over the host.
+    ///
+    /// Provided: reads them and uploads them. An engine whose device the settler works on takes them where they lie.
+    fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<Traffic, BackendError> {
+        let points = points_of(settler)?;
+        let read = if self.lends_its_own() { 0 } else { size_of_val(&points[..]) as u64 };
+        Ok(Traffic { uploaded: self.upload(0, &points)?, read })
+    }
 
     /// Works out the roll at each block's start, and the whole turn of each closed yarn. `chunks` are all of the plan, each in
     /// a slot, for an engine that needs their tables there.

@@ -418,6 +418,9 @@ pub enum SessionError {
         /// What has to come first.
         needed: &'static str,
     },
+    /// A settler of other yarns than the session's: their numbers of control points differ.
+    #[error("the settler's yarns have other numbers of control points than the session's")]
+    OtherYarns,
     /// A chunk that is not of the session's plan.
     #[error("chunk {chunk} is of another plan than the session's")]
     ForeignChunk {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::{
     Backend, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PipelineError, Plan, PlanError, Ring, Session,
-    Settings, Topology, Trajectory, Yarns, zeroed,
+    Settings, Settler, Topology, Trajectory, Yarns, zeroed,
 };
 
 /// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed in between.
@@ -35,6 +35,7 @@ pub struct Pipeline<'a> {
     yarns: &'a Yarns,
     settings: Settings,
     limits: Limits,
+    settler: Option<&'a mut dyn Settler>,
     progress: Option<OnProgress<'a>>,
 }
 
@@ -51,7 +52,13 @@ impl<'a> Pipeline<'a> {
     /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, tension 0, upright, indexed, no caps.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
-        Self { yarns, settings: Settings::default(), limits: Limits::default(), progress: None }
+        Self {
+            yarns,
+            settings: Settings::default(),
+            limits: Limits::default(),
+            settler: None,
+            progress: None,
+        }
     }
 
     /// Takes all settings at once.
@@ -108,6 +115,25 @@ impl<'a> Pipeline<'a> {
     #[must_use]
     pub fn limits(mut self, limits: Limits) -> Self {
         self.limits = limits;
+        self
+    }
+
+    /// Takes control points from where `settler` has left them instead of those of the yarns, whose layout stays: on the device that
+    /// it works on they don't leave it.
+    ///
+    /// ```
+    /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), Box<dyn std::error::Error>> {
+    /// use texere_core::{Pipeline, Settling, SettlingPlan, settle};
+    /// let plan = std::sync::Arc::new(SettlingPlan::new(&Settling::new(yarns))?);
+    /// let mut settler = device.settler(plan.clone())?;
+    /// let rest = settle(&plan, &mut *settler, |_, _| {})?;
+    /// let mesh = Pipeline::new(yarns).settled(&mut *settler).mesh(device)?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn settled(mut self, settler: &'a mut dyn Settler) -> Self {
+        self.settler = Some(settler);
         self
     }
 
@@ -235,11 +261,17 @@ impl<'a> Pipeline<'a> {
     fn start(&mut self, device: &dyn Backend) -> Result<(Arc<Plan>, Session), PipelineError> {
         let plan = Arc::new(self.plan()?);
         let mut session = Session::new(device, plan.clone())?.with_limits(&self.limits);
-        let mut first = 0;
-        for points in self.yarns.points().chunks(UPLOAD_POINTS) {
-            session.upload(first, points)?;
-            first += points.len() as u64;
-            self.report(Progress { rings: 0, total: plan.counts().rings })?;
+        let total = plan.counts().rings;
+        if let Some(settler) = &mut self.settler {
+            session.take_settled(&mut **settler)?;
+            self.report(Progress { rings: 0, total })?;
+        } else {
+            let mut first = 0;
+            for points in self.yarns.points().chunks(UPLOAD_POINTS) {
+                session.upload(first, points)?;
+                first += points.len() as u64;
+                self.report(Progress { rings: 0, total })?;
+            }
         }
         if plan.needs_scan() {
             session.scan()?;

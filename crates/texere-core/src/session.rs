@@ -4,16 +4,17 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use crate::engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
+use crate::settling::{Settler, Strand};
 use crate::{Backend, Chunk, ControlPoint, Limits, MeshMut, MeshPiece, Plan, Ring, SessionError, Vertex};
 
 /// Bytes that a session has moved between host and device, so far. A backend that works in the host's own memory lends
 /// its results where they lie, so it reads none back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Traffic {
-    /// Control points, their virtual ends included, sent by [`Session::upload`]. Tables are not counted: they are sent
-    /// once.
+    /// Control points, their virtual ends included, sent by [`Session::upload`] or [`Session::take_settled`]. Tables are not
+    /// counted: they are sent once.
     pub uploaded: u64,
-    /// Rings, vertices and indices that came back.
+    /// Rings, vertices and indices that came back, and control points of a settler on another device.
     pub read: u64,
 }
 
@@ -128,10 +129,25 @@ impl<E: Engine + ?Sized> Session<E> {
         if end > total {
             return Err(SessionError::UploadRange { first, end, points: total });
         }
-        // Earlier results belong to the old points.
-        self.scanned = false;
-        self.in_flight.iter_mut().for_each(InFlight::forget_results);
+        self.forget_points();
         self.traffic.uploaded += self.engine.upload(first, points)?;
+        Ok(())
+    }
+
+    /// Takes all control points from where a settler has left them. Where it works on the same device they never leave that.
+    ///
+    /// **Errors**: [`SessionError::OtherYarns`] for a settler whose yarns have other numbers of control points than the
+    /// plan's, and what either device says.
+    pub fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<(), SessionError> {
+        let points = |strand: &Strand| u64::from(strand.points);
+        let settled = settler.plan().strands().iter().map(points);
+        if !settled.eq(self.plan.layout().offsets().windows(2).map(|pair| pair[1] - pair[0])) {
+            return Err(SessionError::OtherYarns);
+        }
+        self.forget_points();
+        let Traffic { uploaded, read } = self.engine.take_settled(settler)?;
+        self.traffic.uploaded += uploaded;
+        self.traffic.read += read;
         Ok(())
     }
 
@@ -252,6 +268,12 @@ impl<E: Engine + ?Sized> Session<E> {
     #[must_use]
     pub const fn traffic(&self) -> Traffic {
         self.traffic
+    }
+
+    /// Earlier results belong to the old points.
+    fn forget_points(&mut self) {
+        self.scanned = false;
+        self.in_flight.iter_mut().for_each(InFlight::forget_results);
     }
 
     fn count_read(&mut self, bytes: u64) {

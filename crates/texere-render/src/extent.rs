@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
-use texere_core::Yarns;
+use texere_core::{BackendError, Settler, Yarns};
 
 /// The box round a fabric, and how thick its yarns are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,6 +42,19 @@ impl Extent {
             .fold(nothing, |one, other| (one.0.min(other.0), one.1.max(other.1), one.2 + other.2));
         let radius = (radii / layout.point_count() as f64) as f32;
         Self { low: low.to_array(), high: high.to_array(), radius }
+    }
+
+    /// The box round `yarns` where a settler has left them, each as wide as the widest of them.
+    ///
+    /// **Errors**: [`BackendError`] of the settler's device.
+    pub fn settled(yarns: &Yarns, settler: &mut dyn Settler) -> Result<Self, BackendError> {
+        let bounds = settler.bounds()?;
+        let plan = settler.plan();
+        let [low, high] = bounds.map(|units| plan.scale().position(units).as_vec3());
+        let sections = yarns.layout().sections().iter();
+        let widest = sections.map(|section| section.half_width().max(section.half_height()));
+        let reach = Vec3::splat(plan.spans().thickest * widest.fold(0.0, f32::max));
+        Ok(Self { low: (low - reach).to_array(), high: (high + reach).to_array(), ..Self::of(yarns) })
     }
 
     /// Width and length of the cloth, mm.

@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use texere_core::{Chunk, ControlPoint, Limits, Plan, Settings, Topology, Yarns};
+use texere_core::{
+    Chunk, ControlPoint, Limits, Plan, SessionError, Settings, Settler, Topology, Traffic, Yarns,
+};
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
 
@@ -78,17 +80,41 @@ impl Renderer {
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene<'_>, RenderError> {
+        self.scene_of(yarns, settings, Extent::of(yarns), |session| session.upload(0, yarns.points()))
+    }
+
+    /// The same for `yarns` where a settler has left them: on this renderer's device they don't leave it.
+    ///
+    /// **Errors**: those of [`Renderer::scene`], and [`RenderError::Backend`] for a settler of other yarns.
+    pub fn settled_scene(
+        &self,
+        yarns: &Yarns,
+        settings: &Settings,
+        settler: &mut dyn Settler,
+    ) -> Result<Scene<'_>, RenderError> {
+        let extent = Extent::settled(yarns, settler)?;
+        self.scene_of(yarns, settings, extent, |session| session.take_settled(settler))
+    }
+
+    /// A scene whose session gets its control points from `send`.
+    fn scene_of(
+        &self,
+        yarns: &Yarns,
+        settings: &Settings,
+        extent: Extent,
+        send: impl FnOnce(&mut WgpuSession) -> Result<(), SessionError>,
+    ) -> Result<Scene<'_>, RenderError> {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let limits = chunk_limits(&plan).min(&self.info().limits);
         let mut session = self.device.lending_session(plan.clone())?;
-        session.upload(0, yarns.points())?;
+        send(&mut session)?;
         session.scan()?;
         let buffer = |what, bytes: &[u8], usage| self.filled(what, bytes, usage);
         Ok(Scene {
             renderer: self,
             session,
-            extent: Extent::of(yarns),
+            extent,
             ring_lengths: ring_lengths(yarns, &plan),
             looks: buffer("looks", bytemuck::cast_slice(&YarnLook::all(yarns)), BufferUsages::STORAGE)?,
             sieve: Sieve::new(self)?,
@@ -101,6 +127,12 @@ impl Renderer {
 }
 
 impl Scene<'_> {
+    /// Bytes that went between host and device so far, but for the pictures themselves.
+    #[must_use]
+    pub fn traffic(&self) -> Traffic {
+        self.session.traffic()
+    }
+
     /// The fabric's bounding box.
     #[must_use]
     pub const fn extent(&self) -> &Extent {

@@ -27,6 +27,7 @@ pub use pass::{
 pub use place::{Place, Scale};
 pub use plan::{OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans};
 pub use problem::{Length, Settling};
+pub(crate) use run::points_of;
 pub use run::{Rest, settle, settled};
 pub use settler::{Seen, Settler};
 pub use strand::{BEYOND, Strand, tag};

@@ -90,8 +90,14 @@ impl Scale {
     /// The control point at a place.
     #[must_use]
     pub fn point(&self, place: &Place) -> ControlPoint {
-        let at = (self.origin + place.units().as_dvec3() * f64::from(self.unit)).as_vec3();
+        let at = self.position(place.units()).as_vec3();
         ControlPoint { x: at.x, y: at.y, z: at.z, halves: place.halves }
+    }
+
+    /// Where so many units from the origin are, mm.
+    #[must_use]
+    pub fn position(&self, units: IVec3) -> DVec3 {
+        self.origin + units.as_dvec3() * f64::from(self.unit)
     }
 
     /// A way of so many mm, in units.

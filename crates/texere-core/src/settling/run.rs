@@ -1,10 +1,12 @@
 //! The course of a settling: how yarns grow, when neighbours are listed again, and when it is done.
 
+use std::sync::Arc;
+
 use glam::IVec3;
 
 use super::plan::{OVERSHOOT, SKIN};
 use super::{BEND_RADIUS, Form, Length, MARGIN, Pass, Place, Seen, Settler, SettlingPlan, moves, tag};
-use crate::{BackendError, ControlPoint};
+use crate::{BackendError, ControlPoint, zeroed};
 
 /// How thick yarns are at first, and in how many steps of how many passes they grow.
 const THIN: f32 = 0.25;
@@ -231,6 +233,16 @@ pub fn settled(
     let starts = own_places(plan).map(|(place, _)| place);
     let now = places.iter().zip(starts).zip(points);
     Ok(now.map(|((now, start), point)| if now == start { *point } else { plan.scale().point(now) }).collect())
+}
+
+/// The control points where everything lies now, all by [`Scale::point`](super::Scale::point).
+///
+/// **Errors**: [`BackendError`] of the device.
+pub(crate) fn points_of(settler: &mut dyn Settler) -> Result<Vec<ControlPoint>, BackendError> {
+    let plan = Arc::clone(settler.plan());
+    let mut places: Vec<Place> = zeroed("control points at rest", plan.counts().points)?;
+    settler.read(&mut places)?;
+    Ok(places.iter().map(|place| plan.scale().point(place)).collect())
 }
 
 impl Rest {

@@ -1,9 +1,13 @@
 //! What a device does for a settling.
 
+use std::any::Any;
 use std::fmt::Debug;
+use std::sync::Arc;
 
-use super::{Pass, Place};
-use crate::BackendError;
+use glam::IVec3;
+
+use super::{Pass, Place, SettlingPlan};
+use crate::{BackendError, zeroed};
 
 /// What a pass has seen, before any point took its step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +29,10 @@ pub struct Seen {
 ///   neighbours may be missing.
 ///
 /// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
-pub trait Settler: Debug + Send {
+pub trait Settler: Any + Debug + Send {
+    /// The plan that it works on.
+    fn plan(&self) -> &Arc<SettlingPlan>;
+
     /// Takes the places of all control points, with the halves that the plan has. Sets all steps to zero, and lengths to the plan's.
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError>;
 
@@ -44,6 +51,16 @@ pub trait Settler: Debug + Send {
 
     /// Writes the present places of all control points.
     fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError>;
+
+    /// The least and the greatest x, y and z of all control points' present places, units.
+    ///
+    /// Provided: reads them all.
+    fn bounds(&mut self) -> Result<[IVec3; 2], BackendError> {
+        let mut places: Vec<Place> = zeroed("control points at rest", self.plan().counts().points)?;
+        self.read(&mut places)?;
+        let nothing = [IVec3::MAX, IVec3::MIN];
+        Ok(places.iter().map(Place::units).fold(nothing, |[low, high], at| [low.min(at), high.max(at)]))
+    }
 }
 
 const _: () = {

@@ -99,6 +99,10 @@ impl SerialSettler {
 }
 
 impl Settler for SerialSettler {
+    fn plan(&self) -> &Arc<SettlingPlan> {
+        &self.plan
+    }
+
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
         self.places = self.plan.padded(places);
         self.steps.fill(Vec3::ZERO);

@@ -134,6 +134,10 @@ impl Job for StepJob<'_> {
 }
 
 impl Settler for ParallelSettler {
+    fn plan(&self) -> &Arc<SettlingPlan> {
+        &self.plan
+    }
+
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
         let padded = self.plan.padded(places);
         self.places[FRONT..][..padded.len()].copy_from_slice(&padded);

@@ -53,6 +53,14 @@ pub enum SettlingError {
         /// How many are taken at most.
         limit: u64,
     },
+    /// Memory could not be allocated.
+    #[error("out of memory: {bytes} bytes for {what}")]
+    OutOfMemory {
+        /// What for.
+        what: &'static str,
+        /// How many bytes.
+        bytes: u64,
+    },
     /// A setting that is out of its range.
     #[error("{setting} is {value}, not between {low} and {high}")]
     Setting {

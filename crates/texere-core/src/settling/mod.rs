@@ -4,6 +4,7 @@
 //! A [`Settling`] says what is asked, a [`SettlingPlan`] works out every table, a [`Settler`] does the passes on a device, and
 //! [`settle`] leads it. The definitions that all devices agree on are here: [`Interval`], [`Chord`], [`Pair`], [`Pull`].
 
+mod check;
 mod contact;
 mod error;
 mod interval;

@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
+use super::check::{check, limited, mean_diameter, room, scale, thickest};
 use super::pass::FREE_MOST;
 use super::strand::{BEYOND, Strand, tag};
 use super::{Interval, Length, MARGIN, Place, Scale, Settling, SettlingError};
-use crate::{ControlPoint, Ends, NO_LENGTH};
+use crate::Ends;
 
 /// Intervals have at least so many chords.
 const CHORDS_MIN: u32 = 2;
@@ -107,14 +108,16 @@ impl SettlingPlan {
                 },
             ),
             counts: SettlingCounts { points: layout.point_count(), places, chords: 0 },
-            tags: vec![0; places as usize],
-            yarns: vec![0; places as usize],
-            chords: vec![0; places as usize + 1],
-            lengths: vec![0.0; places as usize],
+            tags: room("what places are", places)?,
+            yarns: room("the yarns of places", places)?,
+            chords: room("the chords of places", places + 1)?,
+            lengths: room("the lengths of intervals", places)?,
             along: Vec::new(),
-            places: vec![Place::default(); places as usize],
+            places: Vec::new(),
         };
-        plan.places = plan.padded(&points.iter().map(|point| scale.place(point)).collect::<Vec<_>>());
+        let mut padded = room("places", places)?;
+        plan.pad(points.iter().map(|point| scale.place(point)), &mut padded);
+        plan.places = padded;
         plan.tag(layout.offsets(), &settling.pinned);
         plan.measure(settling.length)?;
         plan.check_repeat(settling.boundary.repeat())?;
@@ -211,21 +214,20 @@ impl SettlingPlan {
         &self.places
     }
 
-    /// Places of control points with those beyond yarns' ends between them.
-    #[must_use]
-    pub fn padded(&self, points: &[Place]) -> Vec<Place> {
-        let mut places = vec![Place::default(); self.counts.places as usize];
-        let mut own = points;
+    /// Writes the places of control points, `points`, with those beyond yarns' ends between them to `places`.
+    pub fn pad(&self, points: impl IntoIterator<Item = Place>, places: &mut [Place]) {
+        let mut points = points.into_iter();
         for strand in &self.strands {
-            let (these, others) = own.split_at(strand.points as usize);
-            places[strand.first as usize..][..these.len()].copy_from_slice(these);
-            own = others;
-            self.renew_ends(strand, &mut places);
+            for (place, point) in
+                places[strand.first as usize..][..strand.points as usize].iter_mut().zip(&mut points)
+            {
+                *place = point;
+            }
+            self.renew_ends(strand, places);
         }
-        places
     }
 
-    /// Writes the places of control points alone, out of those that [`SettlingPlan::padded`] makes.
+    /// Writes the places of control points alone, out of those that [`SettlingPlan::pad`] writes.
     pub fn unpad(&self, places: &[Place], points: &mut [Place]) {
         let mut own = points;
         for strand in &self.strands {
@@ -332,18 +334,18 @@ impl SettlingPlan {
         let longest = self.strands.iter().map(whole).fold(0.0, f64::max);
         let unit = (f64::from(thinnest) / 1024.0).max(longest / f64::from(1 << 29));
         self.spans.along = unit as f32;
-        self.along = Vec::with_capacity(chords as usize);
+        self.along = room("where chords lie along yarns", chords)?;
         let units = |length: f64| (length / unit).round() as u32;
         for yarn in 0..self.strands.len() {
             let mut sum = 0.0;
             for place in own(&self.strands[yarn]) {
                 let interval = self.interval(&self.places, place);
-                let pieces = self.chords[place + 1] - self.chords[place];
+                let (first, pieces) = (self.chords[place], self.chords[place + 1] - self.chords[place]);
                 for piece in 0..pieces {
                     let [from, to] = [piece, piece + 1].map(|piece| piece as f32 / pieces as f32);
                     let arc = f64::from(interval.arc_between(from, to) * factor);
                     self.spans.longest_chord = self.spans.longest_chord.max(arc as f32);
-                    self.along.push([units(sum), units(sum + arc)]);
+                    self.along[(first + piece) as usize] = [units(sum), units(sum + arc)];
                     sum += arc;
                 }
             }
@@ -370,71 +372,4 @@ impl SettlingPlan {
         let Spans { diameter, thickest, longest_chord, .. } = self.spans;
         2.0 * (2.0 * MARGIN * thickest + SKIN * diameter + OVERSHOOT * longest_chord)
     }
-}
-
-fn limited(what: &'static str, count: u64, limit: u64) -> Result<(), SettlingError> {
-    if count > limit { Err(SettlingError::TooMany { what, count, limit }) } else { Ok(()) }
-}
-
-fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
-    let layout = settling.layout();
-    let within = |setting, value: f32, low: f32, high: f32| {
-        let sound = (low..=high).contains(&value);
-        if sound { Ok(()) } else { Err(SettlingError::Setting { setting, value, low, high }) }
-    };
-    within("the spline's tension", settling.spline_tension, 0.0, 0.99)?;
-    match settling.length {
-        Length::Held => {}
-        Length::Given(factor) => within("the length", factor, 0.5, 2.0)?,
-        Length::Free { tension } => within("the tension", tension, 0.0, 0.1)?,
-    }
-    within("the number of passes", settling.passes as f32, 1.0, 1e6)?;
-    if let Some(gap) = settling.plates {
-        within("the gap between the plates", gap, 0.0, crate::COORDINATE_LIMIT)?;
-    }
-    settling.boundary.check(layout)?;
-    for (yarn, &ends) in settling.boundary.ends().iter().enumerate() {
-        let points = layout.offsets()[yarn + 1] - layout.offsets()[yarn];
-        let least = if ends == Ends::Open { 2 } else { 3 };
-        if points < least {
-            return Err(SettlingError::TooFewPoints { yarn, points, least });
-        }
-    }
-    let points = layout.point_count();
-    match settling.pinned.iter().find(|&&point| point >= points) {
-        Some(&point) => Err(SettlingError::Pinned { point, points }),
-        None => Ok(()),
-    }
-}
-
-fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
-    let points = settling.points();
-    let far = DVec3::splat(f64::INFINITY);
-    let (low, high) = points.iter().fold((far, -far), |(low, high), point| {
-        let at = point.position().as_dvec3();
-        (low.min(at), high.max(at))
-    });
-    // Plates lie on either side of z = 0.
-    let origin = ((low + high) / 2.0).round().with_z(0.0);
-    let thinnest = points.iter().map(|point| 2.0 * point.half_width().min(point.half_height()));
-    let diameter = thinnest.fold(f32::INFINITY, f32::min);
-    // A yarn that goes on lies beyond its first and last points by the whole way to its next round.
-    let [x, y] = settling.boundary.repeat().map(f64::from);
-    let onward = settling.boundary.ends().iter().map(|ends| match ends {
-        Ends::Repeats([right, up]) => (f64::from(*right) * x).abs().max((f64::from(*up) * y).abs()),
-        Ends::Open | Ends::Closed => 0.0,
-    });
-    let onward = onward.fold(x.max(y), f64::max);
-    let extent = ((high - origin).max(origin - low).max_element() + onward) as f32;
-    let room = 1.25 * extent + 64.0 * thickest(points);
-    Scale::new(origin, room, diameter).ok_or(SettlingError::TooLarge { extent, diameter })
-}
-
-fn thickest(points: &[ControlPoint]) -> f32 {
-    points.iter().map(|point| point.half_width().max(point.half_height())).fold(NO_LENGTH, f32::max)
-}
-
-fn mean_diameter(points: &[ControlPoint]) -> f32 {
-    let sum: f64 = points.iter().map(|point| f64::from(point.half_width() + point.half_height())).sum();
-    (sum / points.len().max(1) as f64) as f32
 }

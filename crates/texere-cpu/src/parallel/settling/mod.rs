@@ -139,10 +139,10 @@ impl Settler for ParallelSettler {
     }
 
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
-        let padded = self.plan.padded(places);
-        self.places[FRONT..][..padded.len()].copy_from_slice(&padded);
+        let count = self.steps.len();
+        self.plan.pad(places.iter().copied(), &mut self.places[FRONT..][..count]);
         self.steps.fill([0.0; 4]);
-        self.lengths[..padded.len()].copy_from_slice(self.plan.lengths());
+        self.lengths[..count].copy_from_slice(self.plan.lengths());
         Ok(())
     }
 

@@ -1,0 +1,86 @@
+//! What is asked of a settling, checked; and the lengths that follow from all its control points.
+
+use bytemuck::Zeroable;
+use bytemuck::allocation::try_zeroed_vec;
+use glam::DVec3;
+
+use super::{Length, Scale, Settling, SettlingError};
+use crate::{ControlPoint, Ends, NO_LENGTH};
+
+/// Whether there are no more than `limit` of `what`.
+pub(super) fn limited(what: &'static str, count: u64, limit: u64) -> Result<(), SettlingError> {
+    if count > limit { Err(SettlingError::TooMany { what, count, limit }) } else { Ok(()) }
+}
+
+/// Checks everything that is given, but for the repeat's length.
+pub(super) fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
+    let layout = settling.layout();
+    let within = |setting, value: f32, low: f32, high: f32| {
+        let sound = (low..=high).contains(&value);
+        if sound { Ok(()) } else { Err(SettlingError::Setting { setting, value, low, high }) }
+    };
+    within("the spline's tension", settling.spline_tension, 0.0, 0.99)?;
+    match settling.length {
+        Length::Held => {}
+        Length::Given(factor) => within("the length", factor, 0.5, 2.0)?,
+        Length::Free { tension } => within("the tension", tension, 0.0, 0.1)?,
+    }
+    within("the number of passes", settling.passes as f32, 1.0, 1e6)?;
+    if let Some(gap) = settling.plates {
+        within("the gap between the plates", gap, 0.0, crate::COORDINATE_LIMIT)?;
+    }
+    settling.boundary.check(layout)?;
+    for (yarn, &ends) in settling.boundary.ends().iter().enumerate() {
+        let points = layout.offsets()[yarn + 1] - layout.offsets()[yarn];
+        let least = if ends == Ends::Open { 2 } else { 3 };
+        if points < least {
+            return Err(SettlingError::TooFewPoints { yarn, points, least });
+        }
+    }
+    let points = layout.point_count();
+    match settling.pinned.iter().find(|&&point| point >= points) {
+        Some(&point) => Err(SettlingError::Pinned { point, points }),
+        None => Ok(()),
+    }
+}
+
+/// The scale for all places that a cloth may come to.
+pub(super) fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
+    let points = settling.points();
+    let far = DVec3::splat(f64::INFINITY);
+    let (low, high) = points.iter().fold((far, -far), |(low, high), point| {
+        let at = point.position().as_dvec3();
+        (low.min(at), high.max(at))
+    });
+    // Plates lie on either side of z = 0.
+    let origin = ((low + high) / 2.0).round().with_z(0.0);
+    let thinnest = points.iter().map(|point| 2.0 * point.half_width().min(point.half_height()));
+    let diameter = thinnest.fold(f32::INFINITY, f32::min);
+    // A yarn that goes on lies beyond its first and last points by the whole way to its next round.
+    let [x, y] = settling.boundary.repeat().map(f64::from);
+    let onward = settling.boundary.ends().iter().map(|ends| match ends {
+        Ends::Repeats([right, up]) => (f64::from(*right) * x).abs().max((f64::from(*up) * y).abs()),
+        Ends::Open | Ends::Closed => 0.0,
+    });
+    let onward = onward.fold(x.max(y), f64::max);
+    let extent = ((high - origin).max(origin - low).max_element() + onward) as f32;
+    let room = 1.25 * extent + 64.0 * thickest(points);
+    Scale::new(origin, room, diameter).ok_or(SettlingError::TooLarge { extent, diameter })
+}
+
+/// The largest half width or half height, mm.
+pub(super) fn thickest(points: &[ControlPoint]) -> f32 {
+    points.iter().map(|point| point.half_width().max(point.half_height())).fold(NO_LENGTH, f32::max)
+}
+
+/// The mean of all diameters, mm.
+pub(super) fn mean_diameter(points: &[ControlPoint]) -> f32 {
+    let sum: f64 = points.iter().map(|point| f64::from(point.half_width() + point.half_height())).sum();
+    (sum / points.len().max(1) as f64) as f32
+}
+
+/// `count` zeroed values for `what`.
+pub(super) fn room<T: Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, SettlingError> {
+    let made = usize::try_from(count).ok().and_then(|count| try_zeroed_vec(count).ok());
+    made.ok_or(SettlingError::OutOfMemory { what, bytes: count.saturating_mul(size_of::<T>() as u64) })
+}

@@ -8,6 +8,8 @@ pub mod floor;
 pub mod measure;
 #[cfg(feature = "gpu")]
 pub mod phases;
+#[cfg(feature = "gpu")]
+pub mod settling;
 pub mod stream;
 #[cfg(feature = "gpu")]
 pub mod tables;

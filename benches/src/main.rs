@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::Parser;
 use texere::DeviceKind;
-use texere_bench::{floor, tables};
+use texere_bench::{floor, settling, tables};
 
 /// Measures devices.
 #[derive(Debug, Parser)]
@@ -18,6 +18,20 @@ enum Args {
         devices: Vec<String>,
         #[command(flatten)]
         work: Work,
+    },
+    /// Settling: passes beside a plain fill of the bytes that they move, lists, and cloth until it rests
+    Settling {
+        /// Devices, such as cpu, opencl:0 or wgpu:0 [default: the CPU and all GPUs that `texere devices` lists]
+        devices: Vec<String>,
+        /// Wales and courses of knits with stitches missed at random
+        #[arg(long, value_delimiter = ',', default_value = "60")]
+        random: Vec<usize>,
+        /// Wales and courses of lace, multiples of four
+        #[arg(long, value_delimiter = ',', default_value = "200")]
+        lace: Vec<usize>,
+        /// Runs of each
+        #[arg(long, default_value_t = 5)]
+        rounds: usize,
     },
     /// The paper's tables and figures, with ours beside them
     Tables {
@@ -98,6 +112,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         Args::Floor { devices, work } => {
             let devices = if devices.is_empty() { gpus().collect() } else { devices };
             floor::print(&devices, &work.sizes(&devices), work.rounds)
+        }
+        Args::Settling { devices, random, lace, rounds } => {
+            let devices = if devices.is_empty() {
+                ["cpu".to_owned()].into_iter().chain(gpus()).collect()
+            } else {
+                devices
+            };
+            settling::print(&devices, &settling::Cloths { random, lace }, rounds)
         }
         Args::Tables { devices, work, heading, output } => {
             let devices = if devices.is_empty() { all_devices() } else { devices };

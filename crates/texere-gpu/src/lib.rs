@@ -37,7 +37,7 @@ pub use prelude::{CONSTANTS, Constant, Language, SETTLING_CONSTANTS, Value, prel
 pub use schedule::{check_schedule, device_name, serial_unsupported};
 pub use settling::{
     ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow, UNSEEN,
-    settles_flattened,
+    settles_flattened, settling_pass_bytes,
 };
 pub use tables::{CapRow, Params, YarnRow, cap_pattern, part_rows};
 pub use upload::{PaddedUpload, YarnEnds};

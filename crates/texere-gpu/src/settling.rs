@@ -335,3 +335,17 @@ impl SeenRow {
 pub fn settles_flattened(plan: &SettlingPlan) -> bool {
     plan.places().iter().any(|place| place.halves.width() != place.halves.height())
 }
+
+/// Bytes of device memory that a pass of `plan` in the weighted form moves, where chords have `neighbours` in all: every table
+/// once, what is written and read again twice, and for each neighbour its number and its chord.
+#[must_use]
+pub fn settling_pass_bytes(plan: &SettlingPlan, neighbours: u64) -> u64 {
+    // Of a place: where it is and where it goes, what is known of it, its length, its last step, and what pulls at its
+    // interval (four slots of eight numbers, its length's way and arc, the least distance and clearance), with what is read again.
+    const PLACE: u64 = 3 * 16 + 16 + 2 * 16 + 4 + 2 * 16 + 2 * 4 * (4 * 8 + 6);
+    // Of a chord: its row, where it lies, written and read, and where its neighbours begin.
+    const CHORD: u64 = 16 + 2 * 32 + 4;
+    const NEIGHBOUR: u64 = 4 + 32;
+    let counts = plan.counts();
+    PLACE * counts.places + CHORD * counts.chords + NEIGHBOUR * neighbours
+}

@@ -60,16 +60,27 @@ fn bits(points: &[ControlPoint]) -> &[u32] {
 
 proptest! {
     /// However little each piece has, memory that starts as zeros holds after each upload what `PaddedPoints` holds; what
-    /// is written beside the points sent is a virtual end that hangs on them. A point that is not round is seen.
+    /// is written beside the points sent is a virtual end that hangs on them. A point that is not round is seen. Ends that were
+    /// forgotten come back from the points that were written.
     #[test]
-    fn uploads_write_what_padded_points_keep((yarns, uploads) in uploads(), piece in 1u64..20) {
+    fn uploads_write_what_padded_points_keep(
+        (yarns, uploads) in uploads(),
+        piece in 1u64..20,
+        forgets in prop::collection::vec(any::<bool>(), 12),
+    ) {
         let plan = plan(&yarns);
         let mut expected = PaddedPoints::new(&plan).unwrap();
         let mut written = vec![ControlPoint::default(); expected.points().len()];
         let mut ends = YarnEnds::new(&plan).unwrap();
         let mut flattened = false;
-        for (first, points) in uploads {
+        for ((first, points), forgets) in uploads.into_iter().zip(forgets) {
             let first = first as u64;
+            if forgets {
+                ends.forget(flattened);
+            }
+            if ends.are_missing(&plan, first, points.len()) {
+                ends.renew(&plan, &written);
+            }
             let touched = expected.upload(&plan, first, &points);
             let upload = ends.upload(&plan, first, &points);
             let mut sent = 0;

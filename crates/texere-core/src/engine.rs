@@ -84,11 +84,9 @@ pub trait Engine: fmt::Debug + Send {
     /// Takes all control points from where a settler has left them, whose yarns have as many as the plan's. Gives back the bytes
     /// that went over the host.
     ///
-    /// Provided: reads them and uploads them. An engine whose device the settler works on takes them where they lie.
+    /// Provided: [`take_over_host`]. An engine whose device the settler works on takes them where they lie.
     fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<Traffic, BackendError> {
-        let points = points_of(settler)?;
-        let read = if self.lends_its_own() { 0 } else { size_of_val(&points[..]) as u64 };
-        Ok(Traffic { uploaded: self.upload(0, &points)?, read })
+        take_over_host(self, settler)
     }
 
     /// Works out the roll at each block's start, and the whole turn of each closed yarn. `chunks` are all of the plan, each in
@@ -153,6 +151,18 @@ pub trait Engine: fmt::Debug + Send {
 
     /// Time spent in each stage so far. Waits for all that has been launched.
     fn timings(&mut self) -> StageTimings;
+}
+
+/// [`Engine::take_settled`] with any settler: reads the control points and uploads them.
+///
+/// **Errors**: [`BackendError`] of either device.
+pub fn take_over_host<E: Engine + ?Sized>(
+    engine: &mut E,
+    settler: &mut dyn Settler,
+) -> Result<Traffic, BackendError> {
+    let points = points_of(settler)?;
+    let read = if engine.lends_its_own() { 0 } else { size_of_val(&points[..]) as u64 };
+    Ok(Traffic { uploaded: engine.upload(0, &points)?, read })
 }
 
 /// A chunk of a scan, in its slot.

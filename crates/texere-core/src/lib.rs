@@ -41,7 +41,7 @@ mod yarns;
 
 pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
 pub use boundary::{Boundary, Ends};
-pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
+pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings, take_over_host};
 pub use error::{
     BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,
 };

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
 //! | tables of a settling, and what devices give back of it | [`PlaceRow`], [`StrandRow`], [`ChordRow`], [`SettlingParams`], [`ExtentRow`], [`SeenRow`] |
+//! | tables of a settling, and of the way from it to control points | [`SettlingParams`], [`SettledRow`] |
 //! | control points with virtual ends, written straight to the memory that is sent | [`YarnEnds`], [`PaddedUpload`] |
 //! | the constants that kernels and shaders share with the core | [`prelude()`] |
 //! | which chunk's tables lie in a slot, so that no kernel has to check a bound | [`LoadedChunk`] |
@@ -27,6 +28,7 @@ mod loaded;
 mod memory;
 mod prelude;
 mod schedule;
+mod settled;
 mod settling;
 mod tables;
 mod upload;
@@ -35,6 +37,7 @@ pub use loaded::LoadedChunk;
 pub use memory::{device_buffers, host_bytes_beside_gpu};
 pub use prelude::{CONSTANTS, Constant, Language, SETTLING_CONSTANTS, Value, prelude};
 pub use schedule::{check_schedule, device_name, serial_unsupported};
+pub use settled::{BoundsRow, SettledParams, SettledRow};
 pub use settling::{
     ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow, UNSEEN,
     settles_flattened, settling_pass_bytes,

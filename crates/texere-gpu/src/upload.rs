@@ -30,6 +30,8 @@ pub(crate) type Ends = [ControlPoint; 5];
 #[derive(Debug, Clone)]
 pub struct YarnEnds {
     ends: Vec<Ends>,
+    /// Whether they are those of the points on the device.
+    known: bool,
     flattened: bool,
 }
 
@@ -38,7 +40,7 @@ impl YarnEnds {
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn new(plan: &Plan) -> Result<Self, BackendError> {
-        Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)?, flattened: false })
+        Ok(Self { ends: zeroed("ends of yarns", plan.counts().yarns)?, known: true, flattened: false })
     }
 
     /// What an upload of `points`, the first of which is number `first` of the fabric, has to write. Points past the fabric's
@@ -75,7 +77,38 @@ impl YarnEnds {
         for yarn in upload.yarns.clone() {
             self.ends[yarn] = upload.renewed(yarn, self.ends[yarn]);
         }
+        self.known = true;
         self.flattened = upload.flattened.load(Ordering::Relaxed);
+    }
+
+    /// Forgets all ends, for the device has other control points now that never were here. `flattened` says whether one of
+    /// them is not round.
+    pub fn forget(&mut self, flattened: bool) {
+        self.known = false;
+        self.ends.fill(Ends::default());
+        self.flattened |= flattened;
+    }
+
+    /// Whether the device's control points have to be read before so many are uploaded, the first of which is number `first`:
+    /// virtual ends may hang on points that were forgotten.
+    #[must_use]
+    pub fn are_missing(&self, plan: &Plan, first: u64, count: usize) -> bool {
+        !self.known && (first > 0 || (count as u64) < plan.layout().point_count())
+    }
+
+    /// Takes all ends from the device's control points, padded as [`Plan::padded_offsets`] of `plan` says.
+    ///
+    /// **Panics** for fewer points, and for another plan that has more yarns.
+    pub fn renew(&mut self, plan: &Plan, padded: &[ControlPoint]) {
+        for (yarn, ends) in self.ends.iter_mut().enumerate() {
+            let own = &padded[plan.padded_offsets()[yarn] as usize + 1..];
+            let count = (plan.layout().offsets()[yarn + 1] - plan.layout().offsets()[yarn]) as usize;
+            // Of a yarn of two points the second stands for the third, as in an upload.
+            for (end, at) in ends.iter_mut().zip([0, 1, 2.min(count - 1), count - 2, count - 1]) {
+                *end = own[at];
+            }
+        }
+        self.known = true;
     }
 }
 

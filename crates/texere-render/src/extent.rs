@@ -50,7 +50,7 @@ impl Extent {
     pub fn settled(yarns: &Yarns, settler: &mut dyn Settler) -> Result<Self, BackendError> {
         let bounds = settler.bounds()?;
         let plan = settler.plan();
-        let [low, high] = bounds.map(|units| plan.scale().position(units).as_vec3());
+        let [low, high] = bounds.map(|units| plan.scale().position(units.into()).as_vec3());
         let sections = yarns.layout().sections().iter();
         let widest = sections.map(|section| section.half_width().max(section.half_height()));
         let reach = Vec3::splat(plan.spans().thickest * widest.fold(0.0, f32::max));

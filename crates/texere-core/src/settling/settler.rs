@@ -55,11 +55,13 @@ pub trait Settler: Any + Debug + Send {
     /// The least and the greatest x, y and z of all control points' present places, units.
     ///
     /// Provided: reads them all.
-    fn bounds(&mut self) -> Result<[IVec3; 2], BackendError> {
+    fn bounds(&mut self) -> Result<[[i32; 3]; 2], BackendError> {
         let mut places: Vec<Place> = zeroed("control points at rest", self.plan().counts().points)?;
         self.read(&mut places)?;
         let nothing = [IVec3::MAX, IVec3::MIN];
-        Ok(places.iter().map(Place::units).fold(nothing, |[low, high], at| [low.min(at), high.max(at)]))
+        let units = places.iter().map(Place::units);
+        let [low, high] = units.fold(nothing, |[low, high], at| [low.min(at), high.max(at)]);
+        Ok([low.to_array(), high.to_array()])
     }
 }
 

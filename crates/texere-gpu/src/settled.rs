@@ -1,0 +1,117 @@
+//! Control points from where yarns have come to rest, without a way over the host.
+
+use bytemuck::{Pod, Zeroable};
+use texere_core::Plan;
+use texere_core::settling::SettlingPlan;
+
+/// Where a yarn's places lie, and where its padded control points belong.
+///
+/// **Shape**: eight 4-byte values, 32 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct SettledRow {
+    /// Its first control point's place.
+    pub first_place: u32,
+    /// Its control points.
+    pub points: u32,
+    /// Its first control point among all padded ones.
+    pub first_point: u32,
+    /// 1 where it is closed, else 0.
+    pub closed: u32,
+    /// Both halves of its virtual start, bits of two half floats: yarns don't change their thickness while they settle.
+    pub start_halves: u32,
+    /// And of its virtual end.
+    pub end_halves: u32,
+    /// Unused, 0: keeps the row a multiple of 16 bytes.
+    pub padding: [u32; 2],
+}
+
+const _: () = assert!(size_of::<SettledRow>() == 32 && std::mem::offset_of!(SettledRow, end_halves) == 20);
+
+/// What is the same for all places.
+///
+/// **Shape**: eight 4-byte values, 32 bytes, a multiple of 16 as a uniform buffer wants.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct SettledParams {
+    /// Where places are counted from, mm.
+    pub origin: [f32; 3],
+    /// A unit of places, mm.
+    pub unit: f32,
+    /// Places, with those beyond yarns' ends.
+    pub places: u32,
+    /// Unused, 0.
+    pub padding: [u32; 3],
+}
+
+const _: () = assert!(size_of::<SettledParams>() == 32 && std::mem::offset_of!(SettledParams, places) == 16);
+
+/// How far a group has found control points to lie.
+///
+/// **Shape**: eight `i32`, 32 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct BoundsRow {
+    /// The least x, y and z, units.
+    pub low: [i32; 3],
+    /// Unused.
+    pub padding: i32,
+    /// The greatest.
+    pub high: [i32; 3],
+    /// Unused.
+    pub more_padding: i32,
+}
+
+const _: () = assert!(size_of::<BoundsRow>() == 32 && std::mem::offset_of!(BoundsRow, high) == 16);
+
+impl BoundsRow {
+    /// What all of `rows` have found: the least and the greatest coordinates.
+    #[must_use]
+    pub fn joined(rows: &[Self]) -> [[i32; 3]; 2] {
+        let mut all = [[i32::MAX; 3], [i32::MIN; 3]];
+        for row in rows {
+            for axis in 0..3 {
+                all[0][axis] = all[0][axis].min(row.low[axis]);
+                all[1][axis] = all[1][axis].max(row.high[axis]);
+            }
+        }
+        all
+    }
+}
+
+impl SettledRow {
+    /// All yarns, as `settling` has their places and `plan` their control points. Both have the same yarns.
+    #[must_use]
+    pub fn all(settling: &SettlingPlan, plan: &Plan) -> Vec<Self> {
+        let rows = settling.strands().iter().enumerate().map(|(yarn, strand)| {
+            let (first, last) = (strand.first as usize, (strand.first + strand.points) as usize - 1);
+            let point = |place: usize| settling.scale().point(&settling.places()[place]);
+            let beyond =
+                |end: usize, inner: usize| bytemuck::cast(point(end).reflected(&point(inner)).halves);
+            Self {
+                first_place: strand.first,
+                points: strand.points,
+                first_point: plan.padded_offsets()[yarn] as u32 + 1,
+                closed: plan.yarn(yarn).closed.into(),
+                start_halves: beyond(first, first + 1),
+                end_halves: beyond(last, last - 1),
+                padding: [0; 2],
+            }
+        });
+        rows.collect()
+    }
+}
+
+impl SettledParams {
+    /// What `settling` says.
+    #[must_use]
+    pub fn new(settling: &SettlingPlan) -> Self {
+        let scale = settling.scale();
+        Self {
+            origin: scale.origin().as_vec3().to_array(),
+            unit: scale.unit(),
+            places: settling.counts().places as u32,
+            padding: [0; 3],
+        }
+    }
+}

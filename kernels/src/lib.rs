@@ -46,6 +46,48 @@ pub const TRAJECTORY_PER_YARN: EntryPoint = EntryPoint { name: "trajectory_per_y
 /// The paper's algorithm 4, on what [`TRAJECTORY_PER_YARN`] left: a lane a part of the chunk.
 pub const MESH_PER_YARN: EntryPoint = EntryPoint { name: "mesh_per_yarn", group: 64 };
 
+/// Where all chords of a settling lie now: a lane a chord.
+pub const SETTLING_CHORDS: EntryPoint = EntryPoint { name: "settling_chords", group: 64 };
+
+/// The longest chord and where the outermost lie: groups that go through all chords.
+pub const SETTLING_EXTENT: EntryPoint = EntryPoint { name: "settling_extent", group: 256 };
+
+/// How many chords each cell has: a lane a chord.
+pub const SETTLING_CELL_COUNT: EntryPoint = EntryPoint { name: "settling_cell_count", group: 64 };
+
+/// Chords by cells: a lane a chord.
+pub const SETTLING_CELL_FILL: EntryPoint = EntryPoint { name: "settling_cell_fill", group: 64 };
+
+/// How many neighbours each chord has: a lane a chord.
+pub const SETTLING_COUNT: EntryPoint = EntryPoint { name: "settling_count", group: 64 };
+
+/// The neighbours of each chord: a lane a chord.
+pub const SETTLING_FILL: EntryPoint = EntryPoint { name: "settling_fill", group: 64 };
+
+/// Sums of counts before each one, a workgroup [`SETTLING_SCAN_VALUES`] of them.
+pub const SETTLING_SCAN: EntryPoint = EntryPoint { name: "settling_scan", group: 256 };
+
+/// Counts that a workgroup of [`SETTLING_SCAN`] goes through: four a lane.
+pub const SETTLING_SCAN_VALUES: usize = 1024;
+
+/// Adds to those what all groups before have, by the same groups.
+pub const SETTLING_SCAN_ADD: EntryPoint = EntryPoint { name: "settling_scan_add", group: 256 };
+
+/// What pulls at each interval's points, in the weighted form: a lane a place.
+pub const SETTLING_PULL_WEIGHTED: EntryPoint = EntryPoint { name: "settling_pull_weighted", group: 64 };
+
+/// The same in the block form.
+pub const SETTLING_PULL_BLOCK: EntryPoint = EntryPoint { name: "settling_pull_block", group: 64 };
+
+/// The step of each point: a lane a place.
+pub const SETTLING_STEP: EntryPoint = EntryPoint { name: "settling_step", group: 64 };
+
+/// Places beyond yarns' ends: a lane a yarn.
+pub const SETTLING_ENDS: EntryPoint = EntryPoint { name: "settling_ends", group: 64 };
+
+/// What all groups have seen: one workgroup.
+pub const SETTLING_SEEN: EntryPoint = EntryPoint { name: "settling_seen", group: 256 };
+
 /// Sources that are compiled together, and the entry points in them.
 #[derive(Debug, Clone, Copy)]
 pub struct Program {
@@ -78,13 +120,41 @@ pub const PER_YARN: Program = Program {
     entries: &[TRAJECTORY_PER_YARN, MESH_PER_YARN],
 };
 
+/// A settling. It is compiled apart from the others, where a settler is first wanted.
+pub const SETTLING: Program = Program {
+    name: "settling",
+    sources: &[
+        include_str!("settling.cl"),
+        include_str!("settling_list.cl"),
+        include_str!("settling_scan.cl"),
+        include_str!("settling_contact.cl"),
+        include_str!("settling_pull.cl"),
+        include_str!("settling_step.cl"),
+    ],
+    entries: &[
+        SETTLING_CHORDS,
+        SETTLING_EXTENT,
+        SETTLING_CELL_COUNT,
+        SETTLING_CELL_FILL,
+        SETTLING_COUNT,
+        SETTLING_FILL,
+        SETTLING_SCAN,
+        SETTLING_SCAN_ADD,
+        SETTLING_PULL_WEIGHTED,
+        SETTLING_PULL_BLOCK,
+        SETTLING_STEP,
+        SETTLING_ENDS,
+        SETTLING_SEEN,
+    ],
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn workgroups_are_what_the_sources_require() {
-        for program in [PER_RING, PER_YARN] {
+        for program in [PER_RING, PER_YARN, SETTLING] {
             let source = program.sources.concat();
             for entry in program.entries {
                 let head = source.split_once(&format!("void {}(", entry.name)).unwrap().0;
@@ -103,10 +173,12 @@ mod tests {
 
     #[test]
     fn no_function_of_lower_accuracy_is_called() {
-        for program in [PER_RING, PER_YARN] {
+        for program in [PER_RING, PER_YARN, SETTLING] {
             let source = program.sources.concat();
-            // Half widths and half heights are no functions.
-            let source = source.replace("half_width", "").replace("half_height", "");
+            // Half widths, half heights and half gaps are no functions.
+            let source = ["half_width", "half_height", "half_gap"]
+                .iter()
+                .fold(source, |source, name| source.replace(name, ""));
             for word in ["native_", "half_", "fast_", "mad("] {
                 assert!(!source.contains(word), "{word} in {}", program.name);
             }

@@ -12,6 +12,7 @@ use opencl3::context::context::{create_context, retain_context};
 use opencl3::device::Device;
 use opencl3::error_codes::ClError;
 use opencl3::platform::Platform;
+use texere_core::settling::{Settler, SettlingPlan};
 use texere_core::{Backend, BackendError, DeviceInfo, Engine, Limits, Plan, Session};
 use texere_gpu::device_name;
 
@@ -19,6 +20,7 @@ use crate::device::{self, listed};
 use crate::faults::failed;
 use crate::handles::Handle;
 use crate::opened::Opened;
+use crate::settling::OpenClSettler;
 use crate::{OpenClEngine, OpenClSession, Schedule};
 
 /// An OpenCL device, ready to start sessions.
@@ -170,5 +172,10 @@ impl Backend for OpenClBackend {
 
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
         Ok(Box::new(OpenClEngine::new(self.opened.clone(), &self.info.limits, plan)?))
+    }
+
+    /// Both schedules settle in the same way.
+    fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
+        Ok(Box::new(OpenClSettler::new(self.opened.clone(), &self.info.limits, plan)?))
     }
 }

@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use bytemuck::Pod;
 use opencl3::command_queue::{
-    CL_BLOCKING, CL_NON_BLOCKING, enqueue_fill_buffer, enqueue_read_buffer, enqueue_write_buffer, flush,
+    CL_BLOCKING, CL_NON_BLOCKING, enqueue_copy_buffer, enqueue_fill_buffer, enqueue_read_buffer,
+    enqueue_write_buffer, flush,
 };
 use opencl3::event::wait_for_events;
 use opencl3::memory::{CL_MAP_READ, CL_MEM_READ_WRITE, create_buffer};
@@ -48,17 +49,53 @@ impl Buffer {
 
     /// `bytes` of zeros for `what`.
     pub(crate) fn zeroed(opened: &Opened, what: &'static str, bytes: u64) -> Result<Self, BackendError> {
-        let buffer = Self::new(opened, what, bytes)?;
-        if bytes > 0 {
+        let mut buffer = Self::new(opened, what, bytes)?;
+        buffer.clear(opened)?;
+        Ok(buffer)
+    }
+
+    /// Makes all of it zeros, after what is in the queue of the kernels.
+    pub(crate) fn clear(&mut self, opened: &Opened) -> Result<(), BackendError> {
+        if self.bytes > 0 {
             let zero = 0u32;
             // SAFETY: the pattern is a u32 that the call copies; `bytes`, a multiple of 4, is all of the buffer.
             let filled = unsafe {
                 let (queue, pattern) = (opened.queue.raw(), (&raw const zero).cast());
-                enqueue_fill_buffer(queue, buffer.raw(), pattern, 4, 0, bytes as usize, 0, ptr::null())
+                enqueue_fill_buffer(queue, self.raw(), pattern, 4, 0, self.bytes as usize, 0, ptr::null())
             };
             Handle::event(filled).map_err(opened.failed("clEnqueueFillBuffer"))?;
         }
-        Ok(buffer)
+        Ok(())
+    }
+
+    /// Takes on what `other`, another buffer of the same size, holds after what is in the queue of the kernels.
+    pub(crate) fn copy(&mut self, opened: &Opened, other: &Self) -> Result<(), BackendError> {
+        debug_assert_eq!(self.bytes, other.bytes, "a copy of all of it");
+        if self.bytes > 0 {
+            // SAFETY: a range past either buffer's end comes back as an error.
+            let copied = unsafe {
+                let (queue, bytes) = (opened.queue.raw(), self.bytes as usize);
+                enqueue_copy_buffer(queue, other.raw(), self.raw(), 0, 0, bytes, 0, ptr::null())
+            };
+            Handle::event(copied).map_err(opened.failed("clEnqueueCopyBuffer"))?;
+        }
+        Ok(())
+    }
+
+    /// Reads from byte `offset` into `out`, after what is in the queue of the kernels, which is waited for.
+    pub(crate) fn read_now<T: Pod>(
+        &self,
+        opened: &Opened,
+        offset: u64,
+        out: &mut [T],
+    ) -> Result<(), BackendError> {
+        if out.is_empty() {
+            return Ok(());
+        }
+        let (offset, bytes, start) = (offset as usize, size_of_val(out), out.as_mut_ptr().cast());
+        // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as long as `bytes` says.
+        unsafe { self.enqueue_read(opened, &opened.queue, CL_BLOCKING, offset, bytes, start, None) }?;
+        Ok(())
     }
 
     /// `data` in memory of its own.
@@ -160,7 +197,15 @@ impl Buffer {
         }
         // SAFETY: `out` is borrowed for the whole of a blocking read, takes any bits, and is as long as `bytes` says.
         let event = unsafe {
-            self.enqueue_read(opened, CL_BLOCKING, 0, size_of_val(out), out.as_mut_ptr().cast(), after)
+            self.enqueue_read(
+                opened,
+                &opened.transfers,
+                CL_BLOCKING,
+                0,
+                size_of_val(out),
+                out.as_mut_ptr().cast(),
+                after,
+            )
         }?;
         clock.note(Stage::Readback, &event);
         Ok(())
@@ -169,9 +214,11 @@ impl Buffer {
     /// # Safety
     ///
     /// `out` points at `bytes` bytes of writable memory, which nothing else touches until the command has ended.
+    #[allow(clippy::too_many_arguments, reason = "as many as clEnqueueReadBuffer has")]
     unsafe fn enqueue_read(
         &self,
         opened: &Opened,
+        queue: &Handle,
         blocking: u32,
         offset: usize,
         bytes: usize,
@@ -182,16 +229,7 @@ impl Buffer {
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
         // SAFETY: this function's contract; a range past the buffer's end comes back as an error.
         let event = unsafe {
-            enqueue_read_buffer(
-                opened.transfers.raw(),
-                self.raw(),
-                blocking,
-                offset,
-                bytes,
-                out,
-                events,
-                list,
-            )
+            enqueue_read_buffer(queue.raw(), self.raw(), blocking, offset, bytes, out, events, list)
         };
         Ok(Arc::new(Handle::event(event).map_err(opened.failed("clEnqueueReadBuffer"))?))
     }
@@ -235,7 +273,15 @@ impl Staging {
             // SAFETY: the pinned memory is large enough and, in order on the queue, not written by another command; it is
             // not looked at before this command has ended.
             let event = unsafe {
-                buffer.enqueue_read(opened, CL_NON_BLOCKING, first * each, here * each, start, after)
+                buffer.enqueue_read(
+                    opened,
+                    &opened.transfers,
+                    CL_NON_BLOCKING,
+                    first * each,
+                    here * each,
+                    start,
+                    after,
+                )
             }?;
             clock.note(Stage::Readback, &event);
             flush(opened.transfers.raw()).map_err(opened.failed("clFlush"))?;

@@ -37,10 +37,14 @@ pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
 impl Kernel {
     /// `entry` of the program for round yarns, or of the one for all yarns.
     pub(crate) fn new(opened: &Opened, entry: EntryPoint, flattened: bool) -> Result<Self, BackendError> {
+        Self::of(opened, opened.program(flattened)?, entry)
+    }
+
+    /// `entry` of `program`.
+    pub(crate) fn of(opened: &Opened, program: &Handle, entry: EntryPoint) -> Result<Self, BackendError> {
         let failed = opened.failed("clCreateKernel");
         let name = CString::new(entry.name).map_err(|_| failed(CL_INVALID_KERNEL_NAME))?;
-        let handle =
-            Handle::kernel(create_kernel(opened.program(flattened)?.raw(), &name)).map_err(failed)?;
+        let handle = Handle::kernel(create_kernel(program.raw(), &name)).map_err(failed)?;
         Ok(Self { handle, group: entry.group })
     }
 

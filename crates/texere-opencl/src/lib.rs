@@ -28,6 +28,7 @@ mod opened;
 mod per_yarn;
 mod pinned;
 mod session;
+mod settling;
 mod tables;
 mod upload;
 

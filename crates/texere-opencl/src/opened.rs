@@ -11,7 +11,7 @@ use opencl3::program::{
 };
 use texere_core::{BackendError, DeviceInfo, Schedule};
 use texere_gpu::{Language, prelude, serial_unsupported};
-use texere_kernels::{PER_RING, PER_YARN, Program};
+use texere_kernels::{PER_RING, PER_YARN, Program, SETTLING};
 
 use crate::faults::failed;
 use crate::handles::Handle;
@@ -32,6 +32,8 @@ pub(crate) struct Opened {
     round: Handle,
     /// The one for all yarns, compiled where it is wanted first.
     flattened: OnceLock<Handle>,
+    /// Those of settlings, for round yarns alone and for all, likewise.
+    settling: [OnceLock<Handle>; 2],
 }
 
 impl Opened {
@@ -54,6 +56,7 @@ impl Opened {
             transfers,
             round,
             flattened: OnceLock::new(),
+            settling: Default::default(),
         })
     }
 
@@ -64,15 +67,31 @@ impl Opened {
         if !flattened {
             return Ok(&self.round);
         }
-        if let Some(compiled) = self.flattened.get() {
+        self.compiled(&self.flattened, program(self.schedule, &self.name)?, true)
+    }
+
+    /// The program of settlings, of round yarns alone or of all.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn settling(&self, flattened: bool) -> Result<&Handle, BackendError> {
+        self.compiled(&self.settling[usize::from(flattened)], SETTLING, flattened)
+    }
+
+    /// What `held` holds: `program`, compiled where it is wanted first.
+    fn compiled<'a>(
+        &self,
+        held: &'a OnceLock<Handle>,
+        program: Program,
+        flattened: bool,
+    ) -> Result<&'a Handle, BackendError> {
+        if let Some(compiled) = held.get() {
             return Ok(compiled);
         }
         let device = get_command_queue_info(self.queue.raw(), CL_QUEUE_DEVICE);
         let device = device.map_err(self.failed("clGetCommandQueueInfo"))?.to_ptr() as *mut c_void;
-        let program = program(self.schedule, &self.name)?;
-        let compiled = build(device, &self.context, &self.name, program, true)?;
+        let compiled = build(device, &self.context, &self.name, program, flattened)?;
         // Another session may have been faster.
-        Ok(self.flattened.get_or_init(|| compiled))
+        Ok(held.get_or_init(|| compiled))
     }
 
     /// The error that `call` ended in.

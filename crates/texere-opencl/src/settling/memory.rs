@@ -1,0 +1,135 @@
+//! The memory of a settling.
+
+use bytemuck::Pod;
+use texere_core::settling::{Place, SettlingPlan};
+use texere_core::{BackendError, Limits};
+use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, StrandRow};
+use texere_kernels::{SETTLING_SCAN_VALUES, SETTLING_STEP};
+
+use crate::buffers::Buffer;
+use crate::opened::Opened;
+
+/// Numbers that the block form writes for each place, the more of both forms.
+const PULL_PLANES: u64 = 4 * 9 + 6;
+
+/// What kernels read and write.
+#[derive(Debug)]
+pub(super) struct Memory {
+    pub(super) place_rows: Buffer,
+    pub(super) strands: Buffer,
+    pub(super) chord_rows: Buffer,
+    pub(super) places: Buffer,
+    /// The places that the last pass has seen, where the next one writes.
+    pub(super) seen: Buffer,
+    pub(super) kept: Buffer,
+    /// The step that each point has taken last, mm.
+    pub(super) steps: Buffer,
+    /// The length that each interval is to have, mm.
+    pub(super) lengths: Buffer,
+    /// Where all chords lie.
+    pub(super) chords: Buffer,
+    pub(super) pulls: Buffer,
+    /// What groups have seen, of intervals and then of steps, and what all of them have.
+    pub(super) rows: Buffer,
+    pub(super) all: Buffer,
+    /// What groups have found of where chords lie.
+    pub(super) extents: Buffer,
+    /// Where each cell's chords begin, and chords cell by cell.
+    pub(super) cells: Buffer,
+    pub(super) sorted: Buffer,
+    /// Where each chord's neighbours begin, and the neighbours of all.
+    pub(super) starts: Buffer,
+    pub(super) neighbours: Buffer,
+    /// Sums of groups of a scan, level by level.
+    pub(super) sums: Vec<Buffer>,
+    room: Room,
+}
+
+/// What a device may still be asked for.
+#[derive(Debug, Clone, Copy)]
+struct Room {
+    binding_bytes: u64,
+    memory_bytes: u64,
+}
+
+impl Room {
+    /// Takes `bytes` for `what` off it.
+    fn take(&mut self, what: &'static str, bytes: u64) -> Result<u64, BackendError> {
+        if bytes > self.binding_bytes || bytes > self.memory_bytes {
+            return Err(BackendError::OutOfMemory { what, bytes });
+        }
+        self.memory_bytes -= bytes;
+        Ok(bytes)
+    }
+
+    fn zeroed(&mut self, opened: &Opened, what: &'static str, bytes: u64) -> Result<Buffer, BackendError> {
+        Buffer::zeroed(opened, what, self.take(what, bytes)?)
+    }
+
+    fn holding<T: Pod>(
+        &mut self,
+        opened: &Opened,
+        what: &'static str,
+        data: &[T],
+    ) -> Result<Buffer, BackendError> {
+        self.take(what, size_of_val(data) as u64)?;
+        Buffer::holding(opened, what, data)
+    }
+}
+
+impl Memory {
+    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
+    pub(super) fn new(opened: &Opened, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
+        let mut room = Room { binding_bytes: limits.binding_bytes, memory_bytes: limits.memory_bytes };
+        let (places, chords) = (plan.counts().places, plan.counts().chords);
+        let groups = places.div_ceil(SETTLING_STEP.group as u64);
+        let of = |count: u64, each: usize| count * each as u64;
+        let place_bytes = of(places, size_of::<Place>());
+        // As many cells as chords, or a few more.
+        let counts = chords.max(64) + 1;
+        let mut sums = Vec::new();
+        let mut values = counts;
+        while values > 1 || sums.is_empty() {
+            values = values.div_ceil(SETTLING_SCAN_VALUES as u64);
+            sums.push(room.zeroed(opened, "sums of counts", 4 * values)?);
+        }
+        Ok(Self {
+            place_rows: room.holding(opened, "the place table", &PlaceRow::all(plan))?,
+            strands: room.holding(opened, "the strand table", &StrandRow::all(plan))?,
+            chord_rows: room.holding(opened, "the chord table", &ChordRow::all(plan))?,
+            places: room.zeroed(opened, "places", place_bytes)?,
+            seen: room.zeroed(opened, "places that were seen", place_bytes)?,
+            kept: room.zeroed(opened, "places that are kept", place_bytes)?,
+            steps: room.zeroed(opened, "steps of places", place_bytes)?,
+            lengths: room.zeroed(opened, "lengths of intervals", 4 * places)?,
+            chords: room.zeroed(opened, "chords", of(chords, 32))?,
+            pulls: room.zeroed(opened, "pulls of intervals", 4 * PULL_PLANES * places)?,
+            rows: room.zeroed(opened, "what groups have seen", of(2 * groups, size_of::<SeenRow>()))?,
+            all: room.zeroed(opened, "what was seen", size_of::<SeenRow>() as u64)?,
+            extents: room.zeroed(opened, "extents", of(EXTENT_GROUPS.into(), size_of::<ExtentRow>()))?,
+            cells: room.zeroed(opened, "cells of chords", 4 * counts)?,
+            sorted: room.zeroed(opened, "chords by cells", 4 * chords)?,
+            starts: room.zeroed(opened, "starts of neighbours", 4 * (chords + 1))?,
+            neighbours: Buffer::default(),
+            sums,
+            room,
+        })
+    }
+
+    /// Makes room for `count` neighbours, and an eighth more where there is room.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`].
+    pub(super) fn reserve_neighbours(&mut self, opened: &Opened, count: u32) -> Result<(), BackendError> {
+        let (what, bytes) = ("neighbours of chords", 4 * u64::from(count));
+        if count == u32::MAX {
+            return Err(BackendError::OutOfMemory { what, bytes });
+        }
+        if bytes > self.neighbours.bytes() {
+            self.room.memory_bytes += std::mem::take(&mut self.neighbours).bytes();
+            let most = self.room.binding_bytes.min(self.room.memory_bytes) / 4 * 4;
+            let more = (bytes + bytes / 32 * 4).min(most).max(bytes);
+            self.neighbours = self.room.zeroed(opened, what, more)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,144 @@
+//! Settling on an OpenCL device.
+
+mod list;
+mod memory;
+mod pass;
+
+use std::sync::Arc;
+
+use opencl3::command_queue::flush;
+use texere_core::settling::{Pass, Place, Seen, Settler, SettlingPlan};
+use texere_core::{BackendError, Limits};
+use texere_gpu::{SettlingParams, settles_flattened};
+use texere_kernels::EntryPoint;
+
+use crate::buffers::Buffer;
+use crate::kernel::{Arg, Kernel};
+use crate::opened::Opened;
+use list::ListKernels;
+use memory::Memory;
+use pass::PassKernels;
+
+/// The settler of an [`OpenClBackend`](crate::OpenClBackend).
+#[derive(Debug)]
+pub(crate) struct OpenClSettler {
+    plan: Arc<SettlingPlan>,
+    params: SettlingParams,
+    list: ListKernels,
+    pass: PassKernels,
+    memory: Memory,
+    /// Whether a pass has seen places, and whether such were kept.
+    seen: bool,
+    kept: bool,
+    opened: Arc<Opened>,
+}
+
+impl OpenClSettler {
+    /// Compiles the kernels if no settler has before, and takes memory.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Compile`].
+    pub(crate) fn new(
+        opened: Arc<Opened>,
+        limits: &Limits,
+        plan: Arc<SettlingPlan>,
+    ) -> Result<Self, BackendError> {
+        let program = opened.settling(settles_flattened(&plan))?;
+        let kernel = |entry: EntryPoint| Kernel::of(&opened, program, entry);
+        Ok(Self {
+            params: SettlingParams::new(&plan),
+            list: ListKernels::new(&kernel)?,
+            pass: PassKernels::new(&kernel)?,
+            memory: Memory::new(&opened, limits, &plan)?,
+            seen: false,
+            kept: false,
+            plan,
+            opened,
+        })
+    }
+}
+
+impl Settler for OpenClSettler {
+    fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
+        let Self { opened, memory, plan, .. } = self;
+        memory.places.write(opened, &opened.queue, 0, &plan.padded(places), None)?;
+        memory.lengths.write(opened, &opened.queue, 0, plan.lengths(), None)?;
+        memory.steps.clear(opened)
+    }
+
+    fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
+        let Self { opened, memory, plan, list, pass, params, .. } = self;
+        if params.chords == 0 {
+            return Ok(0);
+        }
+        let params = SettlingParams { growth, ..*params };
+        let listed = pass
+            .chords(opened, &params, memory)
+            .and_then(|()| list.cells(opened, plan, &params, memory))
+            .and_then(|params| list.neighbours(opened, &params, memory));
+        if listed.is_err() {
+            // Of a list that has starts alone none is left; an error of this adds nothing.
+            let _ = memory.starts.clear(opened);
+        }
+        listed.map(u64::from)
+    }
+
+    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+        let params = self.params.with_pass(&self.plan, pass);
+        if params.places == 0 {
+            return Ok(Seen::NOTHING);
+        }
+        let seen = self.pass.run(&self.opened, &params, pass.form, &self.memory)?;
+        std::mem::swap(&mut self.memory.places, &mut self.memory.seen);
+        self.seen = true;
+        Ok(seen)
+    }
+
+    fn keep(&mut self) -> Result<(), BackendError> {
+        self.kept = self.seen;
+        let Memory { kept, seen, .. } = &mut self.memory;
+        kept.copy(&self.opened, seen)
+    }
+
+    fn recall(&mut self) -> Result<(), BackendError> {
+        if self.kept {
+            let Memory { places, kept, steps, .. } = &mut self.memory;
+            places.copy(&self.opened, kept)?;
+            steps.clear(&self.opened)?;
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError> {
+        let mut all = vec![Place::default(); self.params.places as usize];
+        self.memory.places.read_now(&self.opened, 0, &mut all)?;
+        self.plan.unpad(&all, places);
+        Ok(())
+    }
+}
+
+/// Starts a kernel with a lane for each of `lanes` or a few more, after those in the queue.
+///
+/// # Safety
+///
+/// As [`Kernel::run`].
+unsafe fn start(
+    kernel: &mut Kernel,
+    opened: &Opened,
+    args: &[Arg<'_>],
+    lanes: u32,
+) -> Result<(), BackendError> {
+    let groups = (lanes as usize).div_ceil(kernel.group());
+    // SAFETY: this function's contract.
+    unsafe { kernel.run(opened, args, groups, None) }?;
+    Ok(())
+}
+
+/// Lets the device begin with what is in its queue.
+fn begin(opened: &Opened) -> Result<(), BackendError> {
+    flush(opened.queue.raw()).map_err(opened.failed("clFlush"))
+}
+
+/// Arguments that lie in memory.
+fn in_memory<'a, const COUNT: usize>(buffers: [&'a Buffer; COUNT]) -> [Arg<'a>; COUNT] {
+    buffers.map(Arg::Memory)
+}

@@ -1,0 +1,101 @@
+//! The kernels of a pass.
+
+use bytemuck::bytes_of;
+use texere_core::BackendError;
+use texere_core::settling::{Form, Seen};
+use texere_gpu::{SeenRow, SettlingParams};
+use texere_kernels::{
+    EntryPoint, SETTLING_CHORDS, SETTLING_ENDS, SETTLING_PULL_BLOCK, SETTLING_PULL_WEIGHTED, SETTLING_SEEN,
+    SETTLING_STEP,
+};
+
+use super::memory::Memory;
+use super::{in_memory, start};
+use crate::kernel::{Arg, Kernel};
+use crate::opened::Opened;
+
+/// They run one after the other; the host waits for 16 bytes at the end.
+#[derive(Debug)]
+pub(super) struct PassKernels {
+    chords: Kernel,
+    pull_weighted: Kernel,
+    pull_block: Kernel,
+    step: Kernel,
+    ends: Kernel,
+    seen: Kernel,
+}
+
+// A row of each group of either kernel.
+const _: () = assert!(
+    SETTLING_PULL_WEIGHTED.group == SETTLING_STEP.group && SETTLING_PULL_BLOCK.group == SETTLING_STEP.group
+);
+
+impl PassKernels {
+    pub(super) fn new(
+        kernel: &impl Fn(EntryPoint) -> Result<Kernel, BackendError>,
+    ) -> Result<Self, BackendError> {
+        Ok(Self {
+            chords: kernel(SETTLING_CHORDS)?,
+            pull_weighted: kernel(SETTLING_PULL_WEIGHTED)?,
+            pull_block: kernel(SETTLING_PULL_BLOCK)?,
+            step: kernel(SETTLING_STEP)?,
+            ends: kernel(SETTLING_ENDS)?,
+            seen: kernel(SETTLING_SEEN)?,
+        })
+    }
+
+    /// Works out where all chords lie.
+    pub(super) fn chords(
+        &mut self,
+        opened: &Opened,
+        params: &SettlingParams,
+        memory: &Memory,
+    ) -> Result<(), BackendError> {
+        let Memory { places, place_rows, chord_rows, chords, .. } = memory;
+        let value = [Arg::Value(bytes_of(params))];
+        let args = [&value[..], &in_memory([places, place_rows, chord_rows, chords])].concat();
+        // SAFETY: the arguments are those of `settling_chords`; a lane reads its chord's row, the rows of its interval and of
+        // the next place, and the interval's four places, and writes its chord: the plan counted all of them.
+        unsafe { start(&mut self.chords, opened, &args, params.chords) }
+    }
+
+    /// Makes a pass from `memory.places` to `memory.seen`, and gives back what it saw.
+    pub(super) fn run(
+        &mut self,
+        opened: &Opened,
+        params: &SettlingParams,
+        form: Form,
+        memory: &Memory,
+    ) -> Result<Seen, BackendError> {
+        self.chords(opened, params, memory)?;
+        let Memory { places, place_rows, strands, chords, starts, neighbours, .. } = memory;
+        let Memory { lengths, pulls, rows, steps, seen: next, all, .. } = memory;
+        let value = [Arg::Value(bytes_of(params))];
+        let tables = in_memory([places, place_rows, chords, starts, neighbours, lengths, pulls, rows]);
+        let args = [&value[..], &tables].concat();
+        let pull = if form == Form::Block { &mut self.pull_block } else { &mut self.pull_weighted };
+        // SAFETY: the arguments are those of both kernels; a lane reads its interval's places, rows and chords, the neighbours that
+        // were listed for these, and the same of each neighbour, and writes its planes; a group writes its row.
+        unsafe { start(pull, opened, &args, params.places) }?;
+        let groups = params.places.div_ceil(SETTLING_STEP.group as u32);
+        let block = u32::from(form == Form::Block);
+        let values =
+            [Arg::Value(bytes_of(params)), Arg::Value(bytes_of(&block)), Arg::Value(bytes_of(&groups))];
+        let tables = in_memory([places, place_rows, strands, pulls, steps, lengths, next, rows]);
+        let args = [&values[..], &tables].concat();
+        // SAFETY: the arguments are those of `settling_step`; a lane reads its place's rows and its yarn's, and the planes of its
+        // yarn's intervals, and writes its own step, length and next place; a group writes its row, behind the others.
+        unsafe { start(&mut self.step, opened, &args, params.places) }?;
+        let args = [&value[..], &in_memory([strands, next])].concat();
+        // SAFETY: the arguments are those of `settling_ends`; a lane reads its yarn's row and places, and writes those beyond its
+        // ends.
+        unsafe { start(&mut self.ends, opened, &args, params.yarns) }?;
+        let count = 2 * groups;
+        let args = [&[Arg::Value(bytes_of(&count))][..], &in_memory([rows, all])].concat();
+        // SAFETY: the arguments are those of `settling_seen`; the only group reads `count` rows and writes one.
+        unsafe { start(&mut self.seen, opened, &args, 1) }?;
+        let mut seen = [SeenRow::default()];
+        all.read_now(opened, 0, &mut seen)?;
+        Ok(seen[0].seen())
+    }
+}

@@ -1,0 +1,222 @@
+// What the kernels of a settling share: tables, places, intervals and chords.
+//
+// The formulas, the thresholds and the order of operations are those of texere-core (settling/), and settling.wgsl is the
+// twin of this file. OpenCL C 1.2, no extension. Constants are the core's; texere-gpu writes them before this file, and
+// FLATTENED: false where all yarns are round.
+
+#pragma OPENCL FP_CONTRACT OFF
+
+// Rust: texere_gpu::SettlingParams, 96 bytes.
+typedef struct {
+    uint places;
+    uint chords;
+    uint yarns;
+    uint flags;
+    float unit;
+    float per_mm;
+    float s;
+    float growth;
+    float ease;
+    float momentum;
+    float half_gap;
+    float tension;
+    int period_x;
+    int period_y;
+    float frequency_x;
+    float frequency_y;
+    float diameter;
+    float along;
+    int low_x;
+    int low_y;
+    uint size_x;
+    uint size_y;
+    uint count_x;
+    uint count_y;
+} SettlingParams;
+
+// Rust: texere_gpu::PlaceRow, 16 bytes.
+typedef struct {
+    uint tags;
+    uint yarn;
+    uint first_chord;
+    float start_length;
+} PlaceRow;
+
+// Rust: texere_gpu::StrandRow, 32 bytes.
+typedef struct {
+    uint first;
+    uint points;
+    uint goes_on;
+    int shift_x;
+    int shift_y;
+    uint length;
+    uint padding[2];
+} StrandRow;
+
+// Rust: texere_gpu::ChordRow, 16 bytes.
+typedef struct {
+    uint place;
+    uint from;
+    uint to;
+    float thickest;
+} ChordRow;
+
+// A place (Rust: Place) is a uint4: x, y and z in units (i32, as bits so that sums wrap), and two half floats.
+// A chord as passes see it is two uint4: where it begins and the place of its interval; the bits of its span, mm, and of the
+// largest half of its interval.
+
+float dot3(float3 a, float3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+float length3(float3 a) {
+    return sqrt(dot3(a, a));
+}
+
+// Within 0 and 1.
+float share(float value) {
+    return fmin(fmax(value, 0.0f), 1.0f);
+}
+
+// A way of so many units, mm.
+float3 to_mm(const SettlingParams *params, uint3 units) {
+    return (float3)((float)as_int(units.x), (float)as_int(units.y), (float)as_int(units.z)) * params->unit;
+}
+
+// The units that a place moves by for a step in mm.
+uint3 to_units(const SettlingParams *params, float3 step) {
+    float3 units = step * params->per_mm;
+    return (uint3)(as_uint(convert_int_sat(floor(units.x + 0.5f))), as_uint(convert_int_sat(floor(units.y + 0.5f))),
+                   as_uint(convert_int_sat(floor(units.z + 0.5f))));
+}
+
+// Half width (x) and half height (y) at a place.
+float2 halves(uint4 place) {
+    uint both = place.w;
+    return (float2)(vload_half(0, (const half *)&both), vload_half(1, (const half *)&both));
+}
+
+// ---- Interval: the spline between two places, from the first of them on ----
+
+typedef struct {
+    uint3 start;
+    // What goes with u, u^2 and u^3, mm.
+    float3 c1;
+    float3 c2;
+    float3 c3;
+    // Half width and half height at its beginning, and their growth to its end.
+    float2 halves;
+    float2 growth;
+} Interval;
+
+// The interval that begins at `place`.
+Interval interval_at(const SettlingParams *params, __global const uint4 *places, uint place) {
+    uint4 here = places[place];
+    uint4 next = places[place + 1u];
+    float3 a = to_mm(params, places[place - 1u].xyz - here.xyz);
+    float3 b = to_mm(params, next.xyz - here.xyz);
+    float3 c = to_mm(params, places[place + 2u].xyz - here.xyz);
+    float s = params->s;
+    Interval interval;
+    interval.start = here.xyz;
+    interval.c1 = (b - a) * s;
+    interval.c2 = a * (2.0f * s) + b * (3.0f - 2.0f * s) - c * s;
+    interval.c3 = (c - a) * s + b * (s - 2.0f);
+    interval.halves = halves(here);
+    interval.growth = halves(next) - interval.halves;
+    return interval;
+}
+
+float3 interval_offset(const Interval *interval, float u) {
+    return (interval->c1 + (interval->c2 + interval->c3 * u) * u) * u;
+}
+
+float3 interval_velocity(const Interval *interval, float u) {
+    return interval->c1 + (interval->c2 * 2.0f + interval->c3 * (3.0f * u)) * u;
+}
+
+float3 interval_acceleration(const Interval *interval, float u) {
+    return interval->c2 * 2.0f + interval->c3 * (6.0f * u);
+}
+
+// How far the yarn reaches from its centreline at `u` towards a unit vector, mm.
+float interval_reach(const Interval *interval, float u, float3 towards) {
+    float width = interval->halves.x + interval->growth.x * u;
+    if (!FLATTENED) {
+        return width;
+    }
+    float height = interval->halves.y + interval->growth.y * u;
+    float3 tangent = interval_velocity(interval, u);
+    float level = tangent.x * tangent.x + tangent.y * tangent.y;
+    float square = level + tangent.z * tangent.z;
+    if (width == height || level <= VERTICAL * square) {
+        return width;
+    }
+    // Side is (-y, x, 0), up is t x side, both over their lengths.
+    float aside = (towards.y * tangent.x - towards.x * tangent.y) * width;
+    float up = (towards.z * level - (towards.x * tangent.x + towards.y * tangent.y) * tangent.z) * height;
+    return sqrt((aside * aside + up * up / square) / level);
+}
+
+// Its length by Gauss's rule of three places, mm.
+float interval_arc(const Interval *interval) {
+    float outer = length3(interval_velocity(interval, GAUSS_1)) + length3(interval_velocity(interval, GAUSS_3));
+    return outer * GAUSS_OUTER + length3(interval_velocity(interval, GAUSS_2)) * GAUSS_MIDDLE;
+}
+
+// ---- Chord ----
+
+// Where a chord's middle lies, units.
+uint3 chord_middle(const SettlingParams *params, uint3 at, float3 span) {
+    return at + to_units(params, span * 0.5f);
+}
+
+// How many repeats away the image of a chord lies that is nearest to another one, which begins `way` before it.
+uint2 nearest_image(const SettlingParams *params, float3 one, float3 other, uint3 way) {
+    float3 apart = to_mm(params, way) + (other - one) * 0.5f;
+    return (uint2)(-as_uint(convert_int_sat(floor(apart.x * params->frequency_x + 0.5f))),
+                   -as_uint(convert_int_sat(floor(apart.y * params->frequency_y + 0.5f))));
+}
+
+// A way to something, to the image of that so many repeats away.
+uint3 to_image(const SettlingParams *params, uint3 way, uint2 image) {
+    return (uint3)(way.x + image.x * (uint)params->period_x, way.y + image.y * (uint)params->period_y, way.z);
+}
+
+// Shares of two chords where they come nearest to one another; the second begins `way` from the first.
+float2 chords_nearest(float3 one, float3 other, float3 way) {
+    float a = fmax(dot3(one, one), SHORT);
+    float e = fmax(dot3(other, other), SHORT);
+    float b = dot3(one, other);
+    float c = -dot3(one, way);
+    float f = -dot3(other, way);
+    float determinant = a * e - b * b;
+    // Of parallel chords one place does as well as another.
+    float first = 0.5f;
+    if (determinant > PARALLEL * (a * e)) {
+        first = share((b * f - c * e) / determinant);
+    }
+    float second = share((b * first + f) / e);
+    return (float2)(share((b * second - c) / a), second);
+}
+
+#define SETTLING_CHORDS_GROUP 64
+
+// A lane a chord: where it lies now.
+__kernel __attribute__((reqd_work_group_size(SETTLING_CHORDS_GROUP, 1, 1)))
+void settling_chords(const SettlingParams params, __global const uint4 *places, __global const PlaceRow *place_rows,
+                     __global const ChordRow *chord_rows, __global uint4 *chords) {
+    uint number = get_global_id(0);
+    if (number >= params.chords) {
+        return;
+    }
+    ChordRow row = chord_rows[number];
+    uint first = place_rows[row.place].first_chord;
+    float pieces = (float)(place_rows[row.place + 1u].first_chord - first);
+    uint piece = number - first;
+    Interval interval = interval_at(&params, places, row.place);
+    float3 from = interval_offset(&interval, (float)piece / pieces);
+    float3 span = interval_offset(&interval, (float)(piece + 1u) / pieces) - from;
+    chords[2 * (size_t)number] = (uint4)(interval.start + to_units(&params, from), row.place);
+    chords[2 * (size_t)number + 1] = as_uint4((float4)(span, row.thickest));
+}

@@ -1,0 +1,139 @@
+// Where two intervals come near one another, and what that does. After settling.cl.
+//
+// The twin of settling_contact.wgsl, and of texere-core's contact.rs and the first half of pass.rs.
+
+// What an interval has seen: the least distance to another yarn, mm, the same over both reaches, the least radius of curvature in
+// diameters.
+typedef struct {
+    float near;
+    float clearance;
+    float radius;
+} Sight;
+
+// Places on both intervals, and the way from the first to the second.
+typedef struct {
+    float2 at;
+    float3 way;
+    float distance;
+} Contact;
+
+// What a contact asks of the first interval's points: the step of its place, mm, the direction to the other yarn, and what each of
+// the four counts. The weights are all 0 where it asks for nothing.
+typedef struct {
+    float3 back;
+    float3 direction;
+    float4 weights;
+} Push;
+
+// What four points count, where one of them stands beyond an open yarn's end: those that it is made of count instead.
+float4 folded(uint tags, float4 weights) {
+    if ((tags & TAG_OPENS) != 0u) {
+        weights = (float4)(0.0f, weights.y + 2.0f * weights.x, weights.z - weights.x, weights.w);
+    }
+    if ((tags & TAG_ENDS) != 0u) {
+        weights = (float4)(weights.x, weights.y - weights.w, weights.z + 2.0f * weights.w, 0.0f);
+    }
+    return weights;
+}
+
+// What each of an interval's four control points counts at `u`.
+float4 point_weights(float u, float s) {
+    float square = u * u;
+    float cube = u * u * u;
+    float before = (2.0f * square - u - cube) * s;
+    float after = (cube - square) * s;
+    float end = s * u + (3.0f - 2.0f * s) * square + (s - 2.0f) * cube;
+    return (float4)(before, 1.0f - before - end - after, end, after);
+}
+
+Contact contact_at(const Interval *one, const Interval *other, float3 way, float2 at) {
+    Contact contact;
+    contact.at = at;
+    contact.way = way + interval_offset(other, at.y) - interval_offset(one, at.x);
+    contact.distance = length3(contact.way);
+    return contact;
+}
+
+// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes nearer.
+Contact refined(const Interval *one, const Interval *other, float3 way, float2 at, float2 stride) {
+    Contact start = contact_at(one, other, way, at);
+    float3 velocity = interval_velocity(one, at.x);
+    float3 other_velocity = interval_velocity(other, at.y);
+    float2 squares = (float2)(dot3(velocity, velocity), dot3(other_velocity, other_velocity));
+    float2 slopes = (float2)(-dot3(start.way, velocity), dot3(start.way, other_velocity));
+    float2 bends = (float2)(-dot3(start.way, interval_acceleration(one, at.x)),
+                            dot3(start.way, interval_acceleration(other, at.y)));
+    float2 h = fmax(fmax(squares + bends, squares * STIFF), SHORT);
+    float mixed = -dot3(velocity, other_velocity);
+    float determinant = fmax(h.x * h.y - mixed * mixed, SKEW * (h.x * h.y));
+    float2 step = (float2)((mixed * slopes.y - h.y * slopes.x) / determinant,
+                           (mixed * slopes.x - h.x * slopes.y) / determinant);
+    float2 next = at + fmin(fmax(step, -stride), stride);
+    Contact found = contact_at(one, other, way, (float2)(share(next.x), share(next.y)));
+    if (found.distance < start.distance) {
+        return found;
+    }
+    return start;
+}
+
+// The direction from the first place to the second. Where both are one, it is square to both yarns.
+float3 contact_direction(const Contact *contact, float3 velocity, float3 other_velocity) {
+    float3 way = contact->way;
+    if (!(contact->distance > ONE_PLACE)) {
+        way = (float3)(velocity.y * other_velocity.z - velocity.z * other_velocity.y,
+                       velocity.z * other_velocity.x - velocity.x * other_velocity.z,
+                       velocity.x * other_velocity.y - velocity.y * other_velocity.x);
+    }
+    float square = dot3(way, way);
+    return square > 0.0f ? way * (1.0f / sqrt(square)) : (float3)(0.0f, 0.0f, 1.0f);
+}
+
+// A chord of an interval that meets its neighbours.
+typedef struct {
+    Interval interval;
+    uint tags;
+    // Of the chord: where it begins, its span and thickness, which of the interval's it is, and one over how many there are.
+    uint3 at;
+    float4 span;
+    float piece;
+    float step;
+} Meeting;
+
+// What chord `number` does to the one that meets it.
+Push meet(const SettlingParams *params, const Meeting *one, __global const uint4 *places,
+          __global const PlaceRow *place_rows, __global const uint4 *chords, size_t number, Sight *sight) {
+    Push push;
+    push.weights = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+    uint4 at = chords[2 * number];
+    float4 span = as_float4(chords[2 * number + 1]);
+    uint3 way = at.xyz - one->at;
+    uint2 image = nearest_image(params, one->span.xyz, span.xyz, way);
+    float3 between = to_mm(params, to_image(params, way, image));
+    float2 shares = chords_nearest(one->span.xyz, span.xyz, between);
+    float distance = length3(between + span.xyz * shares.y - one->span.xyz * shares.x);
+    float most = one->span.w + span.w;
+    if (distance >= NEAR * MARGIN * params->growth * most) {
+        sight->near = fmin(sight->near, distance);
+        sight->clearance = fmin(sight->clearance, distance / most);
+        return push;
+    }
+    Interval other = interval_at(params, places, at.w);
+    uint first = place_rows[at.w].first_chord;
+    float2 step = (float2)(one->step, 1.0f / (float)(place_rows[at.w + 1u].first_chord - first));
+    float2 place = ((float2)(one->piece, (float)(uint)(number - first)) + shares) * step;
+    float3 apart = to_mm(params, to_image(params, other.start - one->interval.start, image));
+    Contact contact = refined(&one->interval, &other, apart, place, step * STRIDE);
+    float3 direction = contact_direction(&contact, interval_velocity(&one->interval, contact.at.x),
+                                         interval_velocity(&other, contact.at.y));
+    float reach = interval_reach(&one->interval, contact.at.x, direction) +
+                  interval_reach(&other, contact.at.y, direction);
+    sight->near = fmin(sight->near, contact.distance);
+    sight->clearance = fmin(sight->clearance, contact.distance / reach);
+    float lacks = MARGIN * params->growth * reach - contact.distance;
+    if (lacks > 0.0f) {
+        push.back = direction * (-0.5f * lacks);
+        push.direction = direction;
+        push.weights = folded(one->tags, point_weights(contact.at.x, params->s));
+    }
+    return push;
+}

@@ -3,6 +3,7 @@
 //! | what a GPU backend needs | here |
 //! |---|---|
 //! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
+//! | tables of a settling, and what devices give back of it | [`PlaceRow`], [`StrandRow`], [`ChordRow`], [`SettlingParams`], [`ExtentRow`], [`SeenRow`] |
 //! | control points with virtual ends, written straight to the memory that is sent | [`YarnEnds`], [`PaddedUpload`] |
 //! | the constants that kernels and shaders share with the core | [`prelude()`] |
 //! | which chunk's tables lie in a slot, so that no kernel has to check a bound | [`LoadedChunk`] |
@@ -26,12 +27,17 @@ mod loaded;
 mod memory;
 mod prelude;
 mod schedule;
+mod settling;
 mod tables;
 mod upload;
 
 pub use loaded::LoadedChunk;
 pub use memory::{device_buffers, host_bytes_beside_gpu};
-pub use prelude::{CONSTANTS, Constant, Language, Value, prelude};
+pub use prelude::{CONSTANTS, Constant, Language, SETTLING_CONSTANTS, Value, prelude};
 pub use schedule::{check_schedule, device_name, serial_unsupported};
+pub use settling::{
+    ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow, UNSEEN,
+    settles_flattened,
+};
 pub use tables::{CapRow, Params, YarnRow, cap_pattern, part_rows};
 pub use upload::{PaddedUpload, YarnEnds};

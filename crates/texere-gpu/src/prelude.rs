@@ -4,8 +4,10 @@ use std::fmt::Write;
 
 use texere_core::{
     ARCTANGENT, BLOCK_RINGS, COSINE, Frame, NO_LENGTH, NO_MIRROR, RADIUS_FLOOR, SINE, SLOPE_LIMIT,
-    TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY,
+    TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY, settling,
 };
+
+use crate::settling::{SettlingParams, UNSEEN};
 
 /// A language of device code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -68,7 +70,53 @@ pub const CONSTANTS: [Constant; 22] = [
     integer("ROTATION_MINIMIZING", Frame::RotationMinimizing as u32),
 ];
 
-/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`], and of `FLATTENED`. Decimals are
+/// Those of settling, which stand before all sources, too. `UNSEEN` and the two flags are [`SettlingParams`]' own, all others the
+/// core's.
+pub const SETTLING_CONSTANTS: [Constant; 41] = [
+    float("MARGIN", settling::MARGIN),
+    float("NEAR", settling::NEAR),
+    float("SHORT", settling::SHORT),
+    float("PARALLEL", settling::PARALLEL),
+    float("STIFF", settling::STIFF),
+    float("SKEW", settling::SKEW),
+    float("ONE_PLACE", settling::ONE_PLACE),
+    float("SKIN", settling::SKIN),
+    float("LEADS_ON", settling::LEADS_ON),
+    float("STRIDE", settling::STRIDE),
+    float("CONTACT", settling::CONTACT),
+    float("BEND", settling::BEND),
+    float("BLOCK_BEND", settling::BLOCK_BEND),
+    float("BEND_RADIUS", settling::BEND_RADIUS),
+    float("BEND_MARGIN", settling::BEND_MARGIN),
+    float("SOFT_BEND", settling::SOFT_BEND),
+    float("CONTACTS_MIN", settling::CONTACTS_MIN),
+    float("BENDS_MIN", settling::BENDS_MIN),
+    float("CROSSING", settling::CROSSING),
+    float("CROSSING_SHARE", settling::CROSSING_SHARE),
+    float("STEP_NEAR", settling::STEP_NEAR),
+    float("STEP_DIAMETER", settling::STEP_DIAMETER),
+    float("INERTIA", settling::INERTIA),
+    float("PRESS", settling::PRESS),
+    float("FREED", settling::FREED),
+    float("FREE_LEAST", settling::FREE_LEAST),
+    float("FREE_MOST", settling::FREE_MOST),
+    float("GAUSS_1", settling::GAUSS[0]),
+    float("GAUSS_2", settling::GAUSS[1]),
+    float("GAUSS_3", settling::GAUSS[2]),
+    float("GAUSS_OUTER", settling::GAUSS_WEIGHTS[0]),
+    float("GAUSS_MIDDLE", settling::GAUSS_WEIGHTS[1]),
+    float("UNSEEN", UNSEEN),
+    integer("BEND_PARTS", settling::BEND_PARTS),
+    integer("TAG_POINT", settling::tag::POINT),
+    integer("TAG_INTERVAL", settling::tag::INTERVAL),
+    integer("TAG_OPENS", settling::tag::OPENS),
+    integer("TAG_ENDS", settling::tag::ENDS),
+    integer("TAG_PINNED", settling::tag::PINNED),
+    integer("LENGTHS_FREE", SettlingParams::FREE),
+    integer("PLATES", SettlingParams::PLATES),
+];
+
+/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`] and [`SETTLING_CONSTANTS`], and of `FLATTENED`. Decimals are
 /// as short as give the same bits again.
 ///
 /// Where `flattened` is false the program is for round yarns alone, as wide as high at each control point: it takes no account of
@@ -83,7 +131,7 @@ pub const CONSTANTS: [Constant; 22] = [
 #[must_use]
 pub fn prelude(language: Language, flattened: bool) -> String {
     let mut text = String::new();
-    for Constant { name, value } in CONSTANTS {
+    for Constant { name, value } in CONSTANTS.into_iter().chain(SETTLING_CONSTANTS) {
         // Writing to a string does not fail.
         let _ = match (language, value) {
             (Language::OpenClC, Value::Float(value)) if value < 0.0 => {
@@ -107,7 +155,7 @@ mod tests {
     use super::*;
 
     /// The core's values, each written here once more: a number in place of a name above is found.
-    const OF_THE_CORE: [(&str, &[f32]); 14] = [
+    const OF_THE_CORE: [(&str, &[f32]); 50] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
         ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
@@ -122,6 +170,42 @@ mod tests {
         ("VERTICAL", &[VERTICAL]),
         ("NO_MIRROR", &[NO_MIRROR]),
         ("ROTATION_MINIMIZING", &[1.0]),
+        ("MARGIN", &[settling::MARGIN]),
+        ("NEAR", &[settling::NEAR]),
+        ("SHORT", &[settling::SHORT]),
+        ("PARALLEL", &[settling::PARALLEL]),
+        ("STIFF", &[settling::STIFF]),
+        ("SKEW", &[settling::SKEW]),
+        ("ONE_PLACE", &[settling::ONE_PLACE]),
+        ("SKIN", &[settling::SKIN]),
+        ("LEADS_ON", &[settling::LEADS_ON]),
+        ("STRIDE", &[settling::STRIDE]),
+        ("CONTACT", &[settling::CONTACT]),
+        ("BEND", &[settling::BEND]),
+        ("BLOCK_BEND", &[settling::BLOCK_BEND]),
+        ("BEND_RADIUS", &[settling::BEND_RADIUS]),
+        ("BEND_MARGIN", &[settling::BEND_MARGIN]),
+        ("SOFT_BEND", &[settling::SOFT_BEND]),
+        ("CONTACTS_MIN", &[settling::CONTACTS_MIN]),
+        ("BENDS_MIN", &[settling::BENDS_MIN]),
+        ("CROSSING", &[settling::CROSSING]),
+        ("CROSSING_SHARE", &[settling::CROSSING_SHARE]),
+        ("STEP_NEAR", &[settling::STEP_NEAR]),
+        ("STEP_DIAMETER", &[settling::STEP_DIAMETER]),
+        ("INERTIA", &[settling::INERTIA]),
+        ("PRESS", &[settling::PRESS]),
+        ("FREED", &[settling::FREED]),
+        ("FREE_LEAST", &[settling::FREE_LEAST]),
+        ("FREE_MOST", &[settling::FREE_MOST]),
+        ("GAUSS", &settling::GAUSS),
+        ("GAUSS_OUTER", &[5.0 / 18.0]),
+        ("GAUSS_MIDDLE", &[8.0 / 18.0]),
+        ("BEND_PARTS", &[settling::BEND_PARTS as f32]),
+        ("TAG_POINT", &[settling::tag::POINT as f32]),
+        ("TAG_INTERVAL", &[settling::tag::INTERVAL as f32]),
+        ("TAG_OPENS", &[settling::tag::OPENS as f32]),
+        ("TAG_ENDS", &[settling::tag::ENDS as f32]),
+        ("TAG_PINNED", &[settling::tag::PINNED as f32]),
     ];
 
     /// The texts are read again as their compilers do, and must have the core's bits.

@@ -49,7 +49,16 @@ impl Chord {
 pub const SHORT: f32 = 1e-15;
 
 /// The squared sine of the angle below which two chords are parallel.
-const PARALLEL: f32 = 1e-6;
+pub const PARALLEL: f32 = 1e-6;
+
+/// The least that Newton's method takes the second derivative of the squared distance for, over the squared velocity; and the least of
+/// the determinant, over the product of both.
+pub const STIFF: f32 = 0.2;
+/// See [`STIFF`].
+pub const SKEW: f32 = 0.05;
+
+/// Up to that distance two places are one, mm.
+pub const ONE_PLACE: f32 = 1e-9;
 
 /// Within 0 and 1; -0 becomes 0, as it does in vectors.
 #[allow(clippy::manual_clamp, reason = "clamp keeps -0")]
@@ -103,9 +112,9 @@ impl Pair<'_> {
         let squares = velocities.map(|velocity| velocity.length_squared());
         let slopes = [-start.way.dot(velocities[0]), start.way.dot(velocities[1])];
         let bends = [-start.way.dot(one.acceleration(at[0])), start.way.dot(other.acceleration(at[1]))];
-        let h = [0, 1].map(|side| (squares[side] + bends[side]).max(0.2 * squares[side]).max(SHORT));
+        let h = [0, 1].map(|side| (squares[side] + bends[side]).max(STIFF * squares[side]).max(SHORT));
         let mixed = -velocities[0].dot(velocities[1]);
-        let determinant = (h[0] * h[1] - mixed * mixed).max(0.05 * (h[0] * h[1]));
+        let determinant = (h[0] * h[1] - mixed * mixed).max(SKEW * (h[0] * h[1]));
         let step = [
             (mixed * slopes[1] - h[1] * slopes[0]) / determinant,
             (mixed * slopes[0] - h[0] * slopes[1]) / determinant,
@@ -123,7 +132,7 @@ impl Contact {
     #[inline]
     pub fn direction(&self, velocities: [Vec3; 2]) -> Vec3 {
         let square = velocities[0].cross(velocities[1]);
-        let way = if self.distance > 1e-9 { self.way } else { square };
+        let way = if self.distance > ONE_PLACE { self.way } else { square };
         let length = way.length_squared();
         if length > 0.0 { way * (1.0 / length.sqrt()) } else { Vec3::Z }
     }

@@ -3,6 +3,7 @@
 use glam::{IVec3, Vec3};
 
 use super::{Place, Scale};
+use crate::VERTICAL;
 use crate::spline::coefficients;
 
 /// The spline between two control points, from the first of them on, and how thick the yarn is there.
@@ -75,7 +76,7 @@ impl Interval {
         let tangent = self.velocity(u);
         let level = tangent.x * tangent.x + tangent.y * tangent.y;
         let square = level + tangent.z * tangent.z;
-        if level <= 1e-12 * square {
+        if level <= VERTICAL * square {
             return width;
         }
         // Side is (-y, x, 0), up is t x side, both over their lengths.
@@ -98,7 +99,8 @@ impl Interval {
     #[inline]
     pub fn arc_between(&self, from: f32, to: f32) -> f32 {
         let speed = |share: f32| self.velocity(from + (to - from) * share).length_squared().sqrt();
-        let mean = (speed(GAUSS[0]) + speed(GAUSS[2])) * (5.0 / 18.0) + speed(GAUSS[1]) * (8.0 / 18.0);
+        let mean =
+            (speed(GAUSS[0]) + speed(GAUSS[2])) * GAUSS_WEIGHTS[0] + speed(GAUSS[1]) * GAUSS_WEIGHTS[1];
         mean * (to - from)
     }
 
@@ -116,6 +118,9 @@ impl Interval {
 
 /// Places of Gauss's rule on \[0, 1\]: 1/2 and 1/2 ± √0.15.
 pub const GAUSS: [f32; 3] = [0.112_701_67, 0.5, 0.887_298_35];
+
+/// What the outer places and the middle one count.
+pub const GAUSS_WEIGHTS: [f32; 2] = [5.0 / 18.0, 8.0 / 18.0];
 
 /// What each of an interval's four control points counts at `u`: their sum is 1.
 #[must_use]

@@ -16,13 +16,14 @@ mod run;
 mod settler;
 mod strand;
 
-pub use contact::{Chord, Contact, MARGIN, NEAR, Pair, SHORT};
+pub use contact::{Chord, Contact, MARGIN, NEAR, ONE_PLACE, PARALLEL, Pair, SHORT, SKEW, STIFF};
 pub use error::SettlingError;
-pub use interval::{GAUSS, Interval, bends, weights};
-pub use neighbours::Listed;
+pub use interval::{GAUSS, GAUSS_WEIGHTS, Interval, bends, weights};
+pub use neighbours::{LEADS_ON, Listed};
 pub use pass::{
-    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, CONTACT, Form, Gathered, INERTIA, Pass, Pull,
-    SOFT_BEND, STRIDE, freed, moves,
+    BEND, BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BENDS_MIN, BLOCK_BEND, CONTACT, CONTACTS_MIN, CROSSING,
+    CROSSING_SHARE, FREE_LEAST, FREE_MOST, FREED, Form, Gathered, INERTIA, PRESS, Pass, Pull, SOFT_BEND,
+    STEP_DIAMETER, STEP_NEAR, STRIDE, freed, moves,
 };
 pub use place::{Place, Scale};
 pub use plan::{OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans};

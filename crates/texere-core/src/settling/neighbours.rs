@@ -23,6 +23,9 @@ pub struct Listed<'a> {
     pub pieces: u32,
 }
 
+/// Chords of one yarn are no neighbours where less than that is between them, in the sum of both radii: it can't come back so soon.
+pub const LEADS_ON: f32 = FRAC_PI_2;
+
 impl<'a> Listed<'a> {
     /// Chord `number` of all, on the interval that begins at `place`.
     #[must_use]
@@ -73,7 +76,7 @@ impl SettlingPlan {
         let gap = between + other.chord.span * shares[1] - one.chord.span * shares[0];
         let thickness = one.interval.thickest() + other.interval.thickest();
         let within = MARGIN * growth * thickness + SKIN * self.spans().diameter;
-        gap.length_squared() < within * within && !self.leads_on(one, other, image, FRAC_PI_2 * thickness)
+        gap.length_squared() < within * within && !self.leads_on(one, other, image, LEADS_ON * thickness)
     }
 
     /// Whether two chords lie so close along one yarn that less than `window` mm are between them.

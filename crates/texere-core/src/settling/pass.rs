@@ -54,9 +54,31 @@ pub const BLOCK_BEND: f32 = 5.0;
 /// How far the exact places of a contact may lie from those on the chords, in chords.
 pub const STRIDE: f32 = 0.6;
 
-/// Where lengths are free, an interval may become so many times as long as it was.
-const FREE_LEAST: f32 = 0.8;
-pub(super) const FREE_MOST: f32 = 1.15;
+/// Where lengths are free, an interval may become so many times as long as it was: the least.
+pub const FREE_LEAST: f32 = 0.8;
+/// And that is the most.
+pub const FREE_MOST: f32 = 1.15;
+
+/// The share of what it differs from the mean beside it that its length takes on in a pass.
+pub const FREED: f32 = 0.05;
+
+/// The share of what they lack that plates move points by in a pass.
+pub const PRESS: f32 = 0.1;
+
+/// The least weights of contacts, and of bends, that a mean is made with in the weighted form.
+pub const CONTACTS_MIN: f32 = 0.64;
+/// See [`CONTACTS_MIN`].
+pub const BENDS_MIN: f32 = 0.3;
+
+/// Yarns nearer than that, over both reaches, obey contact alone; what else pulls at them grows by that share with what is more.
+pub const CROSSING: f32 = 0.3;
+/// See [`CROSSING`].
+pub const CROSSING_SHARE: f32 = 2.5;
+
+/// The longest step: a share of the least distance that was seen, and one of the diameter.
+pub const STEP_NEAR: f32 = 0.2;
+/// See [`STEP_NEAR`].
+pub const STEP_DIAMETER: f32 = 0.1;
 
 /// What keeps a point where it is, against all that pulls at it in the block form.
 pub const INERTIA: f32 = 0.12;
@@ -222,7 +244,7 @@ impl Pass {
     pub fn press(&self, plan: &SettlingPlan, place: &Place) -> f32 {
         let Some(gap) = plan.plates() else { return 0.0 };
         let z = place.at[2] as f32 * plan.scale().unit();
-        (0.1 * self.ease * (z.abs() + place.halves.height() - 0.5 * gap).max(0.0)).copysign(-z)
+        (PRESS * self.ease * (z.abs() + place.halves.height() - 0.5 * gap).max(0.0)).copysign(-z)
     }
 }
 
@@ -253,11 +275,11 @@ impl Gathered<'_> {
             Form::Weighted => {
                 let [cx, cy, cz, contacts, bx, by, bz, bends, _] = sums;
                 // Yarns that are about to cross obey contact alone.
-                let apart = share((clearance / pass.growth - 0.3) * 2.5);
-                let bend = Vec3::new(bx, by, bz) * (BEND / bends.max(0.3));
+                let apart = share((clearance / pass.growth - CROSSING) * CROSSING_SHARE);
+                let bend = Vec3::new(bx, by, bz) * (BEND / bends.max(BENDS_MIN));
                 let mut others = bend + (pulls[1].length - pulls[2].length) + on;
                 others.z += press;
-                Vec3::new(cx, cy, cz) * (1.0 / contacts.max(0.64)) + others * apart
+                Vec3::new(cx, cy, cz) * (1.0 / contacts.max(CONTACTS_MIN)) + others * apart
             }
             Form::Block => {
                 let [x, y, z, xx, xy, xz, yy, yz, zz] = sums;
@@ -267,7 +289,7 @@ impl Gathered<'_> {
                 step
             }
         };
-        let most = (0.2 * near).min(0.1 * diameter);
+        let most = (STEP_NEAR * near).min(STEP_DIAMETER * diameter);
         let length = step.length_squared().sqrt();
         if length > most { step * (most / length) } else { step }
     }
@@ -294,7 +316,7 @@ fn solved([xx, xy, xz, yy, yz, zz]: [f32; 6], right: Vec3) -> Vec3 {
 pub fn freed(length: f32, start: f32, arcs: [Option<f32>; 3], tension: f32) -> f32 {
     let (sum, count) =
         arcs.into_iter().flatten().fold((0.0, 0.0), |(sum, count), arc| (sum + arc, count + 1.0));
-    let next = length + 0.05 * (sum / count - length) - tension * length;
+    let next = length + FREED * (sum / count - length) - tension * length;
     next.max(FREE_LEAST * start).min(FREE_MOST * start)
 }
 

@@ -1,0 +1,337 @@
+//! Tables of a settling. They go to a device as they are, and what devices found comes back in them.
+
+use bytemuck::{Pod, Zeroable};
+use texere_core::Ends;
+use texere_core::settling::{Length, Pass, Seen, SettlingPlan, Strand, tag};
+
+/// What stands for nothing on devices that may have no infinities: no yarn is as far away.
+pub const UNSEEN: f32 = 1e30;
+
+/// So many groups of lanes look for the extent of all chords at most.
+pub const EXTENT_GROUPS: u32 = 256;
+
+/// Cells of chords are at least so many, where there are fewer chords than that.
+const CELLS: u64 = 64;
+
+/// What is known of a place that settles, beside where it is.
+///
+/// **Shape**: four 4-byte values, 16 bytes. A table has one row more than places: its `first_chord` ends the last interval.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct PlaceRow {
+    /// Bits of [`tag`](texere_core::settling::tag).
+    pub tags: u32,
+    /// Its yarn.
+    pub yarn: u32,
+    /// The first chord of its interval.
+    pub first_chord: u32,
+    /// The length that its interval is to have at the start, mm.
+    pub start_length: f32,
+}
+
+const _: () = assert!(size_of::<PlaceRow>() == 16 && std::mem::offset_of!(PlaceRow, start_length) == 12);
+
+/// Where a yarn's places lie, and how it goes on.
+///
+/// **Shape**: eight 4-byte values, 32 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct StrandRow {
+    /// Its first control point's place.
+    pub first: u32,
+    /// Its control points.
+    pub points: u32,
+    /// 0 where it is open, 1 where it goes on.
+    pub goes_on: u32,
+    /// Repeats along x to where it goes on.
+    pub shift_x: i32,
+    /// And along y.
+    pub shift_y: i32,
+    /// Its length, in units of [`Spans::along`](texere_core::settling::Spans::along).
+    pub length: u32,
+    /// Unused, 0: keeps the row a multiple of 16 bytes.
+    pub padding: [u32; 2],
+}
+
+const _: () = assert!(size_of::<StrandRow>() == 32 && std::mem::offset_of!(StrandRow, length) == 20);
+
+/// What never changes of a chord.
+///
+/// **Shape**: four 4-byte values, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct ChordRow {
+    /// The place of its interval.
+    pub place: u32,
+    /// How far along its yarn it begins, in units of [`Spans::along`](texere_core::settling::Spans::along).
+    pub from: u32,
+    /// And where it ends.
+    pub to: u32,
+    /// The largest half width or half height of its interval, mm.
+    pub thickest: f32,
+}
+
+const _: () = assert!(size_of::<ChordRow>() == 16 && std::mem::offset_of!(ChordRow, thickest) == 12);
+
+/// What is the same for all launches of a list or a pass.
+///
+/// **Shape**: 24 4-byte values, 96 bytes, a multiple of 16 as a uniform buffer wants.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct SettlingParams {
+    /// Places, with those beyond yarns' ends.
+    pub places: u32,
+    /// Chords.
+    pub chords: u32,
+    /// Yarns.
+    pub yarns: u32,
+    /// Bits: [`SettlingParams::FREE`], [`SettlingParams::PLATES`].
+    pub flags: u32,
+    /// A unit of places, mm.
+    pub unit: f32,
+    /// Units in a mm.
+    pub per_mm: f32,
+    /// `s = (1 - tension) / 2` of the spline.
+    pub s: f32,
+    /// The share of their thickness that yarns have.
+    pub growth: f32,
+    /// The share of what eases the way to rest.
+    pub ease: f32,
+    /// The share of the last step that points go on with.
+    pub momentum: f32,
+    /// Half of what is between the plates, mm.
+    pub half_gap: f32,
+    /// What free lengths are drawn in by, a share; eased already.
+    pub tension: f32,
+    /// The repeat along x, units; 0 where there is none.
+    pub period_x: i32,
+    /// And along y.
+    pub period_y: i32,
+    /// Repeats in a mm along x; 0 where there are none.
+    pub frequency_x: f32,
+    /// And along y.
+    pub frequency_y: f32,
+    /// The mean diameter, mm.
+    pub diameter: f32,
+    /// A unit of lengths along yarns, mm.
+    pub along: f32,
+    /// Where cells begin along x, units.
+    pub low_x: i32,
+    /// And along y.
+    pub low_y: i32,
+    /// How wide a cell is, units: the last one takes what is left over.
+    pub size_x: u32,
+    /// And how high.
+    pub size_y: u32,
+    /// Cells along x.
+    pub count_x: u32,
+    /// And along y.
+    pub count_y: u32,
+}
+
+const _: () =
+    assert!(size_of::<SettlingParams>() == 96 && std::mem::offset_of!(SettlingParams, count_y) == 92);
+
+/// What a group has found of all chords.
+///
+/// **Shape**: eight 4-byte values, 32 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct ExtentRow {
+    /// The least middle of a chord along x, units.
+    pub low_x: i32,
+    /// And along y.
+    pub low_y: i32,
+    /// The largest one along x, units.
+    pub high_x: i32,
+    /// And along y.
+    pub high_y: i32,
+    /// The longest chord's squared length, mm².
+    pub longest: f32,
+    /// Unused.
+    pub padding: [u32; 3],
+}
+
+const _: () = assert!(size_of::<ExtentRow>() == 32 && std::mem::offset_of!(ExtentRow, longest) == 16);
+
+/// What a group, or all of them, has seen in a pass.
+///
+/// **Shape**: four `f32`, 16 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct SeenRow {
+    /// The least distance of two yarns over both reaches; [`UNSEEN`] where there are none.
+    pub clearance: f32,
+    /// The least radius of curvature, in diameters of the yarn, likewise.
+    pub radius: f32,
+    /// By how much an interval's length is off at most, a share.
+    pub length: f32,
+    /// The longest step that a point has taken, mm.
+    pub step: f32,
+}
+
+const _: () = assert!(size_of::<SeenRow>() == 16);
+
+impl PlaceRow {
+    /// All places of `plan`, and the row that ends the last one's interval.
+    #[must_use]
+    pub fn all(plan: &SettlingPlan) -> Vec<Self> {
+        let own = plan.tags().iter().zip(plan.yarns()).zip(plan.chords()).zip(plan.lengths());
+        let row =
+            |(((&tags, &yarn), &first_chord), &start_length)| Self { tags, yarn, first_chord, start_length };
+        let last = Self { first_chord: plan.counts().chords as u32, ..Self::default() };
+        own.map(row).chain([last]).collect()
+    }
+}
+
+impl StrandRow {
+    /// All yarns of `plan`.
+    #[must_use]
+    pub fn all(plan: &SettlingPlan) -> Vec<Self> {
+        let row = |strand: &Strand| {
+            let [shift_x, shift_y] = strand.shift().unwrap_or_default();
+            Self {
+                first: strand.first,
+                points: strand.points,
+                goes_on: (strand.ends != Ends::Open).into(),
+                shift_x,
+                shift_y,
+                length: strand.length,
+                padding: [0; 2],
+            }
+        };
+        plan.strands().iter().map(row).collect()
+    }
+}
+
+impl ChordRow {
+    /// All chords of `plan`, in the order of their numbers.
+    #[must_use]
+    pub fn all(plan: &SettlingPlan) -> Vec<Self> {
+        let mut rows = Vec::with_capacity(plan.counts().chords as usize);
+        for place in (0..plan.places().len()).filter(|&place| plan.tags()[place] & tag::INTERVAL != 0) {
+            let thickest = plan.interval(plan.places(), place).thickest();
+            let own = plan.chords()[place] as usize..plan.chords()[place + 1] as usize;
+            let row = |&[from, to]: &[u32; 2]| Self { place: place as u32, from, to, thickest };
+            rows.extend(plan.along()[own].iter().map(row));
+        }
+        rows
+    }
+}
+
+impl SettlingParams {
+    /// Bit of [`SettlingParams::flags`]: lengths are free.
+    pub const FREE: u32 = 1;
+    /// Bit of [`SettlingParams::flags`]: there are plates.
+    pub const PLATES: u32 = 2;
+
+    /// What `plan` says. Pass and cells are still to come.
+    ///
+    /// ```
+    /// use texere_core::settling::{Form, Pass};
+    /// use texere_core::{ControlPoint, Settling, SettlingPlan, Yarn, Yarns};
+    /// use texere_gpu::{PlaceRow, SettlingParams};
+    /// let mut yarns = Yarns::builder();
+    /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.25)));
+    /// let plan = SettlingPlan::new(&Settling::new(&yarns.build()?))?;
+    /// let pass = Pass { form: Form::Weighted, growth: 0.5, ease: 1.0, momentum: 0.8 };
+    /// let params = SettlingParams::new(&plan).with_pass(&plan, &pass);
+    /// assert_eq!((params.places, params.growth), (6, 0.5)); // three points, and three beyond the ends
+    /// assert_eq!(PlaceRow::all(&plan).len(), 7);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn new(plan: &SettlingPlan) -> Self {
+        let (counts, spans) = (plan.counts(), plan.spans());
+        let free = if let Length::Free { .. } = plan.length() { Self::FREE } else { 0 };
+        let [period_x, period_y] = plan.period();
+        let [frequency_x, frequency_y] = plan.frequency();
+        Self {
+            places: counts.places as u32,
+            chords: counts.chords as u32,
+            yarns: plan.strands().len() as u32,
+            flags: free | plan.plates().map_or(0, |_| Self::PLATES),
+            unit: plan.scale().unit(),
+            per_mm: 1.0 / plan.scale().unit(),
+            s: plan.s(),
+            half_gap: 0.5 * plan.plates().unwrap_or_default(),
+            period_x,
+            period_y,
+            frequency_x,
+            frequency_y,
+            diameter: spans.diameter,
+            along: spans.along,
+            ..Self::default()
+        }
+    }
+
+    /// The same for a pass of `plan`, or for listing neighbours at its growth.
+    #[must_use]
+    pub fn with_pass(self, plan: &SettlingPlan, pass: &Pass) -> Self {
+        let tension = if let Length::Free { tension } = plan.length() { tension * pass.ease } else { 0.0 };
+        let Pass { growth, ease, momentum, .. } = *pass;
+        Self { growth, ease, momentum, tension, ..self }
+    }
+
+    /// The same with the cells that chords are sorted into at a growth, where `rows` say how far they reach: as large that a
+    /// chord's neighbours lie in its own cell or one beside it, and no more of them than chords.
+    #[must_use]
+    pub fn with_cells(self, plan: &SettlingPlan, growth: f32, rows: &[ExtentRow]) -> Self {
+        let fold = |of: fn(&ExtentRow) -> i32, better: fn(i32, i32) -> i32| {
+            rows.iter().map(of).reduce(better).unwrap_or_default()
+        };
+        let low = [fold(|row| row.low_x, i32::min), fold(|row| row.low_y, i32::min)];
+        let high = [fold(|row| row.high_x, i32::max), fold(|row| row.high_y, i32::max)];
+        let longest = rows.iter().map(|row| row.longest).fold(0.0, f32::max).sqrt();
+        // Along an axis that repeats cells cover the repeat.
+        let span = [0, 1].map(|axis| match plan.period()[axis] {
+            0 => high[axis].abs_diff(low[axis]).saturating_add(1),
+            period => period.unsigned_abs(),
+        });
+        let mut size = u64::from((plan.cell(growth, longest) / plan.scale().unit()).ceil() as u32).max(1);
+        let count = loop {
+            let count = span.map(|span| (u64::from(span) / size).max(1));
+            if count[0] * count[1] <= plan.counts().chords.max(CELLS) {
+                break count.map(|count| count as u32);
+            }
+            size *= 2;
+        };
+        let [low_x, low_y] = [0, 1].map(|axis| if plan.period()[axis] > 0 { 0 } else { low[axis] });
+        Self {
+            low_x,
+            low_y,
+            size_x: span[0] / count[0],
+            size_y: span[1] / count[1],
+            count_x: count[0],
+            count_y: count[1],
+            growth,
+            ..self
+        }
+    }
+
+    /// How many cells there are.
+    #[must_use]
+    pub const fn cells(&self) -> u32 {
+        self.count_x * self.count_y
+    }
+}
+
+impl SeenRow {
+    /// What a pass has seen.
+    #[must_use]
+    pub fn seen(self) -> Seen {
+        let sight = |value: f32| if value < UNSEEN { value } else { f32::INFINITY };
+        Seen {
+            step: self.step,
+            clearance: sight(self.clearance),
+            radius: sight(self.radius),
+            length: self.length,
+        }
+    }
+}
+
+/// Whether a yarn of `plan` is anywhere not as wide as high: round ones alone have faster programs.
+#[must_use]
+pub fn settles_flattened(plan: &SettlingPlan) -> bool {
+    plan.places().iter().any(|place| place.halves.width() != place.halves.height())
+}

@@ -1,0 +1,237 @@
+//! Settling on every device of the registry, against `cpu-serial`: places, what was seen, neighbours, and whole courses.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use texere_conformance::REGISTRY;
+use texere_conformance::rest::{
+    Ends, Length, Start, StartYarn, Weave, check, settle_start, settling_plan, starts, woven,
+};
+use texere_core::settling::{Form, Pass, Place, Seen, Settler, Settling, SettlingPlan, tag};
+use texere_core::{Backend, BackendError, Boundary, ControlPoint, Schedule, Yarn, Yarns};
+use texere_cpu::SerialBackend;
+
+/// All devices that settle and are not held to the bits of `cpu-serial`; the schedule of a mesh makes no difference.
+fn devices() -> Vec<Arc<dyn Backend>> {
+    let near = REGISTRY.iter().filter(|entry| !entry.exact);
+    let devices = near.flat_map(|entry| entry.devices().0);
+    let one = settling_plan(&starts()[0]);
+    devices
+        .filter(|device| device.info().schedule == Schedule::PerRing)
+        .filter(|device| !matches!(device.settler(Arc::clone(&one)), Err(BackendError::NoSettling { .. })))
+        .collect()
+}
+
+/// A repeat of plain weave as it lies, its yarns flattened and pressed by plates.
+fn flattened_plain() -> SettlingPlan {
+    let start = woven("plain", Weave { size: 4, step: 1, order: 2, pitch: 2.2 }, Length::Free);
+    let mut yarns = Yarns::builder();
+    for yarn in &start.yarns {
+        let radius = yarn.radius as f32;
+        let point = |at: &DVec3| {
+            ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, radius)
+                .flattened(radius * 1.3, radius * 0.7)
+        };
+        yarns.yarn(Yarn::default(), &yarn.points.iter().map(point).collect::<Vec<_>>());
+    }
+    let yarns = yarns.build().expect("yarns");
+    let ends = start.yarns.iter().map(|yarn| match yarn.ends {
+        Ends::Repeats(shift) => texere_core::Ends::Repeats(shift),
+        Ends::Open | Ends::Closed => panic!("a repeat"),
+    });
+    let boundary = Boundary::new(yarns.layout(), start.repeat.map(|repeat| repeat as f32), ends.collect());
+    let settling = Settling::new(&yarns).boundary(boundary.expect("a boundary")).plates(0.3);
+    SettlingPlan::new(&settling).expect("a plan")
+}
+
+/// Two closed yarns, each through the other.
+fn linked_rings() -> SettlingPlan {
+    let mut rings = Yarns::builder();
+    for ring in 0..2 {
+        let point = |k: usize| {
+            let (sin, cos) = (k as f32 * std::f32::consts::TAU / 12.0).sin_cos();
+            let [y, z] = if ring == 0 { [sin, 0.0] } else { [0.0, sin] };
+            ControlPoint::new(ring as f32 + cos, y, z, 0.3)
+        };
+        rings.yarn(Yarn { closed: true, ..Yarn::default() }, &(0..12).map(point).collect::<Vec<_>>());
+    }
+    SettlingPlan::new(&Settling::new(&rings.build().expect("yarns"))).expect("a plan")
+}
+
+/// Plans that between them have everything that passes distinguish.
+fn plans() -> Vec<(&'static str, Arc<SettlingPlan>)> {
+    let names = ["jersey-3.6", "tuck-5", "lace-4x4", "jersey-5-piece", "queenscord-0.1", "plain-1.8-piece"];
+    let mut plans = names.map(|name| (name, settling_plan(&start(name)))).to_vec();
+    plans.push(("flattened, pressed", Arc::new(flattened_plain())));
+    plans.push(("linked rings", Arc::new(linked_rings())));
+    plans
+}
+
+/// A start of the list.
+fn start(name: &str) -> Start {
+    starts().into_iter().find(|start| start.name == name).expect("a start")
+}
+
+/// The places of all control points at the start, in order.
+fn places(plan: &SettlingPlan) -> Vec<Place> {
+    let all = plan.places().iter().zip(plan.tags());
+    all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
+}
+
+/// What eight passes came to.
+#[derive(Debug, PartialEq)]
+struct Course {
+    /// How many neighbours each list had.
+    neighbours: Vec<u64>,
+    seen: Vec<Seen>,
+    places: Vec<Place>,
+}
+
+/// Eight passes of either form, with neighbours listed twice.
+fn eight_passes(plan: &SettlingPlan, settler: &mut dyn Settler, form: Form) -> Result<Course, BackendError> {
+    let mut course = Course { neighbours: Vec::new(), seen: Vec::new(), places: places(plan) };
+    settler.upload(&course.places)?;
+    for number in 0..8 {
+        let growth = if number < 4 { 0.8 } else { 1.0 };
+        if number % 4 == 0 {
+            course.neighbours.push(settler.list(growth)?);
+        }
+        course.seen.push(settler.pass(&Pass { form, growth, ease: 0.5, momentum: 0.8 })?);
+    }
+    settler.read(&mut course.places)?;
+    Ok(course)
+}
+
+fn near(one: f32, other: f32) -> bool {
+    one == other || (one - other).abs() <= 1e-3 * one.abs().max(other.abs())
+}
+
+/// What is wrong with a device's course, by the reference's.
+fn faults(plan: &SettlingPlan, found: &Course, expected: &Course) -> Vec<String> {
+    let mut faults = Vec::new();
+    if found.neighbours != expected.neighbours {
+        faults.push(format!("neighbours: {:?}, not {:?}", found.neighbours, expected.neighbours));
+    }
+    for (pass, (found, expected)) in found.seen.iter().zip(&expected.seen).enumerate() {
+        let both = [
+            [found.step, expected.step],
+            [found.clearance, expected.clearance],
+            [found.radius, expected.radius],
+            // Of shares that are mere rounding none is right.
+            [found.length + 1e-3, expected.length + 1e-3],
+        ];
+        if both.iter().any(|[found, expected]| !near(*found, *expected)) {
+            faults.push(format!("seen by pass {pass}: {found:?}, not {expected:?}"));
+        }
+    }
+    let apart = |(found, expected): (&Place, &Place)| {
+        let way = found.units().as_dvec3() - expected.units().as_dvec3();
+        way.length() * f64::from(plan.scale().unit() / plan.spans().diameter)
+    };
+    let furthest = found.places.iter().zip(&expected.places).map(apart).fold(0.0, f64::max);
+    if furthest > 1e-4 {
+        faults.push(format!("a place is {furthest} diameters off"));
+    }
+    if found.places.iter().zip(&expected.places).any(|(found, expected)| found.halves != expected.halves) {
+        faults.push("a thickness has changed".into());
+    }
+    faults
+}
+
+#[test]
+fn devices_settle_as_the_reference_does() {
+    let devices = devices();
+    let mut failed = Vec::new();
+    for (name, plan) in plans() {
+        for form in [Form::Weighted, Form::Block] {
+            let mut serial = SerialBackend::new().settler(Arc::clone(&plan)).expect("a settler");
+            let reference = eight_passes(&plan, serial.as_mut(), form).expect("a course");
+            assert!(reference.places != places(&plan), "{name}: nothing moved");
+            for device in &devices {
+                let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
+                let found = eight_passes(&plan, settler.as_mut(), form).expect("a course");
+                let here = format!("{}: {name}, {form:?}", device.info().name);
+                for fault in faults(&plan, &found, &reference) {
+                    failed.push(format!("{here}: {fault}"));
+                }
+                // Also after other passes, and in another settler.
+                let again = eight_passes(&plan, settler.as_mut(), form).expect("a course");
+                if again != found {
+                    failed.push(format!("{here}: another end the second time"));
+                }
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// Places that are kept come back, and passes from there on are those that they were.
+#[test]
+fn what_was_kept_comes_back() {
+    let plan = settling_plan(&start("jersey-3.6"));
+    let begin = places(&plan);
+    for device in devices() {
+        let name = device.info().name.clone();
+        let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
+        settler.upload(&begin).expect("an upload");
+        settler.recall().expect("nothing to recall");
+        let mut read = vec![Place::default(); begin.len()];
+        settler.read(&mut read).expect("places");
+        assert!(read == begin, "{name}: an upload comes back as it was");
+        settler.list(1.0).expect("a list");
+        let pass = Pass { form: Form::Weighted, growth: 1.0, ease: 0.0, momentum: 0.8 };
+        let first = settler.pass(&pass).expect("a pass");
+        settler.keep().expect("places");
+        let second = settler.pass(&pass).expect("a pass");
+        assert!(second != first, "{name}: {second:?}");
+        settler.recall().expect("places");
+        settler.read(&mut read).expect("places");
+        assert!(read == begin, "{name}: a pass keeps what it saw, not what it made");
+        settler.list(1.0).expect("a list");
+        assert_eq!(settler.pass(&pass).expect("a pass"), first, "{name}: steps are forgotten");
+    }
+}
+
+/// The whole course, and a check of what came of it that shares no code with it.
+#[test]
+fn starts_come_to_rest_on_every_device() {
+    let mut failed = Vec::new();
+    for name in ["jersey-5", "jersey-3.6", "tuck-5", "queenscord-0.1"] {
+        let start = start(name);
+        for device in devices() {
+            let (rest, points) = settle_start(&start, device.as_ref(), |_, _| {});
+            let report = check(&start, &points);
+            if !rest.at_rest || report.clearance < 0.98 || report.bend < 0.58 {
+                failed.push(format!("{}: {name}: {rest:?} {report:?}", device.info().name));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// Yarns that nowhere meet have no neighbours, and see nothing.
+#[test]
+fn a_lone_yarn_sees_nothing() {
+    let yarn =
+        StartYarn { points: vec![DVec3::ZERO, DVec3::X, DVec3::X * 2.0], radius: 0.1, ends: Ends::Open };
+    let start = Start {
+        name: "one".into(),
+        yarns: vec![yarn],
+        repeat: [0.0; 2],
+        pinned: Vec::new(),
+        length: Length::Held,
+    };
+    let plan = settling_plan(&start);
+    for device in devices() {
+        let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
+        let course = eight_passes(&plan, settler.as_mut(), Form::Block).expect("a course");
+        let name = &device.info().name;
+        assert_eq!(course.neighbours, [0, 0], "{name}");
+        assert_eq!(
+            (course.seen[7].clearance, course.seen[7].radius),
+            (f32::INFINITY, f32::INFINITY),
+            "{name}"
+        );
+        assert!(course.places == places(&plan), "{name}: nothing pulls");
+    }
+}

@@ -2,43 +2,28 @@
 //!
 //! | file | entry points | work |
 //! |---|---|---|
-//! | `settling.wgsl` | | tables, places, intervals, chords, cells: stands before each of the others but the scan |
-//! | `settling_chords.wgsl` | `settling_chords`, `settling_extent` | chords from places, and how far they extend |
-//! | `settling_cells.wgsl` | `settling_cell_count`, `settling_cell_fill` | chords by cells |
-//! | `settling_scan.wgsl` | `settling_scan`, `settling_scan_add` | counts to where each begins |
-//! | `settling_neighbours.wgsl` | `settling_count`, `settling_fill` | each chord's neighbours |
-//! | `settling_pull.wgsl` | `settling_pull` | what pulls at the control points of an interval, in either form |
-//! | `settling_step.wgsl` | `settling_step` | the step that each control point takes, in either form |
-//! | `settling_ends.wgsl` | `settling_ends`, `settling_seen` | places beyond yarns' ends; what a pass has seen |
+//! | `settling.wgsl` | | tables, places, intervals, chords: stands before each of the others but the scan |
+//! | `settling_chords.wgsl` | `settling_chords` | where chords lie |
+//! | `settling_list.wgsl` | `settling_extent`, `settling_cell_count`, `settling_cell_fill`, `settling_count`, `settling_fill` | each chord's neighbours |
+//! | `settling_scan.wgsl` | `settling_scan`, `settling_scan_add` | sums of all counts before each one |
+//! | `settling_contact.wgsl` | | where two intervals come near one another: stands before the next one |
+//! | `settling_pull.wgsl` | `settling_pull_weighted`, `settling_pull_block`, `settling_seen` | what pulls at the control points of an interval; what a pass has seen |
+//! | `settling_step.wgsl` | `settling_step_weighted`, `settling_step_block`, `settling_ends` | the step that each control point takes; places beyond yarns' ends |
 
 use crate::{Resource, Shader, read, uniform, write};
 
-/// The source of a stage that both forms of a pass have, for one of them.
-macro_rules! form {
-    (weighted, $file:literal) => {
-        concat!(
-            include_str!("settling.wgsl"),
-            "const BLOCK = false;\nconst SLOT_PLANES = 8u;\n",
-            include_str!($file)
-        )
-    };
-    (block, $file:literal) => {
-        concat!(
-            include_str!("settling.wgsl"),
-            "const BLOCK = true;\nconst SLOT_PLANES = 9u;\n",
-            include_str!($file)
-        )
-    };
-}
-
-const CHORDS_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_chords.wgsl"));
-const CELLS_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_cells.wgsl"));
-const ENDS_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_ends.wgsl"));
+const LIST_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_list.wgsl"));
+const PULL_SOURCE: &str = concat!(
+    include_str!("settling.wgsl"),
+    include_str!("settling_contact.wgsl"),
+    include_str!("settling_pull.wgsl")
+);
+const STEP_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_step.wgsl"));
 
 /// Chords from places: a lane a chord.
 pub const CHORDS: Shader = Shader {
     entry_point: "settling_chords",
-    source: CHORDS_SOURCE,
+    source: concat!(include_str!("settling.wgsl"), include_str!("settling_chords.wgsl")),
     workgroup: 64,
     bindings: &[
         uniform(Resource::SettlingParams),
@@ -52,15 +37,15 @@ pub const CHORDS: Shader = Shader {
 /// The longest chord and where chords' middles lie: a row a workgroup.
 pub const EXTENT: Shader = Shader {
     entry_point: "settling_extent",
-    source: CHORDS_SOURCE,
+    source: LIST_SOURCE,
     workgroup: 256,
-    bindings: &[uniform(Resource::SettlingParams), write(Resource::Chords), write(Resource::Extents)],
+    bindings: &[uniform(Resource::SettlingParams), read(Resource::Chords), write(Resource::Extents)],
 };
 
 /// How many chords each cell has: a lane a chord.
 pub const CELL_COUNT: Shader = Shader {
     entry_point: "settling_cell_count",
-    source: CELLS_SOURCE,
+    source: LIST_SOURCE,
     workgroup: 64,
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Chords), write(Resource::CellStarts)],
 };
@@ -94,7 +79,7 @@ pub const SCAN_TILE: u32 = 1024;
 /// How many neighbours each chord has: a lane a chord.
 pub const COUNT: Shader = Shader {
     entry_point: "settling_count",
-    source: concat!(include_str!("settling.wgsl"), include_str!("settling_neighbours.wgsl")),
+    source: LIST_SOURCE,
     workgroup: 64,
     bindings: &[
         uniform(Resource::SettlingParams),
@@ -114,8 +99,8 @@ pub const FILL: Shader = Shader { entry_point: "settling_fill", ..COUNT };
 
 /// What pulls at intervals in the weighted form, and a row of what was seen for each workgroup: a lane a place.
 pub const PULL_WEIGHTED: Shader = Shader {
-    entry_point: "settling_pull",
-    source: form!(weighted, "settling_pull.wgsl"),
+    entry_point: "settling_pull_weighted",
+    source: PULL_SOURCE,
     workgroup: 64,
     bindings: &[
         uniform(Resource::SettlingParams),
@@ -131,12 +116,12 @@ pub const PULL_WEIGHTED: Shader = Shader {
 };
 
 /// The same in the block form.
-pub const PULL_BLOCK: Shader = Shader { source: form!(block, "settling_pull.wgsl"), ..PULL_WEIGHTED };
+pub const PULL_BLOCK: Shader = Shader { entry_point: "settling_pull_block", ..PULL_WEIGHTED };
 
 /// The step of each control point in the weighted form, and the longest one in each workgroup's row: a lane a place.
 pub const STEP_WEIGHTED: Shader = Shader {
-    entry_point: "settling_step",
-    source: form!(weighted, "settling_step.wgsl"),
+    entry_point: "settling_step_weighted",
+    source: STEP_SOURCE,
     workgroup: 64,
     bindings: &[
         uniform(Resource::SettlingParams),
@@ -152,12 +137,12 @@ pub const STEP_WEIGHTED: Shader = Shader {
 };
 
 /// The same in the block form.
-pub const STEP_BLOCK: Shader = Shader { source: form!(block, "settling_step.wgsl"), ..STEP_WEIGHTED };
+pub const STEP_BLOCK: Shader = Shader { entry_point: "settling_step_block", ..STEP_WEIGHTED };
 
 /// Places beyond yarns' ends: a lane a yarn.
 pub const ENDS: Shader = Shader {
     entry_point: "settling_ends",
-    source: ENDS_SOURCE,
+    source: STEP_SOURCE,
     workgroup: 64,
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Strands), write(Resource::NextPlaces)],
 };
@@ -165,9 +150,9 @@ pub const ENDS: Shader = Shader {
 /// What a pass has seen, from the rows of all workgroups: one workgroup.
 pub const SEEN: Shader = Shader {
     entry_point: "settling_seen",
-    source: ENDS_SOURCE,
+    source: PULL_SOURCE,
     workgroup: 256,
-    bindings: &[uniform(Resource::SettlingParams), read(Resource::SeenRows), write(Resource::Seen)],
+    bindings: &[uniform(Resource::SettlingParams), write(Resource::SeenRows), write(Resource::Seen)],
 };
 
 /// All of them.

@@ -1,8 +1,8 @@
-// Settling: the tables, and what intervals and chords are. Stands before each of the other settling shaders.
+// What the shaders of settling share: tables, places, intervals and chords. Stands before each of them.
 //
-// The formulas, the thresholds and the order of operations are those of texere-core's settling (place.rs, interval.rs,
-// strand.rs), and settling.cl is the twin of this file. Constants are the core's; texere-gpu writes them before this file, and
-// FLATTENED: false where all yarns are round, as wide as high everywhere.
+// The formulas, the thresholds and the order of operations are those of texere-core (settling/), and settling.cl is the twin
+// of this file. Core WGSL, no feature required. Constants are the core's; texere-gpu writes them before this file, and
+// FLATTENED: false where all yarns are round.
 
 // Rust: texere_gpu::PlaceRow, 16 bytes.
 struct PlaceRow {
@@ -70,35 +70,20 @@ struct SeenRow {
 }
 
 // A place (Rust: Place) is a vec4<i32>: x, y and z, units, and two half floats, half width and half height.
-// A row of chords (Rust: texere_gpu::ChordRow) is a vec4<u32>: the place of its interval, where along the yarn it begins and
-// ends, and the bits of the interval's thickest half.
-// A chord is two vec4<u32>: the bits of where it begins, and the place of its interval; the bits of its span and of the thickest
-// half, mm.
+// A row of the chord table (Rust: texere_gpu::ChordRow) is a vec4<u32>: the place of its interval, where along the yarn it begins
+// and ends, and the bits of the largest half of its interval.
+// A chord as passes see it is two vec4<u32>: where it begins and the place of its interval; the bits of its span, mm, and of the
+// largest half of its interval.
 
 @group(0) @binding(12) var<uniform> settling: SettlingParams;
 @group(0) @binding(13) var<storage, read> place_rows: array<PlaceRow>;
 
-// The inner product, summed from x on. That of WGSL may be summed in another order, and chords that are all but parallel amplify
-// what that changes.
-fn inner(a: vec3<f32>, b: vec3<f32>) -> f32 {
+fn dot3(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// ---- Places ----
-
-// A way of so many units, mm.
-fn length_of(way: vec3<i32>) -> vec3<f32> {
-    return vec3<f32>(way) * settling.unit;
-}
-
-// The step that a place takes for `step` mm, units.
-fn units_of(step: vec3<f32>) -> vec3<i32> {
-    return vec3<i32>(floor(step * settling.per_mm + 0.5));
-}
-
-// Half width and half height of a place.
-fn halves_of(place: vec4<i32>) -> vec2<f32> {
-    return unpack2x16float(bitcast<u32>(place.w));
+fn length3(a: vec3<f32>) -> f32 {
+    return sqrt(dot3(a, a));
 }
 
 // Within 0 and 1.
@@ -106,95 +91,93 @@ fn share(value: f32) -> f32 {
     return min(max(value, 0.0), 1.0);
 }
 
+// A way of so many units, mm.
+fn to_mm(units: vec3<i32>) -> vec3<f32> {
+    return vec3<f32>(units) * settling.unit;
+}
+
+// The units that a place moves by for a step in mm.
+fn to_units(step: vec3<f32>) -> vec3<i32> {
+    return vec3<i32>(floor(step * settling.per_mm + 0.5));
+}
+
+// Half width (x) and half height (y) at a place.
+fn halves(place: vec4<i32>) -> vec2<f32> {
+    return unpack2x16float(bitcast<u32>(place.w));
+}
+
 // ---- Interval: the spline between two places, from the first of them on ----
 
 struct Interval {
-    // Where it begins, units.
     start: vec3<i32>,
     // What goes with u, u^2 and u^3, mm.
     c1: vec3<f32>,
     c2: vec3<f32>,
     c3: vec3<f32>,
-    // Half width and half height at its beginning, and their growth to its end, mm.
+    // Half width and half height at its beginning, and their growth to its end.
     halves: vec2<f32>,
     growth: vec2<f32>,
 }
 
-// The interval between the second and the third of four places.
-fn interval_new(before: vec4<i32>, start: vec4<i32>, end: vec4<i32>, behind: vec4<i32>) -> Interval {
+// The interval that begins at the second of four places.
+fn interval_of(before: vec4<i32>, here: vec4<i32>, next: vec4<i32>, behind: vec4<i32>) -> Interval {
+    let a = to_mm(before.xyz - here.xyz);
+    let b = to_mm(next.xyz - here.xyz);
+    let c = to_mm(behind.xyz - here.xyz);
     let s = settling.s;
-    let a = length_of(before.xyz - start.xyz);
-    let b = length_of(end.xyz - start.xyz);
-    let c = length_of(behind.xyz - start.xyz);
     var interval: Interval;
-    interval.start = start.xyz;
+    interval.start = here.xyz;
     interval.c1 = (b - a) * s;
     interval.c2 = a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s;
     interval.c3 = (c - a) * s + b * (s - 2.0);
-    interval.halves = halves_of(start);
-    interval.growth = halves_of(end) - interval.halves;
+    interval.halves = halves(here);
+    interval.growth = halves(next) - interval.halves;
     return interval;
 }
 
-// The way from its beginning to `u`, mm.
 fn interval_offset(interval: Interval, u: f32) -> vec3<f32> {
     return (interval.c1 + (interval.c2 + interval.c3 * u) * u) * u;
 }
 
-// The first derivative by u, mm.
 fn interval_velocity(interval: Interval, u: f32) -> vec3<f32> {
     return interval.c1 + (interval.c2 * 2.0 + interval.c3 * (3.0 * u)) * u;
 }
 
-// The second derivative by u, mm.
 fn interval_acceleration(interval: Interval, u: f32) -> vec3<f32> {
     return interval.c2 * 2.0 + interval.c3 * (6.0 * u);
 }
 
-// How far the yarn reaches from its centreline at `u`, where it moves with `velocity`, in direction `towards`, mm.
-fn interval_reach(interval: Interval, u: f32, velocity: vec3<f32>, towards: vec3<f32>) -> f32 {
-    let halves = interval.halves + interval.growth * u;
+// How far the yarn reaches from its centreline at `u` towards a unit vector, mm.
+fn interval_reach(interval: Interval, u: f32, towards: vec3<f32>) -> f32 {
+    let width = interval.halves.x + interval.growth.x * u;
     if !FLATTENED {
-        return halves.x;
+        return width;
     }
-    let level = velocity.x * velocity.x + velocity.y * velocity.y;
-    let square = level + velocity.z * velocity.z;
-    if halves.x == halves.y || level <= VERTICAL * square {
-        return halves.x;
+    let height = interval.halves.y + interval.growth.y * u;
+    let tangent = interval_velocity(interval, u);
+    let level = tangent.x * tangent.x + tangent.y * tangent.y;
+    let square = level + tangent.z * tangent.z;
+    if width == height || level <= VERTICAL * square {
+        return width;
     }
     // Side is (-y, x, 0), up is t x side, both over their lengths.
-    let aside = (towards.y * velocity.x - towards.x * velocity.y) * halves.x;
-    let up = (towards.z * level - (towards.x * velocity.x + towards.y * velocity.y) * velocity.z) * halves.y;
+    let aside = (towards.y * tangent.x - towards.x * tangent.y) * width;
+    let up = (towards.z * level - (towards.x * tangent.x + towards.y * tangent.y) * tangent.z) * height;
     return sqrt((aside * aside + up * up / square) / level);
 }
 
-// What each of an interval's four control points counts, where one of them stands beyond an open yarn's end: those that it is
-// made of count instead.
-fn folded(tags: u32, weights: vec4<f32>) -> vec4<f32> {
-    var own = weights;
-    if (tags & TAG_OPENS) != 0u {
-        own.y += 2.0 * own.x;
-        own.z -= own.x;
-        own.x = 0.0;
-    }
-    if (tags & TAG_ENDS) != 0u {
-        own.z += 2.0 * own.w;
-        own.y -= own.w;
-        own.w = 0.0;
-    }
-    return own;
+// Its length by Gauss's rule of three places, mm.
+fn interval_arc(interval: Interval) -> f32 {
+    let outer = length3(interval_velocity(interval, GAUSS_1)) + length3(interval_velocity(interval, GAUSS_3));
+    return outer * GAUSS_OUTER + length3(interval_velocity(interval, GAUSS_2)) * GAUSS_MIDDLE;
 }
 
-// ---- Chords ----
+// ---- Chord ----
 
 struct Chord {
-    // Where it begins, units.
     at: vec3<i32>,
-    // The place of its interval.
     place: u32,
-    // From its beginning to its end, mm.
     span: vec3<f32>,
-    // The larger of its interval's half width and half height, at either end, mm.
     thickest: f32,
 }
 
@@ -202,38 +185,30 @@ fn chord_of(first: vec4<u32>, second: vec4<u32>) -> Chord {
     return Chord(bitcast<vec3<i32>>(first.xyz), first.w, bitcast<vec3<f32>>(second.xyz), bitcast<f32>(second.w));
 }
 
-// Its middle, units.
-fn middle_of(chord: Chord) -> vec3<i32> {
-    return chord.at + units_of(chord.span * 0.5);
+// Where a chord's middle lies, units.
+fn chord_middle(chord: Chord) -> vec3<i32> {
+    return chord.at + to_units(chord.span * 0.5);
 }
 
-// Two chords, as near as images of the second come to the first.
-struct Nearest {
-    // How many repeats away the image is.
-    image: vec2<i32>,
-    // Where they come nearest to one another: shares of both.
-    shares: vec2<f32>,
-    // The way from there to there, mm.
-    apart: vec3<f32>,
+// How many repeats away the image of a chord lies that is nearest to another one, which begins `way` before it.
+fn nearest_image(one: vec3<f32>, other: vec3<f32>, way: vec3<i32>) -> vec2<i32> {
+    let apart = to_mm(way) + (other - one) * 0.5;
+    let frequency = vec2(settling.frequency_x, settling.frequency_y);
+    return -vec2<i32>(floor(apart.xy * frequency + 0.5));
 }
 
-// A way of so many units to something, to the image of that so many repeats away.
+// A way to something, to the image of that so many repeats away.
 fn to_image(way: vec3<i32>, image: vec2<i32>) -> vec3<i32> {
     return vec3(way.x + image.x * settling.period_x, way.y + image.y * settling.period_y, way.z);
 }
 
-fn nearest(one: Chord, other: Chord) -> Nearest {
-    var found: Nearest;
-    let way = other.at - one.at;
-    let middles = length_of(way).xy + (other.span.xy - one.span.xy) * 0.5;
-    let frequency = vec2(settling.frequency_x, settling.frequency_y);
-    found.image = -vec2<i32>(floor(middles * frequency + 0.5));
-    let between = length_of(to_image(way, found.image));
-    let a = max(inner(one.span, one.span), SHORT);
-    let e = max(inner(other.span, other.span), SHORT);
-    let b = inner(one.span, other.span);
-    let c = -inner(one.span, between);
-    let f = -inner(other.span, between);
+// Shares of two chords where they come nearest to one another; the second begins `way` from the first.
+fn chords_nearest(one: vec3<f32>, other: vec3<f32>, way: vec3<f32>) -> vec2<f32> {
+    let a = max(dot3(one, one), SHORT);
+    let e = max(dot3(other, other), SHORT);
+    let b = dot3(one, other);
+    let c = -dot3(one, way);
+    let f = -dot3(other, way);
     let determinant = a * e - b * b;
     // Of parallel chords one place does as well as another.
     var first = 0.5;
@@ -241,32 +216,5 @@ fn nearest(one: Chord, other: Chord) -> Nearest {
         first = share((b * f - c * e) / determinant);
     }
     let second = share((b * first + f) / e);
-    found.shares = vec2(share((b * second - c) / a), second);
-    found.apart = between + other.span * found.shares.y - one.span * found.shares.x;
-    return found;
-}
-
-// ---- Cells of a grid over x and y ----
-
-// The cell of a coordinate along an axis.
-fn cell_along(at: i32, low: i32, size: u32, count: u32, period: i32) -> u32 {
-    var from_low = bitcast<u32>(at - low);
-    if period > 0 {
-        let rest = at % period;
-        from_low = bitcast<u32>(select(rest, rest + period, rest < 0));
-    }
-    return min(from_low / size, count - 1u);
-}
-
-// Column and row of the cell in which a chord's middle lies.
-fn cell_of(middle: vec3<i32>) -> vec2<u32> {
-    return vec2(
-        cell_along(middle.x, settling.low_x, settling.size_x, settling.count_x, settling.period_x),
-        cell_along(middle.y, settling.low_y, settling.size_y, settling.count_y, settling.period_y),
-    );
-}
-
-// Its number.
-fn cell_number(cell: vec2<u32>) -> u32 {
-    return cell.y * settling.count_x + cell.x;
+    return vec2(share((b * second - c) / a), second);
 }

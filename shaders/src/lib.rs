@@ -11,7 +11,7 @@
 //! | `caps.wgsl` | `caps` | closed ends |
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
-//! Those that make pictures are in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
+//! Those that bring yarns to rest are in [`settling`], those that make pictures in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
 //!
 //! ```
 //! use texere_shaders::{MESH, Resource};
@@ -20,6 +20,7 @@
 //! ```
 
 pub mod picture;
+pub mod settling;
 
 /// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every device allows, and there
 /// are as few workgroups without work as can be, since these take time too.
@@ -62,6 +63,44 @@ pub enum Resource {
     CapRows = 10,
     /// Cap indices, as `texere_gpu::cap_pattern` has them.
     CapPattern = 11,
+    /// `SettlingParams` of `texere-gpu`.
+    SettlingParams = 12,
+    /// `PlaceRow`s, and one more that ends the last interval's chords.
+    PlaceRows = 13,
+    /// `StrandRow`s.
+    Strands = 14,
+    /// `Place`s.
+    Places = 15,
+    /// `ChordRow`s.
+    ChordRows = 16,
+    /// Chords: where they begin and the place of their interval; their span and the thickest half.
+    Chords = 17,
+    /// Where each cell's chords begin, and the end of the last one's.
+    CellStarts = 18,
+    /// Chords, cell by cell.
+    CellChords = 19,
+    /// Where each chord's neighbours begin, and the end of the last one's.
+    ListStarts = 20,
+    /// Chords' neighbours.
+    Neighbours = 21,
+    /// The length that each interval is to have.
+    Lengths = 22,
+    /// What pulls at intervals' control points, plane by plane.
+    Pulls = 23,
+    /// What each workgroup of places has seen.
+    SeenRows = 24,
+    /// How far chords extend, by workgroup.
+    Extents = 25,
+    /// Counts that are scanned.
+    Numbers = 26,
+    /// The sum of each tile of them.
+    TileSums = 27,
+    /// The step that each place has taken last.
+    Steps = 28,
+    /// `Place`s after a pass.
+    NextPlaces = 29,
+    /// What a pass has seen.
+    Seen = 30,
 }
 
 /// How a shader uses a resource.

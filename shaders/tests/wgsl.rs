@@ -7,9 +7,18 @@ use std::mem::offset_of;
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
+use texere_core::settling::Place;
 use texere_core::{Block, ControlPoint, Ring, SectionPoint, Vertex};
-use texere_gpu::{CapRow, Language, Params, YarnRow, prelude};
-use texere_shaders::{ALL, Access, Shader, picture};
+use texere_gpu::{
+    CapRow, ChordRow, ExtentRow, Language, Params, PlaceRow, SeenRow, SettlingParams, StrandRow, YarnRow,
+    prelude,
+};
+use texere_shaders::{ALL, Access, Shader, picture, settling};
+
+/// Those of meshes and those of settling.
+fn all() -> impl Iterator<Item = &'static Shader> {
+    ALL.into_iter().chain(settling::ALL)
+}
 
 fn parse(shader: &Shader) -> (Module, ModuleInfo) {
     parse_source(&(prelude(Language::Wgsl, true) + shader.source))
@@ -86,6 +95,47 @@ fn tables_lie_as_in_rust() {
     }
 }
 
+#[test]
+fn tables_of_settling_lie_as_in_rust() {
+    // The scan needs none of them.
+    for shader in settling::ALL.into_iter().filter(|shader| shader.source.contains("struct SettlingParams")) {
+        let (module, _) = parse(shader);
+        same_layout!(&module, PlaceRow { tags, yarn, first_chord, start_length });
+        same_layout!(&module, StrandRow { first, points, goes_on, shift_x, shift_y, length, padding });
+        same_layout!(&module, ExtentRow { low_x, low_y, high_x, high_y, longest, padding });
+        same_layout!(&module, SeenRow { clearance, radius, length, step });
+        same_layout!(
+            &module,
+            SettlingParams {
+                places,
+                chords,
+                yarns,
+                flags,
+                unit,
+                per_mm,
+                s,
+                growth,
+                ease,
+                momentum,
+                half_gap,
+                tension,
+                period_x,
+                period_y,
+                frequency_x,
+                frequency_y,
+                diameter,
+                along,
+                low_x,
+                low_y,
+                size_x,
+                size_y,
+                count_x,
+                count_y
+            }
+        );
+    }
+}
+
 /// Bytes of an element, and whether they are floats, of each runtime array that a shader binds.
 fn elements(module: &Module) -> BTreeMap<u32, Vec<usize>> {
     let mut elements = BTreeMap::<u32, Vec<usize>>::new();
@@ -114,15 +164,37 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (9, size_of::<Ring>()),
         (10, size_of::<CapRow>()),
         (11, size_of::<u32>()),
+        (13, size_of::<PlaceRow>()),
+        (14, size_of::<StrandRow>()),
+        (15, size_of::<Place>()),
+        (16, size_of::<ChordRow>()),
+        // Two vectors a chord.
+        (17, 32),
+        (18, size_of::<u32>()),
+        (19, size_of::<u32>()),
+        (20, size_of::<u32>()),
+        (21, size_of::<u32>()),
+        (22, size_of::<f32>()),
+        (23, size_of::<f32>()),
+        (24, size_of::<SeenRow>()),
+        (25, size_of::<ExtentRow>()),
+        (26, size_of::<u32>()),
+        (27, size_of::<u32>()),
+        // A vector a step.
+        (28, 16),
+        (29, size_of::<Place>()),
+        (30, size_of::<SeenRow>()),
     ];
     let rust = BTreeMap::from(rust);
-    for shader in ALL {
+    for shader in all() {
         for (binding, strides) in elements(&parse(shader).0) {
             for stride in strides {
                 assert_eq!(rust[&binding] % stride, 0, "binding {binding} of {}", shader.entry_point);
             }
         }
     }
+    let offsets = [offset_of!(ChordRow, from), offset_of!(ChordRow, to), offset_of!(ChordRow, thickest)];
+    assert_eq!((offset_of!(Place, halves), offsets), (12, [4, 8, 12]));
     // Read as four components: the order of the fields matters. Half floats are read the lower one first.
     assert_eq!((offset_of!(ControlPoint, x), offset_of!(ControlPoint, z)), (0, 8));
     let point: [u32; 4] = bytemuck::cast(ControlPoint::default().flattened(1.0, 2.0));
@@ -140,7 +212,7 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
 
 #[test]
 fn entry_points_use_what_is_declared() {
-    for shader in ALL {
+    for shader in all() {
         let (module, info) = parse(shader);
         let index = module
             .entry_points
@@ -180,7 +252,7 @@ const WORKGROUP_BYTES: u32 = 16_384;
 
 #[test]
 fn workgroup_memory_is_what_every_device_has() {
-    for shader in ALL {
+    for shader in all() {
         let (module, info) = parse(shader);
         let index = module.entry_points.iter().position(|entry| entry.name == shader.entry_point).unwrap();
         let used = module.global_variables.iter().filter(|(handle, global)| {

@@ -109,6 +109,7 @@ impl ChunkMemory {
             Resource::Rings => &self.rings,
             Resource::Vertices => &self.vertices,
             Resource::Indices => &self.indices,
+            _ => &self.params,
         };
         buffer.buffer().as_entire_binding()
     }

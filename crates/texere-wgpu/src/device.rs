@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use texere_core::settling::{Settler, SettlingPlan};
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Session};
 use texere_gpu::device_name;
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
@@ -12,6 +13,7 @@ use crate::engine::WgpuEngine;
 use crate::gpu::Gpu;
 use crate::kernels::Opened;
 use crate::session::WgpuSession;
+use crate::settling::WgpuSettler;
 
 /// Most blocks of a launch: some 16 million rings, so that none takes long enough for a watchdog to end it, even on a
 /// software device.
@@ -165,6 +167,10 @@ impl Backend for WgpuBackend {
 
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
         Ok(Box::new(WgpuEngine::new(self.opened.clone(), plan)?))
+    }
+
+    fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
+        Ok(Box::new(WgpuSettler::new(self.opened.clone(), &self.info.limits, plan)?))
     }
 }
 

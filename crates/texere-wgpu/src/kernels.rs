@@ -10,6 +10,7 @@ use wgpu::{
 };
 
 use crate::gpu::Gpu;
+use crate::settling::SettlingKernels;
 
 /// A shader, ready to run.
 #[derive(Debug)]
@@ -28,6 +29,8 @@ pub(crate) struct Opened {
     pub(crate) round: Arc<Kernels>,
     /// For all yarns: compiled where they are wanted first.
     flattened: OnceLock<Arc<Kernels>>,
+    /// Those that bring yarns to rest, for round yarns alone and for all yarns, likewise.
+    settling: [OnceLock<Arc<SettlingKernels>>; 2],
 }
 
 impl Opened {
@@ -36,20 +39,36 @@ impl Opened {
     /// **Errors**: [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub(crate) fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
         let round = Arc::new(Kernels::new(&gpu, schedule, false)?);
-        Ok(Self { gpu, schedule, round, flattened: OnceLock::new() })
+        Ok(Self { gpu, schedule, round, flattened: OnceLock::new(), settling: <_>::default() })
     }
 
     /// The shaders for all yarns.
     ///
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn flattened(&self) -> Result<Arc<Kernels>, BackendError> {
-        if let Some(compiled) = self.flattened.get() {
-            return Ok(compiled.clone());
-        }
-        let compiled = Arc::new(Kernels::new(&self.gpu, self.schedule, true)?);
-        // Another session may have been faster.
-        Ok(self.flattened.get_or_init(|| compiled).clone())
+        compiled(&self.flattened, || Kernels::new(&self.gpu, self.schedule, true))
     }
+
+    /// The shaders that bring yarns to rest, for all yarns or for round ones alone.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn settling(&self, flattened: bool) -> Result<Arc<SettlingKernels>, BackendError> {
+        let place = &self.settling[usize::from(flattened)];
+        compiled(place, || SettlingKernels::new(&self.gpu, flattened))
+    }
+}
+
+/// What is in `place`, compiled first where nothing is.
+fn compiled<T>(
+    place: &OnceLock<Arc<T>>,
+    compile: impl FnOnce() -> Result<T, BackendError>,
+) -> Result<Arc<T>, BackendError> {
+    if let Some(compiled) = place.get() {
+        return Ok(compiled.clone());
+    }
+    let compiled = Arc::new(compile()?);
+    // Another session may have been faster.
+    Ok(place.get_or_init(|| compiled).clone())
 }
 
 /// The shaders of a schedule.
@@ -100,7 +119,7 @@ impl Kernels {
 }
 
 impl Kernel {
-    fn new(gpu: &Gpu, shader: &'static Shader, flattened: bool) -> Result<Self, BackendError> {
+    pub(crate) fn new(gpu: &Gpu, shader: &'static Shader, flattened: bool) -> Result<Self, BackendError> {
         gpu.check_alive()?;
         let compiled = gpu.caught(|| {
             let layout = bind_group_layout(gpu, shader);
@@ -218,5 +237,12 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // - Divisors are `subdivisions + 1`, `sides`, at least 3, a lane's share `across`, at least 1 since a ring has at
     //   least 5 stores, and constants above zero; a yarn's `rings - 1` divides as a
     //   float only.
+    // In the shaders of settling it is so, too:
+    // - Places, yarns and chords come from the tables of a settling's plan, bound whole, as is all that has a number each. An
+    //   interval's place has one before it and two behind it. A number that a shader has written is below what it numbers, or
+    //   is compared with that before it is used: cells, places in them, neighbours, and where lists end.
+    // - Loops run up to a count, to a place in a list, which is below its buffer's length, or over halves of a workgroup.
+    // - Divisors of whole numbers are a cell's size and the counts of cells, which the host makes at least 1, and a repeat where
+    //   there is one.
     unsafe { gpu.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }
 }

@@ -36,6 +36,7 @@ mod mapped;
 mod per_yarn;
 mod readback;
 mod session;
+mod settling;
 mod tables;
 mod upload;
 

@@ -1,0 +1,54 @@
+//! The compiled shaders that bring yarns to rest.
+
+use texere_core::BackendError;
+use texere_core::settling::Form;
+use texere_shaders::settling;
+
+use crate::gpu::Gpu;
+use crate::kernels::Kernel;
+
+/// All of them, for round yarns alone or for all yarns.
+#[derive(Debug)]
+pub(crate) struct SettlingKernels {
+    pub(super) chords: Kernel,
+    pub(super) extent: Kernel,
+    pub(super) cell_count: Kernel,
+    pub(super) cell_fill: Kernel,
+    pub(super) scan: Kernel,
+    pub(super) scan_add: Kernel,
+    pub(super) count: Kernel,
+    pub(super) fill: Kernel,
+    weighted: [Kernel; 2],
+    block: [Kernel; 2],
+    pub(super) ends: Kernel,
+    pub(super) seen: Kernel,
+}
+
+impl SettlingKernels {
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn new(gpu: &Gpu, flattened: bool) -> Result<Self, BackendError> {
+        let kernel = |shader| Kernel::new(gpu, shader, flattened);
+        Ok(Self {
+            chords: kernel(&settling::CHORDS)?,
+            extent: kernel(&settling::EXTENT)?,
+            cell_count: kernel(&settling::CELL_COUNT)?,
+            cell_fill: kernel(&settling::CELL_FILL)?,
+            scan: kernel(&settling::SCAN)?,
+            scan_add: kernel(&settling::SCAN_ADD)?,
+            count: kernel(&settling::COUNT)?,
+            fill: kernel(&settling::FILL)?,
+            weighted: [kernel(&settling::PULL_WEIGHTED)?, kernel(&settling::STEP_WEIGHTED)?],
+            block: [kernel(&settling::PULL_BLOCK)?, kernel(&settling::STEP_BLOCK)?],
+            ends: kernel(&settling::ENDS)?,
+            seen: kernel(&settling::SEEN)?,
+        })
+    }
+
+    /// What pulls at intervals and the steps that come of it, in a form.
+    pub(super) fn form(&self, form: Form) -> &[Kernel; 2] {
+        match form {
+            Form::Weighted => &self.weighted,
+            Form::Block => &self.block,
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Settling on a wgpu device.
+
+mod answer;
+mod kernels;
+mod lists;
+mod memory;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use texere_core::settling::{Pass, Place, Seen, Settler, SettlingPlan};
+use texere_core::{BackendError, Limits};
+use texere_gpu::{SeenRow, SettlingParams, settles_flattened};
+use wgpu::{CommandEncoder, ComputePassDescriptor};
+
+use crate::gpu::Gpu;
+use crate::kernels::{Kernel, Opened};
+use crate::readback::Readback;
+
+use answer::Answer;
+pub(crate) use kernels::SettlingKernels;
+use memory::Memory;
+
+/// A settling on one device.
+#[derive(Debug)]
+pub(crate) struct WgpuSettler {
+    opened: Arc<Opened>,
+    kernels: Arc<SettlingKernels>,
+    plan: Arc<SettlingPlan>,
+    params: SettlingParams,
+    memory: Memory,
+    /// Where everything was kept.
+    kept: Option<wgpu::Buffer>,
+    answer: Answer,
+    readback: Readback,
+}
+
+impl WgpuSettler {
+    /// Takes memory for a plan.
+    pub(crate) fn new(
+        opened: Arc<Opened>,
+        limits: &Limits,
+        plan: Arc<SettlingPlan>,
+    ) -> Result<Self, BackendError> {
+        let gpu = &opened.gpu;
+        gpu.probe()?;
+        let memory = Memory::new(gpu, limits, &plan)?;
+        Ok(Self {
+            kernels: opened.settling(settles_flattened(&plan))?,
+            params: SettlingParams::new(&plan),
+            answer: Answer::new(gpu, memory.extents.size())?,
+            readback: Readback::new(gpu)?,
+            kept: None,
+            memory,
+            plan,
+            opened,
+        })
+    }
+
+    fn send_params(&self) -> Result<(), BackendError> {
+        self.opened.gpu.write(&self.memory.params, 0, bytemuck::bytes_of(&self.params))
+    }
+
+    /// Lanes of a workgroup each, for all chords.
+    fn chord_groups(&self, kernel: &Kernel) -> u32 {
+        kernel.workgroups(self.params.chords)
+    }
+
+    /// Hands over what copies between buffers on the device `record` records.
+    fn copy(&self, record: impl FnOnce(&mut CommandEncoder)) -> Result<(), BackendError> {
+        let gpu = &self.opened.gpu;
+        gpu.scoped("Queue::submit", || {
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            record(&mut encoder);
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
+}
+
+/// Records kernels one after the other, each with its workgroups.
+fn record(gpu: &Gpu, memory: &Memory, encoder: &mut CommandEncoder, kernels: &[(&Kernel, u32)]) {
+    let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
+    for (kernel, workgroups) in kernels {
+        let bound = kernel.bind(gpu, |resource| memory.resource(resource));
+        kernel.record(&mut pass, &bound, *workgroups);
+    }
+}
+
+impl Settler for WgpuSettler {
+    fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
+        let (gpu, memory) = (&self.opened.gpu, &self.memory);
+        gpu.write(&memory.places, 0, bytemuck::cast_slice(&self.plan.padded(places)))?;
+        gpu.write(&memory.lengths, 0, bytemuck::cast_slice(self.plan.lengths()))?;
+        self.copy(|encoder| encoder.clear_buffer(&memory.steps, 0, None))
+    }
+
+    fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
+        self.find_cells(growth)?;
+        self.find_neighbours()
+    }
+
+    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+        self.params = self.params.with_pass(&self.plan, pass);
+        self.send_params()?;
+        let (gpu, memory, kernels) = (&self.opened.gpu, &self.memory, &self.kernels);
+        let [pull, step] = kernels.form(pass.form);
+        let places = pull.workgroups(self.params.places);
+        let yarns = kernels.ends.workgroups(self.params.yarns);
+        let seen: Vec<SeenRow> = self.answer.after(gpu, &memory.whole, (0, 1), |encoder| {
+            let stages = [
+                (&kernels.chords, self.chord_groups(&kernels.chords)),
+                (pull, places),
+                (step, places),
+                (&kernels.ends, yarns),
+                (&kernels.seen, 1),
+            ];
+            record(gpu, memory, encoder, &stages);
+        })?;
+        std::mem::swap(&mut self.memory.places, &mut self.memory.seen);
+        Ok(seen.first().map_or(Seen::NOTHING, |row| row.seen()))
+    }
+
+    fn keep(&mut self) -> Result<(), BackendError> {
+        let kept = match self.kept.take() {
+            Some(kept) => kept,
+            None => self.memory.more_places(&self.opened.gpu)?,
+        };
+        self.copy(|encoder| encoder.copy_buffer_to_buffer(&self.memory.seen, 0, &kept, 0, kept.size()))?;
+        self.kept = Some(kept);
+        Ok(())
+    }
+
+    fn recall(&mut self) -> Result<(), BackendError> {
+        let Some(kept) = &self.kept else { return Ok(()) };
+        let memory = &self.memory;
+        self.copy(|encoder| {
+            encoder.copy_buffer_to_buffer(kept, 0, &memory.places, 0, kept.size());
+            encoder.clear_buffer(&memory.steps, 0, None);
+        })
+    }
+
+    fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError> {
+        let mut all = Vec::with_capacity(self.params.places as usize);
+        let source = &self.memory.places;
+        let _ =
+            self.readback.lend(&self.opened.gpu, source, self.params.places, &mut |_, piece: &[Place]| {
+                all.extend_from_slice(piece);
+                ControlFlow::Continue(())
+            })?;
+        self.plan.unpad(&all, places);
+        Ok(())
+    }
+}

@@ -1,0 +1,140 @@
+// Where two intervals come near one another, and what that does. After settling.wgsl, before settling_pull.wgsl.
+//
+// settling_contact.cl is the twin of this file, and contact.rs and the first half of pass.rs of texere-core the definition.
+
+// What an interval has seen: the least distance to another yarn, mm, the same over both reaches, the least radius of curvature in
+// diameters.
+struct Sight {
+    near: f32,
+    clearance: f32,
+    radius: f32,
+}
+
+// Places on both intervals, and the way from the first to the second.
+struct Contact {
+    at: vec2<f32>,
+    way: vec3<f32>,
+    distance: f32,
+}
+
+// What a contact asks of the first interval's points: the step of its place, mm, the direction to the other yarn, and what each of
+// the four counts. The weights are all 0 where it asks for nothing.
+struct Push {
+    back: vec3<f32>,
+    direction: vec3<f32>,
+    weights: vec4<f32>,
+}
+
+// What four points count, where one of them stands beyond an open yarn's end: those that it is made of count instead.
+fn folded(tags: u32, weights: vec4<f32>) -> vec4<f32> {
+    var own = weights;
+    if (tags & TAG_OPENS) != 0u {
+        own = vec4(0.0, own.y + 2.0 * own.x, own.z - own.x, own.w);
+    }
+    if (tags & TAG_ENDS) != 0u {
+        own = vec4(own.x, own.y - own.w, own.z + 2.0 * own.w, 0.0);
+    }
+    return own;
+}
+
+// What each of an interval's four control points counts at `u`.
+fn point_weights(u: f32) -> vec4<f32> {
+    let s = settling.s;
+    let square = u * u;
+    let cube = u * u * u;
+    let before = (2.0 * square - u - cube) * s;
+    let behind = (cube - square) * s;
+    let end = s * u + (3.0 - 2.0 * s) * square + (s - 2.0) * cube;
+    return vec4(before, 1.0 - before - end - behind, end, behind);
+}
+
+fn contact_at(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>) -> Contact {
+    let between = way + interval_offset(other, at.y) - interval_offset(one, at.x);
+    return Contact(at, between, length3(between));
+}
+
+// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes nearer.
+fn refined(one: Interval, other: Interval, way: vec3<f32>, at: vec2<f32>, stride: vec2<f32>) -> Contact {
+    let start = contact_at(one, other, way, at);
+    let velocity = interval_velocity(one, at.x);
+    let other_velocity = interval_velocity(other, at.y);
+    let squares = vec2(dot3(velocity, velocity), dot3(other_velocity, other_velocity));
+    let slopes = vec2(-dot3(start.way, velocity), dot3(start.way, other_velocity));
+    let bends = vec2(
+        -dot3(start.way, interval_acceleration(one, at.x)),
+        dot3(start.way, interval_acceleration(other, at.y)),
+    );
+    let h = max(max(squares + bends, squares * STIFF), vec2(SHORT));
+    let mixed = -dot3(velocity, other_velocity);
+    let determinant = max(h.x * h.y - mixed * mixed, SKEW * (h.x * h.y));
+    let step = vec2(mixed * slopes.y - h.y * slopes.x, mixed * slopes.x - h.x * slopes.y) / determinant;
+    let next = at + min(max(step, -stride), stride);
+    let found = contact_at(one, other, way, vec2(share(next.x), share(next.y)));
+    if found.distance < start.distance {
+        return found;
+    }
+    return start;
+}
+
+// The direction from the first place to the second. Where both are one, it is square to both yarns.
+fn contact_direction(contact: Contact, velocity: vec3<f32>, other_velocity: vec3<f32>) -> vec3<f32> {
+    var way = contact.way;
+    if contact.distance <= ONE_PLACE {
+        way = vec3(
+            velocity.y * other_velocity.z - velocity.z * other_velocity.y,
+            velocity.z * other_velocity.x - velocity.x * other_velocity.z,
+            velocity.x * other_velocity.y - velocity.y * other_velocity.x,
+        );
+    }
+    let square = dot3(way, way);
+    if square > 0.0 {
+        return way * (1.0 / sqrt(square));
+    }
+    return vec3(0.0, 0.0, 1.0);
+}
+
+// A chord of an interval that meets its neighbours.
+struct Meeting {
+    interval: Interval,
+    tags: u32,
+    // Which of the interval's chords it is, and one over how many there are.
+    chord: Chord,
+    piece: f32,
+    step: f32,
+}
+
+// What chord `number` does to the one that meets it.
+fn meet(one: Meeting, number: u32, sight: ptr<function, Sight>) -> Push {
+    var push: Push;
+    let span = one.chord.span;
+    let there = chord_of(chords[2u * number], chords[2u * number + 1u]);
+    let way = there.at - one.chord.at;
+    let image = nearest_image(span, there.span, way);
+    let between = to_mm(to_image(way, image));
+    let shares = chords_nearest(span, there.span, between);
+    let distance = length3(between + there.span * shares.y - span * shares.x);
+    let most = one.chord.thickest + there.thickest;
+    if distance >= NEAR * MARGIN * settling.growth * most {
+        (*sight).near = min((*sight).near, distance);
+        (*sight).clearance = min((*sight).clearance, distance / most);
+        return push;
+    }
+    let other = interval_at(there.place);
+    let first = place_rows[there.place].first_chord;
+    let step = vec2(one.step, 1.0 / f32(place_rows[there.place + 1u].first_chord - first));
+    let at = (vec2(one.piece, f32(number - first)) + shares) * step;
+    let apart = to_mm(to_image(other.start - one.interval.start, image));
+    let contact = refined(one.interval, other, apart, at, step * STRIDE);
+    let velocity = interval_velocity(one.interval, contact.at.x);
+    let direction = contact_direction(contact, velocity, interval_velocity(other, contact.at.y));
+    let reach = interval_reach(one.interval, contact.at.x, direction) + interval_reach(other, contact.at.y, direction);
+    (*sight).near = min((*sight).near, contact.distance);
+    (*sight).clearance = min((*sight).clearance, contact.distance / reach);
+    let lacks = MARGIN * settling.growth * reach - contact.distance;
+    if lacks > 0.0 {
+        push.back = direction * (-0.5 * lacks);
+        push.direction = direction;
+        push.weights = folded(one.tags, point_weights(contact.at.x));
+    }
+    return push;
+}

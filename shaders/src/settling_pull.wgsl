@@ -1,0 +1,337 @@
+// What pulls at the four control points of each interval. After settling.wgsl and settling_contact.wgsl.
+//
+// settling_pull.cl is the twin of this file, and Pull in texere-core's pass.rs the definition. Sums go in the order of the lists.
+//
+// Lanes write planes of one number for each place, side by side. First those of the slots: in the weighted form eight for each,
+// contacts' ways (x, y, z) and their weights, and the same of bends; in the block form nine, all ways and the squares of their
+// directions (xx, xy, xz, yy, yz, zz). Then half of the length that is too much (x, y, z), the length, the least distance
+// seen, mm, and the least one over both reaches.
+
+@group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
+@group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;
+@group(0) @binding(20) var<storage, read> starts: array<u32>;
+@group(0) @binding(21) var<storage, read> neighbours: array<u32>;
+@group(0) @binding(22) var<storage, read> lengths: array<f32>;
+@group(0) @binding(23) var<storage, read_write> pulls: array<f32>;
+@group(0) @binding(24) var<storage, read_write> rows: array<SeenRow>;
+@group(0) @binding(30) var<storage, read_write> whole: array<SeenRow>;
+
+const WEIGHTED_SLOT = 8u;
+const BLOCK_SLOT = 9u;
+
+fn interval_at(place: u32) -> Interval {
+    return interval_of(places[place - 1u], places[place], places[place + 1u], places[place + 2u]);
+}
+
+// A bend at one place of an interval: where it would go, and how much each point counts. All 0 where it may bend so.
+struct Bend {
+    towards: vec3<f32>,
+    way: vec3<f32>,
+    bends: vec4<f32>,
+    sum: f32,
+}
+
+fn bend_at(interval: Interval, tags: u32, u: f32, sight: ptr<function, Sight>) -> Bend {
+    var bend: Bend;
+    let velocity = interval_velocity(interval, u);
+    let acceleration = interval_acceleration(interval, u);
+    let square = max(dot3(velocity, velocity), SHORT);
+    let across = acceleration - velocity * (dot3(acceleration, velocity) / square);
+    let size = length3(across);
+    if size <= 0.0 {
+        return bend;
+    }
+    bend.towards = across * (1.0 / size);
+    let diameter = 2.0 * interval_reach(interval, u, bend.towards);
+    (*sight).radius = min((*sight).radius, square / (size * diameter));
+    let limit = square / (BEND_MARGIN * BEND_RADIUS * diameter * max(settling.growth, 0.5));
+    let soft = SOFT_BEND * settling.ease;
+    let excess = select(soft * size, size - limit + soft * limit, size > limit);
+    if excess > 0.0 {
+        let s = settling.s;
+        let before = (4.0 - 6.0 * u) * s;
+        let behind = (6.0 * u - 2.0) * s;
+        let end = 2.0 * (3.0 - 2.0 * s) + 6.0 * (s - 2.0) * u;
+        bend.bends = folded(tags, vec4(before, -(before + end + behind), end, behind));
+        bend.sum = abs(bend.bends.x) + abs(bend.bends.y) + abs(bend.bends.z) + abs(bend.bends.w);
+        bend.way = bend.towards * (excess / (bend.sum * bend.sum));
+    }
+    return bend;
+}
+
+// An interval whose chords meet their neighbours one after the other.
+fn meeting_at(place: u32) -> Meeting {
+    var one: Meeting;
+    one.interval = interval_at(place);
+    one.tags = place_rows[place].tags;
+    one.step = 1.0 / f32(place_rows[place + 1u].first_chord - place_rows[place].first_chord);
+    return one;
+}
+
+fn turn_to_chord(one: ptr<function, Meeting>, number: u32, piece: u32) {
+    (*one).chord = chord_of(chords[2u * number], chords[2u * number + 1u]);
+    (*one).piece = f32(piece);
+}
+
+// Where the list of chord `number` ends.
+fn list_end(number: u32) -> u32 {
+    return min(starts[number + 1u], arrayLength(&neighbours));
+}
+
+// The direction from an interval's beginning to its end.
+fn interval_along(interval: Interval) -> vec3<f32> {
+    let chord = interval.c1 + interval.c2 + interval.c3;
+    let length = length3(chord);
+    if length > 0.0 {
+        return chord * (1.0 / length);
+    }
+    return vec3(0.0);
+}
+
+fn write(plane: u32, place: u32, value: f32) {
+    pulls[plane * settling.places + place] = value;
+}
+
+// Writes what an interval knows of itself from plane `plane` on, and gives back its share in what all have seen.
+fn write_own(plane: u32, place: u32, length: vec3<f32>, arc: f32, sight: Sight) -> SeenRow {
+    let wanted = lengths[place];
+    write(plane, place, length.x);
+    write(plane + 1u, place, length.y);
+    write(plane + 2u, place, length.z);
+    write(plane + 3u, place, arc);
+    write(plane + 4u, place, sight.near);
+    write(plane + 5u, place, sight.clearance);
+    return SeenRow(sight.clearance, sight.radius, abs(arc - wanted) / wanted, 0.0);
+}
+
+fn write_way(plane: u32, place: u32, way: vec4<f32>) {
+    write(plane, place, way.x);
+    write(plane + 1u, place, way.y);
+    write(plane + 2u, place, way.z);
+    write(plane + 3u, place, way.w);
+}
+
+// Writes four slots' ways and weights from plane `plane` of each on.
+fn write_ways(plane: u32, place: u32, ways: Ways) {
+    write_way(plane, place, ways.a);
+    write_way(WEIGHTED_SLOT + plane, place, ways.b);
+    write_way(2u * WEIGHTED_SLOT + plane, place, ways.c);
+    write_way(3u * WEIGHTED_SLOT + plane, place, ways.d);
+}
+
+// The sums of ways and weights at each of the four points.
+struct Ways {
+    a: vec4<f32>,
+    b: vec4<f32>,
+    c: vec4<f32>,
+    d: vec4<f32>,
+}
+
+// The same with one more, where the four count `ways` of `way`, and weigh `weights`.
+fn add_ways(sums: Ways, way: vec3<f32>, ways: vec4<f32>, weights: vec4<f32>) -> Ways {
+    return Ways(
+        sums.a + vec4(way * ways.x, weights.x),
+        sums.b + vec4(way * ways.y, weights.y),
+        sums.c + vec4(way * ways.z, weights.z),
+        sums.d + vec4(way * ways.w, weights.w),
+    );
+}
+
+fn pull_weighted(place: u32) -> SeenRow {
+    var one = meeting_at(place);
+    var sight = Sight(UNSEEN, UNSEEN, UNSEEN);
+    let first = place_rows[place].first_chord;
+    let pieces = place_rows[place + 1u].first_chord - first;
+    var ways: Ways;
+    for (var piece = 0u; piece < pieces; piece++) {
+        turn_to_chord(&one, first + piece, piece);
+        let end = list_end(first + piece);
+        for (var next = starts[first + piece]; next < end; next++) {
+            let number = neighbours[next];
+            // A number that is no chord's ends a list.
+            if number >= settling.chords {
+                break;
+            }
+            let push = meet(one, number, &sight);
+            if any(push.weights != vec4(0.0)) {
+                ways = add_ways(ways, push.back, push.weights, CONTACT * abs(push.weights));
+            }
+        }
+    }
+    write_ways(0u, place, ways);
+    ways = Ways();
+    let parts = max(pieces, BEND_PARTS);
+    for (var part = 0u; part <= parts; part++) {
+        let bend = bend_at(one.interval, one.tags, f32(part) / f32(parts), &sight);
+        if bend.sum > 0.0 {
+            ways = add_ways(ways, bend.way, -bend.bends, abs(bend.bends) / bend.sum);
+        }
+    }
+    write_ways(4u, place, ways);
+    let arc = interval_arc(one.interval);
+    let length = interval_along(one.interval) * ((arc - lengths[place]) * 0.5);
+    return write_own(4u * WEIGHTED_SLOT, place, length, arc, sight);
+}
+
+// All ways at a point, and the squares of their directions.
+struct Block {
+    way: vec3<f32>,
+    // xx, xy, xz and yy, yz, zz.
+    with_x: vec3<f32>,
+    others: vec3<f32>,
+}
+
+fn add_block(slot: Block, way: vec3<f32>, direction: vec3<f32>, weight: f32) -> Block {
+    let counted = direction * weight;
+    return Block(
+        slot.way + way,
+        slot.with_x + direction * counted.x,
+        slot.others + vec3(counted.y * direction.y, counted.y * direction.z, counted.z * direction.z),
+    );
+}
+
+struct Blocks {
+    a: Block,
+    b: Block,
+    c: Block,
+    d: Block,
+}
+
+// The same with one more, where the four count `ways` of `way`, and `weights` in `direction`.
+fn add_blocks(sums: Blocks, way: vec3<f32>, ways: vec4<f32>, direction: vec3<f32>, weights: vec4<f32>) -> Blocks {
+    return Blocks(
+        add_block(sums.a, way * ways.x, direction, weights.x),
+        add_block(sums.b, way * ways.y, direction, weights.y),
+        add_block(sums.c, way * ways.z, direction, weights.z),
+        add_block(sums.d, way * ways.w, direction, weights.w),
+    );
+}
+
+fn write_block(plane: u32, place: u32, slot: Block) {
+    write_way(plane, place, vec4(slot.way, slot.with_x.x));
+    write_way(plane + 4u, place, vec4(slot.with_x.yz, slot.others.xy));
+    write(plane + 8u, place, slot.others.z);
+}
+
+fn pull_block(place: u32) -> SeenRow {
+    var one = meeting_at(place);
+    var sight = Sight(UNSEEN, UNSEEN, UNSEEN);
+    let first = place_rows[place].first_chord;
+    let pieces = place_rows[place + 1u].first_chord - first;
+    var blocks: Blocks;
+    for (var piece = 0u; piece < pieces; piece++) {
+        turn_to_chord(&one, first + piece, piece);
+        let end = list_end(first + piece);
+        for (var next = starts[first + piece]; next < end; next++) {
+            let number = neighbours[next];
+            if number >= settling.chords {
+                break;
+            }
+            let push = meet(one, number, &sight);
+            if any(push.weights != vec4(0.0)) {
+                let weights = CONTACT * abs(push.weights);
+                blocks = add_blocks(blocks, push.back, push.weights, push.direction, weights);
+            }
+        }
+    }
+    let parts = max(pieces, BEND_PARTS);
+    for (var part = 0u; part <= parts; part++) {
+        let bend = bend_at(one.interval, one.tags, f32(part) / f32(parts), &sight);
+        if bend.sum > 0.0 {
+            let weights = abs(bend.bends) / bend.sum * BLOCK_BEND;
+            blocks = add_blocks(blocks, bend.way, -bend.bends * BLOCK_BEND, bend.towards, weights);
+        }
+    }
+    let arc = interval_arc(one.interval);
+    let along = interval_along(one.interval);
+    let length = along * ((arc - lengths[place]) * 0.5);
+    blocks.b = add_block(blocks.b, length, along, 1.0);
+    blocks.c = add_block(blocks.c, -length, along, 1.0);
+    write_block(0u, place, blocks.a);
+    write_block(BLOCK_SLOT, place, blocks.b);
+    write_block(2u * BLOCK_SLOT, place, blocks.c);
+    write_block(3u * BLOCK_SLOT, place, blocks.d);
+    return write_own(4u * BLOCK_SLOT, place, length, arc, sight);
+}
+
+// The least of what both have seen near, the most of lengths and steps.
+fn seen_by_both(one: SeenRow, other: SeenRow) -> SeenRow {
+    return SeenRow(
+        min(one.clearance, other.clearance),
+        min(one.radius, other.radius),
+        max(one.length, other.length),
+        max(one.step, other.step),
+    );
+}
+
+const SETTLING_PULL_GROUP = 64u;
+
+var<workgroup> lane_seen: array<SeenRow, SETTLING_PULL_GROUP>;
+
+// Writes the row of a group: what its lanes have seen, by a fixed tree.
+fn write_row(number: u32, lane: u32, seen: SeenRow) {
+    lane_seen[lane] = seen;
+    for (var reach = SETTLING_PULL_GROUP / 2u; reach > 0u; reach /= 2u) {
+        workgroupBarrier();
+        if lane < reach {
+            lane_seen[lane] = seen_by_both(lane_seen[lane], lane_seen[lane + reach]);
+        }
+    }
+    if lane == 0u && number * SETTLING_PULL_GROUP < settling.places {
+        rows[number] = lane_seen[0];
+    }
+}
+
+fn has_interval(place: u32) -> bool {
+    return place < settling.places && (place_rows[place].tags & TAG_INTERVAL) != 0u;
+}
+
+// A lane a place: the pulls of the interval that begins there. A row of what it has seen from each group.
+@compute @workgroup_size(SETTLING_PULL_GROUP)
+fn settling_pull_weighted(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+                          @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    let place = number * SETTLING_PULL_GROUP + lane;
+    var seen = SeenRow(UNSEEN, UNSEEN, 0.0, 0.0);
+    if has_interval(place) {
+        seen = pull_weighted(place);
+    }
+    write_row(number, lane, seen);
+}
+
+// The same in the block form.
+@compute @workgroup_size(SETTLING_PULL_GROUP)
+fn settling_pull_block(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+                       @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    let place = number * SETTLING_PULL_GROUP + lane;
+    var seen = SeenRow(UNSEEN, UNSEEN, 0.0, 0.0);
+    if has_interval(place) {
+        seen = pull_block(place);
+    }
+    write_row(number, lane, seen);
+}
+
+const SETTLING_SEEN_GROUP = 256u;
+
+var<workgroup> lane_rows: array<SeenRow, SETTLING_SEEN_GROUP>;
+
+// One group: what all rows have seen.
+@compute @workgroup_size(SETTLING_SEEN_GROUP)
+fn settling_seen(@builtin(local_invocation_index) lane: u32) {
+    let count = (settling.places + SETTLING_PULL_GROUP - 1u) / SETTLING_PULL_GROUP;
+    var seen = SeenRow(UNSEEN, UNSEEN, 0.0, 0.0);
+    for (var row = lane; row < count; row += SETTLING_SEEN_GROUP) {
+        seen = seen_by_both(seen, rows[row]);
+    }
+    lane_rows[lane] = seen;
+    for (var reach = SETTLING_SEEN_GROUP / 2u; reach > 0u; reach /= 2u) {
+        workgroupBarrier();
+        if lane < reach {
+            lane_rows[lane] = seen_by_both(lane_rows[lane], lane_rows[lane + reach]);
+        }
+    }
+    if lane == 0u {
+        whole[0] = lane_rows[0];
+    }
+}

@@ -88,6 +88,12 @@ pub const SETTLING_ENDS: EntryPoint = EntryPoint { name: "settling_ends", group:
 /// What all groups have seen: one workgroup.
 pub const SETTLING_SEEN: EntryPoint = EntryPoint { name: "settling_seen", group: 256 };
 
+/// Control points from places, where yarns have come to rest: a lane a place.
+pub const SETTLING_POINTS: EntryPoint = EntryPoint { name: "settling_points", group: 64 };
+
+/// How far control points reach: any number of workgroups, each of which takes every so many places.
+pub const SETTLING_BOUNDS: EntryPoint = EntryPoint { name: "settling_bounds", group: 256 };
+
 /// Sources that are compiled together, and the entry points in them.
 #[derive(Debug, Clone, Copy)]
 pub struct Program {
@@ -130,6 +136,7 @@ pub const SETTLING: Program = Program {
         include_str!("settling_contact.cl"),
         include_str!("settling_pull.cl"),
         include_str!("settling_step.cl"),
+        include_str!("settling_points.cl"),
     ],
     entries: &[
         SETTLING_CHORDS,
@@ -145,6 +152,8 @@ pub const SETTLING: Program = Program {
         SETTLING_STEP,
         SETTLING_ENDS,
         SETTLING_SEEN,
+        SETTLING_POINTS,
+        SETTLING_BOUNDS,
     ],
 };
 

@@ -101,6 +101,12 @@ pub enum Resource {
     NextPlaces = 29,
     /// What a pass has seen.
     Seen = 30,
+    /// `SettledParams` of `texere-gpu`.
+    SettledParams = 31,
+    /// `SettledRow`s.
+    SettledRows = 32,
+    /// How far control points reach, by workgroup.
+    Bounds = 33,
 }
 
 /// How a shader uses a resource.

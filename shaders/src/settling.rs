@@ -155,8 +155,37 @@ pub const SEEN: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), write(Resource::SeenRows), write(Resource::Seen)],
 };
 
+const POINTS_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_points.wgsl"));
+
+/// Control points from places, where yarns have come to rest: a lane a place.
+pub const POINTS: Shader = Shader {
+    entry_point: "settling_points",
+    source: POINTS_SOURCE,
+    workgroup: 64,
+    bindings: &[
+        write(Resource::Points),
+        read(Resource::PlaceRows),
+        read(Resource::Places),
+        uniform(Resource::SettledParams),
+        read(Resource::SettledRows),
+    ],
+};
+
+/// How far control points reach: any number of workgroups, each of which takes every so many places.
+pub const BOUNDS: Shader = Shader {
+    entry_point: "settling_bounds",
+    source: POINTS_SOURCE,
+    workgroup: 256,
+    bindings: &[
+        read(Resource::PlaceRows),
+        read(Resource::Places),
+        uniform(Resource::SettledParams),
+        write(Resource::Bounds),
+    ],
+};
+
 /// All of them.
-pub const ALL: [&Shader; 14] = [
+pub const ALL: [&Shader; 16] = [
     &CHORDS,
     &EXTENT,
     &CELL_COUNT,
@@ -171,4 +200,6 @@ pub const ALL: [&Shader; 14] = [
     &STEP_BLOCK,
     &ENDS,
     &SEEN,
+    &POINTS,
+    &BOUNDS,
 ];

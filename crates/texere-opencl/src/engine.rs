@@ -1,5 +1,6 @@
 //! The work on a plan on an OpenCL device: memory and timings; the kernels are the schedule's.
 
+use std::any::Any;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -7,15 +8,16 @@ use std::time::Instant;
 use opencl3::command_queue::{finish, flush};
 use texere_core::{
     BackendError, Chunk, ControlPoint, Engine, Limits, MeshMut, MeshPiece, MeshSink, Plan, RingSink,
-    ScanChunk, ScanChunks, Slot, StageTimings, Vertex,
+    ScanChunk, ScanChunks, Settler, Slot, StageTimings, Traffic, Vertex, take_over_host, zeroed,
 };
-use texere_gpu::{YarnEnds, check_schedule};
+use texere_gpu::{YarnEnds, check_schedule, settles_flattened};
 
 use crate::buffers::Staging;
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Stage};
 use crate::kernels::{Kernels, Launches, Work, kernels};
 use crate::opened::Opened;
+use crate::settling::OpenClSettler;
 use crate::tables::Tables;
 use crate::upload::Outbox;
 
@@ -63,6 +65,15 @@ impl OpenClEngine {
         self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
+    /// Takes the kernels for all yarns where one is not round.
+    fn choose_kernels(&mut self) -> Result<(), BackendError> {
+        if self.ends.flattened() && !self.flattened {
+            self.kernels = kernels(&self.opened, &self.plan, true)?;
+            self.flattened = true;
+        }
+        Ok(())
+    }
+
     /// Starts the kernels of a stage, notes their time, and lets the memory of `slot` wait for them.
     fn run(
         &mut self,
@@ -94,18 +105,33 @@ impl Engine for OpenClEngine {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError> {
         let started = Instant::now();
         let Self { opened, plan, ends, tables, outbox, clock, .. } = self;
+        if ends.are_missing(plan, first, points.len()) {
+            let mut padded: Vec<ControlPoint> =
+                zeroed("control points", plan.padded_offsets().last().copied().unwrap_or(0))?;
+            tables.points.read_now(opened, 0, &mut padded)?;
+            ends.renew(plan, &padded);
+        }
         let upload = ends.upload(plan, first, points);
         let sent = outbox.send(opened, &mut tables.points, &upload, clock)?;
         ends.keep(&upload);
-        if ends.flattened() && !self.flattened {
-            self.kernels = kernels(opened, plan, true)?;
-            self.flattened = true;
-        }
         if !opened.profiled {
             finish(opened.queue.raw()).map_err(opened.failed("clFinish"))?;
             clock.add(Stage::Upload, started.elapsed());
         }
+        self.choose_kernels()?;
         Ok(sent)
+    }
+
+    fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<Traffic, BackendError> {
+        let Some(own) = (settler as &mut dyn Any).downcast_mut::<OpenClSettler>() else {
+            return take_over_host(self, settler);
+        };
+        if !own.write_points(&self.opened, &self.plan, &self.tables.points)? {
+            return take_over_host(self, settler);
+        }
+        self.ends.forget(settles_flattened(own.plan()));
+        self.choose_kernels()?;
+        Ok(Traffic::default())
     }
 
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {

@@ -1,20 +1,22 @@
 //! The work on a plan on a wgpu device: memory, launches and reading.
 
+use std::any::Any;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere_core::{
     BackendError, Chunk, ControlPoint, Engine, MeshPiece, MeshSink, Plan, RingSink, ScanChunk, ScanChunks,
-    Slot, StageTimings,
+    Settler, Slot, StageTimings, Traffic, take_over_host, zeroed,
 };
-use texere_gpu::{YarnEnds, check_schedule, part_rows};
+use texere_gpu::{YarnEnds, check_schedule, part_rows, settles_flattened};
 
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Timed};
 use crate::kernels::{Kernel, Kernels, Opened};
 use crate::per_yarn;
 use crate::readback::Readback;
+use crate::settling::WgpuSettler;
 use crate::tables::Tables;
 use crate::upload::Outbox;
 
@@ -65,6 +67,29 @@ impl WgpuEngine {
         self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
+    /// Takes the kernels for all yarns where one is not round.
+    fn choose_kernels(&mut self) -> Result<(), BackendError> {
+        if self.ends.flattened() {
+            self.kernels = self.opened.flattened()?;
+        }
+        Ok(())
+    }
+
+    /// Reads yarns' ends from the device where an upload of so many points needs some that never were here.
+    fn find_ends(&mut self, first: u64, count: usize) -> Result<(), BackendError> {
+        if self.ends.are_missing(&self.plan, first, count) {
+            let total = self.plan.padded_offsets().last().copied().unwrap_or(0);
+            let mut padded: Vec<ControlPoint> = zeroed("control points", total)?;
+            let (gpu, source) = (&self.opened.gpu, &self.tables.points);
+            let _ = self.readback.lend(gpu, source, total as u32, &mut |first, piece| {
+                padded[first as usize..][..piece.len()].copy_from_slice(piece);
+                ControlFlow::Continue(())
+            })?;
+            self.ends.renew(&self.plan, &padded);
+        }
+        Ok(())
+    }
+
     /// Runs kernels one after the other on the chunk in `slot`, each with its workgroups.
     fn run(&mut self, slot: Slot, timed: Timed, kernels: &[(&Kernel, u32)]) -> Result<(), BackendError> {
         let (gpu, memory, tables) = (&self.opened.gpu, &self.memory[slot.index()], &self.tables);
@@ -81,6 +106,7 @@ impl WgpuEngine {
 impl Engine for WgpuEngine {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError> {
         let start = Instant::now();
+        self.find_ends(first, points.len())?;
         let upload = self.ends.upload(&self.plan, first, points);
         let gpu = &self.opened.gpu;
         let sent = self.outbox.send(gpu, &self.tables.points, &upload)?;
@@ -88,11 +114,21 @@ impl Engine for WgpuEngine {
         gpu.scoped("Queue::submit", || gpu.queue.submit([]))?;
         gpu.probe()?;
         self.ends.keep(&upload);
-        if self.ends.flattened() {
-            self.kernels = self.opened.flattened()?;
-        }
+        self.choose_kernels()?;
         self.upload_time += start.elapsed();
         Ok(sent)
+    }
+
+    fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<Traffic, BackendError> {
+        let Some(own) = (settler as &mut dyn Any).downcast_mut::<WgpuSettler>() else {
+            return take_over_host(self, settler);
+        };
+        if !own.write_points(&self.opened, &self.plan, &self.tables.points)? {
+            return take_over_host(self, settler);
+        }
+        self.ends.forget(settles_flattened(own.plan()));
+        self.choose_kernels()?;
+        Ok(Traffic::default())
     }
 
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {

@@ -35,7 +35,8 @@ impl Tables {
             rolls.reserve(gpu, 4 * (plan.layout().yarns().len() as u64 + plan.block_count()))?;
         }
         Ok(Self {
-            points: gpu.buffer("control points", plan.resident_bytes(), input)?,
+            // Read where a part of settled points is edited.
+            points: gpu.buffer("control points", plan.resident_bytes(), input | BufferUsages::COPY_SRC)?,
             yarns: table("yarns", bytemuck::cast_slice(&YarnRow::all(plan)))?,
             rolls,
             outlines: table("outlines", bytemuck::cast_slice(plan.outlines()))?,

@@ -3,12 +3,13 @@
 mod list;
 mod memory;
 mod pass;
+mod points;
 
 use std::sync::Arc;
 
 use opencl3::command_queue::flush;
 use texere_core::settling::{Pass, Place, Seen, Settler, SettlingPlan};
-use texere_core::{BackendError, Limits};
+use texere_core::{BackendError, Limits, Plan, zeroed};
 use texere_gpu::{SettlingParams, settles_flattened};
 use texere_kernels::EntryPoint;
 
@@ -18,6 +19,7 @@ use crate::opened::Opened;
 use list::ListKernels;
 use memory::Memory;
 use pass::PassKernels;
+use points::PointKernels;
 
 /// The settler of an [`OpenClBackend`](crate::OpenClBackend).
 #[derive(Debug)]
@@ -26,6 +28,7 @@ pub(crate) struct OpenClSettler {
     params: SettlingParams,
     list: ListKernels,
     pass: PassKernels,
+    points: PointKernels,
     memory: Memory,
     /// Whether a pass has seen places, and whether such were kept.
     seen: bool,
@@ -48,6 +51,7 @@ impl OpenClSettler {
             params: SettlingParams::new(&plan),
             list: ListKernels::new(&kernel)?,
             pass: PassKernels::new(&kernel)?,
+            points: PointKernels::new(&kernel)?,
             memory: Memory::new(&opened, limits, &plan)?,
             seen: false,
             kept: false,
@@ -55,12 +59,32 @@ impl OpenClSettler {
             opened,
         })
     }
+
+    /// Writes all control points, padded as `plan` says, to `points` where that lies in the same context. Says whether it does.
+    pub(crate) fn write_points(
+        &mut self,
+        opened: &Arc<Opened>,
+        plan: &Plan,
+        points: &Buffer,
+    ) -> Result<bool, BackendError> {
+        let own = Arc::ptr_eq(opened, &self.opened);
+        if own {
+            self.points.write(opened, (&self.plan, &self.memory), plan, points)?;
+        }
+        Ok(own)
+    }
 }
 
 impl Settler for OpenClSettler {
+    fn plan(&self) -> &Arc<SettlingPlan> {
+        &self.plan
+    }
+
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
         let Self { opened, memory, plan, .. } = self;
-        memory.places.write(opened, &opened.queue, 0, &plan.padded(places), None)?;
+        let mut padded: Vec<Place> = zeroed("places", plan.counts().places)?;
+        plan.pad(places.iter().copied(), &mut padded);
+        memory.places.write(opened, &opened.queue, 0, &padded, None)?;
         memory.lengths.write(opened, &opened.queue, 0, plan.lengths(), None)?;
         memory.steps.clear(opened)
     }
@@ -109,10 +133,14 @@ impl Settler for OpenClSettler {
     }
 
     fn read(&mut self, places: &mut [Place]) -> Result<(), BackendError> {
-        let mut all = vec![Place::default(); self.params.places as usize];
+        let mut all: Vec<Place> = zeroed("places", self.plan.counts().places)?;
         self.memory.places.read_now(&self.opened, 0, &mut all)?;
         self.plan.unpad(&all, places);
         Ok(())
+    }
+
+    fn bounds(&mut self) -> Result<[[i32; 3]; 2], BackendError> {
+        self.points.bounds(&self.opened, &self.plan, &self.memory)
     }
 }
 

@@ -22,6 +22,8 @@ pub(crate) struct SettlingKernels {
     block: [Kernel; 2],
     pub(super) ends: Kernel,
     pub(super) seen: Kernel,
+    pub(super) points: Kernel,
+    pub(super) bounds: Kernel,
 }
 
 impl SettlingKernels {
@@ -41,6 +43,8 @@ impl SettlingKernels {
             block: [kernel(&settling::PULL_BLOCK)?, kernel(&settling::STEP_BLOCK)?],
             ends: kernel(&settling::ENDS)?,
             seen: kernel(&settling::SEEN)?,
+            points: kernel(&settling::POINTS)?,
+            bounds: kernel(&settling::BOUNDS)?,
         })
     }
 

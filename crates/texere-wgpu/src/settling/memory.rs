@@ -12,7 +12,7 @@ use crate::gpu::Gpu;
 /// Everything that stays on the device, each array in a buffer of its own.
 #[derive(Debug)]
 pub(super) struct Memory {
-    limit: u64,
+    pub(super) limit: u64,
     pub(super) params: wgpu::Buffer,
     place_rows: wgpu::Buffer,
     strands: wgpu::Buffer,

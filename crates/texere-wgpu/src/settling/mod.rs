@@ -4,12 +4,13 @@ mod answer;
 mod kernels;
 mod lists;
 mod memory;
+mod points;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_core::settling::{Pass, Place, Seen, Settler, SettlingPlan};
-use texere_core::{BackendError, Limits};
+use texere_core::{BackendError, Limits, zeroed};
 use texere_gpu::{SeenRow, SettlingParams, settles_flattened};
 use wgpu::{CommandEncoder, ComputePassDescriptor};
 
@@ -87,9 +88,15 @@ fn record(gpu: &Gpu, memory: &Memory, encoder: &mut CommandEncoder, kernels: &[(
 }
 
 impl Settler for WgpuSettler {
+    fn plan(&self) -> &Arc<SettlingPlan> {
+        &self.plan
+    }
+
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
         let (gpu, memory) = (&self.opened.gpu, &self.memory);
-        gpu.write(&memory.places, 0, bytemuck::cast_slice(&self.plan.padded(places)))?;
+        let mut padded: Vec<Place> = zeroed("places", self.plan.counts().places)?;
+        self.plan.pad(places.iter().copied(), &mut padded);
+        gpu.write(&memory.places, 0, bytemuck::cast_slice(&padded))?;
         gpu.write(&memory.lengths, 0, bytemuck::cast_slice(self.plan.lengths()))?;
         self.copy(|encoder| encoder.clear_buffer(&memory.steps, 0, None))
     }
@@ -149,5 +156,9 @@ impl Settler for WgpuSettler {
             })?;
         self.plan.unpad(&all, places);
         Ok(())
+    }
+
+    fn bounds(&mut self) -> Result<[[i32; 3]; 2], BackendError> {
+        self.find_bounds()
     }
 }

@@ -235,6 +235,22 @@ fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed
             }
             count += 1;
         }
+        // An edit of one point: virtual ends hang on others that were never sent.
+        let raised = [ControlPoint { z: points[1].z + 1.0, ..points[1] }];
+        session.upload(1, &raised)?;
+        session.scan()?;
+        let edited = meshes(&mut session, &chunks)?;
+        let mut all = points.clone();
+        all[1] = raised[0];
+        let mut whole = Session::new(device, plan.clone())?;
+        whole.upload(0, &all)?;
+        whole.scan()?;
+        for (edited, whole) in vertices(edited).zip(vertices(meshes(&mut whole, &chunks)?)) {
+            let apart = Vec3::from(edited.position).distance(Vec3::from(whole.position));
+            if apart.is_nan() || apart > most {
+                return Err(format!("{}: an edit leaves a vertex {apart} mm off", start.name).into());
+            }
+        }
         let planned = chunks.iter().map(|chunk| u64::from(chunk.vertices())).sum();
         moved("vertices", count, planned)?;
     }

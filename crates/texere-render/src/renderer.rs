@@ -77,6 +77,12 @@ impl Renderer {
         self.device.info()
     }
 
+    /// The backend that it draws on: a settler of it leaves yarns where [`Renderer::settled_scene`] finds them.
+    #[must_use]
+    pub const fn backend(&self) -> &WgpuBackend {
+        &self.device
+    }
+
     /// The longest side of a picture, supersampled, in pixels.
     #[must_use]
     pub fn side_limit(&self) -> u32 {

@@ -3,10 +3,14 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use image::RgbImage;
-use texere_core::{ControlPoint, Limits, Material, Origin, Section, Settings, Yarn, Yarns};
+use texere_core::settling::{Form, Pass, settled};
+use texere_core::{
+    Backend, ControlPoint, Limits, Material, Origin, Section, Settings, Settling, SettlingPlan, Traffic,
+    Yarn, Yarns,
+};
 use texere_shaders::picture;
 use texere_wgpu::{Schedule, WgpuBackend};
 
@@ -202,6 +206,50 @@ fn chunks_draw_the_same_picture() {
         };
         assert!(draw(&Limits::NONE) == draw(&Limits { blocks: 2, ..Limits::NONE }), "{name}");
     }
+}
+
+/// From rest to the picture no byte goes over the host but the report.
+#[test]
+fn settled_yarns_are_drawn_where_they_rest() {
+    let yarns = TWILL.yarns();
+    let renderer = renderer().lock().unwrap();
+    let plan = Arc::new(SettlingPlan::new(&Settling::new(&yarns)).unwrap());
+    let mut settler = renderer.backend().settler(Arc::clone(&plan)).unwrap();
+    let places: Vec<_> = yarns.points().iter().map(|point| plan.scale().place(point)).collect();
+    settler.upload(&places).unwrap();
+    settler.list(1.0).unwrap();
+    for _ in 0..8 {
+        settler.pass(&Pass { form: Form::Weighted, growth: 1.0, ease: 1.0, momentum: 0.8 }).unwrap();
+    }
+    let mut scene = renderer.settled_scene(&yarns, &SETTINGS, settler.as_mut()).unwrap();
+    assert_eq!(scene.traffic(), Traffic::default());
+    let camera = Camera::oblique(scene.extent(), -0.5, SIZE).unwrap();
+    let picture = scene.picture(&camera, Quality { supersampling: 1 }).unwrap();
+    let drawn = RgbImage::from_raw(picture.size[0], picture.size[1], picture.rgb).unwrap();
+
+    let points = settled(&plan, settler.as_mut(), yarns.points()).unwrap();
+    let mut moved = yarns.clone();
+    for (yarn, pair) in yarns.layout().offsets().windows(2).enumerate() {
+        moved.set_points(yarn, &points[pair[0] as usize..pair[1] as usize]).unwrap();
+    }
+    let (here, there) = (scene.extent(), Extent::of(&moved));
+    for axis in 0..3 {
+        // All yarns are taken for as wide as the widest.
+        let widest = plan.spans().thickest;
+        assert!(
+            (0.0..2.0 * widest).contains(&(there.low[axis] - here.low[axis] + 1e-4)),
+            "{here:?} {there:?}"
+        );
+        assert!(
+            (0.0..2.0 * widest).contains(&(here.high[axis] - there.high[axis] + 1e-4)),
+            "{here:?} {there:?}"
+        );
+    }
+    let sent = draw(&renderer, &moved, &camera, &Limits::NONE);
+    assert!(difference(&drawn, &sent) < 1e-3, "{}", difference(&drawn, &sent));
+    // They have moved so far that the picture shows it.
+    let start = draw(&renderer, &yarns, &camera, &Limits::NONE);
+    assert!(difference(&start, &sent) > 5e-3, "{}", difference(&start, &sent));
 }
 
 #[test]

@@ -425,9 +425,9 @@ float3 normal_at(const Stance *stance, float4 point) {
         // Each times the other's half: the inverse transpose, times the product of both halves.
         float2 normal = rolled(stance, point.zw) * (float2)(stance->height.x, stance->centre.w);
         float lean = tangent.w * q.x * normal.x + stance->height.y * q.y * normal.y;
-        float3 across = stance->side * normal.x + stance->up * normal.y;
-        float length_squared = normal.x * normal.x + normal.y * normal.y + lean * lean;
-        return (across - tangent.xyz * lean) * (1.0f / sqrt(length_squared));
+        float inverse = 1.0f / sqrt(normal.x * normal.x + normal.y * normal.y + lean * lean);
+        float3 across = stance->side * (normal.x * inverse) + stance->up * (normal.y * inverse);
+        return across - tangent.xyz * (lean * inverse);
     }
     float3 across = stance->side * point.z + stance->up * point.w;
     // Most yarns are as thick here as there, and need no square root.

@@ -427,9 +427,9 @@ fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
         // Each times the other's half: the inverse transpose, times the product of both halves.
         let normal = rolled(stance, point.zw) * vec2(stance.height.x, stance.centre.w);
         let lean = tangent.w * q.x * normal.x + stance.height.y * q.y * normal.y;
-        let across = stance.side * normal.x + stance.up * normal.y;
-        let length_squared = normal.x * normal.x + normal.y * normal.y + lean * lean;
-        return (across - tangent.xyz * lean) * (1.0 / sqrt(length_squared));
+        let inverse = 1.0 / sqrt(normal.x * normal.x + normal.y * normal.y + lean * lean);
+        let across = stance.side * (normal.x * inverse) + stance.up * (normal.y * inverse);
+        return across - tangent.xyz * (lean * inverse);
     }
     let across = stance.side * point.z + stance.up * point.w;
     // Most yarns are as thick here as there, and need no square root.

@@ -77,11 +77,7 @@ impl Ring {
             Stance::Round { basis }
         } else {
             let (sin, cos) = self.roll.sin_cos();
-            let (wide, high) = (self.half_width, self.half_height);
-            let outward = Basis { side: upright.side * wide, up: upright.up * high };
-            // Each times the other's half: the inverse transpose, times the product of both halves.
-            let across = Basis { side: upright.side * high, up: upright.up * wide };
-            Stance::Flattened { outward, across, sin, cos }
+            Stance::Flattened { basis: upright, sin, cos }
         }
     }
 
@@ -106,24 +102,19 @@ impl Ring {
                 };
                 (centre + outward * self.half_width, normal)
             }
-            Stance::Flattened { outward, across, sin, cos } => {
+            Stance::Flattened { basis: Basis { side, up }, sin, cos } => {
                 let SectionPoint { x, y, normal_x, normal_y } = point.rolled(*sin, *cos);
                 let (wide, high) = (self.half_width, self.half_height);
                 // Sides of upright frames are level.
-                let at = |Basis { side, up }: &Basis, x: f32, y: f32| {
-                    Vec3::new(side.x * x + up.x * y, side.y * x + up.y * y, up.z * y)
-                };
-                let (position, across) = (centre + at(outward, x, y), at(across, normal_x, normal_y));
-                let length_squared =
-                    (normal_x * normal_x) * (high * high) + (normal_y * normal_y) * (wide * wide);
-                let normal = if self.width_growth == 0.0 && self.height_growth == 0.0 {
-                    across * (1.0 / length_squared.sqrt())
-                } else {
-                    let (of_width, of_height) = (self.width_growth * high, self.height_growth * wide);
-                    let lean = of_width * (x * normal_x) + of_height * (y * normal_y);
-                    (across - tangent * lean) * (1.0 / (length_squared + lean * lean).sqrt())
-                };
-                (position, normal)
+                let at = |x: f32, y: f32| Vec3::new(side.x * x + up.x * y, side.y * x + up.y * y, up.z * y);
+                // Each times the other's half: the inverse transpose, times the product of both halves.
+                let (normal_x, normal_y) = (normal_x * high, normal_y * wide);
+                let lean = self.width_growth * x * normal_x + self.height_growth * y * normal_y;
+                let inverse = 1.0 / (normal_x * normal_x + normal_y * normal_y + lean * lean).sqrt();
+                let normal = at(normal_x * inverse, normal_y * inverse) - tangent * (lean * inverse);
+                // Zero is added so that no sum is -0. The vertex is then the same to the bit whether a lean or a roll of zero
+                // is worked out or left out, and opposite points have opposite normals.
+                (centre + Vec3::ZERO + at(x * wide, y * high), normal + Vec3::ZERO)
             }
         };
         Vertex { position: position.to_array(), normal: normal.to_array() }
@@ -140,10 +131,8 @@ pub enum Stance {
     },
     /// Of a flattened yarn: the section turns inside an outline that does not.
     Flattened {
-        /// The upright frame, the side times the half width and the up times the half height: what points go out by.
-        outward: Basis,
-        /// The same with the halves exchanged: what normals go out by.
-        across: Basis,
+        /// The upright frame.
+        basis: Basis,
         /// The sine of the roll.
         sin: f32,
         /// The cosine of the roll.

@@ -3,7 +3,7 @@
 use texere_core::SectionPoint;
 
 use super::rings::Rings;
-use super::simd::{Floats, Mask, Simd, difference, plus, scale, select};
+use super::simd::{Floats, Mask, Simd, difference, plus, scale};
 use super::vertices::VERTEX;
 
 /// A vector of rings with what all their vertices share.
@@ -56,70 +56,46 @@ impl<S: Simd, const FLATTENED: bool, const KIND: u8> Stances<S> for Round<'_, S,
     }
 }
 
-/// Of flattened yarns. Without `ROLLED` they have no roll, and the outline is unrolled already; without `LEANING` neither half
-/// grows.
+/// Of flattened yarns. Without `ROLLED` they have no roll; without `LEANING` neither half grows.
 pub(super) struct Flat<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> {
     rings: &'a Rings<S, FLATTENED>,
-    /// The upright frame times the halves, and times each other's half: what points go out by, and normals.
-    outward: Level<S>,
-    across: Level<S>,
-    /// The squares of half height and half width.
-    squares: [S::Floats; 2],
-    /// The growth of each half times the other half.
-    growths: [S::Floats; 2],
-    /// Which of them don't grow.
-    steady: S::Mask,
+    /// None of it is -0.
+    centre: [S::Floats; 3],
 }
 
 impl<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool>
     Flat<'a, S, FLATTENED, ROLLED, LEANING>
 {
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn new(rings: &'a Rings<S, FLATTENED>) -> Self {
-        let (side, up, wide, high) = (rings.side, rings.up, rings.half_width, rings.half_height);
-        Self {
-            rings,
-            outward: Level { side: [side[0] * wide, side[1] * wide], up: scale(up, high) },
-            across: Level { side: [side[0] * high, side[1] * high], up: scale(up, wide) },
-            squares: [high * high, wide * wide],
-            growths: [rings.width_growth * high, rings.height_growth * wide],
-            steady: rings.steady(),
-        }
+    pub(super) fn new(simd: S, rings: &'a Rings<S, FLATTENED>) -> Self {
+        Self { rings, centre: plus(rings.centre, [simd.splat(0.0); 3]) }
     }
 
-    /// The vertex at `point`, with how much its normal leans and one over the normal's length.
+    /// The way from the centre to `point`, and the normal there.
     #[cfg_attr(optimized, inline(always))]
-    fn vertex_with(
-        &self,
-        simd: S,
-        point: &SectionPoint,
-        lean: S::Floats,
-        inverse: S::Floats,
-    ) -> [S::Floats; VERTEX] {
+    fn outward(&self, simd: S, point: &SectionPoint) -> [[S::Floats; 3]; 2] {
+        let (wide, high) = (self.rings.half_width, self.rings.half_height);
         let [x, y] = self.rolled(simd, point.x, point.y);
         let [normal_x, normal_y] = self.rolled(simd, point.normal_x, point.normal_y);
-        let ([x, y, z], mut normal) =
-            (plus(self.rings.centre, self.outward.at(x, y)), self.across.at(normal_x, normal_y));
-        if LEANING {
-            normal = select(self.steady, normal, difference(normal, scale(self.rings.tangent, lean)));
-        }
-        let [normal_x, normal_y, normal_z] = scale(normal, inverse);
-        [x, y, z, normal_x, normal_y, normal_z]
+        let (normal_x, normal_y) = (normal_x * high, normal_y * wide);
+        let squared = normal_x * normal_x + normal_y * normal_y;
+        let normal = if LEANING {
+            let lean = self.rings.width_growth * x * normal_x + self.rings.height_growth * y * normal_y;
+            let inverse = simd.splat(1.0) / (squared + lean * lean).sqrt();
+            let across = self.at(normal_x * inverse, normal_y * inverse);
+            difference(across, scale(self.rings.tangent, lean * inverse))
+        } else {
+            let inverse = simd.splat(1.0) / squared.sqrt();
+            self.at(normal_x * inverse, normal_y * inverse)
+        };
+        [self.at(x * wide, y * high), plus(normal, [simd.splat(0.0); 3])]
     }
 
+    /// `x` along the side and `y` along the up.
     #[cfg_attr(optimized, inline(always))]
-    fn lean(&self, simd: S, point: &SectionPoint) -> S::Floats {
-        let [x, y] = self.rolled(simd, point.x, point.y);
-        let [normal_x, normal_y] = self.rolled(simd, point.normal_x, point.normal_y);
-        self.growths[0] * (x * normal_x) + self.growths[1] * (y * normal_y)
-    }
-
-    #[cfg_attr(optimized, inline(always))]
-    fn inverse_length(&self, simd: S, point: &SectionPoint, lean: S::Floats) -> S::Floats {
-        let [normal_x, normal_y] = self.rolled(simd, point.normal_x, point.normal_y);
-        let squared = (normal_x * normal_x) * self.squares[0] + (normal_y * normal_y) * self.squares[1];
-        let squared = if LEANING { squared + lean * lean } else { squared };
-        simd.splat(1.0) / squared.sqrt()
+    fn at(&self, x: S::Floats, y: S::Floats) -> [S::Floats; 3] {
+        let Rings { side, up, .. } = self.rings;
+        [side[0] * x + up[0] * y, side[1] * x + up[1] * y, up[2] * y]
     }
 
     /// `x` and `y` turned by the roll.
@@ -139,46 +115,41 @@ impl<S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> St
 {
     #[cfg_attr(optimized, inline(always))]
     fn vertex(&self, simd: S, _: usize, point: &SectionPoint) -> [S::Floats; VERTEX] {
-        let lean = if LEANING { self.lean(simd, point) } else { simd.splat(0.0) };
-        let inverse = self.inverse_length(simd, point, lean);
-        self.vertex_with(simd, point, lean, inverse)
+        let [outward, [normal_x, normal_y, normal_z]] = self.outward(simd, point);
+        let [x, y, z] = plus(self.centre, outward);
+        [x, y, z, normal_x, normal_y, normal_z]
     }
 }
 
-/// Of flattened yarns whose halves don't grow, with six sides, where opposite normals are as long as each other.
-pub(super) struct SixSided<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool> {
-    flat: Flat<'a, S, FLATTENED, ROLLED, false>,
-    /// One over the length of the first three normals.
-    inverses: [S::Floats; 3],
+/// Of flattened yarns with six sides, of which each is opposite another.
+pub(super) struct SixSided<S: Simd> {
+    centre: [S::Floats; 3],
+    /// The ways from the centre to the first three points, and the normals there.
+    first: [[[S::Floats; 3]; 2]; 3],
 }
 
-impl<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool> SixSided<'a, S, FLATTENED, ROLLED> {
+impl<S: Simd> SixSided<S> {
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn new(simd: S, rings: &'a Rings<S, FLATTENED>, outline: &[SectionPoint; 6]) -> Self {
-        let (flat, zero) = (Flat::<S, FLATTENED, ROLLED, false>::new(rings), simd.splat(0.0));
-        let inverse = |number: usize| flat.inverse_length(simd, &outline[number], zero);
-        Self { inverses: [inverse(0), inverse(1), inverse(2)], flat }
+    pub(super) fn new<const FLATTENED: bool, const ROLLED: bool, const LEANING: bool>(
+        simd: S,
+        flat: &Flat<'_, S, FLATTENED, ROLLED, LEANING>,
+        [one, two, three, ..]: &[SectionPoint; 6],
+    ) -> Self {
+        let first = [flat.outward(simd, one), flat.outward(simd, two), flat.outward(simd, three)];
+        Self { centre: flat.centre, first }
     }
 }
 
-impl<S: Simd, const FLATTENED: bool, const ROLLED: bool> Stances<S> for SixSided<'_, S, FLATTENED, ROLLED> {
+impl<S: Simd> Stances<S> for SixSided<S> {
     #[cfg_attr(optimized, inline(always))]
-    fn vertex(&self, simd: S, number: usize, point: &SectionPoint) -> [S::Floats; VERTEX] {
-        self.flat.vertex_with(simd, point, simd.splat(0.0), self.inverses[number % 3])
-    }
-}
-
-/// A frame whose side is level, in some length.
-struct Level<S: Simd> {
-    side: [S::Floats; 2],
-    up: [S::Floats; 3],
-}
-
-impl<S: Simd> Level<S> {
-    #[cfg_attr(optimized, inline(always))]
-    fn at(&self, x: S::Floats, y: S::Floats) -> [S::Floats; 3] {
-        let Self { side, up } = self;
-        [side[0] * x + up[0] * y, side[1] * x + up[1] * y, up[2] * y]
+    fn vertex(&self, simd: S, number: usize, _: &SectionPoint) -> [S::Floats; VERTEX] {
+        let [outward, normal] = self.first[number % 3];
+        let ([x, y, z], [normal_x, normal_y, normal_z]) = if number < 3 {
+            (plus(self.centre, outward), normal)
+        } else {
+            (difference(self.centre, outward), difference([simd.splat(0.0); 3], normal))
+        };
+        [x, y, z, normal_x, normal_y, normal_z]
     }
 }
 

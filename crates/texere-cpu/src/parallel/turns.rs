@@ -72,6 +72,10 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn turned(&self, simd: S, roll: S::Integers) -> Self {
         let (sin, cos) = sin_cos(simd, roll);
+        let round = self.round();
+        if FLATTENED && round.bits() == 0 {
+            return Self { roll: (sin, cos), ..*self };
+        }
         let level = roll.signed_to_floats().is_zero();
         let (side, up) = (self.side, self.up);
         let mut turned = Self {
@@ -81,7 +85,6 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
             ..*self
         };
         if FLATTENED {
-            let round = self.round();
             turned.side = select(round, turned.side, side);
             turned.up = select(round, turned.up, up);
         }

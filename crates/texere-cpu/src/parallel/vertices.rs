@@ -1,6 +1,6 @@
 //! Stage 2 in lanes: vertices of several rings at a time, a ring in each lane, then a transpose into place.
 
-use texere_core::{SectionPoint, Turn};
+use texere_core::SectionPoint;
 
 use super::rings::Rings;
 use super::simd::{Floats, Mask, Simd};
@@ -16,25 +16,21 @@ pub(super) const OVERHANG: usize = 2;
 #[derive(Debug, Clone)]
 pub(super) struct Surface<'a> {
     outline: &'a [SectionPoint],
-    /// The outline with no roll, as `Ring::vertex` of flattened yarns works it out.
-    unrolled: Vec<SectionPoint>,
     /// Whether each normal is its point, as on a circle.
     round: bool,
-    /// Whether each normal of the first half is the opposite one turned round; of an even number of sides.
+    /// Whether points of the first half, and their normals, are the opposite ones turned round.
     opposed: bool,
 }
 
 impl<'a> Surface<'a> {
     pub(super) fn new(outline: &'a [SectionPoint]) -> Self {
         let round = outline.iter().all(|point| [point.x, point.y] == [point.normal_x, point.normal_y]);
-        let (sin, cos) = Turn::ZERO.sin_cos();
-        let unrolled = outline.iter().map(|point| point.rolled(sin, cos)).collect();
         let (first, second) = outline.split_at(outline.len() / 2);
-        let opposed = first
-            .iter()
-            .zip(second)
-            .all(|(one, other)| [one.normal_x, one.normal_y] == [-other.normal_x, -other.normal_y]);
-        Self { outline, unrolled, round, opposed }
+        let opposed = first.iter().zip(second).all(|(one, other)| {
+            let SectionPoint { x, y, normal_x, normal_y } = *other;
+            *one == SectionPoint { x: -x, y: -y, normal_x: -normal_x, normal_y: -normal_y }
+        });
+        Self { outline, round, opposed }
     }
 
     /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as the `COLUMNS` that
@@ -67,20 +63,20 @@ impl<'a> Surface<'a> {
         rings: &Rings<S, FLATTENED>,
         out: &mut [f32],
     ) {
-        let outline = if ROLLED { self.outline } else { &self.unrolled };
-        let steady = rings.steady().bits() == S::ALL;
         if rings.round().bits() != 0 {
-            let flat = Flat::<S, FLATTENED, true, true>::new(rings);
+            let flat = Flat::<S, FLATTENED, true, true>::new(simd, rings);
             vertices::<S, _, COLUMNS>(simd, &Mixed { flat, round: Round(rings) }, self.outline, out);
-        } else if !steady {
-            vertices::<S, _, COLUMNS>(simd, &Flat::<S, FLATTENED, ROLLED, true>::new(rings), outline, out);
-        } else if let Some((outline, [])) = outline.split_first_chunk::<6>()
+        } else if rings.steady().bits() != S::ALL {
+            let flat = Flat::<S, FLATTENED, ROLLED, true>::new(simd, rings);
+            vertices::<S, _, COLUMNS>(simd, &flat, self.outline, out);
+        } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>()
             && self.opposed
         {
-            let six = SixSided::<S, FLATTENED, ROLLED>::new(simd, rings, outline);
-            vertices::<S, _, COLUMNS>(simd, &six, outline, out);
+            let flat = Flat::<S, FLATTENED, ROLLED, false>::new(simd, rings);
+            vertices::<S, _, COLUMNS>(simd, &SixSided::new(simd, &flat, outline), outline, out);
         } else {
-            vertices::<S, _, COLUMNS>(simd, &Flat::<S, FLATTENED, ROLLED, false>::new(rings), outline, out);
+            let flat = Flat::<S, FLATTENED, ROLLED, false>::new(simd, rings);
+            vertices::<S, _, COLUMNS>(simd, &flat, self.outline, out);
         }
     }
 }

@@ -1,17 +1,17 @@
 //! Kernels and shaders take the core's constants from one place, and have none of their own.
 
-use texere_gpu::{CONSTANTS, Constant, Language};
+use texere_gpu::{CONSTANTS, Constant, SETTLING_CONSTANTS};
+use texere_kernels::{PER_RING, PER_YARN, Program, SETTLING};
 
-const LANGUAGES: [Language; 2] = [Language::OpenClC, Language::Wgsl];
-
-/// All that is compiled for a plan, without what stands before it.
-fn source(language: Language) -> String {
-    match language {
-        Language::OpenClC => [texere_kernels::PER_RING, texere_kernels::PER_YARN]
-            .map(|program| program.sources.concat())
-            .concat(),
-        Language::Wgsl => texere_shaders::ALL.map(|shader| shader.source).concat(),
-    }
+/// All that is compiled for a mesh or for a settling, without what stands before it, and the constants that it is to use.
+fn sources() -> [(&'static str, String, &'static [Constant]); 3] {
+    let kernels =
+        |programs: &[Program]| programs.iter().flat_map(|program| program.sources).copied().collect();
+    [
+        ("kernels of a mesh", kernels(&[PER_RING, PER_YARN]), &CONSTANTS),
+        ("shaders of a mesh", texere_shaders::ALL.map(|shader| shader.source).concat(), &CONSTANTS),
+        ("kernels of a settling", kernels(&[SETTLING]), &SETTLING_CONSTANTS),
+    ]
 }
 
 /// Words and numbers of the code, comments left out.
@@ -24,13 +24,12 @@ fn words(source: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn sources_use_every_constant_and_define_none_of_them() {
-    for language in LANGUAGES {
-        let source = source(language);
-        for Constant { name, .. } in CONSTANTS {
-            assert!(words(&source).any(|word| word == name), "{name} is not used in {language:?}");
+    for (what, source, constants) in sources() {
+        for Constant { name, .. } in constants {
+            assert!(words(&source).any(|word| word == *name), "{name} is not used in {what}");
             for definition in [format!("#define {name} "), format!("const {name} "), format!("const {name}:")]
             {
-                assert!(!source.contains(&definition), "{definition} in {language:?}");
+                assert!(!source.contains(&definition), "{definition} in {what}");
             }
         }
     }
@@ -39,13 +38,12 @@ fn sources_use_every_constant_and_define_none_of_them() {
 /// Any other number with a fraction or an exponent would be a constant that the core does not know of.
 #[test]
 fn formulas_have_no_other_number_than_small_ones() {
-    const PLAIN: [f32; 8] = [0.0, 0.125, 0.25, 0.5, 1.0, 2.0, 3.0, 6.0];
-    for language in LANGUAGES {
-        let source = source(language);
+    const PLAIN: [f32; 9] = [0.0, 0.125, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0];
+    for (what, source, _) in sources() {
         for number in words(&source).filter(|word| word.starts_with(|first: char| first.is_ascii_digit())) {
             if number.contains('.') || number.contains('e') && !number.starts_with("0x") {
                 let value = number.trim_end_matches('f').parse();
-                assert!(value.is_ok_and(|value| PLAIN.contains(&value)), "{number} in {language:?}");
+                assert!(value.is_ok_and(|value| PLAIN.contains(&value)), "{number} in {what}");
             }
         }
     }

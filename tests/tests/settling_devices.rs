@@ -3,18 +3,25 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use texere_conformance::REGISTRY;
 use texere_conformance::rest::{
     Ends, Length, Start, StartYarn, Weave, check, settle_start, settling_plan, starts, woven,
 };
+use texere_conformance::{REGISTRY, SabotagedSettler, SettlingSabotage};
 use texere_core::settling::{Form, Pass, Place, Seen, Settler, Settling, SettlingPlan, tag};
-use texere_core::{Backend, BackendError, Boundary, ControlPoint, Schedule, Yarn, Yarns};
+use texere_core::{Backend, BackendError, Boundary, ControlPoint, Limits, Schedule, Yarn, Yarns};
 use texere_cpu::SerialBackend;
+use texere_opencl::OpenClBackend;
 
 /// All devices that settle and are not held to the bits of `cpu-serial`; the schedule of a mesh makes no difference.
 fn devices() -> Vec<Arc<dyn Backend>> {
+    let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
     let near = REGISTRY.iter().filter(|entry| !entry.exact);
-    let devices = near.flat_map(|entry| entry.devices().0);
+    let devices = near.flat_map(|entry| {
+        let (devices, missing) = entry.devices();
+        let wanted = required.split(',').any(|name| name.trim() == entry.name);
+        assert!(!wanted || missing.is_empty(), "{}: {missing:?}", entry.name);
+        devices
+    });
     let one = settling_plan(&starts()[0]);
     devices
         .filter(|device| device.info().schedule == Schedule::PerRing)
@@ -163,6 +170,65 @@ fn devices_settle_as_the_reference_does() {
         }
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// The proof that the comparison can fail: each broken settler is caught, by either form, and an honest one is not.
+#[test]
+fn broken_settlers_are_caught() {
+    let plan = settling_plan(&start("jersey-3.6"));
+    for form in [Form::Weighted, Form::Block] {
+        let mut serial = SerialBackend::new().settler(Arc::clone(&plan)).expect("a settler");
+        let reference = eight_passes(&plan, serial.as_mut(), form).expect("a course");
+        let found = |sabotage| {
+            let mut settler = SabotagedSettler::new(sabotage, Arc::clone(&plan));
+            faults(&plan, &eight_passes(&plan, &mut settler, form).expect("a course"), &reference)
+        };
+        assert_eq!(found(SettlingSabotage::None), [""; 0]);
+        for sabotage in SettlingSabotage::ALL {
+            let found = found(sabotage);
+            let why = match sabotage {
+                SettlingSabotage::StaleList => "neighbours: ",
+                _ => "a place is ",
+            };
+            assert!(found.iter().any(|fault| fault.starts_with(why)), "{form:?}: {sabotage:?}: {found:?}");
+        }
+    }
+}
+
+/// A device with little memory, in each buffer or in all, settles the same or says what is too large.
+#[test]
+fn small_memories_settle_the_same_or_are_refused_by_name() {
+    let Ok(device) = OpenClBackend::open(0, Schedule::PerRing) else { return };
+    let plan = settling_plan(&start("jersey-5-piece"));
+    let settler = |device: &OpenClBackend| device.settler(Arc::clone(&plan));
+    let course = |device: &OpenClBackend| eight_passes(&plan, settler(device)?.as_mut(), Form::Weighted);
+    let whole = course(&device).expect("a course");
+    let held = |limits| OpenClBackend::open(0, Schedule::PerRing).expect("opened before").with_limits(limits);
+    let in_each = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };
+    let in_all = |memory_bytes| Limits { memory_bytes, ..Limits::NONE };
+    let refused = |device: &OpenClBackend| match course(device) {
+        Ok(found) => {
+            assert!(found == whole, "another end");
+            None
+        }
+        Err(BackendError::OutOfMemory { what, .. }) => Some(what),
+        Err(error) => panic!("{error}"),
+    };
+    // From 1 kB to 32 MB.
+    let each: Vec<_> = (10..26).filter_map(|power| refused(&held(in_each(1 << power)))).collect();
+    assert_eq!(
+        (each.first(), each.last()),
+        (Some(&"the place table"), Some(&"pulls of intervals")),
+        "{each:?}"
+    );
+    // The least memory that a settler opens with, which leaves none for its lists.
+    let (mut too_little, mut enough) = (0, 1 << 25);
+    while enough - too_little > 16 {
+        let middle = u64::midpoint(too_little, enough);
+        *if settler(&held(in_all(middle))).is_ok() { &mut enough } else { &mut too_little } = middle;
+    }
+    assert_eq!(refused(&held(in_all(enough))), Some("neighbours of chords"));
+    assert_eq!(refused(&held(in_all(1 << 25))), None);
 }
 
 /// Places that are kept come back, and passes from there on are those that they were.

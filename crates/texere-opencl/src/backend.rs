@@ -39,7 +39,7 @@ use crate::{OpenClEngine, OpenClSession, Schedule};
 #[derive(Debug)]
 pub struct OpenClBackend {
     info: DeviceInfo,
-    opened: Arc<Opened>,
+    pub(crate) opened: Arc<Opened>,
 }
 
 /// The largest workgroup that a kernel asks for.

@@ -1,6 +1,7 @@
 //! The kernels that list neighbours.
 
 use bytemuck::bytes_of;
+use opencl3::command_queue::flush;
 use texere_core::BackendError;
 use texere_core::settling::SettlingPlan;
 use texere_gpu::{EXTENT_GROUPS, ExtentRow, SettlingParams};
@@ -10,7 +11,7 @@ use texere_kernels::{
 };
 
 use super::memory::Memory;
-use super::{begin, in_memory, start};
+use super::{in_memory, start};
 use crate::buffers::Buffer;
 use crate::kernel::{Arg, Kernel};
 use crate::opened::Opened;
@@ -97,7 +98,7 @@ impl ListKernels {
         // SAFETY: the arguments are those of `settling_fill`; a lane reads what it has counted by, and writes as many neighbours as it
         // counted, for all of which there is room.
         unsafe { start(&mut self.fill, opened, &args, params.chords) }?;
-        begin(opened)?;
+        flush(opened.queue.raw()).map_err(opened.failed("clFlush"))?;
         Ok(total[0])
     }
 }
@@ -131,5 +132,84 @@ impl Scan {
             unsafe { start(&mut self.add, opened, &args, lanes) }?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use texere_core::settling::{Chord, Listed, Settler, tag};
+    use texere_core::{ControlPoint, Limits, Schedule, Settling, Yarn, Yarns};
+
+    use super::*;
+    use crate::OpenClBackend;
+    use crate::settling::OpenClSettler;
+
+    /// Three levels of sums, and sums that stop at the largest number.
+    #[test]
+    fn sums_are_those_of_all_counts_before() {
+        let opened = OpenClBackend::open(0, Schedule::PerRing).unwrap().opened;
+        let kernel = |entry| Kernel::of(&opened, opened.settling(false)?, entry);
+        let mut scan = Scan { sum: kernel(SETTLING_SCAN).unwrap(), add: kernel(SETTLING_SCAN_ADD).unwrap() };
+        for (most, count) in [(9, 1_050_001), (9, 1024), (9, 1025), (9, 1), (1 << 20, 9000)] {
+            let counts: Vec<u32> = (0..count).map(|k: u32| k.wrapping_mul(2_654_435_761) % most).collect();
+            let values = Buffer::holding(&opened, "counts", &counts).unwrap();
+            let sums = [1026, 2, 1].map(|groups| Buffer::zeroed(&opened, "sums", 4 * groups).unwrap());
+            scan.run(&opened, &values, count, &sums).unwrap();
+            let mut found = vec![0; counts.len()];
+            values.read_now(&opened, 0, &mut found).unwrap();
+            let before = counts.iter().scan(0_u32, |sum, count| {
+                let before = *sum;
+                *sum = sum.saturating_add(*count);
+                Some(before)
+            });
+            assert!(before.eq(found.iter().copied()), "{count} counts below {most}");
+            assert_eq!(found.last() == Some(&u32::MAX), most > 9);
+        }
+    }
+
+    /// Each chord's neighbours are all those that a comparison of all pairs finds, in the order of their numbers.
+    #[test]
+    fn neighbours_are_listed_in_the_order_of_their_numbers() {
+        let mut yarns = Yarns::builder();
+        for yarn in 0..24 {
+            let along = |k: u32| k as f32 * 0.35;
+            let aside = (yarn / 2) as f32 * 0.6 + 0.1;
+            let point = |k: u32| match yarn % 2 {
+                0 => ControlPoint::new(along(k), aside, 0.2, 0.25),
+                _ => ControlPoint::new(aside, along(k), -0.2, 0.25),
+            };
+            yarns.yarn(Yarn::default(), &(0..20).map(point).collect::<Vec<_>>());
+        }
+        let plan = Arc::new(SettlingPlan::new(&Settling::new(&yarns.build().unwrap())).unwrap());
+        let opened = OpenClBackend::open(0, Schedule::PerRing).unwrap().opened;
+        let mut settler = OpenClSettler::new(opened.clone(), &Limits::NONE, plan.clone()).unwrap();
+        let points = plan.places().iter().zip(plan.tags()).filter(|(_, tags)| *tags & tag::POINT != 0);
+        settler.upload(&points.map(|(place, _)| *place).collect::<Vec<_>>()).unwrap();
+        let count = settler.list(1.0).unwrap();
+        let chords = plan.counts().chords as usize;
+        let (mut starts, mut found) = (vec![0_u32; chords + 1], vec![0_u32; count as usize]);
+        settler.memory.starts.read_now(&opened, 0, &mut starts).unwrap();
+        settler.memory.neighbours.read_now(&opened, 0, &mut found).unwrap();
+        let mut all = Vec::new();
+        for place in (0..plan.places().len()).filter(|&place| plan.tags()[place] & tag::INTERVAL != 0) {
+            let interval = plan.interval(plan.places(), place);
+            let pieces = plan.chords()[place + 1] - plan.chords()[place];
+            let chord = |piece| (place, interval, Chord::new(&interval, piece, pieces, plan.scale()));
+            all.extend((0..pieces).map(chord));
+        }
+        let listed = |number: usize| {
+            let (place, interval, chord) = &all[number];
+            Listed::new(&plan, number as u32, chord, *place, interval)
+        };
+        for one in 0..chords {
+            let near = (0..chords)
+                .filter(|&other| other != one && plan.are_neighbours(listed(one), listed(other), 1.0))
+                .map(|other| other as u32);
+            let own = &found[starts[one] as usize..starts[one + 1] as usize];
+            assert!(near.eq(own.iter().copied()), "chord {one}: {own:?}");
+        }
+        assert!(count > 1000, "{count} neighbours of {chords} chords");
     }
 }

@@ -7,7 +7,6 @@ mod points;
 
 use std::sync::Arc;
 
-use opencl3::command_queue::flush;
 use texere_core::settling::{Pass, Place, Seen, Settler, SettlingPlan};
 use texere_core::{BackendError, Limits, Plan, zeroed};
 use texere_gpu::{SettlingParams, settles_flattened};
@@ -159,11 +158,6 @@ unsafe fn start(
     // SAFETY: this function's contract.
     unsafe { kernel.run(opened, args, groups, None) }?;
     Ok(())
-}
-
-/// Lets the device begin with what is in its queue.
-fn begin(opened: &Opened) -> Result<(), BackendError> {
-    flush(opened.queue.raw()).map_err(opened.failed("clFlush"))
 }
 
 /// Arguments that lie in memory.

@@ -1,6 +1,7 @@
 //! Yarns come to rest: every start of the list on the `cpu` backend, by a check of its own; and the same bits on every schedule of
 //! the CPU.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -146,7 +147,7 @@ fn whole_settlings_end_in_the_same_bits() {
     let plan = settling_plan(&start);
     let end = |device: &dyn Backend| {
         let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
-        let rest = settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+        let rest = settle(&plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("a settling");
         let yarns = texere_conformance::rest::yarns(&start);
         (rest, settled(&plan, settler.as_mut(), yarns.points()).expect("points"))
     };
@@ -200,7 +201,7 @@ fn a_report_is_of_what_comes_back() {
         let start = starts().into_iter().find(|start| start.name == name).expect("a start");
         let plan = settling_plan(&start);
         let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
-        let rest = settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+        let rest = settle(&plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("a settling");
         let mut end = places(&plan);
         settler.read(&mut end).expect("places");
         let mut fresh = SerialBackend::new().settler(Arc::clone(&plan)).expect("a settler");
@@ -295,7 +296,7 @@ fn plates_press() {
         let settling = if let Some(gap) = gap { settling.plates(gap) } else { settling };
         let plan = Arc::new(SettlingPlan::new(&settling).expect("a plan"));
         let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
-        settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+        settle(&plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("a settling");
         let points = settled(&plan, settler.as_mut(), yarns.points()).expect("points");
         let mut points = points.iter().map(|point| point.position().as_dvec3());
         let all: Vec<Vec<_>> =

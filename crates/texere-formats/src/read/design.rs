@@ -3,7 +3,7 @@
 use std::path::{self, Path, PathBuf};
 
 use texere_core::Yarns;
-use texere_fabric::{FabricError, Structure};
+use texere_fabric::{FabricError, Finish, Structure};
 
 /// A design, read and checked.
 ///
@@ -18,14 +18,25 @@ pub struct Design {
     pub name: String,
     /// What it describes.
     pub structure: Structure,
+    /// Whether its yarns are to settle before they are used ([`Structure::settle`]). [`Design::yarns`] are as they are before.
+    pub settle: bool,
+    /// How they settle.
+    pub finish: Finish,
     /// What the reader had to assume or leave out.
     remarks: Vec<String>,
     files: Vec<PathBuf>,
 }
 
 impl Design {
-    pub(super) const fn new(name: String, structure: Structure, remarks: Vec<String>) -> Self {
-        Self { name, structure, remarks, files: Vec::new() }
+    /// A design whose yarns settle as those of its structure do.
+    pub(super) fn new(name: String, structure: Structure, remarks: Vec<String>) -> Self {
+        let (settle, finish) = (structure.settles(), Finish::default());
+        Self { name, structure, settle, finish, remarks, files: Vec::new() }
+    }
+
+    /// The same design with what it says about how its yarns settle.
+    pub(super) fn finished(self, settle: Option<bool>, finish: Finish) -> Self {
+        Self { settle: settle.unwrap_or(self.settle), finish, ..self }
     }
 
     /// Notes a file that it was read from.

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use texere_core::{Backend, Section, Settings, Yarns};
 
-use crate::diagnosis::{ClothClearance, Cure, Diagnosis, ThreadPlace};
+use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, ThreadPlace};
 use crate::{
     FabricError, FabricWarning, Finish, FinishError, Measures, Piece, Settled, WovenDesign, YarnPlace, settle,
 };
@@ -149,6 +149,14 @@ impl Structure {
     ) -> Result<ClothClearance, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().clearance(yarns, settings, progress),
+        }
+    }
+
+    /// Threads of woven cloth that lie too close together as they are woven, if there are any.
+    #[must_use]
+    pub fn jams(&self) -> Option<Jams> {
+        match self {
+            Self::Woven(design) => design.cloth().jams(),
         }
     }
 

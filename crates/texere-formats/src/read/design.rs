@@ -22,7 +22,6 @@ pub struct Design {
     pub settle: bool,
     /// How they settle.
     pub finish: Finish,
-    /// What the reader had to assume or leave out.
     remarks: Vec<String>,
     files: Vec<PathBuf>,
 }
@@ -53,8 +52,14 @@ impl Design {
         &self.files
     }
 
-    /// What a designer should know: what the reader had to assume or leave out, and what the fabric lacks
-    /// ([`Structure::warnings`]).
+    /// What the reader had to assume or leave out.
+    #[must_use]
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
+    }
+
+    /// What a designer should know: the reader's [`remarks`](Design::remarks), and what the fabric lacks as its structure puts
+    /// its yarns ([`Structure::warnings`]).
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let warnings = self.structure.warnings();

@@ -240,9 +240,11 @@ fn a_settled_repeat_fits_its_copies() {
     // Four ends and four picks 1.7 diameters apart, as straight steps: far from rest.
     for along in [true, false] {
         for number in 0..4 {
-            let side = |crossing: u8| if (crossing + number + u8::from(along)) % 2 == 0 { 0.5 } else { -0.5 };
+            let side = |crossing: u8| {
+                if (crossing + number + u8::from(along)).is_multiple_of(2) { 0.5 } else { -0.5 }
+            };
             let points = (0..8).map(|step: u8| {
-                let z = if step % 2 == 0 { side(step / 2) } else { 0.0 };
+                let z = if step.is_multiple_of(2) { side(step / 2) } else { 0.0 };
                 let (far, across) = (0.85 * f32::from(step), 1.7 * f32::from(number));
                 let [x, y] = if along { [across, far] } else { [far, across] };
                 ControlPoint::new(x, y, z, 0.5)

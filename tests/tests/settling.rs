@@ -217,6 +217,31 @@ fn a_report_is_of_what_comes_back() {
     }
 }
 
+/// Whatever it is doing when the one who watches breaks off: it makes no further pass, and leaves the best that it has reported.
+#[test]
+fn who_watches_may_break_off() {
+    let start = starts().into_iter().find(|start| start.name == "jersey-3.6").expect("a start");
+    let plan = settling_plan(&start);
+    // The pass that sees what came in, growth, ease, and the block form.
+    for last in [1, 20, 60, 330] {
+        let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
+        let (mut calls, mut best) = (0, Seen::NOTHING);
+        let rest = settle(&plan, settler.as_mut(), |pass, seen| {
+            calls += 1;
+            if calls == 1 || pass.ease == 0.0 && seen.is_better_than(&best) {
+                best = *seen;
+            }
+            if calls == last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let rest = rest.expect("a settling");
+        assert_eq!((calls, rest.passes, rest.at_rest), (last, last, false));
+        assert_eq!((rest.block_passes > 0, rest.end), (last == 330, best));
+        let mut end = places(&plan);
+        settler.read(&mut end).expect("places");
+        assert_eq!(end == places(&plan), rest.end == rest.start, "{rest:?}");
+    }
+}
+
 /// Lists hold all neighbours that a comparison of all pairs finds: in small repeats, in open pieces of few cells, and over many.
 #[test]
 fn lists_are_complete() {

@@ -1,6 +1,7 @@
 //! Settling on devices: what a pass costs beside a plain fill of the bytes that it moves, and how long cloth takes to rest.
 
 use std::error::Error;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -55,7 +56,7 @@ fn print_row(
     let backend: Box<dyn Backend> = texere::open(name)?;
     let mut settler = backend.settler(plan.clone())?;
     let began = Instant::now();
-    let rest = settle(plan, &mut *settler, |_, _| {})?;
+    let rest = settle(plan, &mut *settler, |_, _| ControlFlow::Continue(()))?;
     let whole = began.elapsed();
     // From the start again: pulled at, as most passes are.
     let at = |tags: &(&Place, &u32)| tags.1 & tag::POINT != 0;

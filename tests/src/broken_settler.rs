@@ -129,8 +129,12 @@ fn listed<'a>(
 }
 
 impl Settler for SabotagedSettler {
+    fn plan(&self) -> &Arc<SettlingPlan> {
+        &self.plan
+    }
+
     fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
-        self.places = self.plan.padded(places);
+        self.plan.pad(places.iter().copied(), &mut self.places);
         self.steps.fill(Vec3::ZERO);
         self.lengths.copy_from_slice(self.plan.lengths());
         Ok(())

@@ -1,6 +1,7 @@
 //! Yarns come to rest: every start of the list on the `cpu` backend, by a check of its own; and the same bits on every schedule of
 //! the CPU.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -146,7 +147,7 @@ fn whole_settlings_end_in_the_same_bits() {
     let plan = settling_plan(&start);
     let end = |device: &dyn Backend| {
         let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
-        let rest = settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+        let rest = settle(&plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("a settling");
         let yarns = texere_conformance::rest::yarns(&start);
         (rest, settled(&plan, settler.as_mut(), yarns.points()).expect("points"))
     };
@@ -200,7 +201,7 @@ fn a_report_is_of_what_comes_back() {
         let start = starts().into_iter().find(|start| start.name == name).expect("a start");
         let plan = settling_plan(&start);
         let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
-        let rest = settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+        let rest = settle(&plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("a settling");
         let mut end = places(&plan);
         settler.read(&mut end).expect("places");
         let mut fresh = SerialBackend::new().settler(Arc::clone(&plan)).expect("a settler");
@@ -213,6 +214,31 @@ fn a_report_is_of_what_comes_back() {
         let yarns = texere_conformance::rest::yarns(&start);
         let points = settled(&plan, settler.as_mut(), yarns.points()).expect("points");
         assert_eq!(points == yarns.points(), rest.passes == 1, "{name}: {rest:?}");
+    }
+}
+
+/// Whatever it is doing when the one who watches breaks off: it makes no further pass, and leaves the best that it has reported.
+#[test]
+fn who_watches_may_break_off() {
+    let start = starts().into_iter().find(|start| start.name == "jersey-3.6").expect("a start");
+    let plan = settling_plan(&start);
+    // The pass that sees what came in, growth, ease, and the block form.
+    for last in [1, 20, 60, 330] {
+        let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
+        let (mut calls, mut best) = (0, Seen::NOTHING);
+        let rest = settle(&plan, settler.as_mut(), |pass, seen| {
+            calls += 1;
+            if calls == 1 || pass.ease == 0.0 && seen.is_better_than(&best) {
+                best = *seen;
+            }
+            if calls == last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let rest = rest.expect("a settling");
+        assert_eq!((calls, rest.passes, rest.at_rest), (last, last, false));
+        assert_eq!((rest.block_passes > 0, rest.end), (last == 330, best));
+        let mut end = places(&plan);
+        settler.read(&mut end).expect("places");
+        assert_eq!(end == places(&plan), rest.end == rest.start, "{rest:?}");
     }
 }
 
@@ -295,7 +321,7 @@ fn plates_press() {
         let settling = if let Some(gap) = gap { settling.plates(gap) } else { settling };
         let plan = Arc::new(SettlingPlan::new(&settling).expect("a plan"));
         let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
-        settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+        settle(&plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("a settling");
         let points = settled(&plan, settler.as_mut(), yarns.points()).expect("points");
         let mut points = points.iter().map(|point| point.position().as_dvec3());
         let all: Vec<Vec<_>> =

@@ -1,5 +1,6 @@
 //! Settling with settings that the starts of the list don't have: what comes to rest, by the surfaces that meshes are made of.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_conformance::rest::{Chart, Gauge, Length as Asked, Start, Weave, check, weft_knit, woven_piece};
@@ -34,7 +35,7 @@ fn at_rest(yarns: &Yarns, settling: &Settling<'_>, tension: f32) -> (Rest, Yarns
     let plan = Arc::new(SettlingPlan::new(settling).expect("a plan"));
     let mut settler =
         ParallelBackend::open().expect("the CPU").settler(Arc::clone(&plan)).expect("a settler");
-    let rest = settle(&plan, settler.as_mut(), |_, _| {}).expect("a settling");
+    let rest = settle(&plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("a settling");
     let points = settled(&plan, settler.as_mut(), yarns.points()).expect("points");
     let mut moved = yarns.clone();
     for (yarn, pair) in yarns.layout().offsets().windows(2).enumerate() {

@@ -3,13 +3,14 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::Faults;
+use texere::{Diagnosis, Faults, Settings};
 
 use crate::args::CheckArgs;
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, place};
 use crate::cures::{CureReport, phrase};
 use crate::fail::Fail;
-use crate::{print, progress, terminal};
+use crate::settling::SettlingReport;
+use crate::{print, progress, settling, terminal};
 
 /// What is said of a cloth. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -20,6 +21,8 @@ struct Report {
     touching: f64,
     #[serde(flatten)]
     faults: FaultsReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    settling: Option<SettlingReport>,
     cures: Vec<CureReport>,
 }
 
@@ -59,21 +62,29 @@ struct Jammed {
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let design = texere::read(&args.design)?;
-    let diagnosis = progress::during("measuring how near yarns come", |bar| {
-        design.structure.diagnose(1.0 - args.accuracy, progress::share(bar))
+    let settings = Settings::default();
+    let (yarns, settling) =
+        settling::yarns(&design, &args.settling, settings.tension, || texere::open("cpu"))?;
+    let clearance = progress::during("measuring how near yarns come", |bar| {
+        design.structure.clearance(&yarns, &settings, progress::share(bar))
     })?;
+    // Whether threads that settled have found room shows in their clearance, not in the pitches at which they started.
+    let jams = if settling.is_some() { None } else { design.structure.jams() };
+    let diagnosis = Diagnosis::new(1.0 - args.accuracy, clearance, jams);
     let faulty = phrase(&diagnosis.faults.kinds());
     let cures = match &faulty {
-        Some(_) => progress::during("looking for cures", |bar| {
+        // They are tried on cloth as it is before it settles.
+        Some(_) if settling.is_none() => progress::during("looking for cures", |bar| {
             design.structure.cures(&diagnosis, progress::share(bar))
         }),
-        None => Vec::new(),
+        _ => Vec::new(),
     };
     let report = Report {
         name: design.name,
         clean: faulty.is_none(),
         touching: diagnosis.touching,
         faults: FaultsReport::from(&diagnosis.faults),
+        settling,
         cures: cures.iter().filter_map(CureReport::new).collect(),
     };
     if args.json {
@@ -115,6 +126,9 @@ impl Report {
             // Writing to a string can't fail.
             let _ = writeln!(text, "{what:>10}  {}", terminal::line(said));
         };
+        if let Some(settling) = &self.settling {
+            line("settling", settling.to_string());
+        }
         line("clearance", clearance.to_string());
         line("bends", curvature.to_string());
         if let Some(crowded) = &self.faults.crowded {
@@ -146,6 +160,11 @@ impl Report {
         }
         if self.clean {
             line("clean", format!("nothing nearer than {} of touching, no fold, no jam", self.touching));
+        } else if self.settling.is_some() {
+            line(
+                "cure",
+                "none was looked for: that is done for yarns as they are before, with --no-settle".into(),
+            );
         } else if self.cures.is_empty() {
             line(
                 "cure",

@@ -6,7 +6,7 @@ use std::iter::successors;
 use std::path::Path;
 use std::process::ExitCode;
 
-use texere::{BackendError, FabricError, PlanError, ReadError, RenderError, WriteError};
+use texere::{BackendError, FabricError, FinishError, PlanError, ReadError, RenderError, WriteError};
 
 use crate::terminal::line;
 
@@ -47,6 +47,15 @@ impl Fail {
     /// What `check` has found wrong with the cloth.
     pub(crate) fn cloth(design: &Path, faults: &str) -> Self {
         Self { code: CLOTH, source: format!("{} {faults}", design.display()).into() }
+    }
+
+    /// A plot of a settling was asked for where nothing settles.
+    pub(crate) fn nothing_settles() -> Self {
+        Self {
+            code: USAGE,
+            source: "--settling-plot needs --settle, for the design does not say that its yarns settle"
+                .into(),
+        }
     }
 
     /// A picture of a turntable that is a link to another of them.
@@ -148,6 +157,16 @@ impl From<BackendError> for Fail {
 impl From<WriteError> for Fail {
     fn from(error: WriteError) -> Self {
         Self { code: code_of(&error), source: error.into() }
+    }
+}
+
+impl From<FinishError> for Fail {
+    fn from(error: FinishError) -> Self {
+        match error {
+            FinishError::Fabric(error) => error.into(),
+            FinishError::Backend(error) => error.into(),
+            _ => Self { code: DESIGN, source: error.into() },
+        }
     }
 }
 

@@ -9,8 +9,9 @@ use crate::args::InspectArgs;
 use crate::clearance::{ClearanceReport, CurvatureReport};
 use crate::fail::Fail;
 use crate::measures::{JamsReport, MeasuresReport};
+use crate::settling::SettlingReport;
 use crate::terminal::line;
-use crate::{print, progress};
+use crate::{print, progress, settling};
 
 /// What is said of a design. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -20,6 +21,8 @@ struct Report {
     size: Size,
     #[serde(skip_serializing_if = "Option::is_none", flatten)]
     cloth: Option<ClothReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    settling: Option<SettlingReport>,
     warnings: Vec<String>,
 }
 
@@ -60,11 +63,16 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
 }
 
 fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
-    let yarns = design.yarns()?;
     let settings = args.settings.settings();
+    let (yarns, settling) = if args.counts {
+        (design.yarns()?, None)
+    } else {
+        settling::yarns(&design, &args.settling, settings.tension, || texere::open("cpu"))?
+    };
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
     let cloth = if args.counts { None } else { ClothReport::new(&design.structure, &yarns, &settings)? };
-    Ok(Report { warnings: design.warnings(), name: design.name, size: Size::new(&counts), cloth })
+    let warnings = settling::warnings(&design, settling.as_ref());
+    Ok(Report { warnings, name: design.name, size: Size::new(&counts), cloth, settling })
 }
 
 impl Size {
@@ -170,6 +178,7 @@ impl Report {
             ("triangles", size.triangles.to_string()),
             ("mesh, bytes", size.bytes.to_string()),
         ];
+        lines.extend(self.settling.iter().map(|settling| ("settling", settling.to_string())));
         lines.extend(self.cloth.iter().flat_map(ClothReport::lines));
         lines.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         for (what, value) in lines {

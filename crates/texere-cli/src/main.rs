@@ -18,6 +18,8 @@ mod mesh;
 mod print;
 mod progress;
 mod render;
+mod settling;
+mod settling_plot;
 #[cfg(unix)]
 mod signals;
 mod terminal;

@@ -7,23 +7,26 @@ use texere::{Output, Pipeline};
 use crate::args::MeshArgs;
 use crate::fail::Fail;
 use crate::terminal::line;
-use crate::{drivers, print, progress};
+use crate::{drivers, print, progress, settling};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let mut design = texere::read(&args.design)?;
     if let Some(section) = &args.settings.section {
         design.structure.set_section(section.clone())?;
     }
-    let yarns = design.yarns()?;
-    let device = drivers::quietly(|| texere::open(&args.device))?;
-    let bar = progress::bar(std::io::stderr().is_terminal());
     let settings = args.settings.settings();
+    let device = drivers::quietly(|| texere::open(&args.device))?;
+    let (yarns, settling) = settling::yarns(&design, &args.settling, settings.tension, || Ok(&*device))?;
+    let bar = progress::bar(std::io::stderr().is_terminal());
     let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::reporter(&bar));
     let output = Output::to(&args.output).sparing(design.files());
     let written = texere::stream(pipeline, &*device, output)?;
     bar.finish_and_clear();
-    for warning in design.warnings() {
+    for warning in settling::warnings(&design, settling.as_ref()) {
         print::text(&format!("warning: {}\n", line(warning)))?;
+    }
+    if let Some(settling) = settling {
+        print::text(&format!("settling: {}\n", line(settling)))?;
     }
     print::text(&format!(
         "{}: {} triangles, {} vertices, {} bytes, made by {}\n",

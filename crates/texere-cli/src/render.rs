@@ -12,7 +12,7 @@ use texere::{Camera, Cut, Design, Extent, Output, Picture, Quality, Renderer};
 use crate::args::{RenderArgs, View};
 use crate::fail::Fail;
 use crate::terminal::line;
-use crate::{drivers, print};
+use crate::{drivers, print, settling};
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
     let start = Instant::now();
@@ -34,11 +34,14 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
         design.structure.set_section(section.clone())?;
     }
     let outputs = outputs(args, &design)?;
-    let yarns = stages.time("yarns", || design.yarns())?;
-    let mut scene = stages.time("upload", || renderer.scene(&yarns, &args.settings.settings()))?;
+    let settings = args.settings.settings();
+    let open = || texere::open(&args.device);
+    let (yarns, settling) =
+        stages.time("yarns", || settling::yarns(&design, &args.settling, settings.tension, open))?;
+    let mut scene = stages.time("upload", || renderer.scene(&yarns, &settings))?;
     let cameras = cameras(args, &design, scene.extent())?;
     let quality = Quality { supersampling: args.supersampling };
-    let mut text = String::new();
+    let mut text = settling.map(|settling| format!("settling: {}\n", line(settling))).unwrap_or_default();
     for (output, camera) in outputs.into_iter().zip(cameras) {
         let Picture { size: [width, height], rgb, timings } = scene.picture(&camera, quality)?;
         stages.add("screen", timings.screen);

@@ -123,10 +123,11 @@ impl<'a> Pipeline<'a> {
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), Box<dyn std::error::Error>> {
+    /// use std::ops::ControlFlow;
     /// use texere_core::{Pipeline, Settling, SettlingPlan, settle};
     /// let plan = std::sync::Arc::new(SettlingPlan::new(&Settling::new(yarns))?);
     /// let mut settler = device.settler(plan.clone())?;
-    /// let rest = settle(&plan, &mut *settler, |_, _| {})?;
+    /// let rest = settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?;
     /// let mesh = Pipeline::new(yarns).settled(&mut *settler).mesh(device)?;
     /// # Ok(())
     /// # }

@@ -13,6 +13,9 @@
 //! A [`Structure`] is the fabric of any design: [`WovenDesign`] is the only kind so far. It says what is wrong with the
 //! fabric ([`Structure::diagnose`]) and which single changes would cure it ([`Structure::cures`]).
 //!
+//! Yarns are about where they belong then. [`settle`] lets them come to rest on a device, [`Structure::settle`] those of a
+//! structure; a [`Repeat`] settles once and is copied.
+//!
 //! Beside structures there are the measures that designers ask for: [`Measures`] (yarn consumption, crimp, cover, weight,
 //! thickness), [`clearance()`] (whether yarns pierce one another), [`linking()`] (whether they have passed through one
 //! another when they were moved), [`length_mm`] of yarn, and the diameter of a yarn of known weight ([`diameter_mm`]).
@@ -37,6 +40,7 @@ mod linking;
 mod measures;
 mod memory;
 mod reach;
+mod settling;
 mod structure;
 mod warning;
 mod watch;
@@ -58,6 +62,7 @@ pub use linking::{
     WINDOW_REACH, linking, linking_with_progress,
 };
 pub use measures::{Cover, Measures, lengths_by_material, thickness_mm, weight_g};
+pub use settling::{Finish, FinishError, Piece, Repeat, Settled, settle};
 pub use structure::Structure;
 pub use warning::FabricWarning;
 pub use woven::{

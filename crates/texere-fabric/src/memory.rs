@@ -14,6 +14,6 @@ pub(crate) fn zeroed<T: Zeroable>(what: &'static str, count: u64) -> Result<Vec<
 
 /// Makes sure that `list` can take `count` more.
 pub(crate) fn room_for<T>(list: &mut Vec<T>, count: usize, what: &'static str) -> Result<(), FabricError> {
-    let bytes = (count * size_of::<T>()) as u64;
+    let bytes = (count as u64).saturating_mul(size_of::<T>() as u64);
     list.try_reserve(count).map_err(|_| FabricError::OutOfMemory { what, bytes })
 }

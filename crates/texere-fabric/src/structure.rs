@@ -2,10 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use texere_core::{Section, Settings, Yarns};
+use texere_core::{Backend, Section, Settings, Yarns};
 
-use crate::diagnosis::{ClothClearance, Cure, Diagnosis};
-use crate::{FabricError, FabricWarning, Measures, WovenDesign};
+use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, ThreadPlace};
+use crate::{
+    FabricError, FabricWarning, Finish, FinishError, Measures, Piece, Settled, WovenDesign, YarnPlace, settle,
+};
 
 /// How the yarns of a fabric interlace. There are methods for what can be asked of any kind.
 ///
@@ -42,6 +44,61 @@ impl Structure {
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().yarns(),
+        }
+    }
+
+    /// The yarns as they are before they settle, and what holds them: woven cloth is cut off at its edges, and held there.
+    ///
+    /// **Errors**: those of [`Structure::yarns`].
+    pub fn piece(&self) -> Result<Piece, FabricError> {
+        match self {
+            Self::Woven(design) => Ok(Piece::cut(design.cloth().yarns()?)),
+        }
+    }
+
+    /// Lets the yarns of the fabric settle: see [`settle`]. `tension` is that of their splines.
+    ///
+    /// **Errors**: those of [`Structure::yarns`] and of [`settle`].
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use texere_core::{Material, Section};
+    /// use texere_cpu::SerialBackend;
+    /// use texere_fabric::{Finish, Relief, Structure, Thread, Weave, Woven, WovenDesign};
+    /// let plain = Weave::parse("plain")?.drawdown(4, 4)?;
+    /// let (warp, weft) = (vec![Thread::new(0.9, 0.2); 4], vec![Thread::new(0.9, 0.2); 4]);
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?);
+    /// let device = SerialBackend::new();
+    /// let settled = structure.settle(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(()))?;
+    /// assert!(settled.rest.at_rest && settled.is_linked());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn settle(
+        &self,
+        finish: &Finish,
+        tension: f32,
+        backend: &dyn Backend,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<Settled, FinishError> {
+        settle(&self.piece()?, finish, tension, backend, progress)
+    }
+
+    /// Whether its yarns settle where a design does not say: those of woven cloth don't, for they lie as they are woven.
+    #[must_use]
+    pub const fn settles(&self) -> bool {
+        match self {
+            Self::Woven(_) => false,
+        }
+    }
+
+    /// A place on one of the structure's yarns as a designer finds it. `yarns` are the structure's own, settled or not.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
+        match self {
+            Self::Woven(design) => design.cloth().place(yarns, place),
         }
     }
 
@@ -92,6 +149,14 @@ impl Structure {
     ) -> Result<ClothClearance, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().clearance(yarns, settings, progress),
+        }
+    }
+
+    /// Threads of woven cloth that lie too close together as they are woven, if there are any.
+    #[must_use]
+    pub fn jams(&self) -> Option<Jams> {
+        match self {
+            Self::Woven(design) => design.cloth().jams(),
         }
     }
 

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use texere_core::Section;
-use texere_fabric::{Crimp, JamReport, Shape, Woven};
+use texere_core::settling::Length;
+use texere_fabric::{Crimp, Finish, JamReport, Shape, Woven};
 use texere_formats::{Design, ReadError, read};
 
 const DENIM: &str = r##"name = "Denim"
@@ -99,6 +100,44 @@ fn threads_lie_as_the_cloth_table_says() {
     // One weft yarn instead of five, all of them alike.
     let yarns = |text: &str| read_text(text).unwrap().yarns().unwrap().layout().yarns().len();
     assert_eq!((yarns(DENIM), yarns(&format!("{DENIM}{table}"))), (7 + 5, 7 + 1));
+}
+
+#[test]
+fn yarns_settle_as_the_finish_table_says() {
+    let plain = read_text(DENIM).unwrap();
+    assert_eq!((plain.settle, plain.finish), (false, Finish::default()));
+    let finished = |table: &str| {
+        let design = read_text(&format!("{DENIM}[finish]\n{table}")).unwrap();
+        (design.settle, design.finish)
+    };
+    // How they settle says nothing of whether they do.
+    assert_eq!(finished("press = 0.4\n"), (false, Finish { press_mm: Some(0.4), ..Finish::default() }));
+    assert_eq!(finished("settle = true\nlength = \"held\"\n"), (true, Finish::default()));
+    let of = |length| Finish { length, ..Finish::default() };
+    let free = "settle = false\nlength = \"free\"\n";
+    assert_eq!(finished(free), (false, of(Length::Free { tension: 0.0 })));
+    assert_eq!(finished(&format!("{free}tension = 0.05\n")).1, of(Length::Free { tension: 0.05 }));
+    assert_eq!(finished("length = 1.25\n").1, of(Length::Given(1.25)));
+    assert_eq!(finished("length = 2\n").1, of(Length::Given(2.0)));
+}
+
+#[test]
+fn a_finish_that_can_not_be_is_refused_with_its_line() {
+    let refused = |table: &str, parts: &[&str]| {
+        let error = read_text(&format!("{DENIM}[finish]\n{table}")).expect_err(table).to_string();
+        for part in parts {
+            assert!(error.contains(part), "\"{error}\" lacks \"{part}\"");
+        }
+    };
+    refused("settle = 1\n", &["design.toml, line 20", "finish.settle", "\"1\"", "true or false"]);
+    refused("press = 0.0\n", &["line 20", "finish.press", "0", "0.001", "1000"]);
+    refused("press = \"hard\"\n", &["line 20", "finish.press", "hard", "number of mm"]);
+    refused("length = 2.5\n", &["line 20", "finish.length", "2.5", "0.5", "2"]);
+    refused("length = \"long\"\n", &["finish.length", "long", "\"held\", \"free\" or how many times"]);
+    let free = "length = \"free\"\n";
+    refused(&format!("{free}tension = 0.2\n"), &["line 21", "finish.tension", "0.2", "0.1"]);
+    refused("tension = 0.05\n", &["line 20", "finish.tension", "without finish.length = \"free\""]);
+    refused("presses = 1.0\n", &["line 20", "presses", "press"]);
 }
 
 fn jams(design: &Design) -> JamReport {

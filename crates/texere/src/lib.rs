@@ -23,6 +23,31 @@
 //! # }
 //! ```
 //!
+//! Yarns are about where they belong. They come to rest with [`Structure::settle`], as the design's [`Finish`] says:
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = std::env::temp_dir().join(format!("texere-doc-settled-{}", std::process::id()));
+//! # std::fs::create_dir_all(&folder)?;
+//! # let design_path = folder.join("doubled.toml");
+//! use std::ops::ControlFlow;
+//! // Doubled ends and picks, too near one another for those that cross them.
+//! std::fs::write(&design_path, "weave = { notation = \"plain\", ends = 6, picks = 6 }\n\
+//!     finish = { settle = true, length = \"free\" }\nyarns.ecru.diameter_mm = 0.3\n\
+//!     warp = { yarns = [\"ecru\"], spacing_mm = [0.78, 0.48] }\n\
+//!     weft = { yarns = [\"ecru\"], spacing_mm = [0.78, 0.48] }\n")?;
+//! let design = texere::read(&design_path)?;
+//! let device = texere::open("cpu")?;
+//! let settled = design.structure.settle(&design.finish, 0.0, &*device, |_| ControlFlow::Continue(()))?;
+//! assert!(design.settle && settled.rest.at_rest && settled.is_linked());
+//! assert!(settled.rest.start.clearance < 0.95 && settled.clearance.min > 0.98);
+//! let mesh = texere::Pipeline::new(&settled.yarns).mesh(&*device)?;
+//! # assert!(!mesh.vertices.is_empty());
+//! # std::fs::remove_dir_all(&folder)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! Features: `opencl` and `wgpu` add GPU backends; without them the CPU does the work alone. `render` adds pictures.
 //!
 //! A cloth too large for memory is written piece by piece with [`stream`]. Yarns of any other origin come from
@@ -33,19 +58,21 @@ mod device;
 #[cfg(feature = "render")]
 pub use device::open_renderer;
 pub use device::{Devices, devices, open};
+pub use texere_core::settling;
 pub use texere_core::{
     Backend, BackendError, Boundary, BoundaryError, Chunk, ControlPoint, Counts, DeviceInfo, DeviceKind,
     Ends, Frame, Limits, Material, Mesh, MeshPiece, Origin, Pipeline, PipelineError, Plan, PlanError,
-    Progress, Ring, Schedule, Section, SectionError, Settings, Topology, Trajectory, Vertex, Yarn, YarnError,
-    Yarns, YarnsBuilder,
+    Progress, Ring, Schedule, Section, SectionError, Settings, SettlingError, Topology, Trajectory, Vertex,
+    Yarn, YarnError, Yarns, YarnsBuilder,
 };
 pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
-    FabricWarning, FaultKind, Faults, JamReport, Jams, LINKING_CHANGE, Linking, Measures, NO_CROSSING,
-    Passage, Pitch, Relief, Remedy, Shape, Shedding, Structure, Thread, ThreadBend, ThreadContact,
-    ThreadCrowd, ThreadPlace, Tightness, Weave, Woven, WovenDesign, YarnPlace, clearance,
-    clearance_with_progress, length_mm, lengths_mm, linking, linking_with_progress,
+    FabricWarning, FaultKind, Faults, Finish, FinishError, JamReport, Jams, LINKING_CHANGE, Linking,
+    Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Settled, Shape, Shedding,
+    Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave, Woven,
+    WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm, linking,
+    linking_with_progress, settle,
 };
 pub use texere_formats::write::{
     Format, Output, Side, Written, abandon, draft as write_draft, file as write_file, mesh as write,

@@ -1,5 +1,6 @@
 //! Starts as problems of texere's, and what came to rest as plain points again.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -59,11 +60,15 @@ pub fn settling_plan(start: &Start) -> Arc<SettlingPlan> {
 pub fn settle_start(
     start: &Start,
     device: &dyn Backend,
-    watch: impl FnMut(&Pass, &Seen),
+    mut watch: impl FnMut(&Pass, &Seen),
 ) -> (Rest, Vec<Vec<DVec3>>) {
     let plan = settling_plan(start);
     let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
-    let rest = settle(&plan, settler.as_mut(), watch).expect("a settling");
+    let rest = settle(&plan, settler.as_mut(), |pass, seen| {
+        watch(pass, seen);
+        ControlFlow::Continue(())
+    });
+    let rest = rest.expect("a settling");
     let points = settled(&plan, settler.as_mut(), yarns(start).points()).expect("points");
     let mut points = points.iter().map(|point| point.position().as_dvec3());
     let yarns = start.yarns.iter().map(|yarn| points.by_ref().take(yarn.points.len()).collect());

@@ -3,6 +3,7 @@
 mod path;
 mod render;
 mod settings;
+mod settling;
 
 use std::path::PathBuf;
 
@@ -11,6 +12,7 @@ use clap::{Parser, Subcommand};
 use path::{file_of, mesh_file};
 pub(crate) use render::{RenderArgs, View};
 pub(crate) use settings::SettingsArgs;
+pub(crate) use settling::SettlingArgs;
 
 /// Textile designs to yarn-level 3D geometry.
 #[derive(Debug, Parser)]
@@ -53,11 +55,14 @@ pub(crate) struct InspectArgs {
     pub(crate) design: PathBuf,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
+    #[command(flatten)]
+    pub(crate) settling: SettlingArgs,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Count alone, without measures, clearance and bends, which take seconds where there are millions of control points
-    #[arg(long)]
+    /// Count alone, without measures, clearance and bends, which take seconds where there are millions of control points. Nothing
+    /// settles
+    #[arg(long, conflicts_with_all = ["settle", "settling_plot"])]
     pub(crate) counts: bool,
 }
 
@@ -69,6 +74,8 @@ pub(crate) struct CheckArgs {
     /// construction the spline between their control points comes out at 0.99 of it
     #[arg(long, value_name = "SHARE", default_value_t = 0.015, value_parser = share)]
     pub(crate) accuracy: f64,
+    #[command(flatten)]
+    pub(crate) settling: SettlingArgs,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -86,6 +93,8 @@ pub(crate) struct MeshArgs {
     pub(crate) device: String,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
+    #[command(flatten)]
+    pub(crate) settling: SettlingArgs,
 }
 
 #[derive(Debug, clap::Args)]

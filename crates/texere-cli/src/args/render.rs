@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use texere::Quality;
 
-use super::SettingsArgs;
 use super::path::file_of;
+use super::{SettingsArgs, SettlingArgs};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
@@ -45,6 +45,8 @@ pub(crate) struct RenderArgs {
     pub(crate) repeat: u32,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
+    #[command(flatten)]
+    pub(crate) settling: SettlingArgs,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -7,6 +7,7 @@ mod draft;
 mod hostile;
 mod inspect;
 mod outputs;
+mod settling;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

@@ -1,5 +1,6 @@
 //! The course of a settling: how yarns grow, when neighbours are listed again, and when it is done.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::IVec3;
@@ -52,7 +53,7 @@ pub struct Rest {
 }
 
 /// Settles on a device, and leaves there the best places that were seen: by clearance, then by bends, then by length. `watch`
-/// sees every pass.
+/// sees every pass; where it breaks off, the best until then are left.
 ///
 /// Yarns grow from a quarter of their thickness, and bends are soft at first. The weighted form of the pass goes on until all is at
 /// rest or until it stalls; then the block form does, with as many passes at most.
@@ -61,12 +62,13 @@ pub struct Rest {
 pub fn settle(
     plan: &SettlingPlan,
     settler: &mut dyn Settler,
-    watch: impl FnMut(&Pass, &Seen),
+    watch: impl FnMut(&Pass, &Seen) -> ControlFlow<()>,
 ) -> Result<Rest, BackendError> {
     Run {
         plan,
         settler,
         watch,
+        stopped: false,
         listed: 0.0,
         moved: f32::INFINITY,
         lacked: (f32::INFINITY, 0),
@@ -79,6 +81,8 @@ struct Run<'a, W> {
     plan: &'a SettlingPlan,
     settler: &'a mut dyn Settler,
     watch: W,
+    /// Whether `watch` has broken off.
+    stopped: bool,
     /// The growth at which neighbours were listed last, and how far points have moved at most since, mm.
     listed: f32,
     moved: f32,
@@ -87,7 +91,7 @@ struct Run<'a, W> {
     rest: Rest,
 }
 
-impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
+impl<W: FnMut(&Pass, &Seen) -> ControlFlow<()>> Run<'_, W> {
     fn whole(mut self) -> Result<Rest, BackendError> {
         let places: Vec<Place> = own_places(self.plan).map(|(place, _)| *place).collect();
         self.settler.upload(&places)?;
@@ -95,8 +99,8 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
         let start = self.pass(&Pass { form: Form::Weighted, growth: 1.0, ease: 0.0, momentum: 0.0 })?;
         self.settler.keep()?;
         (self.rest.start, self.rest.end) = (start, start);
-        if self.is_rest(&start) {
-            self.rest.at_rest = true;
+        self.rest.at_rest = self.is_rest(&start);
+        if self.rest.at_rest || self.stopped {
             return self.ended();
         }
         self.settler.upload(&jittered(self.plan))?;
@@ -105,7 +109,7 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
         for number in 0..GROWING + passes {
             let pass = weighted(number, passes);
             let seen = self.pass(&pass)?;
-            if pass.ease == 0.0 && self.weigh(&seen)? {
+            if pass.ease == 0.0 && self.weigh(&seen)? || self.stopped {
                 return self.ended();
             }
             if pass.ease == 0.0 && self.has_stalled(&seen, number) {
@@ -115,7 +119,7 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
         for _ in 0..passes {
             let seen = self.pass(&Pass { form: Form::Block, growth: 1.0, ease: 0.0, momentum: 0.8 })?;
             self.rest.block_passes += 1;
-            if self.weigh(&seen)? {
+            if self.weigh(&seen)? || self.stopped {
                 break;
             }
         }
@@ -134,7 +138,7 @@ impl<W: FnMut(&Pass, &Seen)> Run<'_, W> {
         let seen = self.settler.pass(pass)?;
         self.moved += seen.step;
         self.rest.passes += 1;
-        (self.watch)(pass, &seen);
+        self.stopped = (self.watch)(pass, &seen).is_break();
         Ok(seen)
     }
 

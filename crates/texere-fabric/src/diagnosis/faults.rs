@@ -71,6 +71,20 @@ pub struct Jams {
     pub threads: Vec<Pitch>,
 }
 
+impl Diagnosis {
+    /// What is wrong with a cloth whose yarns have this clearance, and these jams. Contacts of a ratio below `touching` pierce.
+    #[must_use]
+    pub fn new(touching: f64, clearance: ClothClearance, jams: Option<Jams>) -> Self {
+        let faults = Faults {
+            crowded: clearance.crowd,
+            pierces: clearance.worst.iter().take_while(|contact| contact.ratio < touching).copied().collect(),
+            folds: Some(clearance.bend).filter(|bend| bend.radii < 1.0),
+            jams,
+        };
+        Self { touching, clearance, faults }
+    }
+}
+
 impl Faults {
     /// What kinds there are; none of a clean cloth.
     ///
@@ -116,13 +130,7 @@ impl Woven {
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Diagnosis, FabricError> {
         let clearance = self.clearance(&self.yarns()?, &Settings::default(), progress)?;
-        let faults = Faults {
-            crowded: clearance.crowd,
-            pierces: clearance.worst.iter().take_while(|contact| contact.ratio < touching).copied().collect(),
-            folds: Some(clearance.bend).filter(|bend| bend.radii < 1.0),
-            jams: self.jams(),
-        };
-        Ok(Diagnosis { touching, clearance, faults })
+        Ok(Diagnosis::new(touching, clearance, self.jams()))
     }
 
     /// The jammed threads, if there are any.

@@ -116,6 +116,11 @@ impl Woven {
         let found = clearance_with_progress(yarns, settings, progress)?;
         Ok(Names { cloth: self, yarns }.clearance(found))
     }
+
+    /// A place on one of the cloth's `yarns`, named by thread and crossing.
+    pub(crate) fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
+        Names { cloth: self, yarns }.place(place)
+    }
 }
 
 /// A cloth and its yarns, to name places by.

@@ -3,7 +3,7 @@
 use std::path::{self, Path, PathBuf};
 
 use texere_core::Yarns;
-use texere_fabric::{FabricError, Structure};
+use texere_fabric::{FabricError, Finish, Structure};
 
 /// A design, read and checked.
 ///
@@ -18,14 +18,24 @@ pub struct Design {
     pub name: String,
     /// What it describes.
     pub structure: Structure,
-    /// What the reader had to assume or leave out.
+    /// Whether its yarns are to settle before they are used ([`Structure::settle`]). [`Design::yarns`] are as they are before.
+    pub settle: bool,
+    /// How they settle.
+    pub finish: Finish,
     remarks: Vec<String>,
     files: Vec<PathBuf>,
 }
 
 impl Design {
-    pub(super) const fn new(name: String, structure: Structure, remarks: Vec<String>) -> Self {
-        Self { name, structure, remarks, files: Vec::new() }
+    /// A design whose yarns settle as those of its structure do.
+    pub(super) fn new(name: String, structure: Structure, remarks: Vec<String>) -> Self {
+        let (settle, finish) = (structure.settles(), Finish::default());
+        Self { name, structure, settle, finish, remarks, files: Vec::new() }
+    }
+
+    /// The same design with what it says about how its yarns settle.
+    pub(super) fn finished(self, settle: Option<bool>, finish: Finish) -> Self {
+        Self { settle: settle.unwrap_or(self.settle), finish, ..self }
     }
 
     /// Notes a file that it was read from.
@@ -42,8 +52,14 @@ impl Design {
         &self.files
     }
 
-    /// What a designer should know: what the reader had to assume or leave out, and what the fabric lacks
-    /// ([`Structure::warnings`]).
+    /// What the reader had to assume or leave out.
+    #[must_use]
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
+    }
+
+    /// What a designer should know: the reader's [`remarks`](Design::remarks), and what the fabric lacks as its structure puts
+    /// its yarns ([`Structure::warnings`]).
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let warnings = self.structure.warnings();

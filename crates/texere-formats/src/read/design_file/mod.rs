@@ -13,6 +13,10 @@
 //! warp_crimp = 0.6
 //! jam = "flatten"
 //!
+//! [finish]                        # how yarns come to rest; all of it may be left out
+//! settle = true
+//! length = "free"
+//!
 //! [yarns.indigo]
 //! tex = 60.0                      # or diameter_mm
 //! color = "#26406e"
@@ -61,9 +65,19 @@
 //! | `selvedge` | `true`: the weft turns back round the edge ends, one yarn; `false` where not given |
 //! | `jam` | what is done where threads are jammed: `"report"`, where not given, `"flatten"` or `"shrink"` ([`Relief`]) |
 //!
+//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`settle`](texere_fabric::settle)):
+//!
+//! | key | value |
+//! |---|---|
+//! | `settle` | whether they settle at all; where not given, as the structure has it ([`Structure::settles`]) |
+//! | `length` | `"held"`, where not given, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]) |
+//! | `tension` | with `length = "free"`: what draws yarns in, 0 to 0.1; 0 where not given |
+//! | `press` | the distance of two plates that press the cloth while its yarns settle, mm |
+//!
 //! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.
 
 mod cloth;
+mod finish;
 mod schema;
 mod threads;
 mod weave;
@@ -72,7 +86,9 @@ use std::path::Path;
 
 use texere_core::Section;
 #[cfg(doc)]
-use texere_fabric::{Crimp, Relief, Shape, Weave};
+use texere_core::settling::Length;
+#[cfg(doc)]
+use texere_fabric::{Crimp, Finish, Relief, Shape, Weave};
 use texere_fabric::{Drawdown, Structure, Woven, WovenDesign};
 
 use super::file::{bytes_of, file_name};
@@ -90,12 +106,15 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let source = Source::new(path, &bytes)?;
     let file: DesignFile = source.parse()?;
     let laid = Cloth::new(&source, &file.cloth)?;
+    let (settle, finish) = file.finish.read(&source)?;
     let yarns = YarnTable::new(&source, &file.yarns)?;
     let mut warnings = Vec::new();
     let drawdown = match (&file.weave.notation, &file.weave.image, &file.weave.wif) {
         (Some(notation), None, None) => weave::from_notation(&source, &file.weave, notation)?,
         (None, Some(image), None) => weave::from_image(&source, &file.weave, image, &mut warnings)?,
-        (None, None, Some(wif)) => return from_wif(&source, &file, wif, &yarns, laid),
+        (None, None, Some(wif)) => {
+            return Ok(from_wif(&source, &file, wif, &yarns, laid)?.finished(settle, finish));
+        }
         _ => {
             let keys = "weave.notation, weave.image and weave.wif";
             return Err(ReadError::ExactlyOne { file: path.into(), keys });
@@ -105,7 +124,7 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     laid.lay(&source, &mut woven)?;
     let name = file.name.unwrap_or_else(|| file_name(path));
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
-    let design = Design::new(name, Structure::Woven(woven), warnings);
+    let design = Design::new(name, Structure::Woven(woven), warnings).finished(settle, finish);
     Ok(match &file.weave.image {
         Some(image) => design.noting(&path.parent().unwrap_or(Path::new("")).join(image.as_ref())),
         None => design,

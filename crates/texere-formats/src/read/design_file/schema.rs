@@ -20,6 +20,8 @@ pub(super) struct DesignFile {
     #[serde(default)]
     pub(super) cloth: ClothTable,
     #[serde(default)]
+    pub(super) finish: FinishTable,
+    #[serde(default)]
     pub(super) yarns: BTreeMap<String, YarnSpec>,
     pub(super) warp: Option<ThreadSet>,
     pub(super) weft: Option<ThreadSet>,
@@ -46,6 +48,16 @@ pub(super) struct ClothTable {
     pub(super) warp_crimp: Option<Spanned<toml::Value>>,
     pub(super) selvedge: Option<Spanned<toml::Value>>,
     pub(super) jam: Option<Spanned<toml::Value>>,
+}
+
+/// How yarns come to rest. Values of any kind, likewise.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FinishTable {
+    pub(super) settle: Option<Spanned<toml::Value>>,
+    pub(super) press: Option<Spanned<toml::Value>>,
+    pub(super) tension: Option<Spanned<toml::Value>>,
+    pub(super) length: Option<Spanned<toml::Value>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,0 +1,27 @@
+//! The command line's part in whether yarns settle.
+
+use std::path::PathBuf;
+
+use texere::Design;
+
+use super::path::file_of;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct SettlingArgs {
+    /// Let yarns come to rest first, whatever the design says: they move until they nowhere pierce one another or fold
+    #[arg(long, conflicts_with = "no_settle")]
+    settle: bool,
+    /// Leave yarns as the structure puts them, whatever the design says
+    #[arg(long)]
+    no_settle: bool,
+    /// Draw how yarns came to rest, pass by pass, to an .svg file
+    #[arg(long, value_name = "FILE", conflicts_with = "no_settle", value_parser = file_of("svg"))]
+    pub(crate) settling_plot: Option<PathBuf>,
+}
+
+impl SettlingArgs {
+    /// Whether the yarns of `design` settle.
+    pub(crate) const fn settles(&self, design: &Design) -> bool {
+        (self.settle || design.settle) && !self.no_settle
+    }
+}

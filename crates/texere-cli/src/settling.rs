@@ -1,0 +1,138 @@
+//! Yarns that settle before they are measured, drawn or written, and what is said of that.
+
+use std::fmt;
+use std::ops::Deref;
+
+use serde::Serialize;
+use texere::settling::Length;
+use texere::{Backend, BackendError, Design, Finish, Output, Passage, Settled, Yarns};
+
+use crate::args::SettlingArgs;
+use crate::clearance::place;
+use crate::fail::Fail;
+use crate::settling_plot::plot;
+use crate::{drivers, progress};
+
+/// How yarns have settled. The keys of the JSON are these fields.
+#[derive(Debug, Serialize)]
+pub(crate) struct SettlingReport {
+    device: String,
+    at_rest: bool,
+    /// Passes in all, and those of the block form among them.
+    passes: u32,
+    block_passes: u32,
+    /// The least distance of two yarns over both reaches: 1 where they touch.
+    clearance: f32,
+    /// The least radius of curvature.
+    radius_diameters: f32,
+    /// By how much a part of a yarn is off the length that it is to have at most, as a share; null where lengths are free.
+    length_off: Option<f32>,
+    /// Whether no yarn has passed through another.
+    linked: bool,
+    /// The worst place where one has: then yarns are as they were before.
+    passage: Option<PassageReport>,
+}
+
+/// Two yarns that have passed through one another.
+#[derive(Debug, Serialize)]
+struct PassageReport {
+    yarns: [String; 2],
+    /// Half way between the two centrelines, mm.
+    place_mm: [f64; 3],
+    /// By how much their linking integral has changed.
+    change: f64,
+}
+
+/// The yarns of a design, and how they have settled where it or the command line asks for that. They settle on the device that
+/// `open` gives, with splines of `tension`.
+pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
+    design: &Design,
+    args: &SettlingArgs,
+    tension: f32,
+    open: impl FnOnce() -> Result<D, BackendError>,
+) -> Result<(Yarns, Option<SettlingReport>), Fail> {
+    if !args.settles(design) {
+        return match args.settling_plot {
+            Some(_) => Err(Fail::nothing_settles()),
+            None => Ok((design.yarns()?, None)),
+        };
+    }
+    let output = args.settling_plot.as_ref().map(|path| Output::to(path).sparing(design.files()));
+    output.iter().try_for_each(Output::check)?;
+    let device = drivers::quietly(open)?;
+    let finish = Finish { record: output.is_some(), ..design.finish };
+    let settled = progress::during("settling", |bar| {
+        design.structure.settle(&finish, tension, &*device, progress::share(bar))
+    })?;
+    if let Some(output) = output {
+        texere::write_file(plot(&settled.course).as_bytes(), output)?;
+    }
+    let report = SettlingReport::new(design, &settled, &device.info().name);
+    Ok((settled.yarns, Some(report)))
+}
+
+/// What a designer should know of yarns that have settled so, if they have: where all are at rest, that the structure gave them
+/// too little room is no longer true.
+pub(crate) fn warnings(design: &Design, settling: Option<&SettlingReport>) -> Vec<String> {
+    if settling.is_some_and(|settling| settling.at_rest) {
+        design.remarks().to_vec()
+    } else {
+        design.warnings()
+    }
+}
+
+impl SettlingReport {
+    fn new(design: &Design, settled: &Settled, device: &str) -> Self {
+        let rest = &settled.rest;
+        let passage = |passage: &Passage| {
+            let [one, other] = passage.places.map(|place| design.structure.place(&settled.yarns, &place));
+            let middle = |axis: usize| f64::midpoint(one.position_mm[axis], other.position_mm[axis]);
+            PassageReport {
+                yarns: [one, other].map(|place| place.thread.to_string()),
+                place_mm: std::array::from_fn(middle),
+                change: passage.change,
+            }
+        };
+        Self {
+            device: device.to_owned(),
+            at_rest: rest.at_rest,
+            passes: rest.passes,
+            block_passes: rest.block_passes,
+            clearance: rest.end.clearance,
+            radius_diameters: rest.end.radius,
+            length_off: match design.finish.length {
+                Length::Free { .. } => None,
+                Length::Held | Length::Given(_) => Some(rest.end.length),
+            },
+            linked: settled.is_linked(),
+            passage: settled.linking.worst.first().map(passage),
+        }
+    }
+}
+
+impl fmt::Display for SettlingReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { device, passes, block_passes, clearance, radius_diameters, .. } = self;
+        let rest = if self.at_rest { "at rest" } else { "not at rest" };
+        let s = if *passes == 1 { "" } else { "es" };
+        write!(f, "{rest} after {passes} pass{s} on {device}, {block_passes} of them in the block form; ")?;
+        if clearance.is_finite() {
+            write!(f, "clearance {clearance:.3}, ")?;
+        }
+        if radius_diameters.is_finite() {
+            write!(f, "least radius of curvature {radius_diameters:.3} diameters, ")?;
+        }
+        match self.length_off {
+            Some(off) => write!(f, "lengths off by {:.1} % at most; ", off * 100.0)?,
+            None => write!(f, "lengths free; ")?,
+        }
+        match &self.passage {
+            _ if self.linked => write!(f, "linking unchanged"),
+            Some(PassageReport { yarns: [one, other], place_mm, .. }) => {
+                let at = place(*place_mm);
+                write!(f, "linking changed, so the yarns are as before: {one} and {other} met at {at}")
+            }
+            None => write!(f, "linking not known, so the yarns are as before"),
+        }
+    }
+}

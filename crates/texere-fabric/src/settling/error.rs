@@ -1,0 +1,22 @@
+//! What can go wrong while yarns settle.
+
+use texere_core::{BackendError, SettlingError};
+use thiserror::Error;
+
+use crate::FabricError;
+
+/// Yarns that could not be settled.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum FinishError {
+    /// The structure's yarns can't be made, or what came of them can't be measured; [`FabricError::Cancelled`] where the
+    /// progress callback asked to stop.
+    #[error(transparent)]
+    Fabric(#[from] FabricError),
+    /// What is asked can't be settled.
+    #[error(transparent)]
+    Settling(#[from] SettlingError),
+    /// The device failed, or settles nothing.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+}

@@ -1,0 +1,103 @@
+//! Settling: the yarns of a structure come to rest, and a repeat that has settled is laid side by side.
+
+mod error;
+mod piece;
+mod repeat;
+mod settled;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use texere_core::settling::{self, Rest, SettlingPlan};
+use texere_core::{Backend, ControlPoint, Settings, YarnError, Yarns};
+
+pub use self::error::FinishError;
+pub use self::piece::Piece;
+pub use self::repeat::Repeat;
+pub use self::settled::{Finish, Settled};
+
+use self::settled::unchanged;
+use crate::{FabricError, clearance_with_progress, linking_with_progress};
+
+/// The share of the progress at which passes end, and linking is compared.
+const PASSED: f64 = 0.9;
+const COMPARED: f64 = 0.95;
+
+/// Lets the yarns of `piece` settle on `backend`: they move until they nowhere pierce one another, nowhere fold, and have the
+/// length that `finish` asks for. `tension` is that of the spline through their control points. `progress` gets the share of the
+/// work that is done, from 0 to 1; `Break` ends it within one pass.
+///
+/// Where they can't come to rest within their passes, [`Settled::rest`] says so with its figures. What comes back is the best that
+/// was seen: by clearance, then by bends, then by length, never worse than what came in ([`texere_core::settle`]). Yarns that have
+/// passed through one another are no better whatever they measure: then what came in comes back, and [`Settled::linking`] names
+/// the places.
+///
+/// **Errors**: [`FinishError::Settling`] for what can't be settled as asked, [`FinishError::Backend`] for a backend that settles
+/// nothing or a device that fails, and the errors of [`linking()`](crate::linking()) and [`clearance()`](crate::clearance()).
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// use texere_cpu::SerialBackend;
+/// use texere_fabric::{Finish, Piece, settle};
+/// // Two yarns that cross nearer than they are thick, each held at both its ends.
+/// let mut yarns = Yarns::builder();
+/// let along = [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0];
+/// yarns.yarn(Yarn::default(), &along.map(|x| ControlPoint::new(x, 0.0, 0.2, 0.25)));
+/// yarns.yarn(Yarn::default(), &along.map(|y| ControlPoint::new(0.0, y, -0.2, 0.25)));
+/// let piece = Piece::cut(yarns.build()?);
+/// let settled = settle(&piece, &Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()))?;
+/// assert!(settled.rest.at_rest && settled.is_linked());
+/// assert!(settled.rest.start.clearance < 0.81 && settled.clearance.min > 0.99);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn settle(
+    piece: &Piece,
+    finish: &Finish,
+    tension: f32,
+    backend: &dyn Backend,
+    mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+) -> Result<Settled, FinishError> {
+    let plan = Arc::new(SettlingPlan::new(&piece.settling(finish, tension))?);
+    let mut settler = backend.settler(Arc::clone(&plan))?;
+    let (mut course, mut stopped) = (Vec::new(), false);
+    // Both forms take so many passes at most, and few more come before.
+    let (mut made, most) = (0.0, 2.0 * f64::from(finish.passes));
+    let rest = settling::settle(&plan, settler.as_mut(), |pass, seen| {
+        if finish.record {
+            course.push((*pass, *seen));
+        }
+        made += 1.0;
+        let answer = progress(PASSED * f64::min(made / most, 1.0));
+        stopped = answer.is_break();
+        answer
+    })?;
+    if stopped {
+        return Err(FabricError::Cancelled.into());
+    }
+    let points = settling::settled(&plan, settler.as_mut(), piece.yarns.points())?;
+    drop(settler);
+
+    let settings = Settings { tension, ..Settings::default() };
+    let moved = moved(&piece.yarns, &points).map_err(FabricError::from)?;
+    let linking = linking_with_progress(&piece.yarns, &moved, &piece.boundary, &settings, |done| {
+        progress(PASSED + (COMPARED - PASSED) * done)
+    })?;
+    let (yarns, rest) = if unchanged(&linking) {
+        (moved, rest)
+    } else {
+        (piece.yarns.clone(), Rest { at_rest: false, end: rest.start, ..rest })
+    };
+    let measured = |done| progress(COMPARED + (1.0 - COMPARED) * done);
+    let clearance = clearance_with_progress(&yarns, &settings, measured)?;
+    Ok(Settled { yarns, rest, linking, clearance, course })
+}
+
+/// `yarns` with all their control points elsewhere.
+fn moved(yarns: &Yarns, points: &[ControlPoint]) -> Result<Yarns, YarnError> {
+    let mut moved = yarns.clone();
+    for (yarn, bounds) in yarns.layout().offsets().windows(2).enumerate() {
+        moved.set_points(yarn, &points[bounds[0] as usize..bounds[1] as usize])?;
+    }
+    Ok(moved)
+}

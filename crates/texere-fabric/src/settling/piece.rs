@@ -1,0 +1,57 @@
+//! A piece of cloth that is to settle.
+
+use texere_core::settling::Settling;
+use texere_core::{Boundary, Yarns};
+
+use super::Finish;
+
+/// A piece of cloth that is to settle: its yarns, how it goes on at its edges, and what holds it there.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// The yarns, about where they belong.
+    pub yarns: Yarns,
+    /// Where they end, close up or go on.
+    pub boundary: Boundary,
+    /// Control points that stay where they are, by number among all.
+    pub pinned: Vec<u64>,
+}
+
+impl Piece {
+    /// A piece that nothing holds: one repeat of a cloth, or one that lies free.
+    #[must_use]
+    pub const fn new(yarns: Yarns, boundary: Boundary) -> Self {
+        Self { yarns, boundary, pinned: Vec::new() }
+    }
+
+    /// A piece cut out of a cloth: every yarn that is not closed ends at its first and its last control point, and is held there.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
+    /// use texere_fabric::Piece;
+    /// let mut yarns = Yarns::builder();
+    /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// assert_eq!(Piece::cut(yarns.build()?).pinned, [0, 2]);
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    #[must_use]
+    pub fn cut(yarns: Yarns) -> Self {
+        let layout = yarns.layout();
+        let open = layout.yarns().iter().zip(layout.offsets().windows(2)).filter(|(yarn, _)| !yarn.closed);
+        let pinned = open.flat_map(|(_, bounds)| [bounds[0], bounds[1] - 1]).collect();
+        Self { boundary: Boundary::without_repeat(layout), pinned, yarns }
+    }
+
+    /// The problem that `finish` makes of it, for splines of `tension`.
+    pub(super) fn settling(&self, finish: &Finish, tension: f32) -> Settling<'_> {
+        let settling = Settling::new(&self.yarns)
+            .spline_tension(tension)
+            .boundary(self.boundary.clone())
+            .pinned(self.pinned.clone())
+            .length(finish.length)
+            .passes(finish.passes);
+        match finish.press_mm {
+            Some(gap) => settling.plates(gap),
+            None => settling,
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! One repeat of a cloth, laid side by side.
+
+use texere_core::{ControlPoint, Ends, Layout, Yarns};
+
+use super::Piece;
+use crate::FabricError;
+use crate::memory::room_for;
+
+/// A cloth that is so many copies of one repeat. The repeat settles once, and is then copied.
+///
+/// ```
+/// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
+/// use texere_fabric::{Piece, Repeat};
+/// // A thread that crosses a repeat of 2 mm along x, and goes on in the next one.
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 0.5, 1.0, 1.5].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let yarns = yarns.build()?;
+/// let boundary = Boundary::new(yarns.layout(), [2.0, 0.5], vec![Ends::Repeats([1, 0])])?;
+/// let repeat = Repeat { piece: Piece::new(yarns, boundary), copies: [3, 2] };
+/// // Three repeats of it are one yarn, and there are two such yarns, half a millimetre apart.
+/// let cloth = repeat.laid(&repeat.piece.yarns)?;
+/// assert_eq!(cloth.layout().offsets(), [0, 12, 24]);
+/// assert_eq!((cloth.points()[11].x, cloth.points()[23].y), (5.5, 0.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Repeat {
+    /// The yarns of one repeat, and how they go on.
+    pub piece: Piece,
+    /// How many repeats lie side by side along x and along y.
+    pub copies: [u32; 2],
+}
+
+impl Repeat {
+    /// All copies of the repeat, side by side. `yarns` are those of [`Repeat::piece`], as they are or settled.
+    ///
+    /// A yarn that goes on from one repeat to the next is one yarn through all of them, and is cut off where the copies end: at the
+    /// last control point of its last round. There its first and its last interval lack the neighbour that bends them in the repeat,
+    /// so that they may come nearer to others. Others are copied one by one. Yarns come copy by copy, from the left and row by
+    /// row from below, each where it begins. Materials, sections, origins and sources are those of the repeat.
+    ///
+    /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's, [`FabricError::OutOfMemory`],
+    /// and [`FabricError::Yarns`] where there is no copy, or coordinates would lie too far out.
+    pub fn laid(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        let (layout, boundary) = (yarns.layout(), &self.piece.boundary);
+        if layout.offsets() != self.piece.yarns.layout().offsets() {
+            let planned = self.piece.yarns.layout().point_count();
+            return Err(FabricError::OtherYarns { points: layout.point_count(), planned });
+        }
+        let copies = u64::from(self.copies[0]) * u64::from(self.copies[1]);
+        let total = usize::try_from(u128::from(copies) * u128::from(layout.point_count()));
+        let total = total.unwrap_or(usize::MAX);
+        let (mut table, mut offsets) = (Vec::new(), vec![0]);
+        let (mut points, mut sources) = (Vec::new(), Vec::new());
+        room_for(&mut points, total, "control points")?;
+        if yarns.sources().is_some() {
+            room_for(&mut sources, total, "sources")?;
+        }
+        for (cell, yarn) in
+            self.cells().flat_map(|cell| (0..layout.yarns().len()).map(move |yarn| (cell, yarn)))
+        {
+            let onward = match boundary.ends()[yarn] {
+                Ends::Open | Ends::Closed => None,
+                Ends::Repeats(onward) => Some(onward.map(i64::from)),
+            };
+            if onward.is_some_and(|onward| self.holds([cell[0] - onward[0], cell[1] - onward[1]])) {
+                // It has begun in an earlier round.
+                continue;
+            }
+            let next = |cell: &[i64; 2]| onward.map(|onward| [cell[0] + onward[0], cell[1] + onward[1]]);
+            for round in std::iter::successors(Some(cell), next).take_while(|cell| self.holds(*cell)) {
+                let [x, y] = [0, 1].map(|axis| round[axis] as f64 * f64::from(boundary.repeat()[axis]));
+                points.extend(yarns.yarn_points(yarn).unwrap_or(&[]).iter().map(|point| {
+                    let at = |own: f32, moved: f64| (f64::from(own) + moved) as f32;
+                    ControlPoint { x: at(point.x, x), y: at(point.y, y), ..*point }
+                }));
+                if let (Some(all), Some(range)) = (yarns.sources(), yarns.range(yarn)) {
+                    sources.extend_from_slice(&all[range]);
+                }
+            }
+            table.push(layout.yarns()[yarn]);
+            offsets.push(points.len() as u64);
+        }
+        let laid = Layout::new(table, offsets, layout.sections().to_vec())?;
+        let laid = Yarns::new(laid, yarns.materials().to_vec(), points)?;
+        Ok(if yarns.sources().is_some() { laid.with_sources(sources)? } else { laid })
+    }
+
+    /// All copies, by how many repeats they lie along x and along y.
+    fn cells(&self) -> impl Iterator<Item = [i64; 2]> {
+        let [across, along] = self.copies.map(i64::from);
+        (0..along).flat_map(move |y| (0..across).map(move |x| [x, y]))
+    }
+
+    fn holds(&self, cell: [i64; 2]) -> bool {
+        cell.iter().zip(self.copies).all(|(at, copies)| (0..i64::from(copies)).contains(at))
+    }
+}

@@ -1,0 +1,66 @@
+//! What is asked of a settling, and what came of it.
+
+use texere_core::settling::{Length, Pass, Rest, Seen};
+use texere_core::{Origin, Yarns};
+
+use crate::{Clearance, Linking, YarnPlace};
+
+/// What is asked of yarns that settle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Finish {
+    /// What becomes of lengths, and the tension that draws yarns in where these are free.
+    pub length: Length,
+    /// The cloth is pressed between two plates so many mm apart while yarns settle. Those that are at rest from the start stay
+    /// as they are.
+    pub press_mm: Option<f32>,
+    /// The most passes of either form: see [`texere_core::Settling::passes`].
+    pub passes: u32,
+    /// Whether [`Settled::course`] is kept.
+    pub record: bool,
+}
+
+impl Default for Finish {
+    /// Lengths are held, nothing presses, 250 passes of either form at most, no record.
+    fn default() -> Self {
+        Self { length: Length::Held, press_mm: None, passes: 250, record: false }
+    }
+}
+
+/// Yarns that have settled, and how well.
+#[derive(Debug, Clone)]
+pub struct Settled {
+    /// The yarns: layout, materials and sources of those that came in. Where any have passed through one another on their way,
+    /// these are the very ones that came in.
+    pub yarns: Yarns,
+    /// Passes, and what was seen at the start and at the end. Where the yarns are those that came in, its end is its start and
+    /// they are not at rest.
+    pub rest: Rest,
+    /// Whether yarns have passed through one another, by comparison of the start with where they came to rest.
+    pub linking: Linking,
+    /// How near [`Settled::yarns`] come to one another and how tightly they bend, with the worst places. Of a repeat it is the
+    /// one piece, without its neighbours; [`Settled::rest`] counts these in.
+    pub clearance: Clearance,
+    /// What every pass was and what it has seen, in their order; empty unless [`Finish::record`] asks for it.
+    pub course: Vec<(Pass, Seen)>,
+}
+
+impl Settled {
+    /// Whether no yarn has passed through another, and everything that may have was compared.
+    #[must_use]
+    pub const fn is_linked(&self) -> bool {
+        unchanged(&self.linking)
+    }
+
+    /// The thread that a place of [`Settled::clearance`] or [`Settled::linking`] lies on.
+    ///
+    /// **Panics** past the last yarn, which no place of these is.
+    #[must_use]
+    pub fn origin(&self, place: &YarnPlace) -> Origin {
+        self.yarns.layout().yarns()[place.yarn].origin
+    }
+}
+
+/// Whether the linking of yarns is known to be what it was.
+pub(super) const fn unchanged(linking: &Linking) -> bool {
+    linking.passages == 0 && linking.left_out == 0
+}

@@ -1,0 +1,65 @@
+//! The `[finish]` table: how yarns come to rest.
+
+use texere_core::settling::Length;
+use texere_fabric::Finish;
+use toml::Spanned;
+
+use super::schema::{FinishTable, Source, real};
+use crate::read::ReadError;
+
+/// The least and the most times its length that a yarn may be given.
+const LENGTHS: (f64, f64) = (0.5, 2.0);
+
+/// The most tension that draws yarns in.
+const TENSION_MOST: f64 = 0.1;
+
+/// Distances of plates that are taken, mm.
+const PRESS_MM: (f64, f64) = (0.001, 1000.0);
+
+impl FinishTable {
+    /// Whether yarns are to settle, where the table says so, and what is asked of them.
+    pub(super) fn read(&self, source: &Source<'_>) -> Result<(Option<bool>, Finish), ReadError> {
+        let said = |settle: &Spanned<toml::Value>| {
+            settle.as_ref().as_bool().ok_or_else(|| source.odd("finish.settle", settle, "true or false"))
+        };
+        let settle = self.settle.as_ref().map(said).transpose()?;
+        let mut finish = Finish { length: self.length(source)?, ..Finish::default() };
+        if let Some(press) = &self.press {
+            let field = "finish.press";
+            let gap = source.float(field, press, "the distance of two plates, a number of mm")?;
+            finish.press_mm = Some(source.number(field, &gap, PRESS_MM.0, PRESS_MM.1)? as f32);
+        }
+        Ok((settle, finish))
+    }
+
+    fn length(&self, source: &Source<'_>) -> Result<Length, ReadError> {
+        let field = "finish.length";
+        let mut length = match &self.length {
+            None => Finish::default().length,
+            Some(given) => match (given.as_ref().as_str(), real(given.as_ref())) {
+                (Some("held"), _) => Length::Held,
+                (Some("free"), _) => Length::Free { tension: 0.0 },
+                (None, Some(factor)) => {
+                    let factor = Spanned::new(given.span(), factor);
+                    Length::Given(source.number(field, &factor, LENGTHS.0, LENGTHS.1)? as f32)
+                }
+                _ => {
+                    let expected = "\"held\", \"free\" or how many times its length each yarn is to have";
+                    return Err(source.odd(field, given, expected));
+                }
+            },
+        };
+        if let Some(given) = &self.tension {
+            let field = "finish.tension";
+            let number =
+                source.float(field, given, "the tension that draws yarns in, a number from 0 to 0.1")?;
+            let number = source.number(field, &number, 0.0, TENSION_MOST)? as f32;
+            let Length::Free { tension } = &mut length else {
+                let place = source.place(field, given.span());
+                return Err(ReadError::Without { place, needs: "finish.length = \"free\"" });
+            };
+            *tension = number;
+        }
+        Ok(length)
+    }
+}

@@ -1,0 +1,71 @@
+//! A repeat that settles once and is copied, against copies of it that settle together.
+
+use std::ops::ControlFlow;
+
+use texere_conformance::rest::{self, Chart, Gauge, Length, Start, weft_knit, yarns};
+use texere_core::{Boundary, Ends, Settings, Yarns};
+use texere_cpu::ParallelBackend;
+use texere_fabric::{Clearance, Finish, Piece, Repeat, Settled, clearance, length_mm, settle};
+
+/// Garter of so many wales and courses, whose loops pierce one another at the start.
+fn garter(size: usize) -> Start {
+    let courses: Vec<_> = (0..size).map(|course| ["k", "p"][course % 2].repeat(size)).collect();
+    weft_knit("garter", &Chart::new(&courses), Gauge::new(4.4), Length::Held)
+}
+
+fn piece(start: &Start) -> Piece {
+    let yarns = yarns(start);
+    let ends = start.yarns.iter().map(|yarn| match yarn.ends {
+        rest::Ends::Repeats(onward) => Ends::Repeats(onward),
+        rest::Ends::Open => Ends::Open,
+        rest::Ends::Closed => Ends::Closed,
+    });
+    let repeat = start.repeat.map(|repeat| repeat as f32);
+    let boundary = Boundary::new(yarns.layout(), repeat, ends.collect()).expect("a boundary");
+    Piece::new(yarns, boundary)
+}
+
+fn settled(piece: &Piece) -> Settled {
+    let cpu = ParallelBackend::open().expect("the CPU");
+    settle(piece, &Finish::default(), 0.0, &cpu, |_| ControlFlow::Continue(())).expect("a settling")
+}
+
+/// The nearest contact that no cut end is part of.
+fn inner(yarns: &Yarns, found: &Clearance) -> f64 {
+    let is_cut = |place: &texere_fabric::YarnPlace| {
+        let points = yarns.yarn_points(place.yarn).map_or(0, <[_]>::len);
+        place.interval == 0 || place.interval + 2 >= points
+    };
+    let inner = found.worst.iter().find(|contact| !contact.places.iter().any(is_cut));
+    inner.map_or(f64::INFINITY, |contact| contact.ratio)
+}
+
+#[test]
+fn a_copied_repeat_lies_as_one_that_settled_whole() {
+    let repeat = Repeat { piece: piece(&garter(2)), copies: [2, 2] };
+    let (one, whole) = (settled(&repeat.piece), settled(&piece(&garter(4))));
+    for each in [&one, &whole] {
+        assert!(each.rest.start.clearance < 0.85 && each.rest.at_rest && each.is_linked(), "{:?}", each.rest);
+    }
+    let copied = repeat.laid(&one.yarns).expect("copies");
+    assert_eq!(copied.layout().offsets(), whole.yarns.layout().offsets());
+    // At rest is whatever is clear and not too tight, so nothing draws the two to one place. Points start up to 0.01 diameters
+    // off along each axis, each in a direction of its own: up to 0.035 mm from the same point of the other.
+    let apart = |one: &Yarns, other: &Yarns| {
+        let pairs = one.points().iter().zip(other.points());
+        pairs.map(|(one, other)| one.position().distance(other.position())).fold(0.0, f32::max)
+    };
+    let (moved, off) = (apart(&whole.yarns, &piece(&garter(4)).yarns), apart(&whole.yarns, &copied));
+    assert!(moved > 0.5 && off < 0.05, "moved {moved} mm, {off} mm apart");
+    // Lengths are the same to what either may be off.
+    let lengths = [&copied, &whole.yarns].map(|yarns| length_mm(yarns, 0.0));
+    assert!((lengths[0] / lengths[1] - 1.0).abs() < 0.01, "{lengths:?}");
+    // At the seams nothing comes nearer than in the repeat.
+    let found = clearance(&copied, &Settings::default()).expect("clearance");
+    let nearest = inner(&copied, &found);
+    assert!(
+        nearest > 0.99 && nearest > f64::from(one.rest.end.clearance) - 0.002,
+        "{nearest}, {:?}",
+        one.rest
+    );
+}

@@ -79,8 +79,11 @@ pub const SETTLING_PULL_WEIGHTED: EntryPoint = EntryPoint { name: "settling_pull
 /// The same in the block form.
 pub const SETTLING_PULL_BLOCK: EntryPoint = EntryPoint { name: "settling_pull_block", group: 64 };
 
-/// The step of each point: a lane a place.
-pub const SETTLING_STEP: EntryPoint = EntryPoint { name: "settling_step", group: 64 };
+/// The step of each point, in the weighted form: a lane a place, the groups of [`SETTLING_PULL_WEIGHTED`].
+pub const SETTLING_STEP_WEIGHTED: EntryPoint = EntryPoint { name: "settling_step_weighted", group: 64 };
+
+/// The same in the block form.
+pub const SETTLING_STEP_BLOCK: EntryPoint = EntryPoint { name: "settling_step_block", group: 64 };
 
 /// Places beyond yarns' ends: a lane a yarn.
 pub const SETTLING_ENDS: EntryPoint = EntryPoint { name: "settling_ends", group: 64 };
@@ -149,7 +152,8 @@ pub const SETTLING: Program = Program {
         SETTLING_SCAN_ADD,
         SETTLING_PULL_WEIGHTED,
         SETTLING_PULL_BLOCK,
-        SETTLING_STEP,
+        SETTLING_STEP_WEIGHTED,
+        SETTLING_STEP_BLOCK,
         SETTLING_ENDS,
         SETTLING_SEEN,
         SETTLING_POINTS,

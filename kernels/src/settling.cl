@@ -166,9 +166,28 @@ float interval_arc(const Interval *interval) {
 
 // ---- Chord ----
 
+typedef struct {
+    uint3 at;
+    uint place;
+    float3 span;
+    // The largest half of its interval.
+    float thickest;
+} Chord;
+
+Chord chord_of(__global const uint4 *chords, size_t number) {
+    uint4 at = chords[2 * number];
+    float4 span = as_float4(chords[2 * number + 1]);
+    Chord chord;
+    chord.at = at.xyz;
+    chord.place = at.w;
+    chord.span = span.xyz;
+    chord.thickest = span.w;
+    return chord;
+}
+
 // Where a chord's middle lies, units.
-uint3 chord_middle(const SettlingParams *params, uint3 at, float3 span) {
-    return at + to_units(params, span * 0.5f);
+uint3 chord_middle(const SettlingParams *params, const Chord *chord) {
+    return chord->at + to_units(params, chord->span * 0.5f);
 }
 
 // How many repeats away the image of a chord lies that is nearest to another one, which begins `way` before it.

@@ -92,9 +92,8 @@ float3 contact_direction(const Contact *contact, float3 velocity, float3 other_v
 typedef struct {
     Interval interval;
     uint tags;
-    // Of the chord: where it begins, its span and thickness, which of the interval's it is, and one over how many there are.
-    uint3 at;
-    float4 span;
+    // Which of the interval's chords it is, and one over how many there are.
+    Chord chord;
     float piece;
     float step;
 } Meeting;
@@ -104,22 +103,22 @@ Push meet(const SettlingParams *params, const Meeting *one, __global const uint4
           __global const PlaceRow *place_rows, __global const uint4 *chords, size_t number, Sight *sight) {
     Push push;
     push.weights = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-    uint4 at = chords[2 * number];
-    float4 span = as_float4(chords[2 * number + 1]);
-    uint3 way = at.xyz - one->at;
-    uint2 image = nearest_image(params, one->span.xyz, span.xyz, way);
+    float3 span = one->chord.span;
+    Chord there = chord_of(chords, number);
+    uint3 way = there.at - one->chord.at;
+    uint2 image = nearest_image(params, span, there.span, way);
     float3 between = to_mm(params, to_image(params, way, image));
-    float2 shares = chords_nearest(one->span.xyz, span.xyz, between);
-    float distance = length3(between + span.xyz * shares.y - one->span.xyz * shares.x);
-    float most = one->span.w + span.w;
+    float2 shares = chords_nearest(span, there.span, between);
+    float distance = length3(between + there.span * shares.y - span * shares.x);
+    float most = one->chord.thickest + there.thickest;
     if (distance >= NEAR * MARGIN * params->growth * most) {
         sight->near = fmin(sight->near, distance);
         sight->clearance = fmin(sight->clearance, distance / most);
         return push;
     }
-    Interval other = interval_at(params, places, at.w);
-    uint first = place_rows[at.w].first_chord;
-    float2 step = (float2)(one->step, 1.0f / (float)(place_rows[at.w + 1u].first_chord - first));
+    Interval other = interval_at(params, places, there.place);
+    uint first = place_rows[there.place].first_chord;
+    float2 step = (float2)(one->step, 1.0f / (float)(place_rows[there.place + 1u].first_chord - first));
     float2 place = ((float2)(one->piece, (float)(uint)(number - first)) + shares) * step;
     float3 apart = to_mm(params, to_image(params, other.start - one->interval.start, image));
     Contact contact = refined(&one->interval, &other, apart, place, step * STRIDE);

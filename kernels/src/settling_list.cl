@@ -24,11 +24,11 @@ void settling_extent(const SettlingParams params, __global const uint4 *chords, 
     int4 end = (int4)(INT_MAX, INT_MAX, INT_MIN, INT_MIN);
     float longest = 0.0f;
     for (size_t number = get_global_id(0); number < params.chords; number += get_global_size(0)) {
-        float3 span = as_float4(chords[2 * number + 1]).xyz;
-        uint3 middle = chord_middle(&params, chords[2 * number].xyz, span);
+        Chord chord = chord_of(chords, number);
+        uint3 middle = chord_middle(&params, &chord);
         int2 at = (int2)(as_int(middle.x), as_int(middle.y));
         end = (int4)(min(end.xy, at), max(end.zw, at));
-        longest = fmax(longest, dot3(span, span));
+        longest = fmax(longest, dot3(chord.span, chord.span));
     }
     ends[lane] = end;
     longests[lane] = longest;
@@ -68,8 +68,8 @@ uint2 cell_of(const SettlingParams *params, uint3 middle) {
 }
 
 uint chord_cell(const SettlingParams *params, __global const uint4 *chords, size_t number) {
-    float3 span = as_float4(chords[2 * number + 1]).xyz;
-    uint2 cell = cell_of(params, chord_middle(params, chords[2 * number].xyz, span));
+    Chord chord = chord_of(chords, number);
+    uint2 cell = cell_of(params, chord_middle(params, &chord));
     return cell.y * params->count_x + cell.x;
 }
 
@@ -98,39 +98,14 @@ void settling_cell_fill(const SettlingParams params, __global const uint4 *chord
 
 // ---- Neighbours ----
 
-// A chord with what is asked to tell its neighbours.
-typedef struct {
-    uint3 at;
-    float3 span;
-    float thickest;
-    uint yarn;
-    uint from;
-    uint to;
-} Listed;
-
-Listed listed(__global const uint4 *chords, __global const ChordRow *chord_rows, __global const PlaceRow *place_rows,
-              size_t number) {
-    uint4 at = chords[2 * number];
-    float4 span = as_float4(chords[2 * number + 1]);
-    ChordRow row = chord_rows[number];
-    Listed chord;
-    chord.at = at.xyz;
-    chord.span = span.xyz;
-    chord.thickest = span.w;
-    chord.yarn = place_rows[row.place].yarn;
-    chord.from = row.from;
-    chord.to = row.to;
-    return chord;
-}
-
 // Whether so little of the yarn is between an end and a start.
 bool between(uint end, uint start, int window) {
     int units = as_int(start - end);
     return units >= -2 && units < window;
 }
 
-// Whether two chords of one yarn lie so close along it that they can't be clear of one another.
-bool leads_on(const Listed *one, const Listed *other, uint2 image, int window, const StrandRow *strand) {
+// Whether two chords of one yarn, by their rows, lie so close along it that they can't be clear of one another.
+bool leads_on(const ChordRow *one, const ChordRow *other, uint2 image, int window, const StrandRow *strand) {
     uint2 shift = (uint2)((uint)strand->shift_x, (uint)strand->shift_y);
     bool here = image.x == 0u && image.y == 0u &&
                 (between(one->to, other->from, window) || between(other->to, one->from, window));
@@ -139,7 +114,8 @@ bool leads_on(const Listed *one, const Listed *other, uint2 image, int window, c
     return here || (strand->goes_on != 0u && (ahead || back));
 }
 
-bool are_neighbours(const SettlingParams *params, const Listed *one, const Listed *other,
+bool are_neighbours(const SettlingParams *params, size_t number, const Chord *one, size_t other_number,
+                    const Chord *other, __global const ChordRow *chord_rows, __global const PlaceRow *place_rows,
                     __global const StrandRow *strands) {
     uint3 way = other->at - one->at;
     uint2 image = nearest_image(params, one->span, other->span, way);
@@ -151,11 +127,15 @@ bool are_neighbours(const SettlingParams *params, const Listed *one, const Liste
     if (!(dot3(gap, gap) < within * within)) {
         return false;
     }
-    if (one->yarn != other->yarn) {
+    uint yarn = place_rows[one->place].yarn;
+    if (yarn != place_rows[other->place].yarn) {
         return true;
     }
-    StrandRow strand = strands[one->yarn];
-    return !leads_on(one, other, image, convert_int_sat(LEADS_ON * thickness / params->along), &strand);
+    ChordRow row = chord_rows[number];
+    ChordRow other_row = chord_rows[other_number];
+    StrandRow strand = strands[yarn];
+    int window = convert_int_sat(LEADS_ON * thickness / params->along);
+    return !leads_on(&row, &other_row, image, window, &strand);
 }
 
 // The first cell to visit along an axis (x) and how many (y): its own and those beside it, each once.
@@ -176,8 +156,8 @@ uint find_neighbours(const SettlingParams *params, __global const uint4 *chords,
                      __global const PlaceRow *place_rows, __global const StrandRow *strands,
                      __global const uint *cells, __global const uint *sorted, size_t number, __global uint *list,
                      uint room) {
-    Listed one = listed(chords, chord_rows, place_rows, number);
-    uint2 cell = cell_of(params, chord_middle(params, one.at, one.span));
+    Chord one = chord_of(chords, number);
+    uint2 cell = cell_of(params, chord_middle(params, &one));
     uint2 columns = cells_beside(cell.x, params->period_x, params->count_x);
     uint2 rows = cells_beside(cell.y, params->period_y, params->count_y);
     uint found = 0u;
@@ -188,8 +168,9 @@ uint find_neighbours(const SettlingParams *params, __global const uint4 *chords,
         uint end = cells[cell_number + 1u];
         for (uint next = cells[cell_number]; next < end; next++) {
             uint candidate = sorted[next];
-            Listed other = listed(chords, chord_rows, place_rows, candidate);
-            if (candidate == number || !are_neighbours(params, &one, &other, strands)) {
+            Chord other = chord_of(chords, candidate);
+            if (candidate == number ||
+                !are_neighbours(params, number, &one, candidate, &other, chord_rows, place_rows, strands)) {
                 continue;
             }
             if (found < room) {

@@ -63,8 +63,7 @@ Meeting meeting_at(const SettlingParams *params, __global const uint4 *places, _
 }
 
 void turn_to_chord(Meeting *one, __global const uint4 *chords, size_t number, uint piece) {
-    one->at = chords[2 * number].xyz;
-    one->span = as_float4(chords[2 * number + 1]);
+    one->chord = chord_of(chords, number);
     one->piece = (float)piece;
 }
 

@@ -123,40 +123,67 @@ float freed(const SettlingParams *params, __global const float *pulls, uint plan
     return fmin(fmax(next, FREE_LEAST * start), FREE_MOST * start);
 }
 
-#define SETTLING_STEP_GROUP 64
+// Takes the step of place `number`, and gives back how long it is.
+float take_step(const SettlingParams *params, bool block, __global const uint4 *places,
+                __global const PlaceRow *place_rows, __global const StrandRow *strands, __global const float *pulls,
+                __global float4 *steps, __global float *lengths, __global uint4 *next, uint number) {
+    uint4 place = places[number];
+    PlaceRow row = place_rows[number];
+    StrandRow strand = strands[row.yarn];
+    uint4 intervals = intervals_of(&strand, number);
+    float3 step = (float3)(0.0f, 0.0f, 0.0f);
+    if ((params->flags & LENGTHS_FREE) != 0u && (row.tags & TAG_INTERVAL) != 0u) {
+        uint plane = 4u * (block ? BLOCK_SLOT : WEIGHTED_SLOT) + 3u;
+        lengths[number] = freed(params, pulls, plane, intervals, lengths[number], row.start_length);
+    }
+    if ((row.tags & (TAG_POINT | TAG_PINNED)) == TAG_POINT) {
+        float3 last = steps[number].xyz;
+        step = block ? step_block(params, pulls, intervals, place, last)
+                     : step_weighted(params, pulls, intervals, place, last);
+        steps[number] = (float4)(step, 0.0f);
+        place.xyz += to_units(params, step);
+    }
+    next[number] = place;
+    return length3(step);
+}
 
-// A lane a place: its step, and where it takes it. `block` says in which form the pulls are; `first_row` is where the rows of
-// these groups begin.
-__kernel __attribute__((reqd_work_group_size(SETTLING_STEP_GROUP, 1, 1)))
-void settling_step(const SettlingParams params, const uint block, const uint first_row,
-                   __global const uint4 *places, __global const PlaceRow *place_rows,
-                   __global const StrandRow *strands, __global const float *pulls, __global float4 *steps,
-                   __global float *lengths, __global uint4 *next, __global float4 *rows) {
-    __local float4 group[SETTLING_STEP_GROUP];
+#define SETTLING_STEP_WEIGHTED_GROUP 64
+
+// A lane a place: its step, and where it takes it. The longest one goes into the group's row.
+__kernel __attribute__((reqd_work_group_size(SETTLING_STEP_WEIGHTED_GROUP, 1, 1)))
+void settling_step_weighted(const SettlingParams params, __global const uint4 *places,
+                            __global const PlaceRow *place_rows, __global const StrandRow *strands,
+                            __global const float *pulls, __global float4 *steps, __global float *lengths,
+                            __global uint4 *next, __global float4 *rows) {
+    __local float4 group[SETTLING_STEP_WEIGHTED_GROUP];
     uint number = get_global_id(0);
     float4 seen = (float4)(UNSEEN, UNSEEN, 0.0f, 0.0f);
     if (number < params.places) {
-        uint4 place = places[number];
-        PlaceRow row = place_rows[number];
-        StrandRow strand = strands[row.yarn];
-        uint4 intervals = intervals_of(&strand, number);
-        if ((params.flags & LENGTHS_FREE) != 0u && (row.tags & TAG_INTERVAL) != 0u) {
-            uint plane = 4u * (block != 0u ? BLOCK_SLOT : WEIGHTED_SLOT) + 3u;
-            lengths[number] = freed(&params, pulls, plane, intervals, lengths[number], row.start_length);
-        }
-        if ((row.tags & (TAG_POINT | TAG_PINNED)) == TAG_POINT) {
-            float3 last = steps[number].xyz;
-            float3 step = block != 0u ? step_block(&params, pulls, intervals, place, last)
-                                      : step_weighted(&params, pulls, intervals, place, last);
-            steps[number] = (float4)(step, 0.0f);
-            place.xyz += to_units(&params, step);
-            seen.w = length3(step);
-        }
-        next[number] = place;
+        seen.w = take_step(&params, false, places, place_rows, strands, pulls, steps, lengths, next, number);
     }
-    seen = seen_by_group(group, get_local_id(0), SETTLING_STEP_GROUP, seen);
+    seen = seen_by_group(group, get_local_id(0), SETTLING_STEP_WEIGHTED_GROUP, seen);
     if (get_local_id(0) == 0u) {
-        rows[first_row + number / SETTLING_STEP_GROUP] = seen;
+        rows[number / SETTLING_STEP_WEIGHTED_GROUP].w = seen.w;
+    }
+}
+
+#define SETTLING_STEP_BLOCK_GROUP 64
+
+// The same in the block form.
+__kernel __attribute__((reqd_work_group_size(SETTLING_STEP_BLOCK_GROUP, 1, 1)))
+void settling_step_block(const SettlingParams params, __global const uint4 *places,
+                            __global const PlaceRow *place_rows, __global const StrandRow *strands,
+                            __global const float *pulls, __global float4 *steps, __global float *lengths,
+                            __global uint4 *next, __global float4 *rows) {
+    __local float4 group[SETTLING_STEP_BLOCK_GROUP];
+    uint number = get_global_id(0);
+    float4 seen = (float4)(UNSEEN, UNSEEN, 0.0f, 0.0f);
+    if (number < params.places) {
+        seen.w = take_step(&params, true, places, place_rows, strands, pulls, steps, lengths, next, number);
+    }
+    seen = seen_by_group(group, get_local_id(0), SETTLING_STEP_BLOCK_GROUP, seen);
+    if (get_local_id(0) == 0u) {
+        rows[number / SETTLING_STEP_BLOCK_GROUP].w = seen.w;
     }
 }
 

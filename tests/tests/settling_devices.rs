@@ -161,7 +161,7 @@ fn devices_settle_as_the_reference_does() {
                 for fault in faults(&plan, &found, &reference) {
                     failed.push(format!("{here}: {fault}"));
                 }
-                // Also after other passes, and in another settler.
+                // The same settler, after other passes.
                 let again = eight_passes(&plan, settler.as_mut(), form).expect("a course");
                 if again != found {
                     failed.push(format!("{here}: another end the second time"));

@@ -4,7 +4,7 @@ use bytemuck::Pod;
 use texere_core::settling::{Place, SettlingPlan};
 use texere_core::{BackendError, Limits};
 use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, StrandRow};
-use texere_kernels::{SETTLING_SCAN_VALUES, SETTLING_STEP};
+use texere_kernels::{SETTLING_PULL_WEIGHTED, SETTLING_SCAN_VALUES};
 
 use crate::buffers::Buffer;
 use crate::opened::Opened;
@@ -29,7 +29,7 @@ pub(super) struct Memory {
     /// Where all chords lie.
     pub(super) chords: Buffer,
     pub(super) pulls: Buffer,
-    /// What groups have seen, of intervals and then of steps, and what all of them have.
+    /// What groups of places have seen, and what all of them have.
     pub(super) rows: Buffer,
     pub(super) all: Buffer,
     /// What groups have found of where chords lie.
@@ -82,7 +82,7 @@ impl Memory {
     pub(super) fn new(opened: &Opened, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
         let mut room = Room { binding_bytes: limits.binding_bytes, memory_bytes: limits.memory_bytes };
         let (places, chords) = (plan.counts().places, plan.counts().chords);
-        let groups = places.div_ceil(SETTLING_STEP.group as u64);
+        let groups = places.div_ceil(SETTLING_PULL_WEIGHTED.group as u64);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
         // As many cells as chords, or a few more.
@@ -104,7 +104,7 @@ impl Memory {
             lengths: room.zeroed(opened, "lengths of intervals", 4 * places)?,
             chords: room.zeroed(opened, "chords", of(chords, 32))?,
             pulls: room.zeroed(opened, "pulls of intervals", 4 * PULL_PLANES * places)?,
-            rows: room.zeroed(opened, "what groups have seen", of(2 * groups, size_of::<SeenRow>()))?,
+            rows: room.zeroed(opened, "what groups have seen", of(groups, size_of::<SeenRow>()))?,
             all: room.zeroed(opened, "what was seen", size_of::<SeenRow>() as u64)?,
             extents: room.zeroed(opened, "extents", of(EXTENT_GROUPS.into(), size_of::<ExtentRow>()))?,
             cells: room.zeroed(opened, "cells of chords", 4 * counts)?,

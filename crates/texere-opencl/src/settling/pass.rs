@@ -6,7 +6,7 @@ use texere_core::settling::{Form, Seen};
 use texere_gpu::{SeenRow, SettlingParams};
 use texere_kernels::{
     EntryPoint, SETTLING_CHORDS, SETTLING_ENDS, SETTLING_PULL_BLOCK, SETTLING_PULL_WEIGHTED, SETTLING_SEEN,
-    SETTLING_STEP,
+    SETTLING_STEP_BLOCK, SETTLING_STEP_WEIGHTED,
 };
 
 use super::memory::Memory;
@@ -18,16 +18,18 @@ use crate::opened::Opened;
 #[derive(Debug)]
 pub(super) struct PassKernels {
     chords: Kernel,
-    pull_weighted: Kernel,
-    pull_block: Kernel,
-    step: Kernel,
+    /// What pulls and the steps that come of it, in the weighted form and in the block form.
+    weighted: [Kernel; 2],
+    block: [Kernel; 2],
     ends: Kernel,
     seen: Kernel,
 }
 
-// A row of each group of either kernel.
+// The groups of both kernels share their rows.
 const _: () = assert!(
-    SETTLING_PULL_WEIGHTED.group == SETTLING_STEP.group && SETTLING_PULL_BLOCK.group == SETTLING_STEP.group
+    SETTLING_PULL_WEIGHTED.group == SETTLING_STEP_WEIGHTED.group
+        && SETTLING_PULL_WEIGHTED.group == SETTLING_PULL_BLOCK.group
+        && SETTLING_PULL_BLOCK.group == SETTLING_STEP_BLOCK.group
 );
 
 impl PassKernels {
@@ -36,9 +38,8 @@ impl PassKernels {
     ) -> Result<Self, BackendError> {
         Ok(Self {
             chords: kernel(SETTLING_CHORDS)?,
-            pull_weighted: kernel(SETTLING_PULL_WEIGHTED)?,
-            pull_block: kernel(SETTLING_PULL_BLOCK)?,
-            step: kernel(SETTLING_STEP)?,
+            weighted: [kernel(SETTLING_PULL_WEIGHTED)?, kernel(SETTLING_STEP_WEIGHTED)?],
+            block: [kernel(SETTLING_PULL_BLOCK)?, kernel(SETTLING_STEP_BLOCK)?],
             ends: kernel(SETTLING_ENDS)?,
             seen: kernel(SETTLING_SEEN)?,
         })
@@ -73,24 +74,20 @@ impl PassKernels {
         let value = [Arg::Value(bytes_of(params))];
         let tables = in_memory([places, place_rows, chords, starts, neighbours, lengths, pulls, rows]);
         let args = [&value[..], &tables].concat();
-        let pull = if form == Form::Block { &mut self.pull_block } else { &mut self.pull_weighted };
+        let [pull, step] = if form == Form::Block { &mut self.block } else { &mut self.weighted };
         // SAFETY: the arguments are those of both kernels; a lane reads its interval's places, rows and chords, the neighbours that
         // were listed for these, and the same of each neighbour, and writes its planes; a group writes its row.
         unsafe { start(pull, opened, &args, params.places) }?;
-        let groups = params.places.div_ceil(SETTLING_STEP.group as u32);
-        let block = u32::from(form == Form::Block);
-        let values =
-            [Arg::Value(bytes_of(params)), Arg::Value(bytes_of(&block)), Arg::Value(bytes_of(&groups))];
         let tables = in_memory([places, place_rows, strands, pulls, steps, lengths, next, rows]);
-        let args = [&values[..], &tables].concat();
-        // SAFETY: the arguments are those of `settling_step`; a lane reads its place's rows and its yarn's, and the planes of its
-        // yarn's intervals, and writes its own step, length and next place; a group writes its row, behind the others.
-        unsafe { start(&mut self.step, opened, &args, params.places) }?;
+        let args = [&value[..], &tables].concat();
+        // SAFETY: the arguments are those of both kernels; a lane reads its place's rows and its yarn's, and the planes of its yarn's
+        // intervals, and writes its own step, length and next place; a group adds to its row.
+        unsafe { start(step, opened, &args, params.places) }?;
         let args = [&value[..], &in_memory([strands, next])].concat();
         // SAFETY: the arguments are those of `settling_ends`; a lane reads its yarn's row and places, and writes those beyond its
         // ends.
         unsafe { start(&mut self.ends, opened, &args, params.yarns) }?;
-        let count = 2 * groups;
+        let count = params.places.div_ceil(SETTLING_STEP_WEIGHTED.group as u32);
         let args = [&[Arg::Value(bytes_of(&count))][..], &in_memory([rows, all])].concat();
         // SAFETY: the arguments are those of `settling_seen`; the only group reads `count` rows and writes one.
         unsafe { start(&mut self.seen, opened, &args, 1) }?;

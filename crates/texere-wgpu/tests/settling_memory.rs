@@ -50,9 +50,9 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
         each.extend(refused(&device));
     }
     assert_eq!((each.first(), each.last()), (Some(&"pulls of intervals"), Some(&"the place table")));
-    // Too little for all of them, though each alone would fit.
-    let device = open().with_limits(Limits { memory_bytes: 1 << 18, ..Limits::NONE });
-    assert!(refused(&device).is_some());
-    let device = open().with_limits(Limits { memory_bytes: 1 << 25, ..Limits::NONE });
-    assert_eq!(refused(&device), None);
+    // Enough for each of them, too little for all.
+    let little = 1 << 17;
+    let in_each = open().with_limits(Limits { binding_bytes: little, ..Limits::NONE });
+    let in_all = open().with_limits(Limits { memory_bytes: little, ..Limits::NONE });
+    assert!(refused(&in_each).is_none() && refused(&in_all).is_some());
 }

@@ -91,10 +91,10 @@ pub enum Resource {
     SeenRows = 24,
     /// How far chords extend, by workgroup.
     Extents = 25,
-    /// Counts that are scanned.
-    Numbers = 26,
-    /// The sum of each tile of them.
-    TileSums = 27,
+    /// What is scanned.
+    ScanValues = 26,
+    /// The sum of each group of that.
+    ScanSums = 27,
     /// The step that each place has taken last.
     Steps = 28,
     /// `Place`s after a pass.

@@ -62,19 +62,19 @@ pub const CELL_FILL: Shader = Shader {
     ..CELL_COUNT
 };
 
-/// Counts to where each begins, in place: a workgroup each [`SCAN_TILE`] of them.
+/// Sums of all values before each one, in place: a workgroup each [`SCAN_VALUES`] of them.
 pub const SCAN: Shader = Shader {
     entry_point: "settling_scan",
     source: include_str!("settling_scan.wgsl"),
     workgroup: 256,
-    bindings: &[write(Resource::Numbers), write(Resource::TileSums)],
+    bindings: &[write(Resource::ScanValues), write(Resource::ScanSums)],
 };
 
-/// Adds what comes before each tile, likewise.
+/// Adds what all groups before have: likewise.
 pub const SCAN_ADD: Shader = Shader { entry_point: "settling_scan_add", ..SCAN };
 
-/// Numbers that a workgroup of [`SCAN`] works on.
-pub const SCAN_TILE: u32 = 1024;
+/// Values of a workgroup of [`SCAN`].
+pub const SCAN_VALUES: u32 = 1024;
 
 /// How many neighbours each chord has: a lane a chord.
 pub const COUNT: Shader = Shader {

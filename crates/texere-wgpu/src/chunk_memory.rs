@@ -87,16 +87,20 @@ impl ChunkMemory {
         Ok(())
     }
 
-    /// What a shader that works on this chunk sees as `resource`.
-    pub(crate) fn resource<'a>(&'a self, tables: &'a Tables, resource: Resource) -> BindingResource<'a> {
+    /// What a shader that works on this chunk sees as `resource`; nothing where that is none of a mesh.
+    pub(crate) fn resource<'a>(
+        &'a self,
+        tables: &'a Tables,
+        resource: Resource,
+    ) -> Option<BindingResource<'a>> {
         let buffer = match resource {
             Resource::Points => {
                 let point = size_of::<ControlPoint>() as u64;
-                return BindingResource::Buffer(BufferBinding {
+                return Some(BindingResource::Buffer(BufferBinding {
                     buffer: &tables.points,
                     offset: self.window.start * point,
                     size: BufferSize::new((self.window.end - self.window.start) * point),
-                });
+                }));
             }
             Resource::Yarns => &tables.yarns,
             Resource::Rolls => &tables.rolls,
@@ -109,8 +113,8 @@ impl ChunkMemory {
             Resource::Rings => &self.rings,
             Resource::Vertices => &self.vertices,
             Resource::Indices => &self.indices,
-            _ => &self.params,
+            _ => return None,
         };
-        buffer.buffer().as_entire_binding()
+        Some(buffer.buffer().as_entire_binding())
     }
 }

@@ -34,7 +34,7 @@ const LAUNCH_BLOCKS: u64 = 1 << 18;
 #[derive(Debug)]
 pub struct WgpuBackend {
     info: DeviceInfo,
-    opened: Arc<Opened>,
+    pub(crate) opened: Arc<Opened>,
 }
 
 impl WgpuBackend {

@@ -130,19 +130,19 @@ impl Kernel {
         compiled.map_err(|error| BackendError::Compile { kernel: shader.entry_point, log: error.to_string() })
     }
 
-    /// Binds what the shader uses, as `resource` finds it.
+    /// Binds what the shader uses, as `resource` finds it. What that does not find is left out, and wgpu refuses to bind the rest.
     pub(crate) fn bind<'a>(
         &self,
         gpu: &Gpu,
-        resource: impl Fn(Resource) -> BindingResource<'a>,
+        resource: impl Fn(Resource) -> Option<BindingResource<'a>>,
     ) -> wgpu::BindGroup {
         let entries: Vec<_> = self
             .shader
             .bindings
             .iter()
-            .map(|binding| BindGroupEntry {
-                binding: binding.resource as u32,
-                resource: resource(binding.resource),
+            .filter_map(|binding| {
+                let resource = resource(binding.resource)?;
+                Some(BindGroupEntry { binding: binding.resource as u32, resource })
             })
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {

@@ -1,109 +1,156 @@
-//! Device memory of a settling.
+//! The memory of a settling.
 
+use bytemuck::Pod;
 use texere_core::settling::{Place, SettlingPlan};
 use texere_core::{BackendError, Limits};
 use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow};
 use texere_shaders::Resource;
-use texere_shaders::settling::SCAN_TILE;
-use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
+use texere_shaders::settling::SCAN_VALUES;
+use wgpu::{BindingResource, BufferUsages};
 
 use crate::gpu::Gpu;
 
-/// Everything that stays on the device, each array in a buffer of its own.
+/// Numbers that the block form writes for each place, the more of both forms.
+const PULL_PLANES: u64 = 4 * 9 + 6;
+
+/// Lanes of a workgroup of places, which write a row together.
+const ROW_PLACES: u64 = 64;
+
+/// What shaders read and write, each array in a buffer of its own.
 #[derive(Debug)]
 pub(super) struct Memory {
-    pub(super) limit: u64,
     pub(super) params: wgpu::Buffer,
     place_rows: wgpu::Buffer,
     strands: wgpu::Buffer,
     chord_rows: wgpu::Buffer,
-    /// Where everything is.
     pub(super) places: wgpu::Buffer,
-    /// Where everything was when the last pass saw it; the next places while a pass makes them.
+    /// The places that the last pass has seen, where the next one writes.
     pub(super) seen: wgpu::Buffer,
-    chords: wgpu::Buffer,
-    pub(super) cell_starts: wgpu::Buffer,
-    cell_chords: wgpu::Buffer,
-    pub(super) list_starts: wgpu::Buffer,
-    neighbours: wgpu::Buffer,
-    pub(super) lengths: wgpu::Buffer,
+    pub(super) kept: wgpu::Buffer,
+    /// The step that each point has taken last, mm.
     pub(super) steps: wgpu::Buffer,
+    /// The length that each interval is to have, mm.
+    pub(super) lengths: wgpu::Buffer,
+    /// Where all chords lie.
+    chords: wgpu::Buffer,
     pulls: wgpu::Buffer,
-    seen_rows: wgpu::Buffer,
+    /// What groups have seen, and what all of them have.
+    rows: wgpu::Buffer,
+    pub(super) all: wgpu::Buffer,
+    /// What groups have found of where chords lie.
     pub(super) extents: wgpu::Buffer,
-    /// What the last pass has seen.
-    pub(super) whole: wgpu::Buffer,
-    /// Sums of tiles, of tiles of those, and so on.
-    pub(super) tile_sums: Vec<wgpu::Buffer>,
+    /// Where each cell's chords begin, and chords cell by cell.
+    pub(super) cells: wgpu::Buffer,
+    sorted: wgpu::Buffer,
+    /// Where each chord's neighbours begin, and the neighbours of all.
+    pub(super) starts: wgpu::Buffer,
+    pub(super) neighbours: wgpu::Buffer,
+    /// Bytes of these that were taken off the room.
+    listed: u64,
+    /// Sums of groups of a scan, level by level.
+    pub(super) sums: Vec<wgpu::Buffer>,
+    room: Room,
 }
 
-/// Numbers that the pulls of an interval are written as, in the form that has more of them.
-const PLANES: u64 = 42;
+/// What a device may still be asked for.
+#[derive(Debug, Clone, Copy)]
+struct Room {
+    binding_bytes: u64,
+    memory_bytes: u64,
+}
 
-/// Lanes of a workgroup of places.
-const ROW_PLACES: u64 = 64;
+impl Room {
+    /// Takes `bytes` for `what` off it.
+    fn take(&mut self, gpu: &Gpu, what: &'static str, bytes: u64) -> Result<wgpu::Buffer, BackendError> {
+        if bytes > self.binding_bytes || bytes > self.memory_bytes {
+            return Err(BackendError::OutOfMemory { what, bytes });
+        }
+        self.memory_bytes -= bytes;
+        gpu.buffer(what, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)
+    }
+
+    fn holding<T: Pod>(
+        &mut self,
+        gpu: &Gpu,
+        what: &'static str,
+        data: &[T],
+    ) -> Result<wgpu::Buffer, BackendError> {
+        let buffer = self.take(gpu, what, size_of_val(data) as u64)?;
+        gpu.write(&buffer, 0, bytemuck::cast_slice(data))?;
+        Ok(buffer)
+    }
+}
 
 impl Memory {
-    /// Takes memory for a plan and sends what never changes.
-    ///
-    /// **Errors**: [`BackendError::OutOfMemory`], also for an array larger than a binding may be.
+    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
     pub(super) fn new(gpu: &Gpu, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
-        let limit = limits.binding_bytes.min(gpu.device.limits().max_storage_buffer_binding_size);
-        let counts = plan.counts();
-        let (places, chords) = (counts.places, counts.chords);
-        let array = |what, bytes| array(gpu, limit, what, bytes);
-        let table = |what, bytes: &[u8]| {
-            let table = array(what, bytes.len() as u64)?;
-            gpu.write(&table, 0, bytes)?;
-            Ok::<_, BackendError>(table)
+        let mut room = Room {
+            binding_bytes: limits.binding_bytes.min(gpu.device.limits().max_storage_buffer_binding_size),
+            memory_bytes: limits.memory_bytes,
         };
-        let scanned = (chords.max(CELLS) + 1).max(places);
-        let tiles = std::iter::successors(Some(tiles(scanned)), |&count| (count > 1).then(|| tiles(count)));
-        let place_bytes = places * size_of::<Place>() as u64;
+        let (places, chords) = (plan.counts().places, plan.counts().chords);
+        let of = |count: u64, each: usize| count * each as u64;
+        let place_bytes = of(places, size_of::<Place>());
+        // As many cells as chords, or a few more.
+        let counts = chords.max(64) + 1;
+        let mut sums = Vec::new();
+        let mut values = counts;
+        while values > 1 || sums.is_empty() {
+            values = groups(values);
+            sums.push(room.take(gpu, "sums of counts", 4 * values)?);
+        }
+        let params = size_of::<SettlingParams>() as u64;
+        let seen_row = size_of::<SeenRow>();
         Ok(Self {
-            limit,
-            params: gpu.buffer(
-                "parameters",
-                size_of::<SettlingParams>() as u64,
-                BufferUsages::UNIFORM | BufferUsages::COPY_DST,
-            )?,
-            place_rows: table("places' tags", bytemuck::cast_slice(&PlaceRow::all(plan)))?,
-            strands: table("strands", bytemuck::cast_slice(&StrandRow::all(plan)))?,
-            chord_rows: table("the chord table", bytemuck::cast_slice(&ChordRow::all(plan)))?,
-            places: array("places", place_bytes)?,
-            seen: array("places before the last pass", place_bytes)?,
-            chords: array("chords", 32 * chords)?,
-            cell_starts: array("cells", 4 * (chords.max(CELLS) + 1))?,
-            cell_chords: array("chords by cells", 4 * chords)?,
-            list_starts: array("lists' starts", 4 * (chords + 1))?,
-            neighbours: array("neighbours of chords", 0)?,
-            lengths: array("lengths", 4 * places)?,
-            steps: array("steps", 16 * places)?,
-            pulls: array("pulls", 4 * PLANES * places)?,
-            seen_rows: array("what workgroups see", 16 * places.div_ceil(ROW_PLACES))?,
-            extents: array("extents", u64::from(EXTENT_GROUPS) * size_of::<ExtentRow>() as u64)?,
-            whole: array("what a pass sees", size_of::<SeenRow>() as u64)?,
-            tile_sums: tiles.map(|count| array("tiles' sums", 4 * count)).collect::<Result<_, _>>()?,
+            params: gpu.buffer("parameters", params, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
+            place_rows: room.holding(gpu, "the place table", &PlaceRow::all(plan))?,
+            strands: room.holding(gpu, "the strand table", &StrandRow::all(plan))?,
+            chord_rows: room.holding(gpu, "the chord table", &ChordRow::all(plan))?,
+            places: room.take(gpu, "places", place_bytes)?,
+            seen: room.take(gpu, "places that were seen", place_bytes)?,
+            kept: room.take(gpu, "places that are kept", place_bytes)?,
+            steps: room.take(gpu, "steps of places", place_bytes)?,
+            lengths: room.take(gpu, "lengths of intervals", 4 * places)?,
+            chords: room.take(gpu, "chords", of(chords, 32))?,
+            pulls: room.take(gpu, "pulls of intervals", 4 * PULL_PLANES * places)?,
+            rows: room.take(gpu, "what groups have seen", of(places.div_ceil(ROW_PLACES), seen_row))?,
+            all: room.take(gpu, "what was seen", seen_row as u64)?,
+            extents: room.take(gpu, "extents", of(EXTENT_GROUPS.into(), size_of::<ExtentRow>()))?,
+            cells: room.take(gpu, "cells of chords", 4 * counts)?,
+            sorted: room.take(gpu, "chords by cells", 4 * chords)?,
+            starts: room.take(gpu, "starts of neighbours", 4 * (chords + 1))?,
+            neighbours: room.take(gpu, "neighbours of chords", 0)?,
+            listed: 0,
+            sums,
+            room,
         })
     }
 
-    /// A buffer like that of places.
-    pub(super) fn more_places(&self, gpu: &Gpu) -> Result<wgpu::Buffer, BackendError> {
-        array(gpu, self.limit, "places that are kept", self.places.size())
+    /// How large a binding may be.
+    pub(super) const fn binding_bytes(&self) -> u64 {
+        self.room.binding_bytes
     }
 
-    /// Makes room for so many neighbours, and an eighth more where it is too small.
-    pub(super) fn reserve_neighbours(&mut self, gpu: &Gpu, count: u64) -> Result<(), BackendError> {
-        let what = "neighbours of chords";
-        if self.neighbours.size() < 4 * count {
-            let more = (4 * (count + count / 8)).min(self.limit).max(4 * count);
-            self.neighbours = array(gpu, self.limit, what, more)?;
+    /// Makes room for `count` neighbours, and an eighth more where there is room.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`].
+    pub(super) fn reserve_neighbours(&mut self, gpu: &Gpu, count: u32) -> Result<(), BackendError> {
+        let (what, bytes) = ("neighbours of chords", 4 * u64::from(count));
+        if count == u32::MAX {
+            return Err(BackendError::OutOfMemory { what, bytes });
+        }
+        if bytes > self.neighbours.size() {
+            let mut room = Room { memory_bytes: self.room.memory_bytes + self.listed, ..self.room };
+            let most = room.binding_bytes.min(room.memory_bytes) / 4 * 4;
+            let more = (bytes + bytes / 32 * 4).min(most).max(bytes);
+            self.neighbours = room.take(gpu, what, more)?;
+            (self.room, self.listed) = (room, more);
         }
         Ok(())
     }
 
-    /// What a shader sees as `resource`.
-    pub(super) fn resource(&self, resource: Resource) -> BindingResource<'_> {
+    /// What a shader sees as `resource`; nothing where that is none of a settling, or lies elsewhere.
+    pub(super) fn resource(&self, resource: Resource) -> Option<BindingResource<'_>> {
         let buffer = match resource {
             Resource::SettlingParams => &self.params,
             Resource::PlaceRows => &self.place_rows,
@@ -111,38 +158,24 @@ impl Memory {
             Resource::Places => &self.places,
             Resource::ChordRows => &self.chord_rows,
             Resource::Chords => &self.chords,
-            Resource::CellStarts => &self.cell_starts,
-            Resource::CellChords => &self.cell_chords,
-            Resource::ListStarts => &self.list_starts,
+            Resource::CellStarts => &self.cells,
+            Resource::CellChords => &self.sorted,
+            Resource::ListStarts => &self.starts,
             Resource::Neighbours => &self.neighbours,
             Resource::Lengths => &self.lengths,
             Resource::Pulls => &self.pulls,
-            Resource::SeenRows => &self.seen_rows,
+            Resource::SeenRows => &self.rows,
             Resource::Extents => &self.extents,
             Resource::Steps => &self.steps,
             Resource::NextPlaces => &self.seen,
-            _ => &self.whole,
+            Resource::Seen => &self.all,
+            _ => return None,
         };
-        buffer.as_entire_binding()
+        Some(buffer.as_entire_binding())
     }
 }
 
-/// Cells that a grid may have however few chords there are.
-const CELLS: u64 = 64;
-
-/// Tiles of a scan of so many numbers.
-pub(super) fn tiles(count: u64) -> u64 {
-    count.div_ceil(SCAN_TILE.into())
-}
-
-/// The first `count` numbers of a buffer.
-pub(super) fn numbers(buffer: &wgpu::Buffer, count: u64) -> BindingResource<'_> {
-    BindingResource::Buffer(BufferBinding { buffer, offset: 0, size: BufferSize::new(4 * count) })
-}
-
-fn array(gpu: &Gpu, limit: u64, what: &'static str, bytes: u64) -> Result<wgpu::Buffer, BackendError> {
-    if bytes > limit {
-        return Err(BackendError::OutOfMemory { what, bytes });
-    }
-    gpu.buffer(what, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)
+/// Groups of a scan of so many values.
+pub(super) fn groups(values: u64) -> u64 {
+    values.div_ceil(SCAN_VALUES.into())
 }

@@ -2,7 +2,7 @@
 
 mod answer;
 mod kernels;
-mod lists;
+mod list;
 mod memory;
 mod points;
 
@@ -30,8 +30,9 @@ pub(crate) struct WgpuSettler {
     plan: Arc<SettlingPlan>,
     params: SettlingParams,
     memory: Memory,
-    /// Where everything was kept.
-    kept: Option<wgpu::Buffer>,
+    /// Whether a pass has seen places, and whether such were kept.
+    seen: bool,
+    kept: bool,
     answer: Answer,
     readback: Readback,
 }
@@ -51,7 +52,8 @@ impl WgpuSettler {
             params: SettlingParams::new(&plan),
             answer: Answer::new(gpu, memory.extents.size())?,
             readback: Readback::new(gpu)?,
-            kept: None,
+            seen: false,
+            kept: false,
             memory,
             plan,
             opened,
@@ -61,21 +63,15 @@ impl WgpuSettler {
     fn send_params(&self) -> Result<(), BackendError> {
         self.opened.gpu.write(&self.memory.params, 0, bytemuck::bytes_of(&self.params))
     }
+}
 
-    /// Lanes of a workgroup each, for all chords.
-    fn chord_groups(&self, kernel: &Kernel) -> u32 {
-        kernel.workgroups(self.params.chords)
-    }
-
-    /// Hands over what copies between buffers on the device `record` records.
-    fn copy(&self, record: impl FnOnce(&mut CommandEncoder)) -> Result<(), BackendError> {
-        let gpu = &self.opened.gpu;
-        gpu.scoped("Queue::submit", || {
-            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            record(&mut encoder);
-            gpu.queue.submit([encoder.finish()]);
-        })
-    }
+/// Hands over what `record` records.
+fn submit(gpu: &Gpu, record: impl FnOnce(&mut CommandEncoder)) -> Result<(), BackendError> {
+    gpu.scoped("Queue::submit", || {
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        record(&mut encoder);
+        gpu.queue.submit([encoder.finish()]);
+    })
 }
 
 /// Records kernels one after the other, each with its workgroups.
@@ -98,24 +94,34 @@ impl Settler for WgpuSettler {
         self.plan.pad(places.iter().copied(), &mut padded);
         gpu.write(&memory.places, 0, bytemuck::cast_slice(&padded))?;
         gpu.write(&memory.lengths, 0, bytemuck::cast_slice(self.plan.lengths()))?;
-        self.copy(|encoder| encoder.clear_buffer(&memory.steps, 0, None))
+        submit(gpu, |encoder| encoder.clear_buffer(&memory.steps, 0, None))
     }
 
     fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
-        self.find_cells(growth)?;
-        self.find_neighbours()
+        if self.params.chords == 0 {
+            return Ok(0);
+        }
+        let listed = self.find_cells(growth).and_then(|()| self.find_neighbours());
+        if listed.is_err() {
+            // Of a list that has starts alone none is left; an error of this adds nothing.
+            let _ = submit(&self.opened.gpu, |encoder| encoder.clear_buffer(&self.memory.starts, 0, None));
+        }
+        listed.map(u64::from)
     }
 
     fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+        if self.params.places == 0 {
+            return Ok(Seen::NOTHING);
+        }
         self.params = self.params.with_pass(&self.plan, pass);
         self.send_params()?;
         let (gpu, memory, kernels) = (&self.opened.gpu, &self.memory, &self.kernels);
         let [pull, step] = kernels.form(pass.form);
         let places = pull.workgroups(self.params.places);
         let yarns = kernels.ends.workgroups(self.params.yarns);
-        let seen: Vec<SeenRow> = self.answer.after(gpu, &memory.whole, (0, 1), |encoder| {
+        let seen: Vec<SeenRow> = self.answer.after(gpu, &memory.all, (0, 1), |encoder| {
             let stages = [
-                (&kernels.chords, self.chord_groups(&kernels.chords)),
+                (&kernels.chords, kernels.chords.workgroups(self.params.chords)),
                 (pull, places),
                 (step, places),
                 (&kernels.ends, yarns),
@@ -124,25 +130,24 @@ impl Settler for WgpuSettler {
             record(gpu, memory, encoder, &stages);
         })?;
         std::mem::swap(&mut self.memory.places, &mut self.memory.seen);
+        self.seen = true;
         Ok(seen.first().map_or(Seen::NOTHING, |row| row.seen()))
     }
 
     fn keep(&mut self) -> Result<(), BackendError> {
-        let kept = match self.kept.take() {
-            Some(kept) => kept,
-            None => self.memory.more_places(&self.opened.gpu)?,
-        };
-        self.copy(|encoder| encoder.copy_buffer_to_buffer(&self.memory.seen, 0, &kept, 0, kept.size()))?;
-        self.kept = Some(kept);
-        Ok(())
+        self.kept = self.seen;
+        let Memory { seen, kept, .. } = &self.memory;
+        submit(&self.opened.gpu, |encoder| encoder.copy_buffer_to_buffer(seen, 0, kept, 0, seen.size()))
     }
 
     fn recall(&mut self) -> Result<(), BackendError> {
-        let Some(kept) = &self.kept else { return Ok(()) };
-        let memory = &self.memory;
-        self.copy(|encoder| {
-            encoder.copy_buffer_to_buffer(kept, 0, &memory.places, 0, kept.size());
-            encoder.clear_buffer(&memory.steps, 0, None);
+        if !self.kept {
+            return Ok(());
+        }
+        let Memory { places, kept, steps, .. } = &self.memory;
+        submit(&self.opened.gpu, |encoder| {
+            encoder.copy_buffer_to_buffer(kept, 0, places, 0, kept.size());
+            encoder.clear_buffer(steps, 0, None);
         })
     }
 

@@ -7,7 +7,7 @@ use texere_gpu::{BoundsRow, EXTENT_GROUPS, SettledParams, SettledRow};
 use texere_shaders::Resource;
 use wgpu::{BufferUsages, CommandEncoder, ComputePassDescriptor};
 
-use super::WgpuSettler;
+use super::{WgpuSettler, submit};
 use crate::kernels::{Kernel, Opened};
 
 impl WgpuSettler {
@@ -19,7 +19,7 @@ impl WgpuSettler {
         plan: &Plan,
         points: &wgpu::Buffer,
     ) -> Result<bool, BackendError> {
-        if !Arc::ptr_eq(opened, &self.opened) || points.size() > self.memory.limit {
+        if !Arc::ptr_eq(opened, &self.opened) || points.size() > self.memory.binding_bytes() {
             return Ok(false);
         }
         let gpu = &opened.gpu;
@@ -29,7 +29,7 @@ impl WgpuSettler {
         gpu.write(&table, 0, bytemuck::cast_slice(&rows))?;
         let params = self.settled_params()?;
         let groups = self.kernels.points.workgroups(self.params.places);
-        self.copy(|encoder| {
+        submit(gpu, |encoder| {
             let buffers = [
                 (Resource::SettledParams, &params),
                 (Resource::SettledRows, &table),

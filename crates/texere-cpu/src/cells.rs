@@ -1,5 +1,7 @@
 //! Which chords may be neighbours: those in cells side by side.
 
+use std::ops::Range;
+
 use glam::IVec3;
 use texere_core::BackendError;
 use texere_core::settling::SettlingPlan;
@@ -14,105 +16,147 @@ pub(crate) const fn countable(neighbours: u64) -> Result<(), BackendError> {
     Ok(())
 }
 
-/// Chords by cells of a grid over x and y.
-#[derive(Debug, Default)]
-pub(crate) struct Cells {
-    /// Where the grid begins, units; 0 along an axis that repeats.
-    low: [i32; 2],
-    /// From there to its end, units, and how many cells that is cut into.
-    span: [i64; 2],
-    count: [i64; 2],
-    repeats: [bool; 2],
-    /// Where each cell's chords begin, and the end of the last one's.
-    starts: Vec<u32>,
-    /// Chords, cell by cell, in the order of their numbers.
-    chords: Vec<u32>,
+/// The place of each chord's interval.
+pub(crate) fn owners(plan: &SettlingPlan) -> Vec<u32> {
+    let mut owners = vec![0; plan.counts().chords as usize];
+    for (place, bounds) in (0..).zip(plan.chords().windows(2)) {
+        owners[bounds[0] as usize..bounds[1] as usize].fill(place);
+    }
+    owners
 }
 
-impl Cells {
-    /// Sorts chords, whose middles are `middles`, into cells of at least `size` units, and no more of them than chords: a cloth may
-    /// lie scattered over a large field.
-    pub(crate) fn fill(&mut self, plan: &SettlingPlan, middles: &[IVec3], size: i32) {
-        let mut low = [i32::MAX; 2];
-        let mut high = [i32::MIN; 2];
-        for middle in middles {
-            for axis in 0..2 {
-                (low[axis], high[axis]) = (low[axis].min(middle[axis]), high[axis].max(middle[axis]));
-            }
+/// What is known of all chords when cells are made for them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Extent {
+    /// Where their middles lie, units.
+    pub(crate) low: IVec3,
+    pub(crate) high: IVec3,
+    /// The longest one, mm.
+    pub(crate) longest: f32,
+}
+
+impl Extent {
+    /// Of no chords.
+    pub(crate) const NOTHING: Self = Self { low: IVec3::MAX, high: IVec3::MIN, longest: 0.0 };
+
+    /// With a chord more.
+    pub(crate) fn with(self, middle: IVec3, length: f32) -> Self {
+        self.and(Self { low: middle, high: middle, longest: length })
+    }
+
+    /// Of both.
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+            longest: self.longest.max(other.longest),
         }
-        let mut size = i64::from(size.max(1));
-        loop {
-            for axis in 0..2 {
-                let period = plan.period()[axis];
-                self.repeats[axis] = period > 0;
-                self.low[axis] = if period > 0 { 0 } else { low[axis] };
-                let open = i64::from(high[axis]) - i64::from(low[axis]) + 1;
-                self.span[axis] = if period > 0 { i64::from(period) } else { open.max(1) };
-                // So many that each has the size at least.
-                self.count[axis] = (self.span[axis] / size).max(1);
-            }
-            if self.count[0] * self.count[1] <= (middles.len() as i64).max(64) {
-                break;
-            }
+    }
+}
+
+/// Cells over x and y, numbered row by row. A chord's neighbours lie in its own cell or one beside it.
+#[derive(Debug)]
+pub(crate) struct Grid {
+    /// Where it begins, units; 0 along an axis that repeats.
+    low: [f64; 2],
+    /// One over its width and height.
+    inverse: [f64; 2],
+    /// Columns and rows.
+    count: [u32; 2],
+    repeats: [bool; 2],
+}
+
+impl Grid {
+    /// Of cells that are as large as `growth` asks, and no more of them than there are chords: a cloth may lie scattered over a
+    /// large field.
+    pub(crate) fn new(plan: &SettlingPlan, growth: f32, extent: &Extent) -> Self {
+        let most = (plan.counts().chords as i64).max(64);
+        let mut size =
+            i64::from((plan.cell(growth, extent.longest) / plan.scale().unit()).ceil() as i32).max(1);
+        let repeats = plan.period().map(|period| period > 0);
+        let spans = [0, 1].map(|axis| {
+            let open = i64::from(extent.high[axis]) - i64::from(extent.low[axis]) + 1;
+            if repeats[axis] { i64::from(plan.period()[axis]) } else { open.max(1) }
+        });
+        // So many that each has the size at least.
+        let mut count = spans.map(|span| (span / size).max(1));
+        while count[0] * count[1] > most {
             size *= 2;
+            count = spans.map(|span| (span / size).max(1));
         }
-        let cells = (self.count[0] * self.count[1]) as usize;
-        self.starts.clear();
-        self.starts.resize(cells + 1, 0);
-        let numbers: Vec<usize> = middles.iter().map(|middle| self.number(plan, *middle)).collect();
-        for &number in &numbers {
-            self.starts[number + 1] += 1;
-        }
-        for cell in 0..cells {
-            self.starts[cell + 1] += self.starts[cell];
-        }
-        let mut next = self.starts.clone();
-        self.chords.resize(middles.len(), 0);
-        for (chord, &number) in (0..).zip(&numbers) {
-            self.chords[next[number] as usize] = chord;
-            next[number] += 1;
+        Self {
+            low: [0, 1].map(|axis| if repeats[axis] { 0.0 } else { f64::from(extent.low[axis]) }),
+            inverse: spans.map(|span| 1.0 / span as f64),
+            count: count.map(|count| count as u32),
+            repeats,
         }
     }
 
-    fn cell(&self, plan: &SettlingPlan, middle: IVec3) -> [i64; 2] {
-        [0, 1].map(|axis| {
-            let period = plan.period()[axis];
-            let from = if period > 0 {
-                i64::from(middle[axis].rem_euclid(period))
-            } else {
-                i64::from(middle[axis]) - i64::from(self.low[axis])
-            };
-            from * self.count[axis] / self.span[axis]
-        })
+    /// How many cells there are.
+    pub(crate) const fn cells(&self) -> usize {
+        self.count[0] as usize * self.count[1] as usize
     }
 
-    fn number(&self, plan: &SettlingPlan, middle: IVec3) -> usize {
-        let [x, y] = self.cell(plan, middle);
-        (y * self.count[0] + x) as usize
+    /// The cell of a chord with that middle.
+    #[inline]
+    pub(crate) fn cell(&self, middle: IVec3) -> u32 {
+        let mut cell = [0; 2];
+        for axis in 0..2 {
+            let share = (f64::from(middle[axis]) - self.low[axis]) * self.inverse[axis];
+            let share = if self.repeats[axis] { share - share.floor() } else { share };
+            cell[axis] = ((share * f64::from(self.count[axis])) as u32).min(self.count[axis] - 1);
+        }
+        cell[1] * self.count[0] + cell[0]
     }
 
-    /// Writes the chords of the cells beside `middle`'s and its own, in the order of their numbers.
-    pub(crate) fn beside(&self, plan: &SettlingPlan, middle: IVec3, chords: &mut Vec<u32>) {
-        chords.clear();
-        let [x, y] = self.cell(plan, middle);
-        let around = |axis: usize, cell: i64| {
-            let count = self.count[axis];
-            let mut cells: Vec<i64> = (cell - 1..=cell + 1)
-                .filter(|cell| self.repeats[axis] || (0..count).contains(cell))
-                .map(|cell| cell.rem_euclid(count))
-                .collect();
-            cells.sort_unstable();
-            cells.dedup();
-            cells
-        };
-        let (columns, rows) = (around(0, x), around(1, y));
-        for row in rows {
-            for column in &columns {
-                let cell = (row * self.count[0] + column) as usize;
-                let range = self.starts[cell] as usize..self.starts[cell + 1] as usize;
-                chords.extend_from_slice(&self.chords[range]);
+    /// The cells beside one and itself, none of them twice: ranges of their numbers, some of them empty.
+    #[inline]
+    pub(crate) fn beside(&self, cell: u32) -> [Range<u32>; 6] {
+        let [width, height] = self.count;
+        let [columns, rows] =
+            [around(cell % width, width, self.repeats[0]), around(cell / width, height, self.repeats[1])];
+        let mut all = [const { 0..0 }; 6];
+        for (row, all) in rows.into_iter().flatten().zip(all.chunks_exact_mut(2)) {
+            for (to, columns) in all.iter_mut().zip(&columns) {
+                *to = row * width + columns.start..row * width + columns.end;
             }
         }
-        chords.sort_unstable();
+        all
+    }
+}
+
+/// One of `count` columns or rows, and those beside it.
+#[inline]
+fn around(own: u32, count: u32, repeats: bool) -> [Range<u32>; 2] {
+    let here = own.saturating_sub(1)..(own + 2).min(count);
+    if !repeats || here.len() == 3 {
+        [here, 0..0]
+    } else if count <= 3 {
+        [0..count, 0..0]
+    } else if own == 0 {
+        [here, count - 1..count]
+    } else {
+        [here, 0..1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_beside_one_are_named_once() {
+        for (count, repeats) in (1..7).flat_map(|count| [(count, false), (count, true)]) {
+            for own in 0..count {
+                let mut found: Vec<u32> = around(own, count, repeats).into_iter().flatten().collect();
+                found.sort_unstable();
+                let beside = |other: &u32| {
+                    let far = other.abs_diff(own);
+                    far <= 1 || (repeats && far == count - 1)
+                };
+                let expected: Vec<u32> = (0..count).filter(beside).collect();
+                assert_eq!(found, expected, "{own} of {count}, repeats: {repeats}");
+            }
+        }
     }
 }

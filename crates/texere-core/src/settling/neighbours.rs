@@ -76,19 +76,19 @@ impl SettlingPlan {
         let gap = between + other.chord.span * shares[1] - one.chord.span * shares[0];
         let thickness = one.interval.thickest() + other.interval.thickest();
         let within = MARGIN * growth * thickness + SKIN * self.spans().diameter;
-        gap.length_squared() < within * within && !self.leads_on(one, other, image, LEADS_ON * thickness)
+        let [yarn, other_yarn] = [one, other].map(|listed| self.yarns()[listed.place]);
+        let chords = [one, other].map(|listed| self.chords()[listed.place] + listed.piece);
+        gap.length_squared() < within * within
+            && !(yarn == other_yarn && self.leads_on(yarn, chords, image, thickness))
     }
 
-    /// Whether two chords lie so close along one yarn that less than `window` mm are between them.
-    fn leads_on(&self, one: Listed<'_>, other: Listed<'_>, image: [i32; 2], window: f32) -> bool {
-        let yarn = self.yarns()[one.place];
-        if yarn != self.yarns()[other.place] {
-            return false;
-        }
+    /// Whether two chords of a yarn lie so close along it that they can't be clear of one another: less than a half circle of
+    /// their thickness is between them. The second one is seen so many repeats away.
+    #[must_use]
+    pub fn leads_on(&self, yarn: u32, chords: [u32; 2], image: [i32; 2], thickness: f32) -> bool {
         let strand = &self.strands()[yarn as usize];
-        let [one, other] =
-            [one, other].map(|listed| self.along()[(self.chords()[listed.place] + listed.piece) as usize]);
-        let window = (window / self.spans().along) as i32;
+        let [one, other] = chords.map(|chord| self.along()[chord as usize]);
+        let window = (LEADS_ON * thickness / self.spans().along) as i32;
         let between = |end: u32, start: u32| (-2..window).contains(&(start.wrapping_sub(end) as i32));
         let here = image == [0, 0] && (between(one[1], other[0]) || between(other[1], one[0]));
         let goes_on = strand.shift().is_some_and(|shift| {

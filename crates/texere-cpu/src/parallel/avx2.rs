@@ -129,6 +129,17 @@ impl Simd for Avx2 {
     }
 
     #[cfg_attr(optimized, inline(always))]
+    fn rows<const ROWS: usize>(self, table: &[[[f32; 4]; ROWS]], numbers: &[u32], row: usize) -> [F32x8; 4] {
+        let numbers = &numbers[..8];
+        let mut columns = [self.splat(0.0); 4];
+        for (lane, column) in columns.iter_mut().enumerate() {
+            let [low, high] = [numbers[lane] as usize, numbers[lane + 4] as usize];
+            *column = self.pair(&table[low][row], &table[high][row]);
+        }
+        self.tiles(columns)
+    }
+
+    #[cfg_attr(optimized, inline(always))]
     fn tiles(self, [a, b, c, d]: [F32x8; 4]) -> [F32x8; 4] {
         // SAFETY: no pointers.
         unsafe {

@@ -2,17 +2,18 @@
 #![allow(unsafe_code, reason = "vector instructions and streaming stores")]
 
 use std::arch::x86_64::{
-    __m512, __m512i, __mmask16, _CMP_EQ_OQ, _CMP_LT_OQ, _mm_sfence, _mm_storeu_ps, _mm256_storeu_ps,
-    _mm512_abs_ps, _mm512_add_epi32, _mm512_add_ps, _mm512_alignr_epi32, _mm512_and_si512,
-    _mm512_castps_si512, _mm512_castps512_ps256, _mm512_castsi512_ps, _mm512_cmp_ps_mask, _mm512_cvtepi32_ps,
-    _mm512_cvtsi512_si32, _mm512_cvttps_epi32, _mm512_div_ps, _mm512_extractf32x4_ps, _mm512_extractf32x8_ps,
-    _mm512_loadu_ps, _mm512_loadu_si512, _mm512_mask_blend_ps, _mm512_maskz_mov_epi32, _mm512_max_ps,
-    _mm512_min_ps, _mm512_mul_ps, _mm512_mullo_epi32, _mm512_permutex2var_ps, _mm512_permutexvar_epi32,
-    _mm512_permutexvar_ps, _mm512_roundscale_ps, _mm512_set1_epi32, _mm512_set1_ps, _mm512_setr_epi32,
-    _mm512_setzero_ps, _mm512_setzero_si512, _mm512_shuffle_f32x4, _mm512_shuffle_ps, _mm512_sllv_epi32,
-    _mm512_sqrt_ps, _mm512_srav_epi32, _mm512_srlv_epi32, _mm512_storeu_ps, _mm512_storeu_si512,
-    _mm512_stream_ps, _mm512_stream_si512, _mm512_sub_epi32, _mm512_sub_ps, _mm512_test_epi32_mask,
-    _mm512_unpackhi_ps, _mm512_unpacklo_ps, _mm512_xor_si512,
+    __m512, __m512i, __mmask16, _CMP_EQ_OQ, _CMP_LT_OQ, _mm_loadu_ps, _mm_sfence, _mm_storeu_ps,
+    _mm256_storeu_ps, _mm512_abs_ps, _mm512_add_epi32, _mm512_add_ps, _mm512_alignr_epi32, _mm512_and_si512,
+    _mm512_castps_si512, _mm512_castps128_ps512, _mm512_castps512_ps256, _mm512_castsi512_ps,
+    _mm512_cmp_ps_mask, _mm512_cvtepi32_ps, _mm512_cvtsi512_si32, _mm512_cvttps_epi32, _mm512_div_ps,
+    _mm512_extractf32x4_ps, _mm512_extractf32x8_ps, _mm512_insertf32x4, _mm512_loadu_ps, _mm512_loadu_si512,
+    _mm512_mask_blend_ps, _mm512_maskz_mov_epi32, _mm512_max_ps, _mm512_min_ps, _mm512_mul_ps,
+    _mm512_mullo_epi32, _mm512_permutex2var_ps, _mm512_permutexvar_epi32, _mm512_permutexvar_ps,
+    _mm512_roundscale_ps, _mm512_set1_epi32, _mm512_set1_ps, _mm512_setr_epi32, _mm512_setzero_ps,
+    _mm512_setzero_si512, _mm512_shuffle_f32x4, _mm512_shuffle_ps, _mm512_sllv_epi32, _mm512_sqrt_ps,
+    _mm512_srav_epi32, _mm512_srlv_epi32, _mm512_storeu_ps, _mm512_storeu_si512, _mm512_stream_ps,
+    _mm512_stream_si512, _mm512_sub_epi32, _mm512_sub_ps, _mm512_test_epi32_mask, _mm512_unpackhi_ps,
+    _mm512_unpacklo_ps, _mm512_xor_si512,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -29,6 +30,18 @@ pub(super) struct Avx512(());
 impl Avx512 {
     pub(super) fn detect() -> Option<Self> {
         (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")).then_some(Self(()))
+    }
+
+    /// Four points, one in each quarter.
+    #[cfg_attr(optimized, inline(always))]
+    fn quarters(self, [a, b, c, d]: [&[f32; 4]; 4]) -> F32x16 {
+        // SAFETY: each load reads four values, and need not be aligned.
+        F32x16(unsafe {
+            let first = _mm512_castps128_ps512(_mm_loadu_ps(a.as_ptr()));
+            let first = _mm512_insertf32x4::<1>(first, _mm_loadu_ps(b.as_ptr()));
+            let first = _mm512_insertf32x4::<2>(first, _mm_loadu_ps(c.as_ptr()));
+            _mm512_insertf32x4::<3>(first, _mm_loadu_ps(d.as_ptr()))
+        })
     }
 }
 
@@ -127,6 +140,18 @@ impl Simd for Avx512 {
             U32x16(unsafe { _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15) });
         let [x, y, z, w] = self.tiles([a, b, c, d]);
         [x.permute(order), y.permute(order), z.permute(order), w.permute(order)]
+    }
+
+    #[cfg_attr(optimized, inline(always))]
+    fn rows<const ROWS: usize>(self, table: &[[[f32; 4]; ROWS]], numbers: &[u32], row: usize) -> [F32x16; 4] {
+        let numbers = &numbers[..16];
+        let mut columns = [self.splat(0.0); 4];
+        for (lane, column) in columns.iter_mut().enumerate() {
+            let (a, b) = (&table[numbers[lane] as usize][row], &table[numbers[lane + 4] as usize][row]);
+            let (c, d) = (&table[numbers[lane + 8] as usize][row], &table[numbers[lane + 12] as usize][row]);
+            *column = self.quarters([a, b, c, d]);
+        }
+        self.tiles(columns)
     }
 
     #[cfg_attr(optimized, inline(always))]

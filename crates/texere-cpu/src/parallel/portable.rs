@@ -117,6 +117,12 @@ impl Simd for Portable {
     }
 
     #[cfg_attr(optimized, inline(always))]
+    fn rows<const ROWS: usize>(self, table: &[[[f32; 4]; ROWS]], numbers: &[u32], row: usize) -> [F32x4; 4] {
+        let numbers = &numbers[..4];
+        self.components(&each(|lane| table[numbers[lane] as usize][row]))
+    }
+
+    #[cfg_attr(optimized, inline(always))]
     fn tiles(self, rows: [F32x4; 4]) -> [F32x4; 4] {
         each(|lane| F32x4(each(|row| rows[row].0[lane])))
     }

@@ -56,6 +56,14 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// The four components of `LANES` points.
     fn components(self, points: &[[f32; 4]]) -> [Self::Floats; 4];
 
+    /// One row of the first `LANES` entries that `numbers` name: its four components.
+    fn rows<const ROWS: usize>(
+        self,
+        table: &[[[f32; 4]; ROWS]],
+        numbers: &[u32],
+        row: usize,
+    ) -> [Self::Floats; 4];
+
     /// Tiles of four by four values, transposed: lane 4j + c of column q is lane 4j + q of row c.
     fn tiles(self, rows: [Self::Floats; 4]) -> [Self::Floats; 4];
 
@@ -265,6 +273,28 @@ pub(super) fn share<S: Simd>(simd: S, value: S::Floats) -> S::Floats {
 pub(super) fn rounded<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3]) -> [S::Integers; 3] {
     let half = simd.splat(0.5);
     [(x + half).floor().to_signed(), (y + half).floor().to_signed(), (z + half).floor().to_signed()]
+}
+
+/// The least of all lanes.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn least<S: Simd>(values: S::Floats) -> f32 {
+    let mut lanes = [f32::INFINITY; LANES_MAX];
+    values.store(&mut lanes);
+    let mut width = S::LANES / 2;
+    while width > 0 {
+        let (low, high) = lanes.split_at_mut(width);
+        for (low, high) in low.iter_mut().zip(high) {
+            *low = low.min(*high);
+        }
+        width /= 2;
+    }
+    lanes[0]
+}
+
+/// The bits of a mask whose first `count` lanes are set.
+#[cfg_attr(optimized, inline(always))]
+pub(super) fn first<S: Simd>(count: usize) -> u32 {
+    if count < S::LANES { (1 << count) - 1 } else { S::ALL }
 }
 
 /// `yes` where `mask` says so, else `no`.

@@ -9,7 +9,7 @@ use texere_core::settling::{
     tag,
 };
 
-use crate::cells::{Cells, countable};
+use crate::cells::{Extent, Grid, countable, owners};
 
 /// The reference.
 #[derive(Debug)]
@@ -38,11 +38,6 @@ impl SerialSettler {
     /// Takes memory for a plan.
     pub(crate) fn new(plan: Arc<SettlingPlan>) -> Self {
         let (places, chords) = (plan.counts().places as usize, plan.counts().chords as usize);
-        let mut owners = vec![0; chords];
-        for place in 0..places {
-            let range = plan.chords()[place] as usize..plan.chords()[place + 1] as usize;
-            owners[range].fill(place as u32);
-        }
         Self {
             places: plan.places().to_vec(),
             steps: vec![Vec3::ZERO; places],
@@ -51,7 +46,7 @@ impl SerialSettler {
             kept: Vec::new(),
             intervals: Vec::with_capacity(places),
             chords: Vec::with_capacity(chords),
-            owners,
+            owners: owners(&plan),
             starts: Vec::new(),
             neighbours: Vec::new(),
             pulls: vec![Pull::none(); places],
@@ -114,14 +109,24 @@ impl Settler for SerialSettler {
         self.renew();
         let plan = &*self.plan;
         let scale = plan.scale();
-        let longest = self.chords.iter().map(|chord| chord.span.length_squared().sqrt()).fold(0.0, f32::max);
         let middles: Vec<IVec3> = self.chords.iter().map(|chord| chord.middle(scale)).collect();
-        let mut cells = Cells::default();
-        cells.fill(plan, &middles, (plan.cell(growth, longest) / scale.unit()).ceil() as i32);
+        let lengths = self.chords.iter().map(|chord| chord.span.length_squared().sqrt());
+        let known = middles.iter().zip(lengths);
+        let extent = known.fold(Extent::NOTHING, |extent, (middle, length)| extent.with(*middle, length));
+        let grid = Grid::new(plan, growth, &extent);
+        // Chords by cells.
+        let mut sorted: Vec<(u32, u32)> = middles.iter().map(|middle| grid.cell(*middle)).zip(0..).collect();
+        sorted.sort_unstable();
         let (mut starts, mut neighbours) = (vec![0], Vec::new());
         let mut beside = Vec::new();
         for (chord, middle) in (0_u32..).zip(&middles) {
-            cells.beside(plan, *middle, &mut beside);
+            beside.clear();
+            for cells in grid.beside(grid.cell(*middle)) {
+                let [start, end] =
+                    [cells.start, cells.end].map(|bound| sorted.partition_point(|(cell, _)| *cell < bound));
+                beside.extend(sorted[start..end].iter().map(|(_, other)| *other));
+            }
+            beside.sort_unstable();
             let near = |other: &u32| {
                 *other != chord && plan.are_neighbours(self.listed(chord), self.listed(*other), growth)
             };

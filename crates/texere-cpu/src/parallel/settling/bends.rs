@@ -6,7 +6,7 @@ use texere_core::settling::{
 };
 
 use super::curves::{Curve, acceleration, reach, velocity};
-use super::tables::{Fixed, IntervalRow, PullRow};
+use super::tables::{Fixed, IN_TURN, IntervalRow, PullRow};
 use crate::parallel::simd::{Floats, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
 
 /// Intervals whose own bends and lengths are worked out.
@@ -190,17 +190,18 @@ impl Own<'_> {
     }
 }
 
-/// The slots of consecutive intervals.
+/// The slots of as many consecutive intervals as there are lanes.
 #[cfg_attr(optimized, inline(always))]
 fn slots<S: Simd>(simd: S, pulls: &[PullRow]) -> Slots<S::Floats> {
     let mut slots = [[simd.splat(0.0); 9]; 4];
+    let last = pulls.len() as u32 - 1;
+    let mut numbers = IN_TURN;
+    for number in &mut numbers {
+        *number = last.min(*number);
+    }
     for (slot, sums) in slots.iter_mut().enumerate() {
         for row in 0..3 {
-            let mut lanes = [[0.0; 4]; LANES_MAX];
-            for (lane, pull) in lanes.iter_mut().zip(pulls) {
-                *lane = pull.slots[slot][row];
-            }
-            let values = simd.components(&lanes);
+            let values = simd.rows(PullRow::rows(pulls), &numbers, 3 * slot + row);
             for (sum, value) in sums[4 * row..].iter_mut().zip(values) {
                 *sum = value;
             }

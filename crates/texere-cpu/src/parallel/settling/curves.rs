@@ -1,6 +1,6 @@
 //! Intervals in lanes.
 
-use super::tables::{IntervalRow, rows};
+use super::tables::IntervalRow;
 use crate::parallel::simd::{Floats, Mask, Simd, dot, plus, scale, to_bits};
 
 /// A vector of intervals.
@@ -16,10 +16,10 @@ impl<S: Simd> Curve<S> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(simd: S, intervals: &[IntervalRow], numbers: &[u32]) -> Self {
         let intervals: &[[[f32; 4]; 4]] = bytemuck::cast_slice(intervals);
-        let [x, y, z, width_growth] = rows::<S, 4, 0>(simd, intervals, numbers);
-        let [a, b, c, width] = rows::<S, 4, 1>(simd, intervals, numbers);
-        let [d, e, f, height] = rows::<S, 4, 2>(simd, intervals, numbers);
-        let [g, h, i, height_growth] = rows::<S, 4, 3>(simd, intervals, numbers);
+        let [x, y, z, width_growth] = simd.rows(intervals, numbers, 0);
+        let [a, b, c, width] = simd.rows(intervals, numbers, 1);
+        let [d, e, f, height] = simd.rows(intervals, numbers, 2);
+        let [g, h, i, height_growth] = simd.rows(intervals, numbers, 3);
         Self {
             start: to_bits([x, y, z]),
             terms: [[a, b, c], [d, e, f], [g, h, i]],

@@ -1,14 +1,22 @@
 //! Neighbours of all chords.
+//!
+//! Chords are sorted by cells, so that those of cells side by side lie side by side in memory, too. Most of them are refused by
+//! the distance of their middles. The others are looked at as the core does.
 
-use glam::{IVec3, Vec3};
+use glam::IVec3;
 use rayon::prelude::*;
 use texere_core::BackendError;
-use texere_core::settling::{Chord, Interval, Listed, SettlingPlan};
+use texere_core::settling::{MARGIN, SKIN, SettlingPlan};
 
-use super::tables::{ChordRow, Fixed, IntervalRow};
-use crate::cells::{Cells, countable};
+use super::chords::{Chords, Images, Nearest};
+use super::tables::{ChordRow, Fixed};
+use crate::cells::{Extent, Grid, countable};
+use crate::parallel::instruction_set::InstructionSet;
+use crate::parallel::simd::{
+    Floats, Job, LANES_MAX, Mask, Simd, between, bit_cast, dot, first, least, scale, to_floats,
+};
 
-/// Chords that one task lists the neighbours of.
+/// Chords that one task works on.
 const TASK: usize = 1024;
 
 /// Every chord's neighbours, in the order of their numbers.
@@ -16,69 +24,256 @@ const TASK: usize = 1024;
 pub(super) struct Lists {
     /// Where each chord's neighbours begin, and the end of the last one's.
     pub(super) starts: Vec<u32>,
+    /// With [`LANES_MAX`] entries more than there are.
     pub(super) neighbours: Vec<u32>,
-    cells: Cells,
+    /// Of each chord: where its middle is (as bits), and how far from there a neighbour's reach may begin, mm.
+    middles: Vec<[f32; 4]>,
+    /// Each chord's cell, above its number: in the order of both.
+    sorted: Vec<u64>,
+    /// The columns of `middles` in that order, with [`LANES_MAX`] entries more.
+    columns: [Vec<f32>; 4],
+    /// Where each cell's chords begin in that order, and the end of the last one's.
+    cells: Vec<u32>,
+    tasks: Vec<Task>,
+}
+
+/// What a task finds.
+#[derive(Debug, Default)]
+struct Task {
+    neighbours: Vec<u32>,
+    /// Chords that may be neighbours of the present one.
+    near: Vec<u32>,
+}
+
+/// What lists are made from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Basis<'a> {
+    pub(super) set: InstructionSet,
+    pub(super) plan: &'a SettlingPlan,
+    pub(super) fixed: &'a Fixed,
+    pub(super) chords: &'a [ChordRow],
+    pub(super) growth: f32,
 }
 
 impl Lists {
     /// Finds the neighbours anew and gives back how many there are.
-    pub(super) fn fill(
-        &mut self,
-        plan: &SettlingPlan,
-        fixed: &Fixed,
-        intervals: &[IntervalRow],
-        chords: &[ChordRow],
-        growth: f32,
-    ) -> Result<u64, BackendError> {
-        let scale = plan.scale();
-        let chord = |number: u32| {
-            let [[x, y, z, _], [sx, sy, sz, _]] = chords[number as usize].0;
-            let at = IVec3::from_array([x, y, z].map(|bits| bits.to_bits().cast_signed()));
-            Chord { at, span: Vec3::new(sx, sy, sz) }
-        };
-        let count = chords.len() as u32;
-        let longest = (0..count).into_par_iter().map(|number| chord(number).span.length_squared().sqrt());
-        let longest = longest.reduce(|| 0.0, f32::max);
-        let middles: Vec<IVec3> =
-            (0..count).into_par_iter().map(|number| chord(number).middle(scale)).collect();
-        self.cells.fill(plan, &middles, (plan.cell(growth, longest) / scale.unit()).ceil() as i32);
-        let known = |number: u32| {
-            let place = fixed.owners[number as usize] as usize;
-            (chord(number), place, Interval::from_rows(&intervals[place].0))
-        };
-        let cells = &self.cells;
-        let tasks = (0..chords.len().div_ceil(TASK)).into_par_iter().map(|task| {
-            let (mut counts, mut neighbours, mut beside) = (Vec::new(), Vec::new(), Vec::new());
-            for (number, middle) in (0..).zip(&middles).skip(task * TASK).take(TASK) {
-                let (own, place, interval) = known(number);
-                let one = Listed::new(plan, number, &own, place, &interval);
-                let before = neighbours.len();
-                cells.beside(plan, *middle, &mut beside);
-                for &other in beside.iter().filter(|other| **other != number) {
-                    let (own, place, interval) = known(other);
-                    let there = Listed::new(plan, other, &own, place, &interval);
-                    if plan.are_neighbours(one, there, growth) {
+    pub(super) fn fill(&mut self, basis: Basis<'_>) -> Result<u64, BackendError> {
+        let (set, count) = (basis.set, basis.chords.len());
+        self.middles.resize(count, [0.0; 4]);
+        let tasks = self.middles.par_chunks_mut(TASK).zip(basis.chords.par_chunks(TASK));
+        let extents = tasks.map(|(middles, chords)| {
+            let mut extent = Extent::NOTHING;
+            set.run(MiddleJob { basis, chords, middles, extent: &mut extent });
+            extent
+        });
+        let extent = extents.reduce(|| Extent::NOTHING, Extent::and);
+        let grid = Grid::new(basis.plan, basis.growth, &extent);
+        self.sort(&grid);
+        self.starts.resize(count + 1, 0);
+        self.tasks.resize_with(count.div_ceil(TASK), Task::default);
+        let Self { starts, middles, sorted, columns, cells, tasks, .. } = self;
+        let sorted = Sorted { grid: &grid, middles, sorted, columns, cells };
+        let all = starts[1..].par_chunks_mut(TASK).zip(tasks).enumerate();
+        all.for_each(|(task, (ends, room))| {
+            set.run(ListJob { basis, sorted, first: task * TASK, ends, room });
+        });
+        self.gather()
+    }
+
+    /// Sorts chords by their cells.
+    fn sort(&mut self, grid: &Grid) {
+        let Self { middles, sorted, columns, cells, .. } = self;
+        sorted.resize(middles.len(), 0);
+        let all = sorted.par_iter_mut().with_min_len(TASK).zip(&*middles).enumerate();
+        all.for_each(|(number, (key, middle))| *key = u64::from(grid.cell(at(middle))) << 32 | number as u64);
+        sorted.par_sort_unstable();
+        for (axis, column) in columns.iter_mut().enumerate() {
+            column.resize(sorted.len() + LANES_MAX, 0.0);
+            let all = column.par_iter_mut().with_min_len(TASK).zip(&*sorted);
+            all.for_each(|(value, key)| *value = middles[*key as u32 as usize][axis]);
+        }
+        cells.resize(grid.cells() + 1, 0);
+        cells.par_chunks_mut(TASK).enumerate().for_each(|(task, starts)| {
+            let first = (task * TASK) as u64;
+            let mut start = sorted.partition_point(|key| key >> 32 < first);
+            for (cell, to) in (first..).zip(starts) {
+                while sorted.get(start).is_some_and(|key| key >> 32 < cell) {
+                    start += 1;
+                }
+                *to = start as u32;
+            }
+        });
+    }
+
+    /// Puts what tasks have found into one list.
+    fn gather(&mut self) -> Result<u64, BackendError> {
+        let count = self.tasks.iter().map(|task| task.neighbours.len() as u64).sum();
+        countable(count)?;
+        self.neighbours.resize(count as usize + LANES_MAX, 0);
+        let (mut left, mut start) = (self.neighbours.as_mut_slice(), 0);
+        let parts: Vec<_> = self
+            .tasks
+            .iter()
+            .map(|Task { neighbours, .. }| {
+                let before = start;
+                start += neighbours.len() as u32;
+                (before, neighbours, left.split_off_mut(..neighbours.len()).unwrap_or_default())
+            })
+            .collect();
+        let all = self.starts[1..].par_chunks_mut(TASK).zip(parts);
+        all.for_each(|(ends, (before, neighbours, to))| {
+            ends.iter_mut().for_each(|end| *end += before);
+            to.copy_from_slice(neighbours);
+        });
+        Ok(count)
+    }
+}
+
+/// Where a chord's middle is.
+fn at([x, y, z, _]: &[f32; 4]) -> IVec3 {
+    IVec3::new(x.to_bits().cast_signed(), y.to_bits().cast_signed(), z.to_bits().cast_signed())
+}
+
+/// The middles of a task's chords.
+struct MiddleJob<'a> {
+    basis: Basis<'a>,
+    chords: &'a [ChordRow],
+    middles: &'a mut [[f32; 4]],
+    extent: &'a mut Extent,
+}
+
+impl Job for MiddleJob<'_> {
+    #[cfg_attr(optimized, inline(always))]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { basis: Basis { plan, growth, .. }, chords, middles, extent } = self;
+        let (unit, spans) = (plan.scale().unit(), plan.spans());
+        let mut longest = simd.splat(0.0);
+        for (chords, middles) in chords.chunks(S::LANES).zip(middles.chunks_mut(S::LANES)) {
+            let mut numbers = [0; LANES_MAX];
+            for (lane, number) in numbers.iter_mut().enumerate() {
+                *number = lane.min(chords.len() - 1) as u32;
+            }
+            let own = Chords::<S>::new(simd, chords, &numbers);
+            let length = dot(own.span, own.span).sqrt();
+            longest = longest.max(length);
+            // What `are_neighbours` allows, half of it each; more than rounding and the units of middles may take away.
+            let reach = simd.splat(MARGIN * growth) * own.thickest + simd.splat(0.5 * SKIN * spans.diameter);
+            let reach = (reach + simd.splat(0.5) * length) * simd.splat(1.001) + simd.splat(unit);
+            let [x, y, z] = bit_cast(own.middle(simd, unit));
+            let mut made = [[0.0; 4]; LANES_MAX];
+            simd.scatter([x, y, z, reach], made.as_flattened_mut(), 4);
+            middles.copy_from_slice(&made[..middles.len()]);
+            for middle in middles {
+                *extent = extent.with(at(middle), 0.0);
+            }
+        }
+        extent.longest = -least::<S>(-longest);
+    }
+}
+
+/// Chords by cells.
+#[derive(Debug, Clone, Copy)]
+struct Sorted<'a> {
+    grid: &'a Grid,
+    middles: &'a [[f32; 4]],
+    sorted: &'a [u64],
+    columns: &'a [Vec<f32>; 4],
+    cells: &'a [u32],
+}
+
+impl Sorted<'_> {
+    /// Writes the chords that may be neighbours of one whose middle is `own`, and gives back how many they are.
+    #[cfg_attr(optimized, inline(always))]
+    fn near<S: Simd>(&self, simd: S, images: &Images<S>, own: &[f32; 4], near: &mut Vec<u32>) -> usize {
+        let zero = [simd.splat(0.0); 3];
+        let here = at(own);
+        let [x, y, z] = here.to_array().map(i32::cast_unsigned);
+        let from = [simd.splat_integer(x), simd.splat_integer(y), simd.splat_integer(z)];
+        let reach = simd.splat(own[3]);
+        let [xs, ys, zs, reaches] = self.columns;
+        let mut count = 0;
+        for cells in self.grid.beside(self.grid.cell(here)) {
+            let (start, end) = (self.cells[cells.start as usize], self.cells[cells.end as usize]);
+            let (start, end) = (start as usize, end as usize);
+            if near.len() < count + (end - start) + LANES_MAX {
+                near.resize(2 * (count + (end - start) + LANES_MAX), 0);
+            }
+            for k in (start..end).step_by(S::LANES) {
+                let to = [simd.load(&xs[k..]), simd.load(&ys[k..]), simd.load(&zs[k..])];
+                let to = [to[0].to_bits(), to[1].to_bits(), to[2].to_bits()];
+                let (way, _) = images.nearest(between(from, to), zero);
+                let way = scale(to_floats(way), images.unit);
+                let most = reach + simd.load(&reaches[k..]);
+                let mut may = dot(way, way).less(most * most).bits() & first::<S>(end - k);
+                while may != 0 {
+                    near[count] = self.sorted[k + may.trailing_zeros() as usize] as u32;
+                    count += 1;
+                    may &= may - 1;
+                }
+            }
+        }
+        count
+    }
+}
+
+/// The neighbours of a task's chords.
+struct ListJob<'a> {
+    basis: Basis<'a>,
+    sorted: Sorted<'a>,
+    /// The first chord.
+    first: usize,
+    /// Where each chord's neighbours end, counted from the task's first one.
+    ends: &'a mut [u32],
+    room: &'a mut Task,
+}
+
+impl Job for ListJob<'_> {
+    #[cfg_attr(optimized, inline(always))]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { basis: Basis { plan, fixed, chords, growth, .. }, sorted, first: start, ends, room } =
+            self;
+        let Task { neighbours, near } = room;
+        let images = Images::new(simd, plan);
+        let (grown, skin) = (simd.splat(MARGIN * growth), simd.splat(SKIN * plan.spans().diameter));
+        // The present yarn and its chords.
+        let (mut yarn, mut own) = (0, 0..0);
+        neighbours.clear();
+        for (number, end) in (start as u32..).zip(ends) {
+            if number >= own.end {
+                yarn = plan.yarns()[fixed.owners[number as usize] as usize];
+                let strand = &plan.strands()[yarn as usize];
+                let [from, to] = [strand.first, strand.first + strand.intervals()];
+                own = plan.chords()[from as usize]..plan.chords()[to as usize];
+            }
+            let count = sorted.near(simd, &images, &sorted.middles[number as usize], near);
+            let one = Chords::<S>::splat(simd, &chords[number as usize]);
+            let before = neighbours.len();
+            for k in (0..count).step_by(S::LANES) {
+                let others = &near[k..][..S::LANES];
+                let other = Chords::<S>::new(simd, chords, others);
+                let Nearest { apart, image, .. } = Nearest::new(simd, &images, &one, &other);
+                // As `are_neighbours`.
+                let thickness = one.thickest + other.thickest;
+                let within = grown * thickness + skin;
+                let mut found = dot(apart, apart).less(within * within).bits() & first::<S>(count - k);
+                let mut lanes = [[0.0; LANES_MAX]; 3];
+                image[0].store(&mut lanes[0]);
+                image[1].store(&mut lanes[1]);
+                thickness.store(&mut lanes[2]);
+                while found != 0 {
+                    let lane = found.trailing_zeros() as usize;
+                    found &= found - 1;
+                    let other = others[lane];
+                    let image = [-(lanes[0][lane] as i32), -(lanes[1][lane] as i32)];
+                    let leads_on = own.contains(&other)
+                        && (other == number || plan.leads_on(yarn, [number, other], image, lanes[2][lane]));
+                    if !leads_on {
                         neighbours.push(other);
                     }
                 }
-                counts.push((neighbours.len() - before) as u32);
             }
-            (counts, neighbours)
-        });
-        let tasks: Vec<_> = tasks.collect();
-        let count = tasks.iter().map(|(_, neighbours)| neighbours.len() as u64).sum();
-        countable(count)?;
-        self.starts.clear();
-        self.neighbours.clear();
-        let mut start = 0;
-        for (counts, neighbours) in tasks {
-            for count in counts {
-                self.starts.push(start);
-                start += count;
-            }
-            self.neighbours.extend(neighbours);
+            neighbours[before..].sort_unstable();
+            *end = neighbours.len() as u32;
         }
-        self.starts.push(start);
-        Ok(count)
     }
 }

@@ -1,6 +1,7 @@
 //! Settling in lanes on all cores: the same bits as the reference.
 
 mod bends;
+mod chords;
 mod contacts;
 mod curves;
 mod lists;
@@ -19,7 +20,7 @@ use super::simd::{Job, Simd};
 
 use bends::Own;
 use contacts::{Room, Source};
-use lists::Lists;
+use lists::{Basis, Lists};
 use steps::Gather;
 use tables::{BACK, ChordRow, FRONT, Fixed, IntervalRow, Make, PullRow, TASK};
 
@@ -105,10 +106,8 @@ impl Job for PullJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
         let Self { source, own, first, pulls, room, seen } = self;
-        let plan = source.plan;
         pulls.fill(PullRow::NONE);
-        let chords = plan.chords()[first]..plan.chords()[first + pulls.len()];
-        source.add(simd, chords, first as u32, room, pulls);
+        source.add(simd, first, room, pulls);
         own.add(simd, first, pulls);
         for pull in pulls {
             let [_, clearance, radius, length] = pull.seen;
@@ -148,7 +147,8 @@ impl Settler for ParallelSettler {
 
     fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
         self.renew();
-        self.lists.fill(&self.plan, &self.fixed, &self.intervals, &self.chords, growth)
+        let Self { set, plan, fixed, chords, lists, .. } = self;
+        lists.fill(Basis { set: *set, plan, fixed, chords, growth })
     }
 
     fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {

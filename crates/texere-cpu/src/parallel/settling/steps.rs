@@ -2,7 +2,7 @@
 
 use texere_core::settling::{BEND, Form, INERTIA, Pass, Place, Seen, SettlingPlan, moves};
 
-use super::tables::{FRONT, PullRow};
+use super::tables::{FRONT, IN_TURN, PullRow};
 use crate::parallel::simd::{
     Floats, Integers, LANES_MAX, Simd, difference, dot, plus, rounded, scale, select, share,
 };
@@ -67,14 +67,14 @@ impl Gather<'_> {
         let mut near = simd.splat(f32::INFINITY);
         let mut clearance = near;
         for slot in 0..4 {
-            let pulls = &self.pulls[FRONT + place + 1 - slot..][..S::LANES];
+            let pulls = PullRow::rows(&self.pulls[FRONT + place + 1 - slot..]);
             for row in 0..if block { 3 } else { 2 } {
-                let values = lanes(simd, pulls, |pull| pull.slots[slot][row]);
+                let values = simd.rows(pulls, &IN_TURN, 3 * slot + row);
                 for (sum, value) in sums[4 * row..].iter_mut().zip(values) {
                     *sum = *sum + value;
                 }
             }
-            let [distance, ratio, ..] = lanes(simd, pulls, |pull| pull.seen);
+            let [distance, ratio, ..] = simd.rows(pulls, &IN_TURN, PullRow::SEEN);
             (near, clearance) = (near.min(distance), clearance.min(ratio));
         }
         let places = &self.places[FRONT + place..];
@@ -98,9 +98,9 @@ impl Gather<'_> {
             let room = (clearance / simd.splat(pass.growth) - simd.splat(0.3)) * simd.splat(2.5);
             let apart = share(simd, room);
             let bend = scale([bx, by, bz], simd.splat(BEND) / bends.max(simd.splat(0.3)));
-            let [x, y, z, _] = lanes(simd, &self.pulls[FRONT + place..][..S::LANES], |pull| pull.length);
-            let [bx, by, bz, _] =
-                lanes(simd, &self.pulls[FRONT + place - 1..][..S::LANES], |pull| pull.length);
+            let pulls = PullRow::rows(&self.pulls[FRONT + place - 1..]);
+            let [bx, by, bz, _] = simd.rows(pulls, &IN_TURN, PullRow::LENGTH);
+            let [x, y, z, _] = simd.rows(&pulls[1..], &IN_TURN, PullRow::LENGTH);
             let mut others = plus(plus(bend, difference([x, y, z], [bx, by, bz])), on);
             others[2] = others[2] + press;
             plus(scale([cx, cy, cz], one / contacts.max(simd.splat(0.64))), scale(others, apart))
@@ -109,16 +109,6 @@ impl Gather<'_> {
         let length = dot(step, step).sqrt();
         select(most.less(length), scale(step, most / length), step)
     }
-}
-
-/// Four numbers of consecutive intervals.
-#[cfg_attr(optimized, inline(always))]
-fn lanes<S: Simd>(simd: S, pulls: &[PullRow], row: impl Fn(&PullRow) -> [f32; 4]) -> [S::Floats; 4] {
-    let mut lanes = [[0.0; 4]; LANES_MAX];
-    for (lane, pull) in lanes.iter_mut().zip(pulls) {
-        *lane = row(pull);
-    }
-    simd.components(&lanes)
 }
 
 /// As the core's function of that name.

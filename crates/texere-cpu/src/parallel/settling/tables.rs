@@ -4,9 +4,13 @@ use bytemuck::{Pod, Zeroable};
 use texere_core::settling::{Place, SettlingPlan, tag};
 
 use super::curves::Curve;
+use crate::cells::owners;
 use crate::parallel::simd::{
     Job, LANES_MAX, Simd, between, bit_cast, difference, plus, rounded, scale, to_bits, to_floats,
 };
+
+/// Entries one after the other.
+pub(super) const IN_TURN: [u32; LANES_MAX] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// Places that one task works on.
 pub(super) const TASK: usize = 512;
@@ -33,7 +37,7 @@ impl Fixed {
         let mut fixed = Self {
             halves: vec![[0.0; 4]; count + BACK],
             thickest: vec![0.0; count],
-            owners: vec![0; chords],
+            owners: owners(plan),
             shares: vec![[0.0; 4]; chords + BACK],
             round: true,
         };
@@ -47,7 +51,6 @@ impl Fixed {
             let pieces = own.len() as f32;
             for (piece, chord) in (0_u32..).zip(own) {
                 let piece = piece as f32;
-                fixed.owners[chord as usize] = place as u32;
                 fixed.shares[chord as usize] = [piece / pieces, (piece + 1.0) / pieces, piece, 1.0 / pieces];
             }
         }
@@ -86,26 +89,22 @@ impl PullRow {
         seen: [f32::INFINITY, f32::INFINITY, f32::INFINITY, 0.0],
     };
 
+    /// Which of its rows is `length`, and which is `seen`.
+    pub(super) const LENGTH: usize = 12;
+    pub(super) const SEEN: usize = 13;
+
+    /// As rows of four.
+    #[cfg_attr(optimized, inline(always))]
+    pub(super) fn rows(pulls: &[Self]) -> &[[[f32; 4]; 14]] {
+        bytemuck::cast_slice(pulls)
+    }
+
     /// Takes note of a distance to another yarn.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn see(&mut self, distance: f32, ratio: f32) {
         self.seen[0] = self.seen[0].min(distance);
         self.seen[1] = self.seen[1].min(ratio);
     }
-}
-
-/// Row `ROW` of the entries numbered `numbers`, in lanes.
-#[cfg_attr(optimized, inline(always))]
-pub(super) fn rows<S: Simd, const ROWS: usize, const ROW: usize>(
-    simd: S,
-    table: &[[[f32; 4]; ROWS]],
-    numbers: &[u32],
-) -> [S::Floats; 4] {
-    let mut lanes = [[0.0; 4]; LANES_MAX];
-    for (lane, &number) in lanes.iter_mut().zip(&numbers[..S::LANES]) {
-        *lane = table[number as usize][ROW];
-    }
-    simd.components(&lanes)
 }
 
 /// Entries before the first place's and behind the last one's, so that no window of a vector ends outside.

@@ -159,7 +159,8 @@ impl Report {
             }
         }
         if self.clean {
-            line("clean", format!("nothing nearer than {} of touching, no fold, no jam", self.touching));
+            let jam = if self.settling.is_some() { "" } else { ", no jam" };
+            line("clean", format!("nothing nearer than {} of touching, no fold{jam}", self.touching));
         } else if self.settling.is_some() {
             line(
                 "cure",

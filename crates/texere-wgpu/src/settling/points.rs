@@ -72,7 +72,8 @@ impl WgpuSettler {
     ) {
         let bound = kernel.bind(&self.opened.gpu, |resource| {
             let other = buffers.iter().find(|(other, _)| *other == resource);
-            other.map_or_else(|| self.memory.resource(resource), |(_, buffer)| buffer.as_entire_binding())
+            let other = other.map(|(_, buffer)| buffer.as_entire_binding());
+            other.or_else(|| self.memory.resource(resource))
         });
         let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
         kernel.record(&mut pass, &bound, workgroups);

@@ -19,7 +19,7 @@ const CELLS: u64 = 64;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct PlaceRow {
-    /// Bits of [`tag`](texere_core::settling::tag).
+    /// Bits of [`tag`].
     pub tags: u32,
     /// Its yarn.
     pub yarn: u32,

@@ -32,7 +32,7 @@ typedef struct {
 float3 position(const SettledParams *settled, __global const uint4 *places, uint place) {
     int3 units = as_int3(places[place].xyz);
     float3 origin = (float3)(settled->origin[0], settled->origin[1], settled->origin[2]);
-    float3 high = convert_float3(units >> 12) * (4096.0f * settled->unit);
+    float3 high = convert_float3(units >> 12) * ((float)4096 * settled->unit);
     float3 low = convert_float3(units & 4095) * settled->unit;
     float3 sum = origin + high;
     float3 added = sum - origin;

@@ -7,9 +7,8 @@ struct SettledParams {
     origin: vec3<f32>,
     unit: f32,
     places: u32,
-    padding_0: u32,
-    padding_1: u32,
-    padding_2: u32,
+    padding: u32,
+    more_padding: vec2<u32>,
 }
 
 // Rust: texere_gpu::SettledRow, 32 bytes.
@@ -25,8 +24,10 @@ struct SettledRow {
 
 // Rust: texere_gpu::BoundsRow, 32 bytes.
 struct BoundsRow {
-    low: vec4<i32>,
-    high: vec4<i32>,
+    low: vec3<i32>,
+    padding: i32,
+    high: vec3<i32>,
+    more_padding: i32,
 }
 
 @group(0) @binding(1) var<storage, read_write> points: array<vec4<u32>>;
@@ -39,7 +40,7 @@ struct BoundsRow {
 // the first sum loses is added to the other part.
 fn position(place: u32) -> vec3<f32> {
     let units = places[place].xyz;
-    let high = vec3<f32>(units >> vec3(12u)) * (4096.0 * settled.unit);
+    let high = vec3<f32>(units >> vec3(12u)) * (f32(4096) * settled.unit);
     let low = vec3<f32>(units & vec3(4095)) * settled.unit;
     let sum = settled.origin + high;
     let added = sum - settled.origin;
@@ -113,6 +114,6 @@ fn settling_bounds(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgro
         }
     }
     if lane == 0u {
-        bounds[group.x] = BoundsRow(vec4(low, 0), vec4(high, 0));
+        bounds[group.x] = BoundsRow(low, 0, high, 0);
     }
 }

@@ -10,8 +10,8 @@ use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
 use texere_core::settling::Place;
 use texere_core::{Block, ControlPoint, Ring, SectionPoint, Vertex};
 use texere_gpu::{
-    CapRow, ChordRow, ExtentRow, Language, Params, PlaceRow, SeenRow, SettlingParams, StrandRow, YarnRow,
-    prelude,
+    BoundsRow, CapRow, ChordRow, ExtentRow, Language, Params, PlaceRow, SeenRow, SettledParams, SettledRow,
+    SettlingParams, StrandRow, YarnRow, prelude,
 };
 use texere_shaders::{ALL, Access, Shader, picture, settling};
 
@@ -149,6 +149,17 @@ fn elements(module: &Module) -> BTreeMap<u32, Vec<usize>> {
 }
 
 #[test]
+fn tables_of_points_at_rest_lie_as_in_rust() {
+    let (module, _) = parse(&settling::POINTS);
+    same_layout!(&module, SettledParams { origin, unit, places, padding, more_padding });
+    same_layout!(
+        &module,
+        SettledRow { first_place, points, first_point, closed, start_halves, end_halves, padding }
+    );
+    same_layout!(&module, BoundsRow { low, padding, high, more_padding });
+}
+
+#[test]
 fn untyped_tables_have_elements_that_divide_the_rust_type() {
     // What a binding holds, in bytes of the Rust type; a shader may read it in smaller pieces.
     let rust = [
@@ -184,6 +195,8 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (28, 16),
         (29, size_of::<Place>()),
         (30, size_of::<SeenRow>()),
+        (32, size_of::<SettledRow>()),
+        (33, size_of::<BoundsRow>()),
     ];
     let rust = BTreeMap::from(rust);
     for shader in all() {

@@ -4,13 +4,18 @@ use texere_gpu::{CONSTANTS, Constant, SETTLING_CONSTANTS};
 use texere_kernels::{PER_RING, PER_YARN, Program, SETTLING};
 
 /// All that is compiled for a mesh or for a settling, without what stands before it, and the constants that it is to use.
-fn sources() -> [(&'static str, String, &'static [Constant]); 3] {
+fn sources() -> [(&'static str, String, &'static [Constant]); 4] {
     let kernels =
         |programs: &[Program]| programs.iter().flat_map(|program| program.sources).copied().collect();
     [
         ("kernels of a mesh", kernels(&[PER_RING, PER_YARN]), &CONSTANTS),
         ("shaders of a mesh", texere_shaders::ALL.map(|shader| shader.source).concat(), &CONSTANTS),
         ("kernels of a settling", kernels(&[SETTLING]), &SETTLING_CONSTANTS),
+        (
+            "shaders of a settling",
+            texere_shaders::settling::ALL.map(|shader| shader.source).concat(),
+            &SETTLING_CONSTANTS,
+        ),
     ]
 }
 

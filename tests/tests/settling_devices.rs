@@ -1,6 +1,6 @@
 //! Settling on every device of the registry, against `cpu-serial`: places, what was seen, neighbours, and whole courses.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 use texere_conformance::rest::{
@@ -9,24 +9,23 @@ use texere_conformance::rest::{
 use texere_conformance::{REGISTRY, SabotagedSettler, SettlingSabotage};
 use texere_core::settling::{Form, Pass, Place, Seen, Settler, Settling, SettlingPlan, tag};
 use texere_core::{Backend, BackendError, Boundary, ControlPoint, Limits, Schedule, Yarn, Yarns};
-use texere_cpu::SerialBackend;
+use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_opencl::OpenClBackend;
 
-/// All devices that settle and are not held to the bits of `cpu-serial`; the schedule of a mesh makes no difference.
-fn devices() -> Vec<Arc<dyn Backend>> {
-    let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
-    let near = REGISTRY.iter().filter(|entry| !entry.exact);
-    let devices = near.flat_map(|entry| {
-        let (devices, missing) = entry.devices();
-        let wanted = required.split(',').any(|name| name.trim() == entry.name);
-        assert!(!wanted || missing.is_empty(), "{}: {missing:?}", entry.name);
-        devices
-    });
-    let one = settling_plan(&starts()[0]);
-    devices
-        .filter(|device| device.info().schedule == Schedule::PerRing)
-        .filter(|device| !matches!(device.settler(Arc::clone(&one)), Err(BackendError::NoSettling { .. })))
-        .collect()
+/// All devices that are not held to the bits of `cpu-serial`, opened once; the schedule of a mesh makes no difference.
+fn devices() -> &'static [Arc<dyn Backend>] {
+    static DEVICES: OnceLock<Vec<Arc<dyn Backend>>> = OnceLock::new();
+    DEVICES.get_or_init(|| {
+        let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
+        let near = REGISTRY.iter().filter(|entry| !entry.exact);
+        let devices = near.flat_map(|entry| {
+            let (devices, missing) = entry.devices();
+            let wanted = required.split(',').any(|name| name.trim() == entry.name);
+            assert!(!wanted || missing.is_empty(), "{}: {missing:?}", entry.name);
+            devices
+        });
+        devices.filter(|device| device.info().schedule == Schedule::PerRing).collect()
+    })
 }
 
 /// A repeat of plain weave as it lies, its yarns flattened and pressed by plates.
@@ -66,11 +65,11 @@ fn linked_rings() -> SettlingPlan {
 }
 
 /// Plans that between them have everything that passes distinguish.
-fn plans() -> Vec<(&'static str, Arc<SettlingPlan>)> {
-    let names = ["jersey-3.6", "tuck-5", "lace-4x4", "jersey-5-piece", "queenscord-0.1", "plain-1.8-piece"];
-    let mut plans = names.map(|name| (name, settling_plan(&start(name)))).to_vec();
-    plans.push(("flattened, pressed", Arc::new(flattened_plain())));
-    plans.push(("linked rings", Arc::new(linked_rings())));
+fn plans() -> Vec<(String, Arc<SettlingPlan>)> {
+    let mut plans: Vec<_> =
+        starts().into_iter().map(|start| (start.name.clone(), settling_plan(&start))).collect();
+    plans.push(("flattened, pressed".into(), Arc::new(flattened_plain())));
+    plans.push(("linked rings".into(), Arc::new(linked_rings())));
     plans
 }
 
@@ -85,6 +84,24 @@ fn places(plan: &SettlingPlan) -> Vec<Place> {
     all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
 }
 
+/// The same, each moved by up to a hundredth of a diameter along each axis, as every course begins: where yarns lie symmetrically,
+/// rounding alone decides which way they go. `units` more are added to one or taken off another, as in a pattern.
+fn begin(plan: &SettlingPlan, units: i32) -> Vec<Place> {
+    let far = 0.01 * plan.spans().diameter / plan.scale().unit();
+    let (mut bits, mut all) = (1_u32, places(plan));
+    let tags = plan.tags().iter().filter(|tags| **tags & tag::POINT != 0);
+    for (number, (place, tags)) in all.iter_mut().zip(tags).enumerate() {
+        for axis in 0..3 {
+            bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            if tags & tag::PINNED == 0 {
+                let chance = (bits >> 8) as f32 / (1 << 23) as f32 - 1.0;
+                place.at[axis] += (chance * far) as i32 + units * ((number + axis) % 3) as i32 - units;
+            }
+        }
+    }
+    all
+}
+
 /// What eight passes came to.
 #[derive(Debug, PartialEq)]
 struct Course {
@@ -94,19 +111,62 @@ struct Course {
     places: Vec<Place>,
 }
 
-/// Eight passes of either form, with neighbours listed twice.
-fn eight_passes(plan: &SettlingPlan, settler: &mut dyn Settler, form: Form) -> Result<Course, BackendError> {
-    let mut course = Course { neighbours: Vec::new(), seen: Vec::new(), places: places(plan) };
-    settler.upload(&course.places)?;
+impl Course {
+    /// How far a place lies from another course's at most, in mean diameters.
+    fn apart(&self, plan: &SettlingPlan, other: &Self) -> f64 {
+        let apart = |(here, there): (&Place, &Place)| {
+            let way = here.units().as_dvec3() - there.units().as_dvec3();
+            way.length() * f64::from(plan.scale().unit() / plan.spans().diameter)
+        };
+        self.places.iter().zip(&other.places).map(apart).fold(0.0, f64::max)
+    }
+}
+
+/// Eight passes of either form, with neighbours listed twice, and with bends as soft as they are in that form's passes.
+fn eight_passes(settler: &mut dyn Settler, form: Form, begin: &[Place]) -> Result<Course, BackendError> {
+    let mut course = Course { neighbours: Vec::new(), seen: Vec::new(), places: begin.to_vec() };
+    settler.upload(begin)?;
     for number in 0..8 {
         let growth = if number < 4 { 0.8 } else { 1.0 };
         if number % 4 == 0 {
             course.neighbours.push(settler.list(growth)?);
         }
-        course.seen.push(settler.pass(&Pass { form, growth, ease: 0.5, momentum: 0.8 })?);
+        let ease = if form == Form::Weighted { 0.5 } else { 0.0 };
+        course.seen.push(settler.pass(&Pass { form, growth, ease, momentum: 0.8 })?);
     }
     settler.read(&mut course.places)?;
     Ok(course)
+}
+
+/// How far places may be off, in mean diameters.
+const OFF: f64 = 1e-4;
+
+/// What `cpu-serial` makes of a plan, and how far it is off itself where places begin up to three units off, three millionths of a
+/// diameter: parallel yarns that pierce one another, as the underlaps of two guide bars do, have no one place where they are nearest,
+/// and a contact that just touches counts from one pass on or from the next.
+struct Reference {
+    course: Course,
+    own: f64,
+}
+
+impl Reference {
+    fn new(plan: &Arc<SettlingPlan>, form: Form) -> Self {
+        let mut serial = SerialBackend::new().settler(Arc::clone(plan)).expect("a settler");
+        let course = eight_passes(serial.as_mut(), form, &begin(plan, 0)).expect("a course");
+        // The same bits, sooner.
+        let mut cpu = ParallelBackend::open().expect("the CPU").settler(Arc::clone(plan)).expect("a settler");
+        let mut apart = |units| {
+            let other = eight_passes(cpu.as_mut(), form, &begin(plan, units)).expect("a course");
+            course.apart(plan, &other)
+        };
+        let own = [1, -1, 2, -2, 3, -3].map(&mut apart).into_iter().fold(0.0, f64::max);
+        Self { own, course }
+    }
+
+    /// Whether rounding may not change where things go.
+    fn is_certain(&self) -> bool {
+        self.own < OFF / 2.0
+    }
 }
 
 fn near(one: f32, other: f32) -> bool {
@@ -114,9 +174,9 @@ fn near(one: f32, other: f32) -> bool {
 }
 
 /// What is wrong with a device's course, by the reference's.
-fn faults(plan: &SettlingPlan, found: &Course, expected: &Course) -> Vec<String> {
-    let mut faults = Vec::new();
-    if found.neighbours != expected.neighbours {
+fn faults(plan: &SettlingPlan, found: &Course, reference: &Reference) -> Vec<String> {
+    let (mut faults, expected) = (Vec::new(), &reference.course);
+    if reference.is_certain() && found.neighbours != expected.neighbours {
         faults.push(format!("neighbours: {:?}, not {:?}", found.neighbours, expected.neighbours));
     }
     for (pass, (found, expected)) in found.seen.iter().zip(&expected.seen).enumerate() {
@@ -127,17 +187,14 @@ fn faults(plan: &SettlingPlan, found: &Course, expected: &Course) -> Vec<String>
             // Of shares that are mere rounding none is right.
             [found.length + 1e-3, expected.length + 1e-3],
         ];
-        if both.iter().any(|[found, expected]| !near(*found, *expected)) {
+        if reference.is_certain() && both.iter().any(|[found, expected]| !near(*found, *expected)) {
             faults.push(format!("seen by pass {pass}: {found:?}, not {expected:?}"));
         }
     }
-    let apart = |(found, expected): (&Place, &Place)| {
-        let way = found.units().as_dvec3() - expected.units().as_dvec3();
-        way.length() * f64::from(plan.scale().unit() / plan.spans().diameter)
-    };
-    let furthest = found.places.iter().zip(&expected.places).map(apart).fold(0.0, f64::max);
-    if furthest > 1e-4 {
-        faults.push(format!("a place is {furthest} diameters off"));
+    let furthest = found.apart(plan, expected);
+    let most = if reference.is_certain() { OFF } else { 10.0 * reference.own };
+    if furthest > most {
+        faults.push(format!("a place is {furthest} diameters off; by a change of units {}", reference.own));
     }
     if found.places.iter().zip(&expected.places).any(|(found, expected)| found.halves != expected.halves) {
         faults.push("a thickness has changed".into());
@@ -148,21 +205,21 @@ fn faults(plan: &SettlingPlan, found: &Course, expected: &Course) -> Vec<String>
 #[test]
 fn devices_settle_as_the_reference_does() {
     let devices = devices();
-    let mut failed = Vec::new();
+    let (mut failed, mut certain) = (Vec::new(), 0);
     for (name, plan) in plans() {
         for form in [Form::Weighted, Form::Block] {
-            let mut serial = SerialBackend::new().settler(Arc::clone(&plan)).expect("a settler");
-            let reference = eight_passes(&plan, serial.as_mut(), form).expect("a course");
-            assert!(reference.places != places(&plan), "{name}: nothing moved");
-            for device in &devices {
+            let (reference, begin) = (Reference::new(&plan, form), begin(&plan, 0));
+            assert!(reference.course.places != begin, "{name}: nothing moved");
+            certain += usize::from(reference.is_certain());
+            for device in devices {
                 let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
-                let found = eight_passes(&plan, settler.as_mut(), form).expect("a course");
+                let found = eight_passes(settler.as_mut(), form, &begin).expect("a course");
                 let here = format!("{}: {name}, {form:?}", device.info().name);
                 for fault in faults(&plan, &found, &reference) {
                     failed.push(format!("{here}: {fault}"));
                 }
                 // The same settler, after other passes.
-                let again = eight_passes(&plan, settler.as_mut(), form).expect("a course");
+                let again = eight_passes(settler.as_mut(), form, &begin).expect("a course");
                 if again != found {
                     failed.push(format!("{here}: another end the second time"));
                 }
@@ -170,18 +227,20 @@ fn devices_settle_as_the_reference_does() {
         }
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));
+    assert!(certain >= 40, "{certain} of 82 are held to {OFF} diameters");
 }
 
 /// The proof that the comparison can fail: each broken settler is caught, by either form, and an honest one is not.
 #[test]
 fn broken_settlers_are_caught() {
-    let plan = settling_plan(&start("jersey-3.6"));
+    let plan = settling_plan(&start("tuck-5"));
     for form in [Form::Weighted, Form::Block] {
-        let mut serial = SerialBackend::new().settler(Arc::clone(&plan)).expect("a settler");
-        let reference = eight_passes(&plan, serial.as_mut(), form).expect("a course");
+        let reference = Reference::new(&plan, form);
+        assert!(reference.is_certain());
         let found = |sabotage| {
             let mut settler = SabotagedSettler::new(sabotage, Arc::clone(&plan));
-            faults(&plan, &eight_passes(&plan, &mut settler, form).expect("a course"), &reference)
+            let course = eight_passes(&mut settler, form, &begin(&plan, 0)).expect("a course");
+            faults(&plan, &course, &reference)
         };
         assert_eq!(found(SettlingSabotage::None), [""; 0]);
         for sabotage in SettlingSabotage::ALL {
@@ -201,7 +260,8 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
     let Ok(device) = OpenClBackend::open(0, Schedule::PerRing) else { return };
     let plan = settling_plan(&start("jersey-5-piece"));
     let settler = |device: &OpenClBackend| device.settler(Arc::clone(&plan));
-    let course = |device: &OpenClBackend| eight_passes(&plan, settler(device)?.as_mut(), Form::Weighted);
+    let course =
+        |device: &OpenClBackend| eight_passes(settler(device)?.as_mut(), Form::Weighted, &begin(&plan, 0));
     let whole = course(&device).expect("a course");
     let held = |limits| OpenClBackend::open(0, Schedule::PerRing).expect("opened before").with_limits(limits);
     let in_each = |binding_bytes| Limits { binding_bytes, ..Limits::NONE };
@@ -290,7 +350,7 @@ fn a_lone_yarn_sees_nothing() {
     let plan = settling_plan(&start);
     for device in devices() {
         let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
-        let course = eight_passes(&plan, settler.as_mut(), Form::Block).expect("a course");
+        let course = eight_passes(settler.as_mut(), Form::Block, &places(&plan)).expect("a course");
         let name = &device.info().name;
         assert_eq!(course.neighbours, [0, 0], "{name}");
         assert_eq!(

@@ -41,7 +41,9 @@ pub struct SettledParams {
     /// Places, with those beyond yarns' ends.
     pub places: u32,
     /// Unused, 0.
-    pub padding: [u32; 3],
+    pub padding: u32,
+    /// Unused, 0.
+    pub more_padding: [u32; 2],
 }
 
 const _: () = assert!(size_of::<SettledParams>() == 32 && std::mem::offset_of!(SettledParams, places) == 16);
@@ -68,14 +70,13 @@ impl BoundsRow {
     /// What all of `rows` have found: the least and the greatest coordinates.
     #[must_use]
     pub fn joined(rows: &[Self]) -> [[i32; 3]; 2] {
-        let mut all = [[i32::MAX; 3], [i32::MIN; 3]];
-        for row in rows {
-            for axis in 0..3 {
-                all[0][axis] = all[0][axis].min(row.low[axis]);
-                all[1][axis] = all[1][axis].max(row.high[axis]);
-            }
-        }
-        all
+        let nothing = [[i32::MAX; 3], [i32::MIN; 3]];
+        rows.iter().fold(nothing, |[low, high], row| {
+            [
+                [0, 1, 2].map(|axis| low[axis].min(row.low[axis])),
+                [0, 1, 2].map(|axis| high[axis].max(row.high[axis])),
+            ]
+        })
     }
 }
 
@@ -111,7 +112,8 @@ impl SettledParams {
             origin: scale.origin().as_vec3().to_array(),
             unit: scale.unit(),
             places: settling.counts().places as u32,
-            padding: [0; 3],
+            padding: 0,
+            more_padding: [0; 2],
         }
     }
 }

@@ -7,7 +7,7 @@ use texere_conformance::rest::{
     Ends, Length, Start, StartYarn, Weave, check, settle_start, settling_plan, starts, woven,
 };
 use texere_conformance::{REGISTRY, SabotagedSettler, SettlingSabotage};
-use texere_core::settling::{Form, Pass, Place, Seen, Settler, Settling, SettlingPlan, tag};
+use texere_core::settling::{Form, Pass, Place, Rest, Seen, Settler, Settling, SettlingPlan, tag};
 use texere_core::{Backend, BackendError, Boundary, ControlPoint, Limits, Schedule, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_opencl::OpenClBackend;
@@ -318,21 +318,42 @@ fn what_was_kept_comes_back() {
     }
 }
 
+/// Two-bar warp knits: underlaps lie along one another there, and where along is left to chance.
+const TWO_BARS: [&str; 7] =
+    ["counter-", "locknit", "reverse-", "sharkskin", "satin-0", "queenscord", "parallel-"];
+
+/// Whether yarns of a start have one way to rest: they do where the weighted form alone brings them there, for cloths that need the
+/// block form are so dense that yarns buckle to one side or the other.
+fn has_one_rest(start: &Start, rest: &Rest) -> bool {
+    rest.block_passes == 0 && !TWO_BARS.iter().any(|name| start.name.starts_with(name))
+}
+
 /// The whole course, and a check of what came of it that shares no code with it.
 #[test]
 fn starts_come_to_rest_on_every_device() {
-    let mut failed = Vec::new();
-    for name in ["jersey-5", "jersey-3.6", "tuck-5", "queenscord-0.1"] {
-        let start = start(name);
+    let cpu = ParallelBackend::open().expect("the CPU");
+    let (mut failed, mut held) = (Vec::new(), 0);
+    for start in starts() {
+        let (at_rest, reference) = settle_start(&start, &cpu, |_, _| {});
+        // An open piece of a jammed weave is held by its ends: its bends stay what they are.
+        let bend = if start.name == "plain-1.8-piece" { 0.5 } else { 0.58 };
+        let one_rest = has_one_rest(&start, &at_rest);
+        held += usize::from(one_rest);
         for device in devices() {
             let (rest, points) = settle_start(&start, device.as_ref(), |_, _| {});
             let report = check(&start, &points);
-            if !rest.at_rest || report.clearance < 0.98 || report.bend < 0.58 {
-                failed.push(format!("{}: {name}: {rest:?} {report:?}", device.info().name));
+            let near = |(one, other): (&DVec3, &DVec3)| one.distance(*other) < 0.02 * start.yarns[0].radius;
+            let places = reference.iter().flatten().zip(points.iter().flatten());
+            let apart = places.clone().filter(|places| !near(*places)).count();
+            let elsewhere = one_rest && 1000 * apart > places.count();
+            if report.clearance < 0.98 || report.bend < bend || elsewhere {
+                let (device, start) = (&device.info().name, &start.name);
+                failed.push(format!("{device}: {start}: {apart} elsewhere, {rest:?} {report:?}"));
             }
         }
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));
+    assert_eq!(held, 20, "starts with one way to rest");
 }
 
 /// Yarns that nowhere meet have no neighbours, and see nothing.

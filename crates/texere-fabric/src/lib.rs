@@ -44,6 +44,7 @@ mod settling;
 mod structure;
 mod warning;
 mod watch;
+pub mod weft;
 mod woven;
 mod yarn_size;
 

@@ -1,0 +1,15 @@
+//! Weft knits: loops of yarn that are drawn through loops of the course before.
+//!
+//! ```text
+//! knitout ──┐
+//! chart ────┴──> Program ──> Stitches ──> Knitted ──> Piece | Yarns
+//! ```
+//!
+//! A [`Program`] is what a knitting machine is told, needle by needle. [`Stitches`] is what comes of it: which loop is drawn
+//! through which, and in what order each yarn makes its loops. A knitted cloth adds what yarns are like and how close they lie.
+
+mod program;
+mod stitches;
+
+pub use program::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
+pub use stitches::{Fate, Head, LoopKind, LoopRef, Parent, Step, Stitch, Stitches, Strand};

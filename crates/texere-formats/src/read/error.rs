@@ -80,6 +80,11 @@ pub(super) fn first_few(names: impl ExactSizeIterator<Item = String>) -> String 
     if more > 0 { format!("{few} and {more} more") } else { few }
 }
 
+/// A word in quotes; that there is none, where it is empty.
+fn quoted(word: &str) -> String {
+    if word.is_empty() { "the line ends".into() } else { format!("\"{word}\"") }
+}
+
 /// A number as a person writes it: with an exponent where it would have many zeros.
 struct Short(f64);
 
@@ -213,6 +218,20 @@ pub enum ReadError {
         line: usize,
         /// What the parser says.
         message: String,
+    },
+    /// A word of a line that the file's format does not allow there.
+    #[error("{}, line {line}, column {column}: {}, expected {expected}", named(.file), quoted(.value))]
+    Word {
+        /// The file.
+        file: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// The column at which the word begins, in letters from 1.
+        column: usize,
+        /// The word; empty where the line ends too early.
+        value: String,
+        /// What should stand there.
+        expected: String,
     },
     /// A value that the file's format does not allow there.
     #[error("{place}: {message}")]

@@ -4,6 +4,7 @@ mod design;
 mod design_file;
 mod error;
 mod file;
+mod knitout;
 mod memory;
 mod point_paper;
 mod threads;

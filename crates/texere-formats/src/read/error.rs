@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use texere_core::SectionError;
 use texere_fabric::FabricError;
+use texere_fabric::weft::ChartError;
 use thiserror::Error;
 
 /// A place in a design file.
@@ -256,6 +257,14 @@ pub enum ReadError {
         place: Place,
         /// Why.
         source: FabricError,
+    },
+    /// A chart that can't be knitted.
+    #[error("{place} is no chart")]
+    Chart {
+        /// Where.
+        place: Place,
+        /// Why.
+        source: ChartError,
     },
     /// A file that the design names can't be taken.
     #[error("{place} can't be taken")]

@@ -13,7 +13,7 @@ pub use jacquard::Backing;
 use crate::memory::room_for;
 
 /// The most wales or rows of a chart.
-pub const CHART_SIDE_MAX: usize = 100_000;
+pub const CHART_SIDE_MAX: usize = 1 << 16;
 
 /// The most cells of all courses of a chart.
 pub const CHART_CELLS_MAX: usize = 1 << 24;
@@ -145,13 +145,35 @@ impl Chart {
         Self::new(wales, beds, cells)
     }
 
-    /// The same chart with these yarns for its courses, over and over from the first course on.
-    #[must_use]
-    pub fn with_yarns(mut self, yarns: &[u32]) -> Self {
+    /// The chart with these yarns for its courses, over and over from the first course on. Where they end in the middle of the
+    /// chart, it is repeated upwards until both end.
+    ///
+    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where that is too large.
+    ///
+    /// ```
+    /// use texere_fabric::weft::{Beds, Chart};
+    /// let striped = Chart::parse("k", Beds::One)?.with_yarns(&[0, 0, 1])?;
+    /// assert_eq!(striped.courses(), 3);
+    /// # Ok::<(), texere_fabric::weft::ChartError>(())
+    /// ```
+    pub fn with_yarns(mut self, yarns: &[u32]) -> Result<Self, ChartError> {
+        let own = self.courses();
+        if yarns.is_empty() {
+            return Ok(self);
+        }
+        let repeats = yarns.len() / greatest_common_divisor(own, yarns.len());
+        let courses = own.saturating_mul(repeats);
+        sized(self.wales, courses, courses.saturating_mul(self.wales))?;
+        room_for(&mut self.cells, (courses - own) * self.wales, "cells of a chart")?;
+        for course in own..courses {
+            self.courses.push(self.courses[course - own]);
+            let start = (course - own) * self.wales;
+            self.cells.extend_from_within(start..start + self.wales);
+        }
         for (course, &yarn) in self.courses.iter_mut().zip(yarns.iter().cycle()) {
             course.yarn = yarn;
         }
-        self
+        Ok(self)
     }
 
     /// Wales of the repeat.
@@ -224,4 +246,12 @@ fn sized(wales: usize, rows: usize, cells: usize) -> Result<(), ChartError> {
         return Err(ChartError::Cells { cells, limit: CHART_CELLS_MAX });
     }
     Ok(())
+}
+
+fn greatest_common_divisor(a: usize, b: usize) -> usize {
+    let (mut divisor, mut rest) = (a, b);
+    while rest != 0 {
+        (divisor, rest) = (rest, divisor % rest);
+    }
+    divisor
 }

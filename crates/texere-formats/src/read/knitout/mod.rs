@@ -38,7 +38,7 @@ const OPERATIONS_MAX: usize = 1 << 24;
 const CARRIERS_MAX: usize = 256;
 
 /// The furthest needle from needle 0: machines have up to a thousand or two.
-const NEEDLE_MAX: i32 = 100_000;
+const NEEDLE_MAX: i32 = 1 << 16;
 
 /// How long a loop is, mm, for each stitch size of a file: the number behind `x-stitch-number`, or both behind `stitch`.
 pub(super) type LoopLengths = BTreeMap<String, f64>;
@@ -52,6 +52,18 @@ pub(super) struct Knitout {
     /// What the header says of the yarn in each carrier of the program.
     pub(super) yarns: Vec<Option<String>>,
     pub(super) warnings: Vec<String>,
+}
+
+impl Knitout {
+    /// Of each carrier whether an operation takes it.
+    pub(super) fn used_carriers(&self) -> Vec<bool> {
+        let mut used = vec![false; self.program.carriers.len()];
+        // Sets are those that occur.
+        for &carrier in self.program.carrier_sets.iter().flatten() {
+            used[carrier as usize] = true;
+        }
+        used
+    }
 }
 
 /// Reads the file in `path`. Sources of its operations are lines, from 1.

@@ -117,7 +117,7 @@ fn what_is_no_operation_is_refused_with_its_place() {
         ("knit + f1.5 1", "column 8: \"f1.5\", expected a needle"),
         ("knit + é1 1", "column 8: \"é1\", expected a needle"),
         ("knit + f99999999999 1", "column 8: \"f99999999999\", expected a needle"),
-        ("knit + f100001 1", "column 8: \"f100001\", expected a needle from -100000 to 100000"),
+        ("knit + f65537 1", "column 8: \"f65537\", expected a needle from -65536 to 65536"),
         ("knit + f1 4", "column 11: \"4\", expected a carrier of the header: 1, 2, 3"),
         ("knit + f1 1 1", "column 13: \"1\", expected each carrier once"),
         ("knit +", "column 7: the line ends, expected a needle"),

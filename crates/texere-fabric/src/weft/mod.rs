@@ -8,8 +8,10 @@
 //! A [`Program`] is what a knitting machine is told, needle by needle. [`Stitches`] is what comes of it: which loop is drawn
 //! through which, and in what order each yarn makes its loops. A knitted cloth adds what yarns are like and how close they lie.
 
+mod machine;
 mod program;
 mod stitches;
 
+pub use machine::{FAULTS_LISTED, Fault, FaultKind, Knit, LOOPS_MAX, Machine, NEEDLE_MAX, STACK_MAX};
 pub use program::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 pub use stitches::{Fate, Head, LoopKind, LoopRef, Parent, Step, Stitch, Stitches, Strand};

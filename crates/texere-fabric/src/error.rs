@@ -3,6 +3,8 @@
 use texere_core::{BoundaryError, Origin, PlanError, SectionError, YarnError};
 use thiserror::Error;
 
+use crate::weft::Needle;
+
 /// A structure that can't be taken. Threads are counted from 1, as weavers do.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -40,6 +42,34 @@ pub enum FabricError {
         points: u64,
         /// Most taken.
         limit: u64,
+    },
+    /// A knitting program that is too large in some way.
+    #[error("{count} {what} in a knitting program, at operation {operation}; {limit} are taken at most")]
+    KnitSize {
+        /// Of what.
+        what: &'static str,
+        /// How many.
+        count: u64,
+        /// Most taken.
+        limit: u64,
+        /// The operation where that is so, from 1.
+        operation: u64,
+    },
+    /// A needle further out than any machine's, or outside what the machine's beds are racked to.
+    #[error("needle {needle} at operation {operation}; needles {} to {limit} are taken", -i64::from(*.limit))]
+    KnitNeedle {
+        /// The needle.
+        needle: Needle,
+        /// The furthest taken.
+        limit: i32,
+        /// The operation, from 1.
+        operation: u64,
+    },
+    /// An operation with carriers that the program does not have.
+    #[error("operation {operation} takes carriers that the program does not have")]
+    KnitCarriers {
+        /// The operation, from 1.
+        operation: u64,
     },
     /// Memory could not be had.
     #[error("out of memory: {bytes} bytes for {what}")]

@@ -1,0 +1,4 @@
+//! What comes of knitting programs.
+
+mod known;
+mod program;

@@ -1,8 +1,6 @@
 //! Stitches of small charts, worked out by hand: one yarn a course, one carrier.
 
-use texere_fabric::weft::{
-    Bed, Direction, Fate, Head, LoopKind, LoopRef, Step, Stitch, Stitches, Strand,
-};
+use texere_fabric::weft::{Bed, Direction, Fate, Head, LoopKind, LoopRef, Step, Stitch, Stitches, Strand};
 
 /// A loop on a needle: round, course, wale, and the round of the repeat along x that it was made in.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -17,7 +17,8 @@ use texere_fabric::{Finish, Piece, settle};
 const D: f64 = 0.2;
 
 fn points(yarns: &Yarns) -> Vec<Vec<DVec3>> {
-    let yarn = |yarn| yarns.yarn_points(yarn).expect("a yarn").iter().map(|at| at.position().as_dvec3()).collect();
+    let yarn =
+        |yarn| yarns.yarn_points(yarn).expect("a yarn").iter().map(|at| at.position().as_dvec3()).collect();
     (0..yarns.layout().yarns().len()).map(yarn).collect()
 }
 
@@ -40,18 +41,24 @@ fn start(name: &str, piece: &Piece, length: Length) -> Start {
 fn knitted(stitches: Stitches, wale: f64) -> Knitted {
     let gauge = Gauge::new(wale * D, 0.75 * wale * D);
     let yarn = KnitYarn::new(D as f32 / 2.0);
-    Knitted::new(stitches, gauge, vec![yarn; 4], vec![Material::default()], vec![Section::Circle], [4, 4]).expect("a knit")
+    Knitted::new(stitches, gauge, vec![yarn; 4], vec![Material::default()], vec![Section::Circle], [4, 4])
+        .expect("a knit")
 }
 
 fn settled(name: &str, knit: &Knitted, length: settling::Length) -> (Report, Report, f64, String) {
     let piece = knit.repeat().expect("a repeat").piece;
-    let finish = Finish { length, ..Finish::default() };
+    let finish = Finish { length: Some(length), ..Finish::default() };
     let device = ParallelBackend::open().expect("the CPU");
     let settled = settle(&piece, &finish, 0.0, &device, |_| ControlFlow::Continue(())).expect("a settling");
     let start = start(name, &piece, Length::Free);
     let after = points(&settled.yarns);
     let linked = linking(&start, &start.points(), &after);
-    (check(&start, &start.points()), check(&start, &after), linked.change, format!("{} passes, rest {}", settled.rest.passes, settled.rest.at_rest))
+    (
+        check(&start, &start.points()),
+        check(&start, &after),
+        linked.change,
+        format!("{} passes, rest {}", settled.rest.passes, settled.rest.at_rest),
+    )
 }
 
 #[test]
@@ -71,7 +78,12 @@ fn explore() {
             let (before, after, linked, rest) = settled(name, &knit, free);
             println!(
                 "{name} {wale}: {:.3} {:.2} -> {:.3} {:.3}, grows {:.3}, thick {:.2}, linked {linked:.2}, {rest}",
-                before.clearance, before.bend, after.clearance, after.bend, after.growth, after.thickness / D
+                before.clearance,
+                before.bend,
+                after.clearance,
+                after.bend,
+                after.growth,
+                after.thickness / D
             );
         }
     }

@@ -28,7 +28,9 @@ pub(super) fn cells(stitches: &Stitches, layers: &Layers, strand: usize) -> (Vec
     let steps = stitches.strands[strand].steps.iter().enumerate();
     let told = steps.map(|(index, step)| told(stitches, layers, [strand, index], step));
     let onward = match (stitches.strands[strand].onward, stitches.repeat) {
-        (Some(repeats), Some(size)) => Some([0, 1].map(|axis| i64::from(repeats[axis]) * i64::from(size[axis]))),
+        (Some(repeats), Some(size)) => {
+            Some([0, 1].map(|axis| i64::from(repeats[axis]) * i64::from(size[axis])))
+        }
         _ => None,
     };
     let mut cells: Vec<Cell> = Vec::new();
@@ -38,7 +40,9 @@ pub(super) fn cells(stitches: &Stitches, layers: &Layers, strand: usize) -> (Vec
         }
         cells.push(cell);
     }
-    if let (Some([right, up]), Some(first), Some(last)) = (onward, cells.first().copied(), cells.last().copied()) {
+    if let (Some([right, up]), Some(first), Some(last)) =
+        (onward, cells.first().copied(), cells.last().copied())
+    {
         let next = Cell { at: first.at + right as f32, course: first.course + up, ..first };
         pass(&mut cells, &last, &next);
     }

@@ -57,8 +57,14 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricEr
             && (other.repeat == [0, 0] || stitches.repeat.is_some())
             && other.repeat.iter().all(|repeats| repeats.unsigned_abs() < 1 << 16)
     };
-    sound(stitches.repeat.is_none_or(|repeat| repeat.iter().all(|size| (1..1 << 20).contains(size))), "a repeat of no size")?;
-    sound(stitches.parents.iter().all(|parent| refers(*parent)), "a loop that is drawn through none that there is")?;
+    sound(
+        stitches.repeat.is_none_or(|repeat| repeat.iter().all(|size| (1..1 << 20).contains(size))),
+        "a repeat of no size",
+    )?;
+    sound(
+        stitches.parents.iter().all(|parent| refers(*parent)),
+        "a loop that is drawn through none that there is",
+    )?;
     for stitch in &stitches.loops {
         let parents = &stitch.parents;
         let listed = parents.start <= parents.end && parents.end as usize <= stitches.parents.len();
@@ -66,7 +72,8 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricEr
         sound(far(stitch.at) && far(stitch.head.at), "a loop on no needle")?;
         if let Fate::Held(child) = stitch.fate {
             sound(refers(child), "a loop that is held by none that there is")?;
-            let later = held_until(stitches, stitch.fate).is_some_and(|course| course > i64::from(stitch.course));
+            let later =
+                held_until(stitches, stitch.fate).is_some_and(|course| course > i64::from(stitch.course));
             sound(later, "a loop that is held by one of an earlier course")?;
         }
     }
@@ -74,7 +81,9 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricEr
         if strand.carrier as usize >= yarns {
             return Err(FabricError::Carrier { carrier: strand.carrier + 1, yarns });
         }
-        let onward = strand.onward.is_none_or(|onward| stitches.repeat.is_some() && [[1, 0], [-1, 0]].contains(&onward));
+        let onward = strand
+            .onward
+            .is_none_or(|onward| stitches.repeat.is_some() && [[1, 0], [-1, 0]].contains(&onward));
         sound(onward, "a yarn that goes on elsewhere than beside itself")?;
         let steps = strand.steps.iter().all(|step| match *step {
             Step::Loop { number, .. } => (number as usize) < stitches.loops.len(),

@@ -172,7 +172,8 @@ fn crossed(stitches: &Stitches) -> Vec<Option<u16>> {
                 continue;
             }
             let over = crossing.iter().filter(|&&other| loops[other].head.moved < own.head.moved);
-            levels[number] = Some(over.filter_map(|&other| levels[other]).map(|over| over + 1).max().unwrap_or(0));
+            levels[number] =
+                Some(over.filter_map(|&other| levels[other]).map(|over| over + 1).max().unwrap_or(0));
         }
     }
     levels
@@ -244,9 +245,7 @@ fn passes_of(stitches: &Stitches, strand: usize) -> Vec<Pass> {
             course: run[0].course,
             time,
             plate: made.map_or(0, |(_, plate)| plate),
-            mixed: seam > STEP
-                || run.iter().any(|step| step.made.is_none())
-                || run.windows(2).any(mixed),
+            mixed: seam > STEP || run.iter().any(|step| step.made.is_none()) || run.windows(2).any(mixed),
         });
         first += run.len();
     }

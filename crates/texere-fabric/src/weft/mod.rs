@@ -17,6 +17,7 @@ mod layers;
 mod path;
 mod pen;
 mod program;
+mod settle;
 mod shape;
 mod stitches;
 mod tile;

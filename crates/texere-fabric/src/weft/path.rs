@@ -135,7 +135,9 @@ impl Cloth<'_> {
     /// Whether a loop is of the first course, drawn through nothing.
     fn is_first(&self, cell: &Cell) -> bool {
         let stitch = cell.number.map(|number| &self.stitches.loops[number as usize]);
-        self.stitches.repeat.is_none() && cell.course == 0 && stitch.is_some_and(|stitch| stitch.parents.is_empty())
+        self.stitches.repeat.is_none()
+            && cell.course == 0
+            && stitch.is_some_and(|stitch| stitch.parents.is_empty())
     }
 
     /// The yarn turns round beside the outer of two needles.
@@ -151,7 +153,8 @@ impl Cloth<'_> {
             let middle = f64::midpoint(from, to);
             (from, to) = (middle - diameter / 2.0, middle + diameter / 2.0);
         }
-        let [start, end] = [(from, one), (to, other)].map(|(y, cell)| DVec3::new(outwards * outer, y, self.z(cell)));
+        let [start, end] =
+            [(from, one), (to, other)].map(|(y, cell)| DVec3::new(outwards * outer, y, self.z(cell)));
         pen.point(start);
         let steps = ((to - from).abs() / course).round().max(1.0) as u32;
         for step in 0..steps {
@@ -184,7 +187,8 @@ impl Cloth<'_> {
     /// Half a wale and a whole one beside a cell: level, or behind what hangs there.
     fn loose(&self, cell: &Cell, outwards: f64) -> [DVec3; 2] {
         let beside = cell.at + outwards as f32;
-        let behind = if self.layers.is_held(cell.course, beside) { END_BEHIND * self.shape.diameter } else { 0.0 };
+        let behind =
+            if self.layers.is_held(cell.course, beside) { END_BEHIND * self.shape.diameter } else { 0.0 };
         let z = self.z(cell);
         let back = if z > 0.0 { 1.0 } else { -1.0 };
         [0.5, 1.0].map(|way| {

@@ -66,7 +66,9 @@ impl Pen {
         let Laid { points, sources, pinned } = &self.laid;
         let count = points.len() as isize;
         let at = |number: isize| match onward {
-            Some(shift) => points[number.rem_euclid(count) as usize] + shift * number.div_euclid(count) as f64,
+            Some(shift) => {
+                points[number.rem_euclid(count) as usize] + shift * number.div_euclid(count) as f64
+            }
             None => points[number.clamp(0, count - 1) as usize],
         };
         let end = self.tail.unwrap_or(points.len());

@@ -8,7 +8,8 @@ impl Stitches {
         let Some(size) = self.repeat.filter(|_| tiles != [1, 1]) else { return self.clone() };
         let tiling = Tiling { tiles: tiles.map(i64::from), loops: self.loops.len() as u32, size };
         let mut tiled = Self { repeat: Some([0, 1].map(|axis| size[axis] * tiles[axis])), ..Self::default() };
-        let cells: Vec<_> = (0..tiling.tiles[1]).flat_map(|y| (0..tiling.tiles[0]).map(move |x| [x, y])).collect();
+        let cells: Vec<_> =
+            (0..tiling.tiles[1]).flat_map(|y| (0..tiling.tiles[0]).map(move |x| [x, y])).collect();
         for &cell in &cells {
             let first = tiled.parents.len() as u32;
             tiled.parents.extend(self.parents.iter().map(|&parent| tiling.of(cell, parent)));
@@ -72,9 +73,8 @@ impl Tiling {
     fn strand(&self, strand: &Strand, [x, y]: [i64; 2]) -> Strand {
         let right = strand.onward.map_or(1, |[right, _]| i64::from(right));
         let copies = if strand.onward.is_some() { self.tiles[0] } else { 1 };
-        let steps = (0..copies).flat_map(|copy| {
-            strand.steps.iter().map(move |step| self.step([x + copy * right, y], *step))
-        });
+        let steps = (0..copies)
+            .flat_map(|copy| strand.steps.iter().map(move |step| self.step([x + copy * right, y], *step)));
         Strand { steps: steps.collect(), ..*strand }
     }
 

@@ -47,7 +47,7 @@ fn knitted(stitches: Stitches, wale: f64) -> Knitted {
 
 fn settled(name: &str, knit: &Knitted, length: settling::Length) -> (Report, Report, f64, String) {
     let piece = knit.repeat().expect("a repeat").piece;
-    let finish = Finish { length, ..Finish::default() };
+    let finish = Finish { length: Some(length), ..Finish::default() };
     let device = ParallelBackend::open().expect("the CPU");
     let settled = settle(&piece, &finish, 0.0, &device, |_| ControlFlow::Continue(())).expect("a settling");
     let start = start(name, &piece, Length::Free);

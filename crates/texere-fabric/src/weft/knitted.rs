@@ -79,13 +79,19 @@ impl Knitted {
         check::yarns(&yarns, &materials, &sections)?;
         check::stitches(&stitches, yarns.len())?;
         check::size(&stitches, copies)?;
-        let used = stitches.strands.iter().map(|strand| &yarns[strand.carrier as usize]);
-        let half = |yarn: &KnitYarn| {
-            let [width, height] = Reach::new(&sections[yarn.section as usize]).room(yarn.twist);
-            yarn.radius_mm * width.max(height)
-        };
-        let shape = Shape::new(&gauge, 2.0 * f64::from(used.map(half).fold(0.0, f32::max)));
+        let shape = Shape::new(&gauge, thickest(&stitches, &yarns, &sections));
         Ok(Self { stitches, gauge, yarns, materials, sections, copies, cells: Cells::Round, shape })
+    }
+
+    /// Gives every yarn the same section.
+    ///
+    /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
+        section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
+        self.sections = vec![section];
+        self.yarns.iter_mut().for_each(|yarn| yarn.section = 0);
+        self.shape = Shape::new(&self.gauge, thickest(&self.stitches, &self.yarns, &self.sections));
+        Ok(())
     }
 
     /// The same cloth with other numbers of control points.
@@ -213,6 +219,16 @@ impl Knitted {
         let boundary = Boundary::new(yarns.layout(), size, ends)?;
         Ok(Piece { yarns, boundary, pinned })
     }
+}
+
+/// Diameter of the thickest yarn, mm.
+fn thickest(stitches: &Stitches, yarns: &[KnitYarn], sections: &[Section]) -> f64 {
+    let used = stitches.strands.iter().map(|strand| &yarns[strand.carrier as usize]);
+    let half = |yarn: &KnitYarn| {
+        let [width, height] = Reach::new(&sections[yarn.section as usize]).room(yarn.twist);
+        yarn.radius_mm * width.max(height)
+    };
+    2.0 * f64::from(used.map(half).fold(0.0, f32::max))
 }
 
 /// The fewest repeats that divide `copies` and have enough wales or courses of `size` each; all where none does.

@@ -19,6 +19,7 @@ mod machine;
 mod path;
 mod pen;
 mod program;
+mod settle;
 mod shape;
 mod stitches;
 mod tile;

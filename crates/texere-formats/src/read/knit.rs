@@ -165,7 +165,8 @@ pub(super) fn from_knitout(path: &Path, name: String, read: Knitout) -> Result<D
             Material { name, srgb, tex: None }
         })
         .collect();
-    let thread = |material| Thread { material, ..Thread::new(0.0, (wale_mm / WALE_OF_DIAMETER / 2.0) as f32) };
+    let thread =
+        |material| Thread { material, ..Thread::new(0.0, (wale_mm / WALE_OF_DIAMETER / 2.0) as f32) };
     let threads: Vec<_> = (0..materials.len() as u32).map(thread).collect();
     let (yarns, materials, sections) = Knit::yarns_of(threads, 1.0, &materials, &[Section::Circle]);
     let knit = Knit {

@@ -122,7 +122,9 @@ impl Reader<'_> {
         let fault = |error| self.refused("knit.image", image.span(), error);
         let is_yarn = |text: &String| self.yarns.thread(text).is_some();
         let design = if meant.iter().all(is_yarn) {
-            if let Some(span) = table.yarns.as_ref().map(Spanned::span).or(table.beds.as_ref().map(Spanned::span)) {
+            if let Some(span) =
+                table.yarns.as_ref().map(Spanned::span).or(table.beds.as_ref().map(Spanned::span))
+            {
                 let place = source.place("knit.yarns or knit.beds", span);
                 return Err(ReadError::Without { place, needs: "symbols in [knit.colors]" });
             }
@@ -361,7 +363,10 @@ impl Reader<'_> {
         if !by_rgb.is_empty() {
             let (count, unused) = (by_rgb.len(), first_few(by_rgb.keys().map(hex)));
             let colors = if count == 1 { "a colour" } else { &format!("{count} colours") };
-            warnings.push(format!("knit.colors has {colors} that no pixel of {} has: {unused}", named(&paper.file)));
+            warnings.push(format!(
+                "knit.colors has {colors} that no pixel of {} has: {unused}",
+                named(&paper.file)
+            ));
         }
         Ok(Ok(found))
     }
@@ -391,4 +396,3 @@ impl Reader<'_> {
         }
     }
 }
-

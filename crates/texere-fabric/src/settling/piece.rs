@@ -57,8 +57,10 @@ impl Piece {
         yarns.sum()
     }
 
-    /// The problem that `finish` makes of it, for splines of `tension`.
-    pub(super) fn settling(&self, finish: &Finish, tension: f32) -> Settling<'_> {
+    /// The problem that `finish` makes of it, for splines of `tension`: for those who run a settler themselves, and leave what came
+    /// to rest on its device.
+    #[must_use]
+    pub fn settling(&self, finish: &Finish, tension: f32) -> Settling<'_> {
         let settling = Settling::new(&self.yarns)
             .spline_tension(tension)
             .boundary(self.boundary.clone())

@@ -7,7 +7,7 @@ use texere_core::{Backend, Layout, Material, Settings, Yarns};
 
 use super::Knitted;
 use crate::{
-    FabricError, Finish, FinishError, KnitMeasures, Measures, Piece, Settled, YarnPlace,
+    FabricError, Finish, FinishError, KnitMeasures, Measures, Piece, Repeat, Settled, YarnPlace,
     clearance_with_progress, lengths_by_material, lengths_mm, settle, thickness_mm, weight_g,
 };
 
@@ -32,8 +32,7 @@ impl Knitted {
         mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Settled, FinishError> {
         let repeat = self.repeat()?;
-        let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, repeat.copies, tension));
-        let finish = Finish { length: Some(length), ..*finish };
+        let finish = self.finish_of(&repeat, finish, tension);
         if repeat.copies == [1, 1] {
             return settle(&repeat.piece, &finish, tension, backend, progress);
         }
@@ -47,6 +46,13 @@ impl Knitted {
                 passage.places.map(|place| laid_at(&place, settled.yarns.layout(), yarns.layout()));
         }
         Ok(Settled { yarns, ..settled })
+    }
+
+    /// `finish` with what becomes of the lengths of [`Knitted::repeat`], where it does not say.
+    #[must_use]
+    pub fn finish_of(&self, repeat: &Repeat, finish: &Finish, tension: f32) -> Finish {
+        let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, repeat.copies, tension));
+        Finish { length: Some(length), ..*finish }
     }
 
     /// What becomes of lengths where nobody says.

@@ -11,6 +11,9 @@ use super::{Bed, Fate, LoopKind, Stitches};
 /// How far legs that cross over others are lifted from where they lie else, in diameters; those under them lie one lower.
 const CROSSING: f64 = 0.7;
 
+/// How far the legs of a loop that is moved lean where they come out of the loop before, of the way to the next needle.
+const LEANS: f64 = 0.1;
+
 /// Half of what two layers of cloth that lie face to face leave free between their feet, in diameters.
 const APART: f64 = 0.55;
 
@@ -142,7 +145,11 @@ impl<'a> Form<'a> {
             points.push(at(LEG_WIDE * wale, 0.0, self.height(leg), self.z(upper, leg) + self.over));
         } else {
             points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT), foot_z));
-            points.push(at(narrow, 0.1, self.height(LOWER), self.z(lower, LOWER) + 0.6 * self.over));
+            // It has to come out between the shoulders of what it is drawn through, and in front of them, before it leans.
+            let leans = LEANS * self.lean.clamp(-wale, wale);
+            let forward = lower.side * f64::max(lower.side * self.over, 0.0);
+            let z = self.z(lower, LOWER) + 0.6 * forward;
+            points.push(DVec3::new(self.x + hand * narrow + leans, self.height(LOWER), z));
             if lower.side == upper.side {
                 // Of a loop that is moved, the leg on the side that it leaves has nothing in front of it.
                 let leaves = hand * self.lean < 0.0;

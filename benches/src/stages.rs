@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere::{Backend, ControlPoint, Design, Limits, Plan, Repeat, Settings, Yarns};
-use texere_core::{Layout, Session};
 use texere_core::settling::{Settler, SettlingPlan, settle, settled};
+use texere_core::{Layout, Session};
 
 /// How long each stage of a design took, by the host's clock, and how large it is.
 #[derive(Debug, Clone, Default)]

@@ -197,6 +197,17 @@ fn lozenges([width, height]: [usize; 2]) -> Paper {
     paper
 }
 
+/// The ornament for a knitted Jacquard: in figure and ground alike each fifth wale is of the other colour, shifted from row to row, so
+/// that no yarn floats on for long.
+fn bound_ornament(size: [usize; 2]) -> Paper {
+    let mut paper = ornament(size);
+    for (place, tone) in paper.pixels.iter_mut().enumerate() {
+        let binds = (place % size[0] + 2 * (place / size[0])).is_multiple_of(5);
+        *tone = if (*tone == Tone::Figure) == binds { Tone::Ground } else { Tone::Figure };
+    }
+    paper
+}
+
 /// A point paper of the repository.
 struct Drawing {
     file: &'static str,
@@ -206,7 +217,7 @@ struct Drawing {
     palette: &'static [[u8; 3]],
 }
 
-const DRAWINGS: [Drawing; 3] = [
+const DRAWINGS: [Drawing; 4] = [
     Drawing {
         file: "damask.png",
         size: [240, 320],
@@ -218,6 +229,12 @@ const DRAWINGS: [Drawing; 3] = [
         size: [720, 920],
         draw: ornament,
         palette: &[[0xff, 0xff, 0xff], [0x1f, 0x4e, 0x79]],
+    },
+    Drawing {
+        file: "paper/figure-7b.png",
+        size: [400, 720],
+        draw: bound_ornament,
+        palette: &[[0xec, 0xe4, 0xd2], [0x8c, 0x2f, 0x39]],
     },
     Drawing {
         file: "jacquard.png",

@@ -14,8 +14,10 @@ const CROSSING: f64 = 0.7;
 /// How far the legs of a loop that is moved lean where they come out of the loop before, of the way to the next needle.
 const LEANS: f64 = 0.1;
 
-/// Half of what two layers of cloth that lie face to face leave free between their feet, in diameters.
+/// How far the feet of two layers of cloth that lie face to face are from the middle between them, in diameters; and where yarns
+/// float there.
 const APART: f64 = 0.55;
+const FLOATS_APART: f64 = 1.0;
 
 /// +1 for what is drawn to the face, -1 to the back.
 pub(super) fn side(bed: Bed) -> f64 {
@@ -79,9 +81,10 @@ impl<'a> Form<'a> {
             Fate::Dropped => (stitch.bed, stitch.opposite),
         };
         let is_tuck = stitch.kind == LoopKind::Tuck;
+        let apart = if layers.has_floats() { FLOATS_APART } else { APART };
+        let layer = ARC.z.abs() * shape.depth + apart * shape.diameter;
         let half = |bed, opposite, others: u16| {
             let side = side(bed);
-            let layer = ARC.z.abs() * shape.depth + APART * shape.diameter;
             let middle = if opposite { side * layer } else { 0.0 };
             Half { side, middle, back: f64::from(others) * shape.diameter }
         };

@@ -111,7 +111,8 @@ impl Cloth<'_> {
                 }
             }
             None => {
-                for across in [-1.0, 1.0] {
+                let ways: &[f64] = if cell.short { &[0.0] } else { &[-1.0, 1.0] };
+                for across in ways {
                     let x = self.x(cell.at) + across * cell.direction * self.shape.wale / 6.0;
                     pen.point(DVec3::new(x, self.y(cell), self.z(cell)));
                 }

@@ -34,8 +34,10 @@ pub(super) struct Form<'a> {
     shape: &'a Shape,
     /// Its middle.
     x: f64,
-    /// Its feet.
+    /// Its course.
     y: f64,
+    /// How far its feet lie above that.
+    lift: f64,
     lower: Half,
     upper: Half,
     /// How much further back its feet are than behind one loop, because of others that lie between.
@@ -62,13 +64,13 @@ struct Half {
 }
 
 impl<'a> Form<'a> {
-    /// The loop `number`, its feet at height `y` and its needle at `x`.
+    /// The loop `number`, its needle at `x` and its course at height `y`, its feet `lift` above that.
     pub(super) fn new(
         shape: &'a Shape,
         stitches: &Stitches,
         layers: &Layers,
         number: u32,
-        [x, y]: [f64; 2],
+        [x, y, lift]: [f64; 3],
     ) -> Self {
         let stitch = &stitches.loops[number as usize];
         let parents = stitch.parents.len();
@@ -97,6 +99,7 @@ impl<'a> Form<'a> {
             shape,
             x,
             y,
+            lift,
             lower: half(own, stitch.opposite, stitch.plate),
             upper: half(next, opposite, stitch.head.layer),
             behind: between.saturating_sub(1) as f64 * shape.diameter,
@@ -143,11 +146,11 @@ impl<'a> Form<'a> {
         let foot_z = self.z(lower, FOOT) - lower.side * self.behind;
         let mut points = Vec::with_capacity(8);
         if self.is_arch {
-            points.push(at(SHOULDER_WIDE * wale, 0.0, self.height(FOOT), self.arc_z()));
+            points.push(at(SHOULDER_WIDE * wale, 0.0, self.height(FOOT) + self.lift, self.arc_z()));
             let leg = Node { up: 0.4, ..LEG };
             points.push(at(LEG_WIDE * wale, 0.0, self.height(leg), self.z(upper, leg) + self.over));
         } else {
-            points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT), foot_z));
+            points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT) + self.lift, foot_z));
             // It has to come out between the shoulders of what it is drawn through, and in front of them, before it leans.
             let leans = LEANS * self.lean.clamp(-wale, wale);
             let forward = lower.side * f64::max(lower.side * self.over, 0.0);

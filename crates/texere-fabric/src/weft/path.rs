@@ -93,7 +93,8 @@ impl Cloth<'_> {
     }
 
     fn form(&self, cell: &Cell, number: u32) -> Form<'_> {
-        let at = [self.x(cell.at), cell.course as f64 * self.shape.course];
+        let y = cell.course as f64 * self.shape.course;
+        let at = [self.x(cell.at), y, self.y(cell) - y];
         Form::new(self.shape, self.stitches, self.layers, number, at)
     }
 
@@ -199,9 +200,9 @@ impl Cloth<'_> {
     }
 }
 
-/// Height of the arc between two loops: as far back as the further one, half way if they lie on opposite sides.
+/// z of the arc between two loops: as far back as the further one, half way if they lie on opposite sides.
 fn between(one: f64, other: f64) -> f64 {
-    if one * other < 0.0 {
+    if one * other <= 0.0 {
         f64::midpoint(one, other)
     } else if one.abs() > other.abs() {
         one

@@ -111,7 +111,6 @@ impl ClothReport {
         let percent = |share: f64| format!("{:.1} %", share * 100.0);
         let measures = &self.measures;
         let [width, height] = self.size_mm;
-        let (crimp, cover) = (measures.crimp, &measures.cover);
         let mut lines = vec![
             (
                 "cloth",
@@ -129,27 +128,16 @@ impl ClothReport {
         let weight = measures
             .areal_weight_g_per_m2
             .map_or("not known: not every yarn has tex".into(), |grams| format!("{grams:.1} g/m²"));
-        lines.extend([
-            ("weight", weight),
-            (
-                "crimp",
-                format!(
-                    "warp {}, weft {}; the warp's share is {:.2}",
-                    percent(crimp.warp),
-                    percent(crimp.weft),
-                    self.jam.warp_crimp
-                ),
-            ),
-            (
-                "cover",
-                format!(
-                    "{}: ends {}, picks {}",
-                    percent(cover.cloth),
-                    percent(cover.fraction.warp),
-                    percent(cover.fraction.weft)
-                ),
-            ),
-        ]);
+        lines.push(("weight", weight));
+        if let Some(crimp) = measures.crimp {
+            let share = self.jam.warp_crimp;
+            let [warp, weft] = [crimp.warp, crimp.weft].map(percent);
+            lines.push(("crimp", format!("warp {warp}, weft {weft}; the warp's share is {share:.2}")));
+        }
+        if let Some(cover) = &measures.cover {
+            let [cloth, ends, picks] = [cover.cloth, cover.fraction.warp, cover.fraction.weft].map(percent);
+            lines.push(("cover", format!("{cloth}: ends {ends}, picks {picks}")));
+        }
         for (set, found) in [("ends", &self.jam.after.warp), ("picks", &self.jam.after.weft)] {
             if let Some(tightest) = &found.tightest {
                 let text = format!(

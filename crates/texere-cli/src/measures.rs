@@ -26,8 +26,10 @@ pub(crate) struct MeasuresReport {
     pub(crate) yarns: Vec<YarnReport>,
     /// Length of yarn of each colour, mm.
     colors: BTreeMap<String, f64>,
-    pub(crate) crimp: Sets<f64>,
-    pub(crate) cover: CoverReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) crimp: Option<Sets<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) cover: Option<CoverReport>,
     pub(crate) areal_weight_g_per_m2: Option<f64>,
     pub(crate) thickness_mm: f64,
 }
@@ -58,18 +60,17 @@ impl MeasuresReport {
         for yarn in &yarns {
             *colors.entry(yarn.color.clone()).or_default() += yarn.length_mm;
         }
-        let cover = measures.cover;
         Self {
             length_mm: measures.length_mm.iter().sum(),
             yarns,
             colors,
-            crimp: measures.crimp.into(),
-            cover: CoverReport {
+            crimp: measures.crimp.map(Sets::from),
+            cover: measures.cover.map(|cover| CoverReport {
                 factor: cover.factor.map(Sets::from),
                 cloth_factor: cover.cloth_factor,
                 fraction: cover.fraction.into(),
                 cloth: cover.cloth,
-            },
+            }),
             areal_weight_g_per_m2: measures.areal_weight,
             thickness_mm: measures.thickness_mm,
         }

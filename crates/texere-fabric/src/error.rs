@@ -315,6 +315,40 @@ pub enum FabricError {
         /// Most taken, mm.
         limit: f64,
     },
+    /// Wales, courses or loops of a knit that no cloth has.
+    #[error("{what} of {mm} mm, outside {low} to {high} mm")]
+    Gauge {
+        /// `wales`, `courses` or `loops`.
+        what: &'static str,
+        /// Their distance or length, mm.
+        mm: f64,
+        /// Least taken, mm.
+        low: f64,
+        /// Most taken, mm.
+        high: f64,
+    },
+    /// A carrier of a knit that has no yarn.
+    #[error("no yarn for carrier {carrier}; there are {yarns}")]
+    Carrier {
+        /// The carrier, from 1.
+        carrier: u32,
+        /// How many yarns there are.
+        yarns: usize,
+    },
+    /// Stitches that are not those of any cloth.
+    #[error("stitches that no cloth has: {what}")]
+    Stitches {
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// A knit of more control points than are taken.
+    #[error("a knit of {points} control points or more; {limit} are taken at most")]
+    KnitPoints {
+        /// Control points of all yarns, at least.
+        points: u64,
+        /// Most taken.
+        limit: u64,
+    },
     /// The yarns can't be taken.
     #[error("the cloth's yarns are not sound")]
     Yarns(#[from] YarnError),

@@ -68,11 +68,11 @@ pub use texere_core::{
 pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
-    FabricWarning, FaultKind, Faults, Finish, FinishError, JamReport, Jams, LINKING_CHANGE, Linking,
-    Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Settled, Shape, Shedding,
+    FabricWarning, FaultKind, Faults, Finish, FinishError, JamReport, Jams, KnitMeasures, LINKING_CHANGE,
+    Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Settled, Shape, Shedding,
     Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave, Woven,
     WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm, linking,
-    linking_with_progress, settle,
+    linking_with_progress, settle, weft,
 };
 pub use texere_formats::write::{
     Format, Output, Side, Written, abandon, draft as write_draft, file as write_file, mesh as write,

@@ -100,6 +100,35 @@ pub enum Instruction {
     LoopLength(Option<f64>),
 }
 
+impl fmt::Display for Direction {
+    /// As knitout writes it: `+` or `-`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", if *self == Self::Right { '+' } else { '-' })
+    }
+}
+
+impl fmt::Display for Instruction {
+    /// As knitout writes it, without its carriers: `knit + f3`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::In => write!(f, "in"),
+            Self::InHook => write!(f, "inhook"),
+            Self::ReleaseHook => write!(f, "releasehook"),
+            Self::Out => write!(f, "out"),
+            Self::OutHook => write!(f, "outhook"),
+            Self::Knit(direction, needle) => write!(f, "knit {direction} {needle}"),
+            Self::Tuck(direction, needle) => write!(f, "tuck {direction} {needle}"),
+            Self::Split(direction, from, to) => write!(f, "split {direction} {from} {to}"),
+            Self::Drop(needle) => write!(f, "drop {needle}"),
+            Self::Transfer(from, to) => write!(f, "xfer {from} {to}"),
+            Self::Miss(direction, needle) => write!(f, "miss {direction} {needle}"),
+            Self::Rack(rack) => write!(f, "rack {rack}"),
+            Self::LoopLength(Some(length_mm)) => write!(f, "loops of {length_mm} mm"),
+            Self::LoopLength(None) => write!(f, "loops of any length"),
+        }
+    }
+}
+
 /// An instruction with its yarns, and where it stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Operation {

@@ -78,6 +78,7 @@
 
 mod cloth;
 mod finish;
+mod knit;
 mod schema;
 mod threads;
 mod weave;
@@ -108,12 +109,19 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let laid = Cloth::new(&source, &file.cloth)?;
     let (settle, finish) = file.finish.read(&source)?;
     let yarns = YarnTable::new(&source, &file.yarns)?;
+    let weave = match (&file.weave, &file.knit) {
+        (Some(weave), None) => weave,
+        (None, Some(table)) => {
+            return Ok(knit::read(&source, &file, table, &yarns)?.finished(settle, finish));
+        }
+        _ => return Err(ReadError::ExactlyOne { file: path.into(), keys: "[weave] and [knit]" }),
+    };
     let mut warnings = Vec::new();
-    let drawdown = match (&file.weave.notation, &file.weave.image, &file.weave.wif) {
-        (Some(notation), None, None) => weave::from_notation(&source, &file.weave, notation)?,
-        (None, Some(image), None) => weave::from_image(&source, &file.weave, image, &mut warnings)?,
+    let drawdown = match (&weave.notation, &weave.image, &weave.wif) {
+        (Some(notation), None, None) => weave::from_notation(&source, weave, notation)?,
+        (None, Some(image), None) => weave::from_image(&source, weave, image, &mut warnings)?,
         (None, None, Some(wif)) => {
-            return Ok(from_wif(&source, &file, wif, &yarns, laid)?.finished(settle, finish));
+            return Ok(from_wif(&source, &file, weave, wif, &yarns, laid)?.finished(settle, finish));
         }
         _ => {
             let keys = "weave.notation, weave.image and weave.wif";
@@ -122,10 +130,10 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     };
     let mut woven = threaded(&source, &file, &yarns, drawdown)?;
     laid.lay(&source, &mut woven)?;
-    let name = file.name.unwrap_or_else(|| file_name(path));
+    let name = file.name.clone().unwrap_or_else(|| file_name(path));
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
     let design = Design::new(name, Structure::Woven(woven), warnings).finished(settle, finish);
-    Ok(match &file.weave.image {
+    Ok(match &weave.image {
         Some(image) => design.noting(&path.parent().unwrap_or(Path::new("")).join(image.as_ref())),
         None => design,
     })
@@ -154,12 +162,13 @@ fn threaded(
 fn from_wif(
     source: &Source<'_>,
     file: &DesignFile,
+    weave: &schema::WeaveTable,
     wif: &toml::Spanned<String>,
     yarns: &YarnTable,
     laid: Cloth,
 ) -> Result<Design, ReadError> {
-    weave::without_image(source, &file.weave)?;
-    if file.weave.ends.is_some() || file.weave.picks.is_some() {
+    weave::without_image(source, weave)?;
+    if weave.ends.is_some() || weave.picks.is_some() {
         return Err(ReadError::ExactlyOne {
             file: source.path.into(),
             keys: "weave.wif and weave.ends with weave.picks",

@@ -1,7 +1,7 @@
 //! Which course each pass of a carrier belongs to.
 
 /// That a pass is drawn through loops of another, made so many rounds of the repeat ago.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Above {
     /// The pass.
     pub(super) pass: u32,

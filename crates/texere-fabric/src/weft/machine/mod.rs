@@ -34,7 +34,7 @@ const CARRIERS_MAX: usize = 1 << 16;
 
 /// How often a repeat is knitted until what hangs on needles at its end is the same each time. Most take two rounds: loops
 /// that go on being transferred without being knitted take longer.
-const ROUNDS_MAX: u32 = 16;
+const ROUNDS_MAX: u32 = 8;
 
 /// What a knitting machine can do. The default is a V-bed machine's usual limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -187,8 +187,8 @@ fn beds_of(program: &Program) -> Result<(i32, i32), FabricError> {
 /// Puts in what is known at the end: courses, fates and heads, and faults of the whole.
 fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, FabricError> {
     left(&mut run, width.is_some());
-    run.aboves.sort_by_key(|above| above.pass);
-    let (courses, height) = courses::courses(&run.carriers.before, &run.aboves, width.is_some());
+    let aboves = run.aboves();
+    let (courses, height) = courses::courses(&run.carriers.before, &aboves, width.is_some());
     for (stitch, end) in run.loops.iter_mut().zip(&run.ends) {
         stitch.course = courses[stitch.course as usize];
         if let Some((fate, head)) = *end {
@@ -224,8 +224,8 @@ fn left(run: &mut Run<'_>, repeats: bool) {
     }
     for (index, stack) in hung {
         let (needle, slot) = (run.beds.needle(index), Slot { index, repeat: 0 });
-        // Loops of the round before last are knitted before the end of the last, where any are.
-        if repeats && stack.iter().any(|held| run.round - held.round == ROUNDS_MAX) {
+        // The first round may have begun with other needles than the next ones.
+        if repeats && stack.iter().any(|held| run.round - held.round + 1 >= ROUNDS_MAX) {
             run.at_source(run.loops[stack[0].number as usize].source);
             run.fault(FaultKind::NeverKnits, Some(needle), None);
         }

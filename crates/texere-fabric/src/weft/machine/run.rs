@@ -34,8 +34,8 @@ pub(super) struct Run<'a> {
     pub(super) ends: Vec<Option<End>>,
     /// The pass of each loop.
     passes: Vec<u32>,
-    /// Which passes lie above which others.
-    pub(super) aboves: Vec<Above>,
+    /// Which passes lie above which loops: of the passes of earlier rounds, the numbers may have been others.
+    aboves: Vec<Above>,
     pub(super) faults: Vec<Fault>,
     pub(super) unlisted: u64,
     /// The operation that is done.
@@ -103,6 +103,17 @@ impl<'a> Run<'a> {
             self.one(operation)?;
         }
         Ok(())
+    }
+
+    /// Which passes lie above which others, in order.
+    pub(super) fn aboves(&mut self) -> Vec<Above> {
+        let mut aboves = std::mem::take(&mut self.aboves);
+        for above in &mut aboves {
+            above.below = self.passes[above.below as usize];
+        }
+        aboves.sort_unstable();
+        aboves.dedup();
+        aboves
     }
 
     pub(super) fn fault(&mut self, kind: FaultKind, needle: Option<Needle>, carrier: Option<u32>) {
@@ -181,8 +192,7 @@ impl<'a> Run<'a> {
 
     fn rack(&mut self, rack: f64) {
         let limit = self.machine.rack_max;
-        // Not a number is no limit's either.
-        if !(rack.abs() <= limit) {
+        if rack.is_nan() || rack.abs() > limit {
             self.fault(FaultKind::Racked { rack, limit }, None, None);
         }
         if rack.abs() <= f64::from(NEEDLE_MAX) {
@@ -366,10 +376,15 @@ impl<'a> Run<'a> {
         let newest = held.iter().filter(own).map(|held| self.passes[held.number as usize]).max();
         let pass = self.carriers.pass(set, carriers, spot, newest);
         for held in held {
-            let (below, rounds) = (self.passes[held.number as usize], self.round - held.round);
-            let above = Above { pass, below, rounds };
-            if self.aboves.last() != Some(&above) {
-                self.aboves.push(above);
+            let (below, rounds) = (held.number, self.round - held.round);
+            let pass_of = |above: &Above| self.passes[above.below as usize];
+            let same = |last: &Above| {
+                last.pass == pass
+                    && [last.rounds, rounds] == [0, 0]
+                    && pass_of(last) == self.passes[below as usize]
+            };
+            if !self.aboves.last().is_some_and(same) {
+                self.aboves.push(Above { pass, below, rounds });
             }
         }
         let first = self.loops.len() as u32;

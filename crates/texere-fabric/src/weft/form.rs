@@ -95,18 +95,21 @@ impl<'a> Form<'a> {
         let between = if is_tuck { usize::from(stitch.head.layer) } else { parents };
         let held = held_until(stitches, stitch.fate).unwrap_or(0) - i64::from(stitch.course) - 1;
         let over = |crossed| side(next) * (CROSSING - crossed) * shape.diameter;
+        // So does an arch on an empty needle: what hangs opposite may have come later.
+        let is_arch = is_tuck || parents == 0;
+        let own_opposite = if is_arch { opposite } else { stitch.opposite };
         Self {
             shape,
             x,
             y,
             lift,
-            lower: half(own, stitch.opposite, stitch.plate),
+            lower: half(own, own_opposite, stitch.plate),
             upper: half(next, opposite, stitch.head.layer),
             behind: between.saturating_sub(1) as f64 * shape.diameter,
             lean: f64::from(stitch.head.at - stitch.at) * shape.wale,
             held: u32::try_from(held).unwrap_or(0),
             over: layers.crossed(number).map_or(0.0, over),
-            is_arch: is_tuck || parents == 0,
+            is_arch,
         }
     }
 

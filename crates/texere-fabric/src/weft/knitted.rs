@@ -157,11 +157,11 @@ impl Knitted {
         self.laid(&repeat, &repeat.piece.yarns)
     }
 
-    /// All copies of a repeat, settled or not. Yarns are cut off a control point beyond the last loop, where that does not spoil their
+    /// All copies of a repeat, settled or not. Yarns are cut off two control points beyond the last loop, where that does not spoil their
     /// count.
     pub(super) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let beyond = match self.cells {
-            Cells::Round => 1,
+            Cells::Round => 2,
             Cells::Even => 0,
         };
         repeat.laid_beyond(yarns, beyond)

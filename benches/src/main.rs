@@ -130,7 +130,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             };
             settling::print(&devices, &settling::Cloths { random, lace }, rounds)
         }
-        Args::Stages { designs, device } => stages::print(&designs, &device),
+        Args::Stages { designs, device } => {
+            stages::print(&designs, &device)?;
+            stages::print_one_yarn(&designs, &device)
+        }
         Args::Tables { devices, work, heading, output } => {
             let devices = if devices.is_empty() { all_devices() } else { devices };
             tables::write(&devices, &work.sizes(&devices), work.rounds, &heading, &output)

@@ -10,6 +10,9 @@ use texere::{Backend, ControlPoint, Design, Limits, Plan, Repeat, Settings, Yarn
 use texere_core::settling::{Settler, SettlingPlan, settle, settled};
 use texere_core::{Layout, Session};
 
+use crate::measure::Bench;
+use crate::one_yarn;
+
 /// How long each stage of a design took, by the host's clock, and how large it is.
 #[derive(Debug, Clone, Default)]
 pub struct Stages {
@@ -130,6 +133,30 @@ pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn E
             ms(row.mesh),
             ms(row.whole()),
         );
+    }
+    Ok(())
+}
+
+/// Prints what a triangle of each design's mesh takes on a device that is warm, and what it takes where all its control points lie in
+/// one yarn, as in a knit of one carrier.
+///
+/// # Errors
+///
+/// Whatever the reader, the structure or the device says.
+pub fn print_one_yarn(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn Error>> {
+    let backend = texere::open(device)?;
+    println!("\n| mesh, on {device} | yarns | ps a triangle | in one yarn |\n|---|---|---|---|");
+    for path in designs {
+        let design = texere::read(path)?;
+        let yarns = design.yarns()?;
+        let each = |yarns: Yarns| -> Result<f64, Box<dyn Error>> {
+            let mut bench = Bench::new(&*backend, yarns, Settings::default())?;
+            bench.fused()?;
+            let time = bench.fused()?.mesh.as_secs_f64();
+            Ok(time * 1e12 / bench.plan.counts().triangles as f64)
+        };
+        let (count, one) = (yarns.layout().yarns().len(), one_yarn(&yarns)?);
+        println!("| {} | {count} | {:.2} | {:.2} |", design.name, each(yarns)?, each(one)?);
     }
     Ok(())
 }

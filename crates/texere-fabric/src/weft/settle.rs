@@ -33,11 +33,11 @@ impl Knitted {
     ) -> Result<Settled, FinishError> {
         let repeat = self.repeat()?;
         let finish = self.finish_of(&repeat, finish, tension);
-        if repeat.copies == [1, 1] {
+        if self.stitches().repeat.is_none() {
             return settle(&repeat.piece, &finish, tension, backend, progress);
         }
         let mut settled = settle(&repeat.piece, &finish, tension, backend, |done| progress(SETTLED * done))?;
-        let yarns = repeat.laid(&settled.yarns)?;
+        let yarns = self.laid(&repeat, &settled.yarns)?;
         let settings = Settings { tension, ..Settings::default() };
         settled.clearance =
             clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;

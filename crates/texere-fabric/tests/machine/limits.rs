@@ -81,9 +81,10 @@ fn large_programs_are_run_in_time_that_grows_with_them() {
     });
     assert!(Machine::default().knit(&program(tucks.chain(moves))).is_ok());
 
-    // Two carriers' worth of passes, each of one stitch, in a repeat.
+    // Passes of one stitch each, in a repeat.
     let narrow = Program { repeat: Some(1), ..program((0..COUNT / 10).map(|_| knit(0))) };
     let all = Machine::default().knit(&narrow).expect("a knit").stitches;
     assert_eq!(all.repeat, Some([1, COUNT as u32 / 10]));
     assert!(all.loops.iter().all(|stitch| stitch.kind == LoopKind::Knit));
+    assert_eq!(all.strands.len(), all.loops.len(), "each goes on into the repeat beside");
 }

@@ -192,8 +192,7 @@ impl<'a> Run<'a> {
 
     fn rack(&mut self, rack: f64) {
         let limit = self.machine.rack_max;
-        // Not a number is no limit's either.
-        if !(rack.abs() <= limit) {
+        if rack.is_nan() || rack.abs() > limit {
             self.fault(FaultKind::Racked { rack, limit }, None, None);
         }
         if rack.abs() <= f64::from(NEEDLE_MAX) {

@@ -1,8 +1,6 @@
 //! Stitches of small charts, worked out by hand: a machine that knows no more than it needs.
 
-use texere_fabric::weft::{
-    Bed, Direction, Fate, Head, LoopKind, LoopRef, Step, Stitch, Stitches, Strand,
-};
+use texere_fabric::weft::{Bed, Direction, Fate, Head, LoopKind, LoopRef, Step, Stitch, Stitches, Strand};
 
 /// What one yarn does in one course, a letter a wale: `k` and `p` knit on the front and the back needle, `t` tucks, `m` misses;
 /// `>` and `<` knit and move the loop to the next needle, `A` and `B` two needles to the right and to the left, `A` first.

@@ -52,7 +52,8 @@ pub(super) fn cells(stitches: &Stitches, layers: &Layers, strand: usize) -> (Vec
         pass(&mut cells, &last, &next);
     }
     for index in 0..cells.len() {
-        let near = |other: Option<&Cell>| other.is_some_and(|other| (other.at - cells[index].at).abs() < SHORT);
+        let near =
+            |other: Option<&Cell>| other.is_some_and(|other| (other.at - cells[index].at).abs() < SHORT);
         let before = index.checked_sub(1).and_then(|before| cells.get(before));
         cells[index].short = near(before) || near(cells.get(index + 1));
     }

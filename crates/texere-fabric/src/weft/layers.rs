@@ -83,7 +83,11 @@ impl Layers {
             repeat: stitches.repeat,
             crossed: crossed(stitches),
             ranks: ranks(stitches),
-            floats: stitches.strands.iter().flat_map(|strand| &strand.steps).any(|step| matches!(step, Step::Float { .. })),
+            floats: stitches
+                .strands
+                .iter()
+                .flat_map(|strand| &strand.steps)
+                .any(|step| matches!(step, Step::Float { .. })),
         };
         layers.hang(stitches);
         layers

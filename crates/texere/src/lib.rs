@@ -75,8 +75,8 @@ pub use texere_fabric::{
     linking_with_progress, settle, weft, yarns_under,
 };
 pub use texere_formats::write::{
-    Format, Output, Side, Written, abandon, draft as write_draft, file as write_file, mesh as write,
-    picture as write_picture, stream,
+    Format, Output, Side, Written, abandon, draft as write_draft, file as write_file,
+    knit_draft as write_knit_draft, knit_rows, mesh as write, picture as write_picture, stream,
 };
 pub use texere_formats::{Design, MachineFault, Place, ReadError, Told, WriteError, read};
 #[cfg(feature = "render")]

@@ -106,10 +106,11 @@ pub(crate) struct DraftArgs {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point paper where there is no
-    /// shaft draft
+    /// shaft draft; of a knit the stitch chart and the needle diagram
     #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
     pub(crate) output: Option<PathBuf>,
-    /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left
+    /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left. Of a
+    /// knit a row for each course, in the symbols of its charts
     #[arg(long, required_unless_present = "output")]
     pub(crate) text: bool,
     /// Show the back of the cloth, turned over sideways: end 1 on the right

@@ -26,6 +26,7 @@ use crate::{
 /// ```
 #[derive(Debug, Clone)]
 #[non_exhaustive]
+#[allow(clippy::large_enum_variant, reason = "a design has one structure")]
 pub enum Structure {
     /// Woven cloth.
     Woven(WovenDesign),

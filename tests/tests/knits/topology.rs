@@ -46,7 +46,13 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
                 let (points, end) = (&stretch.points, stretch.points.len());
                 let legs = [&points[PARTS / 2..=stretch.head], &points[stretch.head..end - PARTS / 2]];
                 let through = legs.map(|leg| span.through(leg));
-                let sound = if parent { through[0].abs() == 1 && through[1] == -through[0] } else { through == [0, 0] };
+                // Whether the head of a parent lies in front of the surface or behind is a matter of how that is drawn.
+                let child = stitches.parents_of(number).iter().any(|above| above.number == other);
+                let sound = if parent {
+                    through[0].abs() == 1 && through[1] == -through[0]
+                } else {
+                    through == [0, 0] || child && through[0] == -through[1]
+                };
                 if !sound {
                     let says = if parent { "is drawn through" } else { "has nothing to do with" };
                     faults.push(format!("loop {other} {says} {number} {repeat:?}: {through:?}"));

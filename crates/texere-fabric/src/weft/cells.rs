@@ -21,7 +21,12 @@ pub(super) struct Cell {
     /// Which of several yarns in the same stitches it is.
     pub(super) plate: u16,
     pub(super) source: u32,
+    /// Whether it is no more than half a wale from a neighbour, and has only that much room.
+    pub(super) short: bool,
 }
+
+/// Cells nearer than so many wales are of needles that lie half a needle apart.
+const SHORT: f32 = 0.75;
 
 /// What a yarn does from its beginning to its end, or in one round; and how many wales and courses further it then goes on.
 pub(super) fn cells(stitches: &Stitches, layers: &Layers, strand: usize) -> (Vec<Cell>, Option<[i64; 2]>) {
@@ -46,6 +51,12 @@ pub(super) fn cells(stitches: &Stitches, layers: &Layers, strand: usize) -> (Vec
         let next = Cell { at: first.at + right as f32, course: first.course + up, ..first };
         pass(&mut cells, &last, &next);
     }
+    for index in 0..cells.len() {
+        let near =
+            |other: Option<&Cell>| other.is_some_and(|other| (other.at - cells[index].at).abs() < SHORT);
+        let before = index.checked_sub(1).and_then(|before| cells.get(before));
+        cells[index].short = near(before) || near(cells.get(index + 1));
+    }
     (cells, onward)
 }
 
@@ -62,6 +73,7 @@ fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Ce
         sharing: rank.sharing,
         plate: rank.plate,
         source,
+        short: false,
     };
     match *step {
         Step::Loop { number, direction } => {

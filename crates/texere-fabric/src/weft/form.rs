@@ -14,8 +14,10 @@ const CROSSING: f64 = 0.7;
 /// How far the legs of a loop that is moved lean where they come out of the loop before, of the way to the next needle.
 const LEANS: f64 = 0.1;
 
-/// Half of what two layers of cloth that lie face to face leave free between their feet, in diameters.
+/// How far the feet of two layers of cloth that lie face to face are from the middle between them, in diameters; and where yarns
+/// float there.
 const APART: f64 = 0.55;
+const FLOATS_APART: f64 = 1.0;
 
 /// +1 for what is drawn to the face, -1 to the back.
 pub(super) fn side(bed: Bed) -> f64 {
@@ -32,8 +34,10 @@ pub(super) struct Form<'a> {
     shape: &'a Shape,
     /// Its middle.
     x: f64,
-    /// Its feet.
+    /// Its course.
     y: f64,
+    /// How far its feet lie above that.
+    lift: f64,
     lower: Half,
     upper: Half,
     /// How much further back its feet are than behind one loop, because of others that lie between.
@@ -60,13 +64,13 @@ struct Half {
 }
 
 impl<'a> Form<'a> {
-    /// The loop `number`, its feet at height `y` and its needle at `x`.
+    /// The loop `number`, its needle at `x` and its course at height `y`, its feet `lift` above that.
     pub(super) fn new(
         shape: &'a Shape,
         stitches: &Stitches,
         layers: &Layers,
         number: u32,
-        [x, y]: [f64; 2],
+        [x, y, lift]: [f64; 3],
     ) -> Self {
         let stitch = &stitches.loops[number as usize];
         let parents = stitch.parents.len();
@@ -79,9 +83,10 @@ impl<'a> Form<'a> {
             Fate::Dropped => (stitch.bed, stitch.opposite),
         };
         let is_tuck = stitch.kind == LoopKind::Tuck;
+        let apart = if layers.has_floats() { FLOATS_APART } else { APART };
+        let layer = ARC.z.abs() * shape.depth + apart * shape.diameter;
         let half = |bed, opposite, others: u16| {
             let side = side(bed);
-            let layer = ARC.z.abs() * shape.depth + APART * shape.diameter;
             let middle = if opposite { side * layer } else { 0.0 };
             Half { side, middle, back: f64::from(others) * shape.diameter }
         };
@@ -90,17 +95,21 @@ impl<'a> Form<'a> {
         let between = if is_tuck { usize::from(stitch.head.layer) } else { parents };
         let held = held_until(stitches, stitch.fate).unwrap_or(0) - i64::from(stitch.course) - 1;
         let over = |crossed| side(next) * (CROSSING - crossed) * shape.diameter;
+        // So does an arch on an empty needle: what hangs opposite may have come later.
+        let is_arch = is_tuck || parents == 0;
+        let own_opposite = if is_arch { opposite } else { stitch.opposite };
         Self {
             shape,
             x,
             y,
-            lower: half(own, stitch.opposite, stitch.plate),
+            lift,
+            lower: half(own, own_opposite, stitch.plate),
             upper: half(next, opposite, stitch.head.layer),
             behind: between.saturating_sub(1) as f64 * shape.diameter,
             lean: f64::from(stitch.head.at - stitch.at) * shape.wale,
             held: u32::try_from(held).unwrap_or(0),
             over: layers.crossed(number).map_or(0.0, over),
-            is_arch: is_tuck || parents == 0,
+            is_arch,
         }
     }
 
@@ -140,11 +149,11 @@ impl<'a> Form<'a> {
         let foot_z = self.z(lower, FOOT) - lower.side * self.behind;
         let mut points = Vec::with_capacity(8);
         if self.is_arch {
-            points.push(at(SHOULDER_WIDE * wale, 0.0, self.height(FOOT), self.arc_z()));
+            points.push(at(SHOULDER_WIDE * wale, 0.0, self.height(FOOT) + self.lift, self.arc_z()));
             let leg = Node { up: 0.4, ..LEG };
             points.push(at(LEG_WIDE * wale, 0.0, self.height(leg), self.z(upper, leg) + self.over));
         } else {
-            points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT), foot_z));
+            points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT) + self.lift, foot_z));
             // It has to come out between the shoulders of what it is drawn through, and in front of them, before it leans.
             let leans = LEANS * self.lean.clamp(-wale, wale);
             let forward = lower.side * f64::max(lower.side * self.over, 0.0);

@@ -160,7 +160,17 @@ impl Knitted {
     /// **Errors**: [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where they can't be taken.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
-        if repeat.copies == [1, 1] { Ok(repeat.piece.yarns) } else { repeat.laid(&repeat.piece.yarns) }
+        self.laid(&repeat, &repeat.piece.yarns)
+    }
+
+    /// All copies of a repeat, settled or not. Yarns are cut off two control points beyond the last loop, where that does not spoil their
+    /// count.
+    pub(super) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        let beyond = match self.cells {
+            Cells::Round => 2,
+            Cells::Even => 0,
+        };
+        repeat.laid_beyond(yarns, beyond)
     }
 
     /// One repeat of the cloth, or all of it where none repeats, and what holds it: see [`Knitted::repeat`].

@@ -8,7 +8,7 @@ use super::{Bed, Direction, Fate, Head, Step, Stitch, Stitches};
 const HALVES: f32 = 2.0;
 
 /// Loops further apart than so many wales have needles between them that are passed.
-pub(super) const STEP: f32 = 1.25;
+pub(super) const STEP: f32 = 1.6;
 
 /// The loops of one bed at one needle, in one course.
 #[derive(Debug, Clone, Copy, Default)]
@@ -47,6 +47,8 @@ pub(super) struct Layers {
     crossed: Vec<Option<u16>>,
     /// For each step of each strand.
     ranks: Vec<Vec<Rank>>,
+    /// Whether any yarn floats.
+    floats: bool,
 }
 
 /// Where a step lies among the yarns of its course.
@@ -81,6 +83,11 @@ impl Layers {
             repeat: stitches.repeat,
             crossed: crossed(stitches),
             ranks: ranks(stitches),
+            floats: stitches
+                .strands
+                .iter()
+                .flat_map(|strand| &strand.steps)
+                .any(|step| matches!(step, Step::Float { .. })),
         };
         layers.hang(stitches);
         layers
@@ -97,6 +104,11 @@ impl Layers {
         self.ranks[strand][step]
     }
 
+    /// Whether any yarn is told to float.
+    pub(super) const fn has_floats(&self) -> bool {
+        self.floats
+    }
+
     /// Whether any loop hangs at a place.
     pub(super) fn is_held(&self, course: i64, at: f32) -> bool {
         self.hanging.contains_key(&self.place(course, at))
@@ -104,7 +116,14 @@ impl Layers {
 
     /// What a yarn passes behind that floats past a needle, laid by `bed`.
     pub(super) fn behind(&self, course: i64, at: f32, bed: Bed) -> Behind {
-        let [front, back] = self.hanging.get(&self.place(course, at)).copied().unwrap_or_default();
+        // Needles of a bed that is racked by half a pitch lie on either side.
+        let beside = [-1.0, 0.0, 1.0].map(|halves| self.place(course, at + halves / HALVES));
+        let hanging = beside.map(|place| self.hanging.get(&place).copied().unwrap_or_default());
+        let of = |bed: usize| Hanging {
+            any: hanging.iter().any(|beds| beds[bed].any),
+            made: hanging.iter().any(|beds| beds[bed].made),
+        };
+        let [front, back] = [of(0), of(1)];
         match (front.any, back.any) {
             (true, true) => Behind::Between,
             (true, false) => Behind::One { bed: Bed::Front, made: front.made },

@@ -93,7 +93,8 @@ impl Cloth<'_> {
     }
 
     fn form(&self, cell: &Cell, number: u32) -> Form<'_> {
-        let at = [self.x(cell.at), cell.course as f64 * self.shape.course];
+        let y = cell.course as f64 * self.shape.course;
+        let at = [self.x(cell.at), y, self.y(cell) - y];
         Form::new(self.shape, self.stitches, self.layers, number, at)
     }
 
@@ -111,7 +112,8 @@ impl Cloth<'_> {
                 }
             }
             None => {
-                for across in [-1.0, 1.0] {
+                let ways: &[f64] = if cell.short { &[0.0] } else { &[-1.0, 1.0] };
+                for across in ways {
                     let x = self.x(cell.at) + across * cell.direction * self.shape.wale / 6.0;
                     pen.point(DVec3::new(x, self.y(cell), self.z(cell)));
                 }
@@ -198,9 +200,9 @@ impl Cloth<'_> {
     }
 }
 
-/// Height of the arc between two loops: as far back as the further one, half way if they lie on opposite sides.
+/// z of the arc between two loops: as far back as the further one, half way if they lie on opposite sides.
 fn between(one: f64, other: f64) -> f64 {
-    if one * other < 0.0 {
+    if one * other <= 0.0 {
         f64::midpoint(one, other)
     } else if one.abs() > other.abs() {
         one

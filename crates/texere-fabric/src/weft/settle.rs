@@ -34,11 +34,11 @@ impl Knitted {
         let repeat = self.repeat()?;
         let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, repeat.copies, tension));
         let finish = Finish { length: Some(length), ..*finish };
-        if repeat.copies == [1, 1] {
+        if self.stitches().repeat.is_none() {
             return settle(&repeat.piece, &finish, tension, backend, progress);
         }
         let mut settled = settle(&repeat.piece, &finish, tension, backend, |done| progress(SETTLED * done))?;
-        let yarns = repeat.laid(&settled.yarns)?;
+        let yarns = self.laid(&repeat, &settled.yarns)?;
         let settings = Settings { tension, ..Settings::default() };
         settled.clearance =
             clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use texere::{JamReport, Material, Measures, Tightness};
+use texere::{JamReport, KnitMeasures, Material, Measures, Tightness};
 
 /// A number for the warp, and one for the weft.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -30,8 +30,29 @@ pub(crate) struct MeasuresReport {
     pub(crate) crimp: Option<Sets<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) cover: Option<CoverReport>,
+    /// Of a knit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) knit: Option<LoopsReport>,
     pub(crate) areal_weight_g_per_m2: Option<f64>,
     pub(crate) thickness_mm: f64,
+}
+
+/// [`KnitMeasures`].
+#[derive(Debug, Serialize)]
+pub(crate) struct LoopsReport {
+    pub(crate) loop_length_mm: f64,
+    pub(crate) loops_per_cm2: f64,
+    pub(crate) tightness: Option<f64>,
+}
+
+impl From<KnitMeasures> for LoopsReport {
+    fn from(found: KnitMeasures) -> Self {
+        Self {
+            loop_length_mm: found.loop_length_mm,
+            loops_per_cm2: found.stitch_density,
+            tightness: found.tightness,
+        }
+    }
 }
 
 /// A yarn of the design, as far as the cloth holds it.
@@ -71,6 +92,7 @@ impl MeasuresReport {
                 fraction: cover.fraction.into(),
                 cloth: cover.cloth,
             }),
+            knit: measures.knit.map(LoopsReport::from),
             areal_weight_g_per_m2: measures.areal_weight,
             thickness_mm: measures.thickness_mm,
         }

@@ -42,6 +42,7 @@ mod memory;
 mod reach;
 mod settling;
 mod structure;
+mod under;
 mod warning;
 mod watch;
 pub mod weft;
@@ -65,6 +66,7 @@ pub use linking::{
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use settling::{Finish, FinishError, Piece, Repeat, Settled, settle};
 pub use structure::Structure;
+pub use under::yarns_under;
 pub use warning::FabricWarning;
 pub use woven::{
     CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, NO_CROSSING, POINTS_MAX,

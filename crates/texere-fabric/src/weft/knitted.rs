@@ -119,6 +119,12 @@ impl Knitted {
         &self.yarns
     }
 
+    /// What the yarns are of.
+    #[must_use]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
     /// Copies of the repeat along x and y; \[1, 1\] of a cloth that is none.
     #[must_use]
     pub fn copies(&self) -> [u32; 2] {

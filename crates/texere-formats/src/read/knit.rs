@@ -1,9 +1,12 @@
 //! From a knitting program to a design: what the machine makes of it, and where its operations come from.
 
+use std::mem::{Discriminant, discriminant};
 use std::path::{Path, PathBuf};
 
 use texere_core::{Material, Section};
-use texere_fabric::weft::{CarrierSet, Cells, Gauge, KnitYarn, Knitted, Machine, Operation, Program};
+use texere_fabric::weft::{
+    CarrierSet, Cells, FaultKind, Gauge, Knit as Made, KnitYarn, Knitted, Machine, Operation, Program,
+};
 use texere_fabric::{Structure, Thread};
 
 use super::design::{MachineFault, Told};
@@ -12,8 +15,8 @@ use super::knitout::Knitout;
 use super::threads::only_used;
 use super::{Design, ReadError};
 
-/// The most faults that are told.
-const FAULTS_MAX: usize = 20;
+/// How many faults of a kind are told.
+const FAULTS_TOLD: usize = 3;
 
 /// Needles to the inch where a file says nothing.
 const GAUGE: f64 = 15.0;
@@ -132,15 +135,10 @@ impl Knit {
         let usual = Machine::default();
         let machine = Machine { float_max: self.float_max.unwrap_or(usual.float_max), ..usual };
         let knit = machine.knit(&program).map_err(fabric)?;
-        let told = |fault: &texere_fabric::weft::Fault| MachineFault {
-            said: format!("{}: {fault}", drawn.place(fault.source)),
-            is_error: fault.kind.is_error(),
-        };
-        let faults: Vec<_> = knit.faults.iter().take(FAULTS_MAX).map(told).collect();
-        let more = (knit.faults.len() - faults.len()) as u64 + knit.unlisted;
+        let (faults, more) = told(&knit, &drawn);
         warnings.extend(faults.iter().map(|fault| fault.said.clone()));
         if more > 0 {
-            warnings.push(format!("{}: {more} more faults of the machine", named(file)));
+            warnings.push(format!("{}: {more} more faults of the kinds that are told", named(file)));
         }
         let knitted =
             Knitted::new(knit.stitches, self.gauge, self.yarns, self.materials, self.sections, self.copies)
@@ -149,6 +147,26 @@ impl Knit {
         let design = Design::new(name, Structure::Weft(knitted), warnings);
         Ok(design.knitted(KnittedFrom { drawn, program }, faults))
     }
+}
+
+/// The faults of a program as a designer reads them, the first few of each kind, and how many more there are.
+fn told(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
+    let mut kinds: Vec<(Discriminant<FaultKind>, usize)> = Vec::new();
+    let mut faults = Vec::new();
+    for fault in &knit.faults {
+        let kind = discriminant(&fault.kind);
+        let place = kinds.iter().position(|(other, _)| *other == kind).unwrap_or(kinds.len());
+        if place == kinds.len() {
+            kinds.push((kind, 0));
+        }
+        kinds[place].1 += 1;
+        if kinds[place].1 <= FAULTS_TOLD {
+            let said = format!("{}: {fault}", drawn.place(fault.source));
+            faults.push(MachineFault { said, is_error: fault.kind.is_error() });
+        }
+    }
+    let more = (knit.faults.len() - faults.len()) as u64 + knit.unlisted;
+    (faults, more)
 }
 
 /// The design of a knitout file alone: plain jersey's proportions, and yarns of different colours.

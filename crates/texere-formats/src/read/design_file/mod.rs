@@ -65,6 +65,22 @@
 //! | `selvedge` | `true`: the weft turns back round the edge ends, one yarn; `false` where not given |
 //! | `jam` | what is done where threads are jammed: `"report"`, where not given, `"flatten"` or `"shrink"` ([`Relief`]) |
 //!
+//! Instead of `[weave]`, `[cloth]`, `[warp]` and `[weft]` a design may have `[knit]`, a weft knit:
+//!
+//! | key | value |
+//! |---|---|
+//! | `chart` | symbols, a line for each row, the last on top ([`Chart::parse`]) |
+//! | `image`, `[knit.colors]`, `rows` | a picture beside the design: each colour a yarn ([`Chart::jacquard`]) or a symbol |
+//! | `knitout` | a program of a knitting machine beside the design |
+//! | `beds`, `backing` | 1 or 2 ([`Beds`]); `"birdseye"` or `"ladder"` ([`Backing`]) |
+//! | `yarns` | the yarns of courses, or of carriers, in turn |
+//! | `repeat` | `[20, 16]`: copies across the wales and along the courses |
+//! | `wales_per_cm` or `needles_per_inch`, `courses_per_cm`, `loop_length_mm` | how close stitches lie ([`Gauge`]) |
+//! | `[knit.stitch_lengths_mm]` | yarn in a loop for each stitch size of a knitout file |
+//! | `compression` | how much of its diameter a yarn keeps, 0.8 to 1 |
+//! | `cells` | `"round"` or `"even"` ([`Cells`]) |
+//! | `float_max` | how many needles a yarn may float past before it is warned of |
+//!
 //! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`settle`](texere_fabric::settle)):
 //!
 //! | key | value |
@@ -88,6 +104,8 @@ use std::path::Path;
 use texere_core::Section;
 #[cfg(doc)]
 use texere_core::settling::Length;
+#[cfg(doc)]
+use texere_fabric::weft::{Backing, Beds, Cells, Chart, Gauge};
 #[cfg(doc)]
 use texere_fabric::{Crimp, Finish, Relief, Shape, Weave};
 use texere_fabric::{Drawdown, Structure, Woven, WovenDesign};

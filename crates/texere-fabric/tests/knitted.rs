@@ -61,13 +61,14 @@ fn repeats_are_laid_as_they_are_charted() {
         let copies = [8 / small_size[0], 4 / small_size[1]];
         let (small, large) = (knit(chart(small), copies).unwrap(), knit(chart(large), [1, 1]).unwrap());
         assert_eq!(small.size(), [8, 4]);
-        let [mut one, mut other] = [small, large].map(|knit| positions(&knit.yarns().unwrap()));
-        let order = |a: &[f32; 3], b: &[f32; 3]| {
-            let key = |at: &[f32; 3]| at.map(|mm| (mm * 1e3).round() as i64);
-            key(a).cmp(&key(b))
+        // Where a yarn is cut off depends on which way it goes.
+        let inside = |knit: Knitted| {
+            let mut points = positions(&knit.yarns().unwrap());
+            points.retain(|at| (-0.01..8.01).contains(&at[0]));
+            points.sort_by_key(|at| at.map(|mm| (mm * 1e3 + 0.2).round() as i64));
+            points
         };
-        one.sort_by(order);
-        other.sort_by(order);
+        let [one, other] = [small, large].map(inside);
         assert_eq!(one.len(), other.len());
         for (one, other) in one.iter().zip(&other) {
             assert!((0..3).all(|axis| (one[axis] - other[axis]).abs() < 2e-3), "{one:?} {other:?}");
@@ -152,7 +153,7 @@ fn a_section_can_be_changed() {
     );
     assert!(structure.set_section(Section::Polygon(Vec::new())).is_err());
     assert_eq!(before.points().len(), structure.yarns().unwrap().points().len());
-    assert!(before.points().iter().all(|point: &ControlPoint| point.half_width() == 0.1f32));
+    assert!(before.points().iter().all(|point: &ControlPoint| (point.half_width() - 0.1).abs() < 1e-4));
 }
 
 #[test]

@@ -19,8 +19,8 @@ pub(crate) enum Symbol {
     BackTuck,
     /// The yarn floats past: `m`.
     Miss,
-    /// Knitted, and its head goes to another wale: `>` and `<`; where it crosses others, `R` and `L` in front of them, `r` and `l`
-    /// behind.
+    /// Knitted, and its head goes to another wale: `>` and `<`. Where it crosses others: `R` to the right in front, and `r` to the
+    /// left behind; `L` to the left in front, and `l` to the right behind.
     Moved {
         /// To the right, not to the left.
         right: bool,
@@ -42,9 +42,9 @@ impl Symbol {
             Self::Moved { right: true, behind: None } => '>',
             Self::Moved { right: false, behind: None } => '<',
             Self::Moved { right: true, behind: Some(false) } => 'R',
-            Self::Moved { right: true, behind: Some(true) } => 'r',
+            Self::Moved { right: true, behind: Some(true) } => 'l',
             Self::Moved { right: false, behind: Some(false) } => 'L',
-            Self::Moved { right: false, behind: Some(true) } => 'l',
+            Self::Moved { right: false, behind: Some(true) } => 'r',
         }
     }
 
@@ -142,16 +142,16 @@ impl Grid {
     /// Notes which moved loops cross others, and which of them go behind.
     fn cross(&mut self, stitches: &Stitches, left: i64) {
         let mut moved = vec![None; self.squares.len()];
-        let mut any = false;
+        let mut furthest = 0;
         for stitch in stitches.loops.iter().filter(|stitch| by(stitch) != 0) {
             moved[self.place(stitch.at, stitch.course, left)] = Some((by(stitch), stitch.head.moved));
-            any = true;
+            furthest = furthest.max(by(stitch).abs()).min(CROSSING_MAX);
         }
         let wales = self.size[0];
-        for place in (0..moved.len()).filter(|_| any) {
+        for place in (0..moved.len()).filter(|_| furthest > 0) {
             let Some((own, time)) = moved[place] else { continue };
             let (row, column) = (place / wales * wales, (place % wales) as i64);
-            let crossed = (1..=own.abs().min(CROSSING_MAX)).find_map(|away| {
+            let crossed = (1..own.abs().min(CROSSING_MAX) + furthest).find_map(|away| {
                 let other = (column + away * own.signum()).rem_euclid(wales as i64);
                 let (by, other_time) = moved[row + other as usize]?;
                 let crosses = by * own < 0 && away < own.abs() + i64::abs(by);

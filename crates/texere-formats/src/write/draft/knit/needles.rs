@@ -130,11 +130,20 @@ impl Needles {
                 self.line([here - LOOP, middle], [here, tip], yarn);
                 self.line([here, tip], [here + LOOP, middle], yarn);
             } else {
+                self.line([here, middle], [here, needle - side(stitch.bed) * LOOP], yarn);
                 self.ring([here, needle], yarn);
             }
             if stitch.head.at != stitch.at || stitch.head.bed != stitch.bed {
                 let to = here + f64::from(stitch.head.at - stitch.at) * PITCH as f64;
-                self.arrow([here, needle], [to, middle + side(stitch.head.bed) * BED as f64]);
+                let tip = [to, middle + side(stitch.head.bed) * BED as f64];
+                if stitch.head.bed == stitch.bed {
+                    // Round the needles between.
+                    let below = [(here + to) / 2.0, needle + side(stitch.bed) * 2.0 * LOOP];
+                    self.line([here, needle], below, MOVED);
+                    self.arrow(below, tip);
+                } else {
+                    self.arrow([here, needle], tip);
+                }
             }
         }
         if let (Some(from), Some(wales)) = (before, wrap) {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere::{Backend, ControlPoint, Design, Limits, Plan, Repeat, Settings, Yarns};
-use texere_core::settling::{Settler, SettlingPlan, settle, settled};
+use texere_core::settling::{Rest, Settler, SettlingPlan, settle, settled};
 use texere_core::{Layout, Session};
 
 use crate::measure::Bench;
@@ -32,6 +32,8 @@ pub struct Stages {
     pub plan: Duration,
     /// Yarns come to rest on the device; nothing where the design's don't settle.
     pub settle: Option<Duration>,
+    /// How they rest then.
+    pub rest: Option<Rest>,
     /// Control points to the session: from the host, or from where they settled.
     pub take: Duration,
     /// Both stages of the mesh, all chunks, in the device's own memory.
@@ -66,7 +68,7 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<Stages, Box<dyn Error
         stages.generate = clock.lap();
         let (plan, mut settler) = settler(&design, &repeat, settings.tension, device)?;
         stages.plan = clock.lap();
-        let _ = settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?;
+        stages.rest = Some(settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?);
         stages.settle = Some(clock.lap());
         if repeat.copies == [1, 1] {
             (repeat.piece.yarns, Some(settler))
@@ -112,16 +114,20 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<Stages, Box<dyn Error
 pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn Error>> {
     let backend = texere::open(device)?;
     println!(
-        "| design, on {device} | yarns | control points | triangles | read, ms | generate | plan | settle | points | mesh | whole |"
+        "| design, on {device} | yarns | control points | triangles | read, ms | generate | plan | settle | points | mesh | whole | at rest, clearance, radius / d |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     for path in designs {
         stages(path.as_ref(), &*backend)?;
         let row = stages(path.as_ref(), &*backend)?;
         let ms = |time: Duration| time.as_secs_f64() * 1e3;
         let settle = row.settle.map_or_else(|| "-".into(), |time| format!("{:.0}", ms(time)));
+        let rest = row.rest.as_ref().map_or_else(
+            || "-".into(),
+            |rest| format!("{}, {:.3}, {:.3}", rest.at_rest, rest.end.clearance, rest.end.radius),
+        );
         println!(
-            "| {} | {} | {} | {} | {:.0} | {:.0} | {:.0} | {settle} | {:.1} | {:.2} | {:.0} |",
+            "| {} | {} | {} | {} | {:.0} | {:.0} | {:.0} | {settle} | {:.1} | {:.2} | {:.0} | {rest} |",
             row.name,
             row.yarns,
             row.points,

@@ -9,7 +9,7 @@ use texere_fabric::weft::{Backing, Beds, Cells, Chart, ChartError, Gauge};
 use toml::Spanned;
 
 use super::schema::{DesignFile, KnitTable, Source};
-use super::threads::YarnTable;
+use super::threads::{Named, YarnTable};
 use crate::read::error::{first_few, named};
 use crate::read::file::file_name;
 use crate::read::knit::{Drawn, Knit};
@@ -70,9 +70,6 @@ fn without_weaving(source: &Source<'_>, file: &DesignFile) -> Result<(), ReadErr
         None => Ok(()),
     }
 }
-
-/// A yarn of the design, by name.
-type Named = (String, Thread);
 
 struct Reader<'a> {
     source: &'a Source<'a>,

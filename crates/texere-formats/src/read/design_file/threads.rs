@@ -23,6 +23,9 @@ const TWIST_PER_M: f64 = 1e5;
 /// The most yarns in turn of a knit.
 const TURN_MAX: usize = 100_000;
 
+/// A yarn and its name.
+pub(super) type Named = (String, Thread);
+
 /// The named yarns, ready to be threaded: yarn k has material k and section k.
 #[derive(Debug)]
 pub(super) struct YarnTable {
@@ -143,7 +146,7 @@ impl YarnTable {
     }
 
     /// The yarn where there is one alone, and its name.
-    pub(super) fn only(&self) -> Option<(String, Thread)> {
+    pub(super) fn only(&self) -> Option<Named> {
         let (name, thread) = self.names.first_key_value().filter(|_| self.names.len() == 1)?;
         Some((name.clone(), *thread))
     }
@@ -154,8 +157,8 @@ impl YarnTable {
         source: &Source<'_>,
         field: &str,
         list: &Spanned<Vec<Spanned<String>>>,
-    ) -> Result<(Vec<u32>, Vec<(String, Thread)>), ReadError> {
-        let (mut turn, mut yarns) = (Vec::new(), Vec::<(String, Thread)>::new());
+    ) -> Result<(Vec<u32>, Vec<Named>), ReadError> {
+        let (mut turn, mut yarns) = (Vec::new(), Vec::<Named>::new());
         for item in list.as_ref() {
             let (times, name, thread) = self.item(source, field, item)?;
             let known = yarns.iter().position(|(other, _)| other == name);

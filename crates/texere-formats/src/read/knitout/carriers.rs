@@ -9,6 +9,17 @@ use super::line::Words;
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
 
+/// The longest name of a carrier, in letters: machines number them.
+const NAME_MAX: usize = 40;
+
+/// Whether a carrier may have that name: messages and yarns are called by it.
+pub(super) fn is_name(word: &str) -> bool {
+    word.chars().count() <= NAME_MAX && !word.chars().any(char::is_control)
+}
+
+/// What is said of a word that is none.
+pub(super) const NAME: &str = "the name of a carrier: 40 letters at most, none of them a control code";
+
 /// The carriers of a program and the sets of them that occur.
 #[derive(Debug)]
 pub(super) struct Carriers<'a> {
@@ -65,6 +76,9 @@ impl<'a> Carriers<'a> {
         if self.declared {
             let known = first_few(self.names.iter().map(|name| shown(name)));
             return Err(words.refused(word, format!("a carrier of the header: {known}")));
+        }
+        if !is_name(word) {
+            return Err(words.refused(word, NAME));
         }
         if self.names.len() == CARRIERS_MAX {
             return Err(words.refused(word, format!("one of the {CARRIERS_MAX} carriers before it")));

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::iter::Peekable;
 
 use super::CARRIERS_MAX;
+use super::carriers::{NAME, is_name};
 use super::line::Line;
 use super::warnings::Warnings;
 use crate::read::ReadError;
@@ -66,6 +67,9 @@ impl<'a> Header<'a> {
             "Carriers" => {
                 let mut carriers = Vec::new();
                 for carrier in value.split_whitespace() {
+                    if !is_name(carrier) {
+                        return Err(line.refused(carrier, NAME));
+                    }
                     if carriers.contains(&carrier) {
                         return Err(line.refused(carrier, "each carrier once"));
                     }
@@ -110,7 +114,9 @@ impl<'a> Header<'a> {
 
     /// What is in each of these carriers.
     pub(super) fn yarns_of(mut self, carriers: &[String], warnings: &mut Warnings) -> Vec<Option<String>> {
-        let text = |(yarn, _): (&str, _)| yarn.chars().take(YARN_MAX).collect();
+        let text = |(yarn, _): (&str, _)| {
+            yarn.chars().filter(|letter| !letter.is_control()).take(YARN_MAX).collect()
+        };
         let yarns = carriers.iter().map(|carrier| self.yarns.remove(carrier.as_str()).map(text)).collect();
         if let Some((carrier, (_, line))) = self.yarns.iter().min_by_key(|(_, (_, line))| line) {
             let said = format!("a yarn in carrier \"{}\", which there is not", shown(carrier));

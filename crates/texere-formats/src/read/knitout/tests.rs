@@ -176,6 +176,10 @@ fn carriers_that_no_header_lists_are_those_that_occur() {
     let program = read(";!knitout-2\nin yarn\nknit + f1 b yarn\nknit + f2 yarn b\n").unwrap().program;
     assert_eq!(program.carriers, ["yarn", "b"]);
     assert_eq!(program.carrier_sets, [vec![], vec![0], vec![1, 0], vec![0, 1]]);
+    assert!(
+        refusal(&format!("in {}\n", "x".repeat(41))).contains("the name of a carrier: 40 letters at most")
+    );
+    assert!(refusal(";;Carriers: a\u{1b}[31m\n").contains("column 13: \"a\\u{1b}[31m\", expected the name"));
     let many: String = (0..257).map(|number| format!("in c{number}\n")).collect();
     assert!(refusal(&many).contains("line 257, column 4: \"c256\", expected one of the 256 carriers"));
 }

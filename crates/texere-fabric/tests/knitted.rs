@@ -172,6 +172,7 @@ fn what_is_no_cloth_is_refused_by_name() {
     says(refused(&|stitches| stitches.strands[0].carrier = 2), "no yarn for carrier 3; there are 2");
     says(refused(&|stitches| stitches.strands[0].onward = Some([0, 1])), "goes on elsewhere");
     says(refused(&|stitches| stitches.repeat = Some([0, 2])), "a repeat of no size");
+    says(knit(chart("k"), [1 << 31, 1]).unwrap_err().to_string(), "too many wales");
     says(knit(chart("k"), [0, 1]).unwrap_err().to_string(), "no copy");
     let much = knit(chart("k"), [1 << 20, 1 << 20]).unwrap_err();
     assert!(matches!(much, FabricError::KnitPoints { .. }), "{much}");

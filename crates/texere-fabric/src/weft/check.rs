@@ -9,6 +9,9 @@ use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
 /// The furthest that a needle lies from the first one, in wales.
 const WALES_MAX: f32 = 1e6;
 
+/// The most wales or courses of all copies of a repeat.
+const SIDE_MAX: u32 = 1 << 30;
+
 /// Control points of a loop at least.
 const LOOP_POINTS: u64 = 10;
 
@@ -103,6 +106,10 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     let held: u64 = held.sum();
     let floats: u64 = stitches.strands.iter().map(|strand| floats(stitches, strand)).sum();
     let points = LOOP_POINTS * stitches.loops.len() as u64 + held + floats;
+    let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
+    if sides.into_iter().any(|(size, copies)| u64::from(size) * u64::from(copies) > u64::from(SIDE_MAX)) {
+        return Err(FabricError::Stitches { what: "too many wales or courses" });
+    }
     let copies = if stitches.repeat.is_some() { u64::from(copies[0]) * u64::from(copies[1]) } else { 1 };
     let points = points.saturating_mul(copies);
     if copies == 0 {

@@ -168,7 +168,7 @@ impl Structure {
     /// How near yarns come to one another and how tightly they bend, at places that a designer can find: see
     /// [`Woven::clearance`](crate::Woven::clearance).
     ///
-    /// **Errors**: those of [`clearance_with_progress`](crate::clearance_with_progress).
+    /// **Errors**: those of [`clearance_with_progress`].
     pub fn clearance(
         &self,
         yarns: &Yarns,

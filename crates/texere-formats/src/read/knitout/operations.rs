@@ -94,9 +94,9 @@ impl<'a> Operations<'a> {
                 None
             }
             "rack" => {
-                let (rack, _) = words.number("by how many needles the back bed is moved")?;
+                let (rack, word) = words.number("by how many needles the back bed is moved")?;
                 words.end()?;
-                Some((Instruction::Rack(self.rack(line, rack, warnings)), NO_CARRIERS))
+                Some((Instruction::Rack(self.rack(line, rack, word, warnings)), NO_CARRIERS))
             }
             "stitch" => {
                 let expected = "how far needles are drawn back, in units of the machine";
@@ -149,7 +149,7 @@ impl<'a> Operations<'a> {
     }
 
     /// A rack in needles; back needles that lie between front ones lie half way.
-    fn rack(&self, line: &Line<'_>, rack: f64, warnings: &mut Warnings) -> f64 {
+    fn rack(&self, line: &Line<'_>, rack: f64, word: &str, warnings: &mut Warnings) -> f64 {
         let (whole, fraction) = (rack.floor(), rack - rack.floor());
         if fraction == 0.0 {
             return rack;
@@ -157,7 +157,8 @@ impl<'a> Operations<'a> {
         if !self.all_needle_racks.contains(&fraction) {
             let usual: Vec<_> = self.all_needle_racks.iter().map(ToString::to_string).collect();
             let said = format!(
-                "rack {rack} is {fraction} beyond {whole}, where {} is usual; it is taken as half a needle",
+                "rack {}, where {} beyond a whole number is usual; it is taken as half a needle",
+                shown(word),
                 usual.join(" or ")
             );
             warnings.once("rack", line.number, &said);

@@ -164,10 +164,11 @@ fn a_carrier_that_comes_back_is_another_yarn() {
 #[test]
 fn faults_are_named() {
     let none = "in 1\nin 2\nin 3\n";
-    let cases: [(&str, u32, FaultKind); 17] = [
+    let cases: [(&str, u32, FaultKind); 19] = [
         ("knit + f1 4\ndrop f1", 4, FaultKind::CarrierNotIn),
         ("in 1", 4, FaultKind::CarrierIn),
         ("out 1\ninhook 1\ninhook 4\nreleasehook 1 4", 6, FaultKind::HookHolds("1".into())),
+        ("out 1\ninhook 1\nouthook 2\nreleasehook 1", 6, FaultKind::HookHolds("1".into())),
         ("releasehook 1", 4, FaultKind::HookWithout),
         ("out 4", 4, FaultKind::OutWithoutIn),
         ("rack 5", 4, FaultKind::Racked { rack: 5.0, limit: 4.0 }),
@@ -180,6 +181,7 @@ fn faults_are_named() {
         ("knit + f1 1\nknit + f1", 5, FaultKind::Dropped(1)),
         ("knit + f1 1\nknit + f2 1", 4, FaultKind::LeftOnNeedles(2)),
         ("knit + f1 1\nknit + f9 1", 5, FaultKind::LongFloat { needles: 7, limit: 6 }),
+        ("knit + f1 1\nmiss + f9 1\nknit - f1 1", 6, FaultKind::LongFloat { needles: 7, limit: 6 }),
         (
             "tuck + f1 1\ntuck + f1 1\ntuck + f1 1\ntuck + f1 1\ntuck + f1 1",
             8,

@@ -81,6 +81,17 @@ fn large_programs_are_run_in_time_that_grows_with_them() {
     });
     assert!(Machine::default().knit(&program(tucks.chain(moves))).is_ok());
 
+    // A hook that takes the same carrier over and over, and lets go of others.
+    let hooks = (0..COUNT / 10).map(|_| Instruction::InHook);
+    let mut hooks = program(hooks.chain((0..COUNT / 10).map(|_| Instruction::ReleaseHook)));
+    let names = 0..60_000;
+    hooks.carriers = names.clone().map(|name| name.to_string()).collect();
+    hooks.carrier_sets.push(names.collect());
+    for operation in &mut hooks.operations[..2] {
+        operation.carriers = CarrierSet(2);
+    }
+    assert!(Machine::default().knit(&hooks).is_ok());
+
     // Passes of one stitch each, in a repeat.
     let narrow = Program { repeat: Some(1), ..program((0..COUNT / 10).map(|_| knit(0))) };
     let all = Machine::default().knit(&narrow).expect("a knit").stitches;

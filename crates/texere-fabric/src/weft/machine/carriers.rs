@@ -43,7 +43,8 @@ struct Carrier {
 #[derive(Debug, Default)]
 pub(super) struct Carriers {
     carriers: Vec<Carrier>,
-    hook: Vec<u32>,
+    /// The carriers that the hook holds.
+    hook: BTreeSet<u32>,
     /// Where carriers wait.
     waiting: BTreeSet<(i64, u32)>,
     /// For each pass, the pass before it of its first carrier.
@@ -86,22 +87,25 @@ impl Carriers {
         if let Some(at) = own.waits {
             self.waiting.remove(&(at, carrier));
         }
-        self.hook.retain(|held| *held != carrier);
+        self.hook.remove(&carrier);
         own.is_in
     }
 
-    /// The hook takes carriers; answers with one that it still holds.
-    pub(super) fn hook(&mut self, carriers: &[u32]) -> Option<u32> {
-        let held = self.hook.first().copied();
+    /// Another carrier that the hook holds already, where it is to take these.
+    pub(super) fn hooked_beside(&self, carriers: &[u32]) -> Option<u32> {
+        let taken: BTreeSet<_> = carriers.iter().collect();
+        // At most as many as are taken are among these: the search is short however many the hook holds.
+        self.hook.iter().copied().find(|held| !taken.contains(held))
+    }
+
+    /// The hook takes carriers.
+    pub(super) fn hook(&mut self, carriers: &[u32]) {
         self.hook.extend(carriers);
-        held
     }
 
     /// The hook lets go of a carrier; false if it does not hold it.
     pub(super) fn let_go(&mut self, carrier: u32) -> bool {
-        let held = self.hook.len();
-        self.hook.retain(|other| *other != carrier);
-        self.hook.len() < held
+        self.hook.remove(&carrier)
     }
 
     /// Whether a carrier can make a stitch. In a repeat, those that nothing brings in come from the repeat beside.

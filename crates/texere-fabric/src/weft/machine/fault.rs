@@ -12,7 +12,7 @@ pub enum FaultKind {
     CarrierNotIn,
     /// A carrier is brought in that is in already. It stays where it is.
     CarrierIn,
-    /// The hook takes a carrier while it still holds another, which is named. It then holds both.
+    /// The hook takes a carrier, in or out, while it still holds another, which is named. It is taken to do both.
     HookHolds(String),
     /// The hook lets go of a carrier that it does not hold.
     HookWithout,

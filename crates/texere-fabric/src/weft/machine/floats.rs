@@ -5,23 +5,35 @@ use super::FaultKind;
 use super::run::Run;
 
 /// Notes floats past more needles than they should. A repeat is `width` needles wide.
+///
+/// A yarn that a miss takes further than its next loop floats past all needles as far as that.
 pub(super) fn long(run: &mut Run<'_>, width: Option<i32>, limit: u32) {
     let mut found = Vec::new();
     for strand in &run.carriers.strands {
-        let loops = strand.steps.iter().filter_map(|step| match *step {
-            Step::Loop { number, .. } => Some(&run.loops[number as usize]),
-            Step::Float { .. } => None,
-        });
-        let seam = strand.onward.zip(width).and_then(|([right, _], width)| {
-            let first = loops.clone().next()?;
-            Some((first.at + (right * width) as f32, first.source))
-        });
-        let places: Vec<_> = loops.map(|stitch| (stitch.at, stitch.source)).chain(seam).collect();
-        for pair in places.windows(2) {
-            let needles = ((pair[1].0 - pair[0].0).abs().ceil() as u32).saturating_sub(1);
-            if needles > limit {
-                found.push((needles, pair[1].1, strand.carrier));
+        // From the last loop on: how far to the left and to the right the yarn has come.
+        let mut reach: Option<[f32; 2]> = None;
+        let mut first = None;
+        let grown = |[low, high]: [f32; 2], at: f32| [low.min(at), high.max(at)];
+        let mut end = |reach: Option<[f32; 2]>, at: f32, source: u32| {
+            let needles =
+                reach.map(|reach| grown(reach, at)).map_or(0, |[low, high]| (high - low).ceil() as u32);
+            if needles.saturating_sub(1) > limit {
+                found.push((needles - 1, source, strand.carrier));
             }
+        };
+        for step in &strand.steps {
+            match *step {
+                Step::Float { at, .. } => reach = reach.map(|reach| grown(reach, at)),
+                Step::Loop { number, .. } => {
+                    let stitch = &run.loops[number as usize];
+                    end(reach, stitch.at, stitch.source);
+                    first.get_or_insert((stitch.at, stitch.source));
+                    reach = Some([stitch.at; 2]);
+                }
+            }
+        }
+        if let (Some([right, _]), Some(width), Some((at, source))) = (strand.onward, width, first) {
+            end(reach, at + (right * width) as f32, source);
         }
     }
     for (needles, source, carrier) in found {

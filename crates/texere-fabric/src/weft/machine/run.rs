@@ -141,9 +141,8 @@ impl<'a> Run<'a> {
         match operation.instruction {
             Instruction::In => self.bring_in(carriers),
             Instruction::InHook => {
-                if let (Some(held), Some(&carrier)) = (self.carriers.hook(carriers), carriers.first()) {
-                    self.fault(FaultKind::HookHolds(self.name(held)), None, Some(carrier));
-                }
+                self.free_hook(carriers);
+                self.carriers.hook(carriers);
                 self.bring_in(carriers);
             }
             Instruction::ReleaseHook => {
@@ -154,6 +153,9 @@ impl<'a> Run<'a> {
                 }
             }
             Instruction::Out | Instruction::OutHook => {
+                if operation.instruction == Instruction::OutHook {
+                    self.free_hook(carriers);
+                }
                 for &carrier in carriers {
                     if !self.carriers.take_out(carrier) {
                         self.fault(FaultKind::OutWithoutIn, None, Some(carrier));
@@ -180,6 +182,13 @@ impl<'a> Run<'a> {
             }
         }
         Ok(())
+    }
+
+    /// A fault if the hook is to take carriers while it holds another.
+    fn free_hook(&mut self, carriers: &[u32]) {
+        if let (Some(held), Some(&carrier)) = (self.carriers.hooked_beside(carriers), carriers.first()) {
+            self.fault(FaultKind::HookHolds(self.name(held)), None, Some(carrier));
+        }
     }
 
     fn bring_in(&mut self, carriers: &[u32]) {

@@ -94,7 +94,10 @@ fn a_picture_is_jacquard_or_a_chart() {
     assert_eq!(single.files().len(), 2);
     let told = single.told(1).unwrap();
     assert!(told.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", told.place);
-    for (backing, loops) in [("birdseye", 11), ("ladder", 12)] {
+    let upside_down = read("rows = \"first-pick-first\"", &colors("red", "white")).unwrap();
+    let told = upside_down.told(4).unwrap();
+    assert!(told.place.ends_with("motif.png, row 2 from the top, column 2"), "{}", told.place);
+    for (backing, loops) in [("birdseye", 10), ("ladder", 12)] {
         let double = read(&format!("backing = \"{backing}\""), &colors("red", "white")).unwrap();
         assert_eq!(knitted(&double).stitches().loops.len(), loops, "{backing}");
     }

@@ -57,8 +57,8 @@ pub(super) struct Knit {
 pub(super) enum Drawn {
     /// Lines of a file, from 1.
     Lines { file: PathBuf },
-    /// Cells of a chart, row by row from the bottom, both from 0.
-    Cells { file: PathBuf, columns: usize, rows: usize },
+    /// Cells of a chart, row by row from the bottom, both from 0. In an image the bottom row may be the top one.
+    Cells { file: PathBuf, columns: usize, rows: usize, upside_down: bool },
 }
 
 impl Drawn {
@@ -66,9 +66,9 @@ impl Drawn {
     fn place(&self, source: u32) -> String {
         match self {
             Self::Lines { file } => format!("{}, line {source}", named(file)),
-            Self::Cells { file, columns, rows } => {
+            Self::Cells { file, columns, rows, upside_down } => {
                 let (row, column) = (source as usize / columns, source as usize % columns);
-                let row = rows.saturating_sub(row);
+                let row = if *upside_down { row + 1 } else { rows.saturating_sub(row) };
                 format!("{}, row {row} from the top, column {}", named(file), column + 1)
             }
         }

@@ -6,7 +6,7 @@ use crate::memory::room_for;
 /// Which back needles knit where a Jacquard picture is knitted on two beds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Backing {
-    /// Every other needle, by turns from course to course: flecks of all yarns.
+    /// Every other needle, by turns from yarn to yarn and from row to row: flecks of all yarns.
     Birdseye,
     /// Of n yarns in a row each knits every n-th needle, always the same ones: a light back of upright lines.
     Ladder,
@@ -48,11 +48,10 @@ impl Chart {
                 room_for(&mut cells, more, "cells of a chart")?;
             }
             for (place, &of) in yarns.iter().enumerate() {
-                let course = courses.len();
                 cells.extend((0..wales).map(|column| {
                     let back = match backing {
                         None => false,
-                        Some(Backing::Birdseye) => (column + course).is_multiple_of(2),
+                        Some(Backing::Birdseye) => (column + place + row).is_multiple_of(2),
                         Some(Backing::Ladder) => column % yarns.len() == place,
                     };
                     match (yarn(column, row) == of, back) {

@@ -1,7 +1,7 @@
 //! Charts and the programs that knit them, written out as knitout writes operations.
 
 use super::{Backing, Beds, Chart, ChartError};
-use crate::weft::{CarrierSet, Program};
+use crate::weft::{Bed, CarrierSet, Instruction, Program};
 
 /// Operations as knitout writes them, with numbers of yarns from 1.
 fn text(program: &Program) -> String {
@@ -21,7 +21,7 @@ fn knitted(rows: &str, beds: Beds) -> String {
 #[test]
 fn courses_go_to_and_fro() {
     assert_eq!(knitted("tm\nkk\n", Beds::One), "knit + f0 [1]; knit + f1 [1]; miss - f1 [1]; tuck - f0 [1]");
-    let chart = Chart::parse("k k\n\n  kk\nkk\nkk", Beds::One).unwrap().with_yarns(&[0, 1, 1]).unwrap();
+    let chart = Chart::parse("k k\n\n  kk\nkk\nkk", Beds::One).unwrap().with_yarns(&[0, 1, 1, 0]).unwrap();
     assert_eq!(
         text(&chart.program().unwrap()),
         "knit + f0 [1]; knit + f1 [1]; knit + f0 [2]; knit + f1 [2]; knit - f1 [2]; knit - f0 [2]; knit - f1 [1]; \
@@ -29,6 +29,10 @@ fn courses_go_to_and_fro() {
     );
     let sources: Vec<_> = chart.program().unwrap().operations.iter().map(|each| each.source).collect();
     assert_eq!(sources, [0, 1, 2, 3, 5, 4, 7, 6]);
+    // Two rows with three yarns in turn repeat after six.
+    let chart = Chart::parse("k\nk", Beds::One).unwrap().with_yarns(&[0, 1, 2]).unwrap();
+    let carriers: Vec<_> = chart.program().unwrap().operations.iter().map(|each| each.carriers.0).collect();
+    assert_eq!(carriers, [1, 2, 3, 1, 2, 3]);
 }
 
 #[test]
@@ -116,11 +120,28 @@ fn jacquard_has_a_course_for_each_yarn_of_a_row() {
     assert_eq!(
         text(&program(Some(Backing::Birdseye))),
         "rack 0.5; knit + f0 [1]; knit + b0 [1]; miss + f1 [1]; miss + f0 [2]; knit + f1 [2]; knit + b1 [2]; \
-         knit - f1 [2]; knit - b0 [2]; knit - f0 [2]"
+         knit - b1 [2]; knit - f1 [2]; knit - f0 [2]"
     );
     assert_eq!(
         text(&program(Some(Backing::Ladder))),
         "rack 0.5; knit + f0 [1]; knit + b0 [1]; miss + f1 [1]; miss + f0 [2]; knit + f1 [2]; knit + b1 [2]; \
          knit - b1 [2]; knit - f1 [2]; knit - b0 [2]; knit - f0 [2]"
     );
+}
+
+/// On a bird's-eye back the yarns of a row change needles from row to row: no wale of it is of one colour.
+#[test]
+fn birdseye_has_flecks_of_all_yarns() {
+    let chart = Chart::jacquard(4, 4, Some(Backing::Birdseye), |column, row| ((column + row) / 2 % 2) as u32);
+    let program = chart.unwrap().program().unwrap();
+    let mut of_needle = std::collections::BTreeMap::<i32, std::collections::BTreeSet<u32>>::new();
+    for operation in &program.operations {
+        if let Instruction::Knit(_, needle) = operation.instruction
+            && needle.bed == Bed::Back
+        {
+            of_needle.entry(needle.number).or_default().insert(operation.carriers.0);
+        }
+    }
+    assert_eq!(of_needle.len(), 4);
+    assert!(of_needle.values().all(|yarns| yarns.len() == 2), "{of_needle:?}");
 }

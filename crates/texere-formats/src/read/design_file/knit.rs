@@ -14,7 +14,7 @@ use crate::read::error::{first_few, named};
 use crate::read::file::file_name;
 use crate::read::knit::{Drawn, Knit};
 use crate::read::knitout::{self, LoopLengths};
-use crate::read::point_paper::PointPaper;
+use crate::read::point_paper::{PointPaper, RowOrder};
 use crate::read::{Design, ReadError};
 
 /// Wales and courses to the cm, and needles to the inch, that a design may ask for.
@@ -91,8 +91,12 @@ impl Reader<'_> {
         self.without_stitch_lengths()?;
         let refused = |error| self.refused("knit.chart", text.span(), error);
         let chart = Chart::parse(text.as_ref(), self.beds()?).map_err(refused)?;
-        let drawn =
-            Drawn::Cells { file: self.source.path.into(), columns: chart.wales(), rows: chart.courses() };
+        let drawn = Drawn::Cells {
+            file: self.source.path.into(),
+            columns: chart.wales(),
+            rows: chart.courses(),
+            upside_down: false,
+        };
         let (turn, yarns) = self.yarns_in_turn()?;
         let chart = chart.with_yarns(&turn).map_err(refused)?;
         self.charted(name, &chart, yarns, drawn, Vec::new())
@@ -103,6 +107,7 @@ impl Reader<'_> {
         self.without_stitch_lengths()?;
         let path = self.beside(image);
         let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
+        let upside_down = rows == RowOrder::FirstPickFirst;
         let refused = |error: ReadError| error.named(source.place("knit.image", image.span()));
         let paper = PointPaper::read(&path, rows).map_err(refused)?;
         let Some(colors) = &table.colors else {
@@ -115,7 +120,7 @@ impl Reader<'_> {
         let mut warnings = Vec::new();
         let meant = self.of_colors(&paper, colors.as_ref(), &mut warnings)?.map_err(refused)?;
         let (columns, rows) = (paper.ends, paper.picks);
-        let drawn = Drawn::Cells { file: path.clone(), columns, rows };
+        let drawn = Drawn::Cells { file: path.clone(), columns, rows, upside_down };
         let fault = |error| self.refused("knit.image", image.span(), error);
         let is_yarn = |text: &String| self.yarns.thread(text).is_some();
         let design = if meant.iter().all(is_yarn) {

@@ -55,6 +55,18 @@ pub enum FabricError {
         /// The operation where that is so, from 1.
         operation: u64,
     },
+    /// A knit whose yarns run on, between its loops, further than any cloth's.
+    #[error(
+        "yarns pass {passed} needles and courses between {loops} loops, or on loops that are held; {limit} are taken at most"
+    )]
+    KnitRuns {
+        /// Needles that yarns float past, and courses that they rise or that loops are held.
+        passed: u64,
+        /// Loops.
+        loops: u64,
+        /// Most taken for so many loops.
+        limit: u64,
+    },
     /// A needle further out than any machine's, or outside what the machine's beds are racked to.
     #[error("needle {needle} at operation {operation}; needles {} to {limit} are taken", -i64::from(*.limit))]
     KnitNeedle {

@@ -184,3 +184,39 @@ fn what_is_no_cloth_is_refused_by_name() {
         assert!(matches!(gauge(wrong), Err(FabricError::Gauge { .. })), "{wrong:?}");
     }
 }
+
+/// Small programs that would take more memory than there is.
+#[test]
+fn small_programs_of_huge_cloths_are_refused_by_name() {
+    let made = |operations: Vec<(Instruction, u32)>| {
+        let operations = (1..).zip(operations).map(|(source, (instruction, set))| Operation {
+            instruction,
+            carriers: CarrierSet(set),
+            source,
+        });
+        let program = Program {
+            carriers: vec!["A".into(), "B".into()],
+            carrier_sets: vec![vec![], vec![0], vec![1]],
+            operations: operations.collect(),
+            repeat: None,
+        };
+        knit(Machine::default().knit(&program).unwrap().stitches, [1, 1])
+    };
+    let right = |needle| Instruction::Knit(Direction::Right, Needle::front(needle));
+    let left = |needle| Instruction::Knit(Direction::Left, Needle::front(needle));
+    // Floats past all needles that there are.
+    let floats = (0..400).map(|each| (if each % 2 == 0 { right(65536) } else { left(-65536) }, 1)).collect();
+    // A yarn that comes back thousands of courses later, again and again.
+    let mut rises = vec![(right(5), 1), (left(0), 1)];
+    rises.extend((0..20_000).map(|_| (right(0), 2)));
+    rises.extend((0..400).flat_map(|_| [(right(0), 1), (left(5), 1)]));
+    // Loops that are held for thousands of courses.
+    let mut held: Vec<_> = (0..1000).map(|needle| (left(999 - needle), 1)).collect();
+    held.extend((0..20_000).map(|_| (right(999), 1)));
+    held.extend((0..1000).map(|needle| (left(999 - needle), 2)));
+    for (what, operations) in [("floats", floats), ("rises", rises), ("held", held)] {
+        assert!(matches!(made(operations), Err(FabricError::KnitRuns { .. })), "{what}");
+    }
+    assert!(matches!(knit(chart("k"), [9973, 9973]), Err(FabricError::Stitches { .. })));
+    assert!(knit(chart("k"), [10_000, 10_000]).is_ok());
+}

@@ -12,8 +12,19 @@ const WALES_MAX: f32 = 1e6;
 /// The most wales or courses of all copies of a repeat.
 const SIDE_MAX: u32 = 1 << 30;
 
-/// Control points of a loop at least.
+/// How many wales a loop is moved at most.
+const MOVED_MAX: f32 = 256.0;
+
+/// The most loops of several repeats that settle together.
+const TILED_MAX: u64 = 1 << 22;
+
+/// Control points of a loop at least, and of a needle or a course that its yarn passes.
 const LOOP_POINTS: u64 = 10;
+const PASSED_POINTS: u64 = 3;
+
+/// The most needles and courses that yarns pass: so many, and so many more for each loop. All of them take memory.
+const PASSED_MAX: u64 = 1 << 22;
+const PASSED_BESIDE_A_LOOP: u64 = 64;
 
 pub(super) fn gauge(gauge: &Gauge) -> Result<(), FabricError> {
     let Gauge { wale_mm, course_mm, loop_length_mm } = *gauge;
@@ -73,6 +84,10 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricEr
         let listed = parents.start <= parents.end && parents.end as usize <= stitches.parents.len();
         sound(listed, "a loop whose parents are not listed")?;
         sound(far(stitch.at) && far(stitch.head.at), "a loop on no needle")?;
+        sound(
+            (stitch.head.at - stitch.at).abs() <= MOVED_MAX,
+            "a loop that is moved over more than 256 needles",
+        )?;
         if let Fate::Held(child) = stitch.fate {
             sound(refers(child), "a loop that is held by none that there is")?;
             let later =
@@ -104,8 +119,13 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
         until.saturating_sub(i64::from(stitch.course)).unsigned_abs()
     });
     let held: u64 = held.sum();
-    let floats: u64 = stitches.strands.iter().map(|strand| floats(stitches, strand)).sum();
-    let points = LOOP_POINTS * stitches.loops.len() as u64 + held + floats;
+    let passed: u64 = stitches.strands.iter().map(|strand| passed(stitches, strand)).sum();
+    let (passed, loops) = (passed.saturating_add(held.saturating_mul(2)), stitches.loops.len() as u64);
+    let limit = PASSED_MAX + PASSED_BESIDE_A_LOOP * loops;
+    if passed > limit {
+        return Err(FabricError::KnitRuns { passed, loops, limit });
+    }
+    let points = LOOP_POINTS * loops + PASSED_POINTS * passed;
     let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
     if sides.into_iter().any(|(size, copies)| u64::from(size) * u64::from(copies) > u64::from(SIDE_MAX)) {
         return Err(FabricError::Stitches { what: "too many wales or courses" });
@@ -118,11 +138,28 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     if points > POINTS_MAX { Err(FabricError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
 }
 
-/// How many wales a yarn goes beyond one from loop to loop.
-fn floats(stitches: &Stitches, strand: &super::Strand) -> u64 {
-    let at = |step: &Step| match *step {
-        Step::Loop { number, .. } => stitches.loops[number as usize].at,
-        Step::Float { at, .. } => at,
+/// Whether the repeats that settle together are not too many.
+pub(super) fn tiles(stitches: &Stitches, tiles: [u32; 2]) -> Result<(), FabricError> {
+    let count = u64::from(tiles[0]) * u64::from(tiles[1]);
+    if count > 1 && count.saturating_mul(stitches.loops.len() as u64) > TILED_MAX {
+        let what = "copies of a small repeat whose number has no divisor up to 16: take multiples of 4";
+        return Err(FabricError::Stitches { what });
+    }
+    Ok(())
+}
+
+/// How many needles a yarn passes from loop to loop, and how many courses.
+fn passed(stitches: &Stitches, strand: &super::Strand) -> u64 {
+    let place = |step: &Step| match *step {
+        Step::Loop { number, .. } => {
+            let stitch = &stitches.loops[number as usize];
+            (stitch.at, stitch.course)
+        }
+        Step::Float { at, course, .. } => (at, course),
     };
-    strand.steps.windows(2).map(|pair| (at(&pair[0]) - at(&pair[1])).abs() as u64).sum()
+    let pairs = strand.steps.windows(2).map(|pair| {
+        let [(at, course), (next_at, next_course)] = [place(&pair[0]), place(&pair[1])];
+        (at - next_at).abs() as u64 + u64::from(course.abs_diff(next_course))
+    });
+    pairs.sum()
 }

@@ -79,6 +79,7 @@ impl Knitted {
         check::yarns(&yarns, &materials, &sections)?;
         check::stitches(&stitches, yarns.len())?;
         check::size(&stitches, copies)?;
+        check::tiles(&stitches, stitches.repeat.map_or([1, 1], |size| settled_together(size, copies)))?;
         let shape = Shape::new(&gauge, thickest(&stitches, &yarns, &sections));
         Ok(Self { stitches, gauge, yarns, materials, sections, copies, cells: Cells::Round, shape })
     }
@@ -190,7 +191,7 @@ impl Knitted {
         let Some(size) = self.stitches.repeat else {
             return Ok(Repeat { piece: self.piece_of(&self.stitches)?, copies: [1, 1] });
         };
-        let tiles = [0, 1].map(|axis| tiles(size[axis], self.copies[axis]));
+        let tiles = settled_together(size, self.copies);
         let copies = [0, 1].map(|axis| self.copies[axis] / tiles[axis]);
         Ok(Repeat { piece: self.piece_of(&self.stitches.tiled(tiles))?, copies })
     }
@@ -245,6 +246,11 @@ fn thickest(stitches: &Stitches, yarns: &[KnitYarn], sections: &[Section]) -> f6
         yarn.radius_mm * width.max(height)
     };
     2.0 * f64::from(used.map(half).fold(0.0, f32::max))
+}
+
+/// How many repeats settle together along x and along y.
+fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
+    [0, 1].map(|axis| tiles(size[axis], copies[axis]))
 }
 
 /// The fewest repeats that divide `copies` and have enough wales or courses of `size` each; all where none does.

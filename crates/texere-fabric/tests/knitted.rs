@@ -3,6 +3,7 @@
 
 use std::ops::ControlFlow;
 
+use texere_core::settling::Length;
 use texere_core::{ControlPoint, Ends, Material, Origin, Section, Settings, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::weft::{
@@ -219,4 +220,33 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
     }
     assert!(matches!(knit(chart("k"), [9973, 9973]), Err(FabricError::Stitches { .. })));
     assert!(knit(chart("k"), [10_000, 10_000]).is_ok());
+}
+
+/// Loops that ask for lengths of their own get them together; one that does not takes the gauge's.
+#[test]
+fn loops_ask_for_their_lengths() {
+    let given = |lengths: [Option<f32>; 2], gauge: Option<f64>| {
+        let mut stitches = chart("kkkk\nkkkk\nkkkk\nkkkk");
+        for (number, stitch) in stitches.loops.iter_mut().enumerate() {
+            stitch.length_mm = lengths[number % 2];
+        }
+        let gauge = Gauge { loop_length_mm: gauge, ..Gauge::new(1.0, 0.75) };
+        let (yarns, sections) = (vec![KnitYarn::new(0.1)], vec![Section::Circle]);
+        let cloth =
+            Knitted::new(stitches, gauge, yarns, vec![Material::default()], sections, [3, 2]).unwrap();
+        let repeat = cloth.repeat().unwrap();
+        match cloth.finish_of(&repeat, &Finish::default(), 0.0).length {
+            Some(Length::Given(factor)) => Some(f64::from(factor) * repeat.piece.length_mm(0.0) / 16.0),
+            _ => None,
+        }
+    };
+    for (lengths, gauge, mean) in [
+        ([Some(4.0), Some(5.0)], None, 4.5),
+        ([Some(4.0), None], Some(5.0), 4.5),
+        ([None, None], Some(4.2), 4.2),
+    ] {
+        let found = given(lengths, gauge).unwrap();
+        assert!((found - mean).abs() < 1e-5, "{lengths:?}, {gauge:?}: {found}");
+    }
+    assert_eq!(given([Some(4.0), None], None), None);
 }

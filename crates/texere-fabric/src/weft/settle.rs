@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use texere_core::settling::Length;
 use texere_core::{Backend, Layout, Material, Settings, Yarns};
 
-use super::Knitted;
+use super::{Knitted, Stitch};
 use crate::{
     FabricError, Finish, FinishError, KnitMeasures, Measures, Piece, Repeat, Settled, YarnPlace,
     clearance_with_progress, lengths_by_material, lengths_mm, settle, thickness_mm, weight_g,
@@ -55,12 +55,15 @@ impl Knitted {
         Finish { length: Some(length), ..*finish }
     }
 
-    /// What becomes of lengths where nobody says.
+    /// What becomes of lengths where nobody says: all loops together get what each of them asks for, or else the gauge.
     fn length(&self, piece: &Piece, copies: [u32; 2], tension: f32) -> Length {
-        match self.gauge().loop_length_mm {
+        let stitches = &self.stitches().loops;
+        let each = |stitch: &Stitch| stitch.length_mm.map(f64::from).or(self.gauge().loop_length_mm);
+        match stitches.iter().map(each).sum::<Option<f64>>() {
             Some(asked) => {
-                let loops = self.loops() / (u64::from(copies[0]) * u64::from(copies[1]));
-                let factor = asked * loops as f64 / piece.length_mm(tension);
+                let repeats = self.loops() as f64 / stitches.len() as f64;
+                let pieces = f64::from(copies[0]) * f64::from(copies[1]);
+                let factor = asked * repeats / pieces / piece.length_mm(tension);
                 Length::Given(factor.clamp(GIVEN[0], GIVEN[1]) as f32)
             }
             None => Length::Free { tension: 0.0 },

@@ -114,9 +114,9 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricEr
 
 /// Whether the cloth has no more control points than are taken: a low estimate, before any is made.
 pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricError> {
-    let held = stitches.loops.iter().map(|stitch| {
-        let until = held_until(stitches, stitch.fate).unwrap_or(0);
-        until.saturating_sub(i64::from(stitch.course)).unsigned_abs()
+    let held = stitches.loops.iter().filter_map(|stitch| {
+        let until = held_until(stitches, stitch.fate)?;
+        Some(until.saturating_sub(i64::from(stitch.course)).unsigned_abs())
     });
     let held: u64 = held.sum();
     let passed: u64 = stitches.strands.iter().map(|strand| passed(stitches, strand)).sum();

@@ -10,6 +10,8 @@ pub mod measure;
 pub mod phases;
 #[cfg(feature = "gpu")]
 pub mod settling;
+#[cfg(feature = "gpu")]
+pub mod stages;
 pub mod stream;
 #[cfg(feature = "gpu")]
 pub mod tables;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::Parser;
 use texere::DeviceKind;
-use texere_bench::{floor, settling, tables};
+use texere_bench::{floor, settling, stages, tables};
 
 /// Measures devices.
 #[derive(Debug, Parser)]
@@ -32,6 +32,15 @@ enum Args {
         /// Runs of each
         #[arg(long, default_value_t = 5)]
         rounds: usize,
+    },
+    /// From a design to its mesh in a device's memory, stage by stage
+    Stages {
+        /// .wif drafts, .toml designs or knitout programs
+        #[arg(required = true)]
+        designs: Vec<PathBuf>,
+        /// The device, such as opencl:0
+        #[arg(long, default_value = "wgpu:0")]
+        device: String,
     },
     /// The paper's tables and figures, with ours beside them
     Tables {
@@ -120,6 +129,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                 devices
             };
             settling::print(&devices, &settling::Cloths { random, lace }, rounds)
+        }
+        Args::Stages { designs, device } => {
+            stages::print(&designs, &device)?;
+            stages::print_one_yarn(&designs, &device)
         }
         Args::Tables { devices, work, heading, output } => {
             let devices = if devices.is_empty() { all_devices() } else { devices };

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Diagnosis, Faults, Settings};
+use texere::{Design, Diagnosis, Faults, Settings};
 
 use crate::args::CheckArgs;
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, place};
@@ -21,6 +21,9 @@ struct Report {
     touching: f64,
     #[serde(flatten)]
     faults: FaultsReport,
+    /// Of a knit: what is wrong with its program.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    machine: Option<MachineReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     settling: Option<SettlingReport>,
     cures: Vec<CureReport>,
@@ -33,6 +36,25 @@ struct FaultsReport {
     pierces: Option<Pierces>,
     folds: Option<CurvatureReport>,
     jams: Option<Jams>,
+}
+
+/// What a knitting machine could not do, and what it can but a knitter may not mean.
+#[derive(Debug, Serialize)]
+struct MachineReport {
+    errors: Vec<String>,
+    warnings: Vec<String>,
+}
+
+impl MachineReport {
+    /// None of what is not knitted.
+    fn new(design: &Design) -> Option<Self> {
+        design.structure.knitted()?;
+        let said = |errors| {
+            let faults = design.faults().iter().filter(|fault| fault.is_error == errors);
+            faults.map(|fault| fault.said.clone()).collect()
+        };
+        Some(Self { errors: said(true), warnings: said(false) })
+    }
 }
 
 /// Yarns that pierce one another, or themselves.
@@ -71,7 +93,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     // Whether threads that settled have found room shows in their clearance, not in the pitches at which they started.
     let jams = if settling.is_some() { None } else { design.structure.jams() };
     let diagnosis = Diagnosis::new(1.0 - args.accuracy, clearance, jams);
-    let faulty = phrase(&diagnosis.faults.kinds());
+    let machine = MachineReport::new(&design);
+    let pierced = phrase(&diagnosis.faults.kinds());
+    let unknittable = machine.as_ref().is_some_and(|machine| !machine.errors.is_empty());
+    let said: Vec<_> = pierced.into_iter().chain(unknittable.then(|| "can't be knitted".into())).collect();
+    let faulty = (!said.is_empty()).then(|| said.join(", "));
     let cures = match &faulty {
         // They are tried on cloth as it is before it settles.
         Some(_) if settling.is_none() => progress::during("looking for cures", |bar| {
@@ -84,6 +110,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         clean: faulty.is_none(),
         touching: diagnosis.touching,
         faults: FaultsReport::from(&diagnosis.faults),
+        machine,
         settling,
         cures: cures.iter().filter_map(CureReport::new).collect(),
     };
@@ -116,6 +143,12 @@ impl From<&Faults> for FaultsReport {
             folds: faults.folds.as_ref().map(CurvatureReport::from),
             jams,
         }
+    }
+}
+
+impl FaultsReport {
+    fn is_none(&self) -> bool {
+        self.crowded.is_none() && self.pierces.is_none() && self.folds.is_none() && self.jams.is_none()
     }
 }
 
@@ -158,9 +191,18 @@ impl Report {
                 );
             }
         }
+        for (what, faults) in self
+            .machine
+            .iter()
+            .flat_map(|machine| [("machine", &machine.errors), ("warning", &machine.warnings)])
+        {
+            faults.iter().for_each(|fault| line(what, fault.clone()));
+        }
         if self.clean {
             let jam = if self.settling.is_some() { "" } else { ", no jam" };
             line("clean", format!("nothing nearer than {} of touching, no fold{jam}", self.touching));
+        } else if self.faults.is_none() {
+            // No change of the cloth makes a program one that a machine can knit.
         } else if self.settling.is_some() {
             line(
                 "cure",

@@ -1,5 +1,6 @@
 //! `texere draft`
 
+use texere::weft::Knitted;
 use texere::{Drawdown, Output, Side};
 
 use crate::args::DraftArgs;
@@ -12,20 +13,42 @@ const GATHERED: usize = 1 << 16;
 
 pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
     let design = texere::read(&args.design)?;
-    let woven = design.structure.woven().ok_or_else(|| Fail::not_woven(&args.design))?;
     let side = if args.back { Side::Back } else { Side::Face };
+    let (woven, knit) = (design.structure.woven(), design.structure.knitted());
     if args.text {
-        print_rows(woven.cloth().drawdown(), side)?;
+        match (woven, knit) {
+            (Some(woven), _) => print_rows(woven.cloth().drawdown(), side)?,
+            (None, Some(knit)) => print_stitches(knit, side)?,
+            (None, None) => return Err(Fail::no_draft(&args.design)),
+        }
     }
     if let Some(output) = &args.output {
         let sparing = Output::to(output).sparing(design.files());
-        let [width, height] = texere::write_draft(woven.cloth(), woven.draft(), side, sparing)?;
+        let [width, height] = match (woven, knit) {
+            (Some(woven), _) => texere::write_draft(woven.cloth(), woven.draft(), side, sparing)?,
+            (None, Some(knit)) => texere::write_knit_draft(knit, side, sparing)?,
+            (None, None) => return Err(Fail::no_draft(&args.design)),
+        };
         // With --text, standard output is the drawdown alone.
         if !args.text {
             print::text(&format!("{}: {width} × {height} pixels\n", line(output.display())))?;
         }
     }
     Ok(())
+}
+
+/// Prints a row for each course, the last one on top, some rows at a time.
+fn print_stitches(knit: &Knitted, side: Side) -> Result<(), Fail> {
+    let mut rows = String::new();
+    for row in texere::knit_rows(knit, side)? {
+        rows.push_str(&row);
+        rows.push('\n');
+        if rows.len() >= GATHERED {
+            print::text(&rows)?;
+            rows.clear();
+        }
+    }
+    print::text(&rows)
 }
 
 /// Prints a row for each pick, the last one on top, some rows at a time: the whole text is as large as the cloth.

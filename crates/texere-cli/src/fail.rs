@@ -39,9 +39,9 @@ impl Fail {
         Self { code: WORLD, source: format!("out of memory: {bytes} bytes for {what}").into() }
     }
 
-    /// A draft was asked of a design that is not woven.
-    pub(crate) fn not_woven(design: &Path) -> Self {
-        Self { code: DESIGN, source: format!("{} is not woven cloth", design.display()).into() }
+    /// A draft was asked of a design that has none.
+    pub(crate) fn no_draft(design: &Path) -> Self {
+        Self { code: DESIGN, source: format!("{} has no draft or chart", design.display()).into() }
     }
 
     /// What `check` has found wrong with the cloth.

@@ -3,9 +3,11 @@
 use std::fmt::Write;
 
 use serde::Serialize;
+use texere::weft::Knitted;
 use texere::{Counts, Design, Pipeline, Settings, Structure, Yarns};
 
 use crate::args::InspectArgs;
+use crate::at::{self, YarnUnder};
 use crate::clearance::{ClearanceReport, CurvatureReport};
 use crate::fail::Fail;
 use crate::measures::{JamsReport, MeasuresReport};
@@ -20,7 +22,12 @@ struct Report {
     #[serde(flatten)]
     size: Size,
     #[serde(skip_serializing_if = "Option::is_none", flatten)]
+    knit: Option<KnitReport>,
+    #[serde(skip_serializing_if = "Option::is_none", flatten)]
     cloth: Option<ClothReport>,
+    /// The yarns under the point that was asked for, the topmost first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<Vec<YarnUnder>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     settling: Option<SettlingReport>,
     warnings: Vec<String>,
@@ -38,16 +45,32 @@ struct Size {
     bytes: u64,
 }
 
+/// What a knit has.
+#[derive(Debug, Serialize)]
+struct KnitReport {
+    /// Knit, tuck and split operations that carry yarn; with two yarns one loop of each.
+    loops: u64,
+    courses: u32,
+    wales: u32,
+}
+
 /// What it is as a cloth.
 #[derive(Debug, Serialize)]
 struct ClothReport {
-    ends: usize,
-    picks: usize,
+    #[serde(skip_serializing_if = "Option::is_none", flatten)]
+    woven: Option<WovenReport>,
     size_mm: [f64; 2],
-    jam: JamsReport,
     measures: MeasuresReport,
     clearance: ClearanceReport,
     curvature: CurvatureReport,
+}
+
+/// What woven cloth has.
+#[derive(Debug, Serialize)]
+struct WovenReport {
+    ends: usize,
+    picks: usize,
+    jam: JamsReport,
 }
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
@@ -70,9 +93,12 @@ fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
         settling::yarns(&design, &args.settling, settings.tension, || texere::open("cpu"))?
     };
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
-    let cloth = if args.counts { None } else { ClothReport::new(&design.structure, &yarns, &settings)? };
+    let cloth =
+        if args.counts { None } else { Some(ClothReport::new(&design.structure, &yarns, &settings)?) };
+    let knit = design.structure.knitted().map(KnitReport::new);
+    let at = args.at.map(|point| at::under(&design, &yarns, point, settings.tension));
     let warnings = settling::warnings(&design, settling.as_ref());
-    Ok(Report { warnings, name: design.name, size: Size::new(&counts), cloth, settling })
+    Ok(Report { warnings, name: design.name, size: Size::new(&counts), knit, cloth, at, settling })
 }
 
 impl Size {
@@ -88,36 +114,47 @@ impl Size {
     }
 }
 
+impl KnitReport {
+    fn new(knit: &Knitted) -> Self {
+        let [across, along] = knit.copies().map(u64::from);
+        let [wales, courses] = knit.size();
+        Self { loops: knit.stitches().loops.len() as u64 * across * along, courses, wales }
+    }
+}
+
 impl ClothReport {
-    /// None for what is not woven.
-    fn new(structure: &Structure, yarns: &Yarns, settings: &Settings) -> Result<Option<Self>, Fail> {
-        let Some(woven) = structure.woven() else { return Ok(None) };
+    fn new(structure: &Structure, yarns: &Yarns, settings: &Settings) -> Result<Self, Fail> {
         let clearance = progress::during("measuring how near yarns come", |bar| {
             structure.clearance(yarns, settings, progress::share(bar))
         })?;
         let measures = structure.measures(yarns, settings.tension)?;
-        Ok(Some(Self {
-            ends: woven.cloth().warp().len(),
-            picks: woven.cloth().weft().len(),
+        Ok(Self {
+            woven: structure.woven().map(|woven| WovenReport {
+                ends: woven.cloth().warp().len(),
+                picks: woven.cloth().weft().len(),
+                jam: JamsReport::from(woven.jam_report()),
+            }),
             size_mm: structure.size_mm(),
-            jam: JamsReport::from(woven.jam_report()),
             measures: MeasuresReport::new(&measures, yarns.materials()),
             clearance: ClearanceReport::from(&clearance),
             curvature: CurvatureReport::from(&clearance.bend),
-        }))
+        })
     }
 
     fn lines(&self) -> Vec<(&'static str, String)> {
         let percent = |share: f64| format!("{:.1} %", share * 100.0);
         let measures = &self.measures;
         let [width, height] = self.size_mm;
-        let (crimp, cover) = (measures.crimp, &measures.cover);
         let mut lines = vec![
             (
                 "cloth",
                 format!(
-                    "{width:.1} × {height:.1} mm, {:.3} mm thick, {} ends by {} picks",
-                    measures.thickness_mm, self.ends, self.picks
+                    "{width:.1} × {height:.1} mm, {:.3} mm thick{}",
+                    measures.thickness_mm,
+                    self.woven
+                        .iter()
+                        .map(|woven| format!(", {} ends by {} picks", woven.ends, woven.picks))
+                        .collect::<String>()
                 ),
             ),
             ("yarn, m", format!("{:.3}", measures.length_mm / 1000.0)),
@@ -129,34 +166,35 @@ impl ClothReport {
         let weight = measures
             .areal_weight_g_per_m2
             .map_or("not known: not every yarn has tex".into(), |grams| format!("{grams:.1} g/m²"));
-        lines.extend([
-            ("weight", weight),
-            (
-                "crimp",
-                format!(
-                    "warp {}, weft {}; the warp's share is {:.2}",
-                    percent(crimp.warp),
-                    percent(crimp.weft),
-                    self.jam.warp_crimp
-                ),
-            ),
-            (
-                "cover",
-                format!(
-                    "{}: ends {}, picks {}",
-                    percent(cover.cloth),
-                    percent(cover.fraction.warp),
-                    percent(cover.fraction.weft)
-                ),
-            ),
-        ]);
-        for (set, found) in [("ends", &self.jam.after.warp), ("picks", &self.jam.after.weft)] {
+        lines.push(("weight", weight));
+        if let Some(knit) = &measures.knit {
+            let tightness =
+                knit.tightness.map(|tightness| format!(", tightness {tightness:.1}")).unwrap_or_default();
+            let said = format!(
+                "{:.3} mm{tightness}; {:.1} loops to the cm²",
+                knit.loop_length_mm, knit.loops_per_cm2
+            );
+            lines.push(("loop", said));
+        }
+        if let (Some(crimp), Some(woven)) = (measures.crimp, &self.woven) {
+            let share = woven.jam.warp_crimp;
+            let [warp, weft] = [crimp.warp, crimp.weft].map(percent);
+            lines.push(("crimp", format!("warp {warp}, weft {weft}; the warp's share is {share:.2}")));
+        }
+        if let Some(cover) = &measures.cover {
+            let [cloth, ends, picks] = [cover.cloth, cover.fraction.warp, cover.fraction.weft].map(percent);
+            lines.push(("cover", format!("{cloth}: ends {ends}, picks {picks}")));
+        }
+        let pitches = self.woven.iter().flat_map(|WovenReport { jam, .. }| {
+            [("pitch of ends", &jam.after.warp), ("pitch of picks", &jam.after.weft)]
+        });
+        for (pitch, found) in pitches {
             if let Some(tightest) = &found.tightest {
                 let text = format!(
                     "{:.3} mm at {tightest}; {:.3} mm is the least that round threads pass",
                     found.pitch_mm, found.pitch_min_mm
                 );
-                lines.push((if set == "ends" { "pitch of ends" } else { "pitch of picks" }, text));
+                lines.push((pitch, text));
             }
         }
         lines.push(("clearance", self.clearance.to_string()));
@@ -178,8 +216,18 @@ impl Report {
             ("triangles", size.triangles.to_string()),
             ("mesh, bytes", size.bytes.to_string()),
         ];
+        if let Some(KnitReport { loops, courses, wales }) = &self.knit {
+            lines.push(("loops", format!("{loops} in {courses} courses of {wales} wales")));
+        }
         lines.extend(self.settling.iter().map(|settling| ("settling", settling.to_string())));
         lines.extend(self.cloth.iter().flat_map(ClothReport::lines));
+        if let Some(under) = &self.at {
+            let none = under.is_empty().then(|| "no yarn".into());
+            let said = under.iter().map(ToString::to_string).chain(none);
+            lines.extend(
+                said.enumerate().map(|(number, said)| (if number == 0 { "at the point" } else { "" }, said)),
+            );
+        }
         lines.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
         for (what, value) in lines {
             // Writing to a string can't fail.

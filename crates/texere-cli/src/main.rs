@@ -4,6 +4,7 @@
 //! design is wrong; 4 `check` found that the cloth pierces itself, folds or jams.
 
 mod args;
+mod at;
 mod check;
 mod clearance;
 mod cores;

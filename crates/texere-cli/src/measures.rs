@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use texere::{JamReport, Material, Measures, Tightness};
+use texere::{JamReport, KnitMeasures, Material, Measures, Tightness};
 
 /// A number for the warp, and one for the weft.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -26,10 +26,33 @@ pub(crate) struct MeasuresReport {
     pub(crate) yarns: Vec<YarnReport>,
     /// Length of yarn of each colour, mm.
     colors: BTreeMap<String, f64>,
-    pub(crate) crimp: Sets<f64>,
-    pub(crate) cover: CoverReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) crimp: Option<Sets<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) cover: Option<CoverReport>,
+    /// Of a knit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) knit: Option<LoopsReport>,
     pub(crate) areal_weight_g_per_m2: Option<f64>,
     pub(crate) thickness_mm: f64,
+}
+
+/// [`KnitMeasures`].
+#[derive(Debug, Serialize)]
+pub(crate) struct LoopsReport {
+    pub(crate) loop_length_mm: f64,
+    pub(crate) loops_per_cm2: f64,
+    pub(crate) tightness: Option<f64>,
+}
+
+impl From<KnitMeasures> for LoopsReport {
+    fn from(found: KnitMeasures) -> Self {
+        Self {
+            loop_length_mm: found.loop_length_mm,
+            loops_per_cm2: found.stitch_density,
+            tightness: found.tightness,
+        }
+    }
 }
 
 /// A yarn of the design, as far as the cloth holds it.
@@ -58,18 +81,18 @@ impl MeasuresReport {
         for yarn in &yarns {
             *colors.entry(yarn.color.clone()).or_default() += yarn.length_mm;
         }
-        let cover = measures.cover;
         Self {
             length_mm: measures.length_mm.iter().sum(),
             yarns,
             colors,
-            crimp: measures.crimp.into(),
-            cover: CoverReport {
+            crimp: measures.crimp.map(Sets::from),
+            cover: measures.cover.map(|cover| CoverReport {
                 factor: cover.factor.map(Sets::from),
                 cloth_factor: cover.cloth_factor,
                 fraction: cover.fraction.into(),
                 cloth: cover.cloth,
-            },
+            }),
+            knit: measures.knit.map(LoopsReport::from),
             areal_weight_g_per_m2: measures.areal_weight,
             thickness_mm: measures.thickness_mm,
         }

@@ -100,7 +100,7 @@ impl SettlingReport {
             block_passes: rest.block_passes,
             clearance: rest.end.clearance,
             radius_diameters: rest.end.radius,
-            length_off: match design.finish.length {
+            length_off: match settled.length {
                 Length::Free { .. } => None,
                 Length::Held | Length::Given(_) => Some(rest.end.length),
             },

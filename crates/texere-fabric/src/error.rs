@@ -3,6 +3,8 @@
 use texere_core::{BoundaryError, Origin, PlanError, SectionError, YarnError};
 use thiserror::Error;
 
+use crate::weft::Needle;
+
 /// A structure that can't be taken. Threads are counted from 1, as weavers do.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -40,6 +42,46 @@ pub enum FabricError {
         points: u64,
         /// Most taken.
         limit: u64,
+    },
+    /// A knitting program that is too large in some way.
+    #[error("{count} {what} in a knitting program, at operation {operation}; {limit} are taken at most")]
+    KnitSize {
+        /// Of what.
+        what: &'static str,
+        /// How many.
+        count: u64,
+        /// Most taken.
+        limit: u64,
+        /// The operation where that is so, from 1.
+        operation: u64,
+    },
+    /// A knit whose yarns run on, between its loops, further than any cloth's.
+    #[error(
+        "yarns pass {passed} needles and courses between {loops} loops, or on loops that are held; {limit} are taken at most"
+    )]
+    KnitRuns {
+        /// Needles that yarns float past, and courses that they rise or that loops are held.
+        passed: u64,
+        /// Loops.
+        loops: u64,
+        /// Most taken for so many loops.
+        limit: u64,
+    },
+    /// A needle further out than any machine's, or outside what the machine's beds are racked to.
+    #[error("needle {needle} at operation {operation}; needles {} to {limit} are taken", -i64::from(*.limit))]
+    KnitNeedle {
+        /// The needle.
+        needle: Needle,
+        /// The furthest taken.
+        limit: i32,
+        /// The operation, from 1.
+        operation: u64,
+    },
+    /// An operation with carriers that the program does not have.
+    #[error("operation {operation} takes carriers that the program does not have")]
+    KnitCarriers {
+        /// The operation, from 1.
+        operation: u64,
     },
     /// Memory could not be had.
     #[error("out of memory: {bytes} bytes for {what}")]
@@ -284,6 +326,40 @@ pub enum FabricError {
         extent_mm: f64,
         /// Most taken, mm.
         limit: f64,
+    },
+    /// Wales, courses or loops of a knit that no cloth has.
+    #[error("{what} of {mm} mm, outside {low} to {high} mm")]
+    Gauge {
+        /// `wales`, `courses` or `loops`.
+        what: &'static str,
+        /// Their distance or length, mm.
+        mm: f64,
+        /// Least taken, mm.
+        low: f64,
+        /// Most taken, mm.
+        high: f64,
+    },
+    /// A carrier of a knit that has no yarn.
+    #[error("no yarn for carrier {carrier}; there are {yarns}")]
+    Carrier {
+        /// The carrier, from 1.
+        carrier: u32,
+        /// How many yarns there are.
+        yarns: usize,
+    },
+    /// Stitches that are not those of any cloth.
+    #[error("stitches that no cloth has: {what}")]
+    Stitches {
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// A knit of more control points than are taken.
+    #[error("a knit of {points} control points or more; {limit} are taken at most")]
+    KnitPoints {
+        /// Control points of all yarns, at least.
+        points: u64,
+        /// Most taken.
+        limit: u64,
     },
     /// The yarns can't be taken.
     #[error("the cloth's yarns are not sound")]

@@ -48,6 +48,18 @@ pub fn length_mm(yarns: &Yarns, tension: f32) -> f64 {
     lengths_mm(yarns, tension).iter().sum()
 }
 
+/// Length of one round of a yarn that goes on `shift` further, mm: with the way from its last control point to its next round.
+pub(crate) fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -> f64 {
+    let s = (1.0 - f64::from(tension)) / 2.0;
+    let count = points.len() as isize;
+    let at = |number: isize| {
+        let [x, y, z] = points[number.rem_euclid(count) as usize].position().to_array().map(f64::from);
+        let rounds = number.div_euclid(count) as f64;
+        [x + rounds * shift[0], y + rounds * shift[1], z]
+    };
+    (0..count).map(|first| interval_length([-1, 0, 1, 2].map(|step| at(first + step)), s)).sum()
+}
+
 fn yarn_length(points: &[ControlPoint], closed: bool, s: f64) -> f64 {
     let count = points.len();
     let intervals = if closed { count } else { count.saturating_sub(1) };

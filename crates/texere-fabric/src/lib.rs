@@ -10,7 +10,7 @@
 //! [`Weave`] in its usual notation, or straight from a function. [`Woven`] adds what each thread is like and where it
 //! lies, and turns all into [`texere_core::Yarns`].
 //!
-//! A [`Structure`] is the fabric of any design: [`WovenDesign`] is the only kind so far. It says what is wrong with the
+//! A [`Structure`] is the fabric of any design: a [`WovenDesign`], or a weft knit ([`weft::Knitted`]). It says what is wrong with the
 //! fabric ([`Structure::diagnose`]) and which single changes would cure it ([`Structure::cures`]).
 //!
 //! Yarns are about where they belong then. [`settle`] lets them come to rest on a device, [`Structure::settle`] those of a
@@ -42,8 +42,10 @@ mod memory;
 mod reach;
 mod settling;
 mod structure;
+mod under;
 mod warning;
 mod watch;
+pub mod weft;
 mod woven;
 mod yarn_size;
 
@@ -61,9 +63,10 @@ pub use linking::{
     LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
     WINDOW_REACH, linking, linking_with_progress,
 };
-pub use measures::{Cover, Measures, lengths_by_material, thickness_mm, weight_g};
+pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use settling::{Finish, FinishError, Piece, Repeat, Settled, settle};
 pub use structure::Structure;
+pub use under::yarns_under;
 pub use warning::FabricWarning;
 pub use woven::{
     CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, NO_CROSSING, POINTS_MAX,

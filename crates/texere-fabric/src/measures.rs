@@ -19,7 +19,7 @@ const PEIRCE: f64 = 28.0;
 /// One inch, mm.
 const INCH_MM: f64 = 25.4;
 
-/// What is known of a woven cloth once its yarns are laid.
+/// What is known of a cloth once its yarns are laid.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -30,7 +30,7 @@ const INCH_MM: f64 = 25.4;
 /// let measures = Measures::new(&cloth, &cloth.yarns()?, 0.0)?;
 /// // 20 threads a cm of 30 tex, both ways, and the crimp: 0.1 × 2 × 20 × 30 g/m² and a little more.
 /// assert!((120.0..140.0).contains(&measures.areal_weight.unwrap_or(0.0)));
-/// assert!((measures.cover.cloth - 0.64).abs() < 1e-6);
+/// assert!((measures.cover.unwrap().cloth - 0.64).abs() < 1e-6);
 /// # Ok::<(), texere_fabric::FabricError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -41,13 +41,34 @@ pub struct Measures {
     /// weft; of a cloth whose weft turns it is what the mill has to wind, not the wave of a pick alone.
     ///
     /// **Source**: BS 2863 and ISO 7211-3 define it so.
-    pub crimp: [f64; 2],
-    /// How much of the cloth threads cover.
-    pub cover: Cover,
+    ///
+    /// None of a knit.
+    pub crimp: Option<[f64; 2]>,
+    /// How much of woven cloth its threads cover.
+    pub cover: Option<Cover>,
+    /// What only knits have.
+    pub knit: Option<KnitMeasures>,
     /// Weight, g/m², where every material that is used has a tex: length × tex over the cloth's area.
     pub areal_weight: Option<f64>,
     /// Thickness of the cloth without load, mm: from the lowest point of its yarns' surfaces to the highest.
     pub thickness_mm: f64,
+}
+
+/// What knitters ask of a knit beside its weight and thickness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnitMeasures {
+    /// Loops of the whole cloth.
+    pub loops: u64,
+    /// Wales and courses of the whole cloth.
+    pub size: [u32; 2],
+    /// Length of yarn in a loop, mm: all yarn, floats too, over all loops.
+    pub loop_length_mm: f64,
+    /// Loops to the square centimetre.
+    pub stitch_density: f64,
+    /// √tex over the loop length in cm, where every yarn that is used has a tex and it is the same.
+    ///
+    /// **Source**: the tightness factor of the International Wool Secretariat; plain jersey has 11 to 17, 14 to 15 as a rule.
+    pub tightness: Option<f64>,
 }
 
 /// How much of the cloth its threads cover, seen from the face.
@@ -67,7 +88,7 @@ pub struct Cover {
 }
 
 impl Measures {
-    /// Measures `cloth`, whose yarns are `yarns`, with splines of `tension`.
+    /// Measures a woven `cloth`, whose yarns are `yarns`, with splines of `tension`.
     ///
     /// **Errors**: [`FabricError::OtherYarns`] where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, FabricError> {
@@ -84,8 +105,9 @@ impl Measures {
             lengths.iter().sum::<f64>() / (threads as f64 * along) - 1.0
         };
         Ok(Self {
-            crimp: [crimp(warp, ends, height), crimp(weft, picks, width)],
-            cover: Cover::new(cloth),
+            crimp: Some([crimp(warp, ends, height), crimp(weft, picks, width)]),
+            cover: Some(Cover::new(cloth)),
+            knit: None,
             areal_weight: weight_g(&length_mm, yarns.materials())
                 .map(|grams| grams / (width * height * 1e-6)),
             length_mm,

@@ -5,8 +5,10 @@ use std::ops::ControlFlow;
 use texere_core::{Backend, Section, Settings, Yarns};
 
 use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, ThreadPlace};
+use crate::weft::Knitted;
 use crate::{
-    FabricError, FabricWarning, Finish, FinishError, Measures, Piece, Settled, WovenDesign, YarnPlace, settle,
+    FabricError, FabricWarning, Finish, FinishError, Measures, Piece, Settled, WovenDesign, YarnPlace,
+    clearance_with_progress, settle,
 };
 
 /// How the yarns of a fabric interlace. There are methods for what can be asked of any kind.
@@ -24,9 +26,12 @@ use crate::{
 /// ```
 #[derive(Debug, Clone)]
 #[non_exhaustive]
+#[allow(clippy::large_enum_variant, reason = "a design has one structure")]
 pub enum Structure {
     /// Woven cloth.
     Woven(WovenDesign),
+    /// A weft knit.
+    Weft(Knitted),
 }
 
 impl Structure {
@@ -35,28 +40,41 @@ impl Structure {
     pub const fn woven(&self) -> Option<&WovenDesign> {
         match self {
             Self::Woven(design) => Some(design),
+            Self::Weft(_) => None,
+        }
+    }
+
+    /// The knit, where the fabric is weft-knitted: for what only knits have, such as stitches.
+    #[must_use]
+    pub const fn knitted(&self) -> Option<&Knitted> {
+        match self {
+            Self::Woven(_) => None,
+            Self::Weft(knit) => Some(knit),
         }
     }
 
     /// The yarns of the fabric.
     ///
-    /// **Errors**: [`FabricError`] where they can't be made: see [`Woven::yarns`](crate::Woven::yarns).
+    /// **Errors**: [`FabricError`] where they can't be made: see [`Woven::yarns`](crate::Woven::yarns) and [`Knitted::yarns`].
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().yarns(),
+            Self::Weft(knit) => knit.yarns(),
         }
     }
 
-    /// The yarns as they are before they settle, and what holds them: woven cloth is cut off at its edges, and held there.
+    /// The yarns as they are before they settle, and what holds them: woven cloth is cut off at its edges, and held there. Of a knit
+    /// that repeats it is one repeat: see [`Knitted::repeat`].
     ///
     /// **Errors**: those of [`Structure::yarns`].
     pub fn piece(&self) -> Result<Piece, FabricError> {
         match self {
             Self::Woven(design) => Ok(Piece::cut(design.cloth().yarns()?)),
+            Self::Weft(knit) => knit.piece(),
         }
     }
 
-    /// Lets the yarns of the fabric settle: see [`settle`]. `tension` is that of their splines.
+    /// Lets the yarns of the fabric settle: see [`settle`] and [`Knitted::settle`]. `tension` is that of their splines.
     ///
     /// **Errors**: those of [`Structure::yarns`] and of [`settle`].
     ///
@@ -81,14 +99,19 @@ impl Structure {
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Settled, FinishError> {
-        settle(&self.piece()?, finish, tension, backend, progress)
+        match self {
+            Self::Woven(_) => settle(&self.piece()?, finish, tension, backend, progress),
+            Self::Weft(knit) => knit.settle(finish, tension, backend, progress),
+        }
     }
 
-    /// Whether its yarns settle where a design does not say: those of woven cloth don't, for they lie as they are woven.
+    /// Whether its yarns settle where a design does not say: those of woven cloth don't, for they lie as
+    /// they are woven. Those of a knit do: loops bend one another.
     #[must_use]
     pub const fn settles(&self) -> bool {
         match self {
             Self::Woven(_) => false,
+            Self::Weft(_) => true,
         }
     }
 
@@ -99,6 +122,7 @@ impl Structure {
     pub fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
         match self {
             Self::Woven(design) => design.cloth().place(yarns, place),
+            Self::Weft(_) => ThreadPlace::on(yarns, place),
         }
     }
 
@@ -107,6 +131,7 @@ impl Structure {
     pub fn size_mm(&self) -> [f64; 2] {
         match self {
             Self::Woven(design) => design.cloth().size_mm(),
+            Self::Weft(knit) => knit.size_mm(),
         }
     }
 
@@ -117,6 +142,7 @@ impl Structure {
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         match self {
             Self::Woven(design) => design.set_section(section),
+            Self::Weft(knit) => knit.set_section(section),
         }
     }
 
@@ -125,22 +151,24 @@ impl Structure {
     pub fn warnings(&self) -> Vec<FabricWarning> {
         match self {
             Self::Woven(design) => design.cloth().warnings(),
+            Self::Weft(_) => Vec::new(),
         }
     }
 
-    /// Yarn consumption, crimp, cover, weight and thickness. `yarns` are the structure's own, their splines of `tension`.
+    /// Yarn consumption, weight and thickness; of woven cloth crimp and cover, of a knit its loops. `yarns` are the structure's own, their splines of `tension`.
     ///
     /// **Errors**: [`FabricError::OtherYarns`] where these are not the structure's yarns.
     pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns, tension),
+            Self::Weft(knit) => knit.measures(yarns, tension),
         }
     }
 
     /// How near yarns come to one another and how tightly they bend, at places that a designer can find: see
     /// [`Woven::clearance`](crate::Woven::clearance).
     ///
-    /// **Errors**: those of [`clearance_with_progress`](crate::clearance_with_progress).
+    /// **Errors**: those of [`clearance_with_progress`].
     pub fn clearance(
         &self,
         yarns: &Yarns,
@@ -149,6 +177,10 @@ impl Structure {
     ) -> Result<ClothClearance, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().clearance(yarns, settings, progress),
+            Self::Weft(_) => {
+                let found = clearance_with_progress(yarns, settings, progress)?;
+                Ok(ClothClearance::named(found, yarns))
+            }
         }
     }
 
@@ -157,10 +189,11 @@ impl Structure {
     pub fn jams(&self) -> Option<Jams> {
         match self {
             Self::Woven(design) => design.cloth().jams(),
+            Self::Weft(_) => None,
         }
     }
 
-    /// What is wrong with the fabric: see [`Woven::diagnose`](crate::Woven::diagnose).
+    /// What is wrong with the fabric before it settles: see [`Woven::diagnose`](crate::Woven::diagnose).
     ///
     /// **Errors**: those of [`Structure::yarns`] and of [`Structure::clearance`].
     pub fn diagnose(
@@ -170,13 +203,19 @@ impl Structure {
     ) -> Result<Diagnosis, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().diagnose(touching, progress),
+            Self::Weft(knit) => {
+                let clearance = self.clearance(&knit.yarns()?, &Settings::default(), progress)?;
+                Ok(Diagnosis::new(touching, clearance, None))
+            }
         }
     }
 
-    /// Single changes that were tried and help against the faults of `diagnosis`: see [`WovenDesign::cures`].
+    /// Single changes that were tried and help against the faults of `diagnosis`: see [`WovenDesign::cures`]. There are none
+    /// for knits.
     pub fn cures(&self, diagnosis: &Diagnosis, progress: impl FnMut(f64) -> ControlFlow<()>) -> Vec<Cure> {
         match self {
             Self::Woven(design) => design.cures(diagnosis, progress),
+            Self::Weft(_) => Vec::new(),
         }
     }
 }

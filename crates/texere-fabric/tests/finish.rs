@@ -41,7 +41,7 @@ fn threads_that_are_too_near_come_to_rest() {
     let structure = plain(1.5);
     let before = clearance(&structure.yarns().unwrap(), &Settings::default()).unwrap();
     assert!(before.min < 0.95 && before.curvature_min < 0.6, "{before:?}");
-    let settled = settled(&structure, Finish { length: FREE, ..Finish::default() }, &cpu()).unwrap();
+    let settled = settled(&structure, Finish { length: Some(FREE), ..Finish::default() }, &cpu()).unwrap();
     assert!(settled.rest.at_rest && settled.is_linked(), "{:?} {:?}", settled.rest, settled.linking);
     let after = clearance(&settled.yarns, &Settings::default()).unwrap();
     assert!(after.min >= 0.98 && after.curvature_min > 1.16, "{after:?}");
@@ -178,7 +178,7 @@ fn a_backend_without_a_settler_and_senseless_finishes_are_refused_by_name() {
     let structure = plain(2.0);
     let refused = |finish, device: &dyn Backend| settled(&structure, finish, device).unwrap_err().to_string();
     assert_eq!(refused(Finish::default(), &NullBackend::default()), "null can't settle yarns");
-    let given = Finish { length: Length::Given(3.0), ..Finish::default() };
+    let given = Finish { length: Some(Length::Given(3.0)), ..Finish::default() };
     assert_eq!(refused(given, &cpu()), "the length is 3, not between 0.5 and 2");
 }
 
@@ -261,7 +261,7 @@ fn a_settled_repeat_fits_its_copies() {
     let yarns = yarns.build().unwrap();
     let boundary = Boundary::new(yarns.layout(), [6.8, 6.8], ends).unwrap();
     let repeat = Repeat { piece: Piece::new(yarns, boundary), copies: [3, 3] };
-    let finish = Finish { length: FREE, ..Finish::default() };
+    let finish = Finish { length: Some(FREE), ..Finish::default() };
     let settled = settle(&repeat.piece, &finish, 0.0, &cpu(), |_| ControlFlow::Continue(())).unwrap();
     let cloth = repeat.laid(&settled.yarns).unwrap();
     let found = clearance(&cloth, &Settings::default()).unwrap();

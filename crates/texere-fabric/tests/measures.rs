@@ -36,7 +36,7 @@ fn measures(cloth: &Woven) -> Measures {
 fn straight_ends_have_no_crimp_and_the_weft_has_it_all() {
     let mut cloth = open_cloth([Some(20.0), Some(30.0)], 1.0);
     cloth.set_crimp(Crimp::WarpShare(0.0)).unwrap();
-    let [warp, weft] = measures(&cloth).crimp;
+    let [warp, weft] = measures(&cloth).crimp.unwrap();
     assert!(warp.abs() < 1e-6, "{warp}");
     // Peirce: h = 4/3 p √c. The wave is twice 0.22 mm high, its pitch 1 mm: c = (0.75 × 0.44)² = 0.109.
     assert!((weft / 0.109 - 1.0).abs() < 0.1, "{weft}");
@@ -47,7 +47,7 @@ fn weight_is_length_times_tex_over_area() {
     let cloth = cloth([Some(20.0), Some(30.0)]);
     let measures = measures(&cloth);
     // 0.1 × [25 × (1 + c₁) × 20 + 20 × (1 + c₂) × 30] g/m².
-    let [warp, weft] = measures.crimp;
+    let [warp, weft] = measures.crimp.unwrap();
     let by_hand = 0.1 * (25.0 * (1.0 + warp) * 20.0 + 20.0 * (1.0 + weft) * 30.0);
     assert!((measures.areal_weight.unwrap() / by_hand - 1.0).abs() < 1e-9);
     // 100 ends of 40 mm, 80 picks of 40 mm.
@@ -58,7 +58,7 @@ fn weight_is_length_times_tex_over_area() {
 #[test]
 fn weight_needs_the_tex_of_what_is_used() {
     assert_eq!(measures(&cloth([Some(20.0), None])).areal_weight, None);
-    assert_eq!(measures(&cloth([Some(20.0), None])).cover.factor, None);
+    assert_eq!(measures(&cloth([Some(20.0), None])).cover.unwrap().factor, None);
     // A kilometre of 30 tex weighs 30 g; what is not used needs no tex.
     assert_eq!(weight_g(&[1e6, 0.0], &[material(Some(30.0)), material(None)]), Some(30.0));
     assert_eq!(weight_g(&[1e6, 1.0], &[material(Some(30.0)), material(None)]), None);
@@ -68,7 +68,7 @@ fn weight_needs_the_tex_of_what_is_used() {
 fn cover_is_peirces() {
     let measures = measures(&cloth([Some(19.6836), Some(29.5253)]));
     // Diameters over spacings: 0.2/0.4 and 0.24/0.5, together 0.5 + 0.48 - 0.24.
-    let cover = measures.cover;
+    let cover = measures.cover.unwrap();
     assert!((cover.fraction[0] - 0.5).abs() < 1e-6 && (cover.fraction[1] - 0.48).abs() < 1e-6);
     assert!((cover.cloth - 0.74).abs() < 1e-6);
     // 63.5 ends an inch of Ne 30: 63.5/√30 = 11.593; 50.8 picks of Ne 20: 50.8/√20 = 11.359.
@@ -84,7 +84,7 @@ fn threads_wider_than_their_spacing_cover_everything() {
     let drawdown = Drawdown::new(4, 4).unwrap();
     let sections = vec![Section::Ellipse { aspect: 4.0 }];
     let cloth = Woven::new(drawdown, vec![thread; 4], vec![thread; 4], vec![material(None)], sections);
-    let cover = measures(&cloth.unwrap()).cover;
+    let cover = measures(&cloth.unwrap()).cover.unwrap();
     assert_eq!((cover.fraction, cover.cloth), ([1.0, 1.0], 1.0));
 }
 
@@ -125,7 +125,7 @@ fn a_selvedge_costs_yarn() {
     let cut = measures(&cloth);
     cloth.set_selvedge(true);
     let turning = measures(&cloth);
-    assert_eq!(turning.crimp[0], cut.crimp[0]);
+    assert_eq!(turning.crimp.unwrap()[0], cut.crimp.unwrap()[0]);
     // 79 turns round half circles of 0.25 mm radius.
     let more = turning.length_mm[1] - cut.length_mm[1];
     assert!((more / (79.0 * 0.25 * std::f64::consts::PI) - 1.0).abs() < 0.2, "{more}");

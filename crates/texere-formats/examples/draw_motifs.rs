@@ -1,4 +1,4 @@
-//! Draws the point papers in `designs/`: an ogee lattice with a pomegranate in each of its fields.
+//! Draws the point papers in `designs/`: an ogee lattice with a pomegranate in each of its fields, and lozenges for a knit.
 //!
 //! `cargo run -p texere-formats --example draw_motifs` writes them where they belong. Nothing but sums, products and
 //! square roots goes into them, so that every machine draws the same.
@@ -184,24 +184,63 @@ fn ornament(size: [usize; 2]) -> Paper {
     paper
 }
 
+/// Nested lozenges of two colours, both in each row, for a knitted Jacquard: no colour runs on for more than five wales.
+fn lozenges([width, height]: [usize; 2]) -> Paper {
+    let mut paper = Paper::new([width, height]);
+    for (place, tone) in paper.pixels.iter_mut().enumerate() {
+        let [across, along] =
+            [(place % width, width), (place / width, height)].map(|(at, side)| at.min(side - at));
+        if (across + along) % 6 < 3 {
+            *tone = Tone::Figure;
+        }
+    }
+    paper
+}
+
+/// The ornament for a knitted Jacquard: in figure and ground alike each fifth wale is of the other colour, shifted from row to row, so
+/// that no yarn floats on for long.
+fn bound_ornament(size: [usize; 2]) -> Paper {
+    let mut paper = ornament(size);
+    for (place, tone) in paper.pixels.iter_mut().enumerate() {
+        let binds = (place % size[0] + 2 * (place / size[0])).is_multiple_of(5);
+        *tone = if (*tone == Tone::Figure) == binds { Tone::Ground } else { Tone::Figure };
+    }
+    paper
+}
+
 /// A point paper of the repository.
 struct Drawing {
     file: &'static str,
     size: [usize; 2],
+    draw: fn([usize; 2]) -> Paper,
     /// Colours of ground, figure and shade. Where only two are given, shade is ground.
     palette: &'static [[u8; 3]],
 }
 
-const DRAWINGS: [Drawing; 2] = [
+const DRAWINGS: [Drawing; 4] = [
     Drawing {
         file: "damask.png",
         size: [240, 320],
+        draw: ornament,
         palette: &[[0xf4, 0xec, 0xdc], [0x6e, 0x1a, 0x2c], [0xc8, 0x8a, 0x5a]],
     },
     Drawing {
         file: "paper/figure-7a.png",
         size: [720, 920],
+        draw: ornament,
         palette: &[[0xff, 0xff, 0xff], [0x1f, 0x4e, 0x79]],
+    },
+    Drawing {
+        file: "paper/figure-7b.png",
+        size: [400, 720],
+        draw: bound_ornament,
+        palette: &[[0xec, 0xe4, 0xd2], [0x8c, 0x2f, 0x39]],
+    },
+    Drawing {
+        file: "jacquard.png",
+        size: [20, 24],
+        draw: lozenges,
+        palette: &[[0xec, 0xe4, 0xd2], [0x8c, 0x2f, 0x39]],
     },
 ];
 
@@ -212,7 +251,7 @@ impl Drawing {
 
     /// Numbers of colours, row by row from the top.
     fn pixels(&self) -> Vec<u8> {
-        let tones = ornament(self.size).pixels;
+        let tones = (self.draw)(self.size).pixels;
         tones.iter().map(|&tone| tone as u8 % self.palette.len() as u8).collect()
     }
 

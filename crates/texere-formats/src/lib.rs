@@ -5,5 +5,5 @@
 pub mod read;
 pub mod write;
 
-pub use read::{Design, Place, ReadError, Structure, read};
+pub use read::{Design, MachineFault, Place, ReadError, Structure, Told, read};
 pub use write::WriteError;

@@ -112,8 +112,8 @@ fn yarns_settle_as_the_finish_table_says() {
     };
     // How they settle says nothing of whether they do.
     assert_eq!(finished("press = 0.4\n"), (false, Finish { press_mm: Some(0.4), ..Finish::default() }));
-    assert_eq!(finished("settle = true\nlength = \"held\"\n"), (true, Finish::default()));
-    let of = |length| Finish { length, ..Finish::default() };
+    let of = |length| Finish { length: Some(length), ..Finish::default() };
+    assert_eq!(finished("settle = true\nlength = \"held\"\n"), (true, of(Length::Held)));
     let free = "settle = false\nlength = \"free\"\n";
     assert_eq!(finished(free), (false, of(Length::Free { tension: 0.0 })));
     assert_eq!(finished(&format!("{free}tension = 0.05\n")).1, of(Length::Free { tension: 0.05 }));

@@ -68,17 +68,17 @@ pub use texere_core::{
 pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
-    FabricWarning, FaultKind, Faults, Finish, FinishError, JamReport, Jams, LINKING_CHANGE, Linking,
-    Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Settled, Shape, Shedding,
+    FabricWarning, FaultKind, Faults, Finish, FinishError, JamReport, Jams, KnitMeasures, LINKING_CHANGE,
+    Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Settled, Shape, Shedding,
     Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave, Woven,
     WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm, linking,
-    linking_with_progress, settle,
+    linking_with_progress, settle, weft, yarns_under,
 };
 pub use texere_formats::write::{
-    Format, Output, Side, Written, abandon, draft as write_draft, file as write_file, mesh as write,
-    picture as write_picture, stream,
+    Format, Output, Side, Written, abandon, draft as write_draft, file as write_file,
+    knit_draft as write_knit_draft, knit_rows, mesh as write, picture as write_picture, stream,
 };
-pub use texere_formats::{Design, Place, ReadError, WriteError, read};
+pub use texere_formats::{Design, MachineFault, Place, ReadError, Told, WriteError, read};
 #[cfg(feature = "render")]
 pub use texere_render::{
     Camera, Cut, Extent, Picture, PictureTimings, Quality, RenderError, Renderer, Scene, chunk_limits,

@@ -40,6 +40,28 @@ pub(crate) const PAPERS: &[&str] = &[
      [weft]\nyarns = [\"a\"]\nper_cm = 20.0\n",
 ];
 
+/// Small programs of knitting machines, each with something that the others lack.
+pub(crate) const KNITOUT: &[&str] = &[
+    ";!knitout-2\n;;Machine: SWG091N2\n;;Gauge: 15\n;;Yarn-5: 50-50 Rust\n;;Carriers: 1 2 5\n;;Position: Right\ninhook 5\n\
+     tuck - f3 5\ntuck - f1 5\ntuck + f2 5\nreleasehook 5\nknit - f3 5\nknit - f2 5\nknit - f1 5\nxfer f2 b2\nrack 1\n\
+     xfer b2 f3\nrack 0\nknit + f1 5\nknit + f2 5\nknit + f3 5\nouthook 5\n",
+    ";;Carriers: A B\nin A\nin B\nx-stitch-number 70\nstitch 10 -2.5\nrack 0.25\nknit + f1 A B\nknit + b1 A B\nknit + f2 A\n\
+     miss + f3 A\nsplit - f2 b2 B\ntuck - f1 B\nrack -0.75\nknit + b-1 A\ndrop b1\namiss f1\npause\nout A B\n",
+    ";!knitout-3\nin yarn ;comment\nknit + f0 yarn\nknit + fs1 yarn\nxfer f0 bs0\nxfer bs0 f0\nknit - f0 yarn\nknit - f0\n",
+];
+
+/// Design files of knits, some with an image `motif.png` or a program `program.k` beside them.
+pub(crate) const KNITS: &[&str] = &[
+    "[knit]\nchart = \"\"\"\nkkRRrrk\n>kpptk<\nkkmkllL\n\"\"\"\nrepeat = [2, 1]\nyarns = [\"2 a\", \"b\"]\nwales_per_cm = 8\ncourses_per_cm = 10\n\
+     [yarns.a]\ndiameter_mm = 0.2\n[yarns.b]\ntex = 20\n",
+    "[knit]\nchart = \"\"\"\nbu\nkp\nbb\n\"\"\"\nbeds = 2\nloop_length_mm = 5.0\ncompression = 0.9\ncells = \"even\"\nfloat_max = 3\n[yarns.a]\n\
+     diameter_mm = 0.2\nplies = 2\ntwist_per_m = 100\n",
+    "[knit]\nimage = \"motif.png\"\nbacking = \"birdseye\"\nneedles_per_inch = 10\ncourses_per_cm = 20\n[knit.colors]\n\"#000000\" = \"a\"\n\
+     \"#ffffff\" = \"b\"\n\"#c81020\" = \"a\"\n[yarns.a]\ndiameter_mm = 0.2\n[yarns.b]\ntex = 20\n",
+    "[knit]\nknitout = \"program.k\"\nyarns = [\"a\"]\nwales_per_cm = 8\ncourses_per_cm = 10\n[knit.stitch_lengths_mm]\n70 = 5.5\n\
+     [yarns.a]\ndiameter_mm = 0.2\n",
+];
+
 /// Weaves, each of another form.
 pub(crate) const NOTATIONS: &[&str] = &[
     "plain",

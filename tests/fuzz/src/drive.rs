@@ -5,7 +5,7 @@ use std::path::Path;
 
 use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology};
 use texere_cpu::ParallelBackend;
-use texere_fabric::{Measures, Woven, clearance};
+use texere_fabric::{Structure, clearance};
 use texere_formats::read;
 
 /// The most crossings of a cloth whose yarns are made, and the most control points of one whose mesh is.
@@ -39,6 +39,13 @@ pub fn drive(path: &Path) -> Outcome {
     for warning in design.warnings() {
         assert!(warning.chars().count() < 600, "a warning of {} characters", warning.chars().count());
     }
+    if let Some(knit) = design.structure.knitted() {
+        let size = knit.size().map(|side| side as usize);
+        if size[0].saturating_mul(size[1]) > CROSSINGS {
+            return Outcome::Large;
+        }
+        return cloth(&design.structure);
+    }
     let Some(woven) = design.structure.woven() else { return Outcome::Large };
     let (woven, draft) = (woven.cloth(), woven.draft());
     if woven.warp().len() * woven.weft().len() > CROSSINGS {
@@ -47,27 +54,28 @@ pub fn drive(path: &Path) -> Outcome {
     if let Some(draft) = draft {
         assert_eq!(draft.drawdown().as_ref(), Ok(woven.drawdown()), "a draft that is another cloth's");
     }
-    let outcome = cloth(woven);
+    let outcome = cloth(&design.structure);
     // Another section instead, and everything again where that is taken.
-    if design.structure.set_section(Section::Ellipse { aspect: 1.5 }).is_ok()
-        && let Some(woven) = design.structure.woven()
-    {
-        let _ = cloth(woven.cloth());
+    if design.structure.set_section(Section::Ellipse { aspect: 1.5 }).is_ok() {
+        let _ = cloth(&design.structure);
     }
     outcome
 }
 
 /// Yarns, mesh, measures and clearance of a small cloth.
-fn cloth(woven: &Woven) -> Outcome {
-    let yarns = match woven.yarns() {
+fn cloth(structure: &Structure) -> Outcome {
+    let yarns = match structure.yarns() {
         Ok(yarns) => yarns,
         Err(error) => return Outcome::NoYarns(chain(&error)),
     };
-    assert_eq!(woven.point_count(), yarns.points().len() as u64, "points that were not counted");
+    if let Some(woven) = structure.woven() {
+        let counted = woven.cloth().point_count();
+        assert_eq!(counted, yarns.points().len() as u64, "points that were not counted");
+    }
     if yarns.points().len() > POINTS {
         return Outcome::Large;
     }
-    let corners = woven.sections().iter().find_map(|section| match section {
+    let corners = yarns.layout().sections().iter().find_map(|section| match section {
         Section::Polygon(corners) => Some(corners.len() as u32),
         _ => None,
     });
@@ -86,7 +94,7 @@ fn cloth(woven: &Woven) -> Outcome {
         Err(PipelineError::Plan(PlanError::PolygonSides { .. })) => {}
         Err(error) => panic!("a mesh that could not be made: {}", chain(&error)),
     }
-    let _ = Measures::new(woven, &yarns, 0.0);
+    let _ = structure.measures(&yarns, 0.0);
     let report = clearance(&yarns, &Settings::default()).expect("clearance of sound yarns");
     assert!(report.min >= 0.0 && report.curvature_min >= 0.0, "{report:?}");
     Outcome::Taken

@@ -30,11 +30,16 @@ pub enum Reader {
     Image,
     /// Design files with an image or a WIF draft, both mutated.
     Paper,
+    /// Knitout files.
+    Knitout,
+    /// Design files of knits: charts, and an image or a knitout file, mutated as well.
+    Knit,
 }
 
 impl Reader {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Wif, Self::Design, Self::Notation, Self::Image, Self::Paper];
+    pub const ALL: [Self; 7] =
+        [Self::Wif, Self::Design, Self::Notation, Self::Image, Self::Paper, Self::Knitout, Self::Knit];
 
     /// Its name, in lower case.
     #[must_use]
@@ -45,6 +50,8 @@ impl Reader {
             Self::Notation => "notation",
             Self::Image => "image",
             Self::Paper => "paper",
+            Self::Knitout => "knitout",
+            Self::Knit => "knit",
         }
     }
 }
@@ -77,6 +84,12 @@ impl Input {
                 ("design.toml", text::mutated(corpus::PAPERS, random)),
                 ("motif.png", image_bytes::mutated(random)),
                 ("draft.wif", text::mutated(corpus::WIF, random)),
+            ],
+            Reader::Knitout => vec![("design.k", text::mutated(corpus::KNITOUT, random))],
+            Reader::Knit => vec![
+                ("design.toml", text::mutated(corpus::KNITS, random)),
+                ("motif.png", image_bytes::mutated(random)),
+                ("program.k", text::mutated(corpus::KNITOUT, random)),
             ],
         };
         Self { files }

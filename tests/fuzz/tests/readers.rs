@@ -38,3 +38,13 @@ fn images() {
 fn designs_with_images_and_drafts() {
     ten_thousand(Reader::Paper);
 }
+
+#[test]
+fn knitout_files() {
+    ten_thousand(Reader::Knitout);
+}
+
+#[test]
+fn designs_of_knits() {
+    ten_thousand(Reader::Knit);
+}

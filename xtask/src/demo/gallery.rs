@@ -10,13 +10,24 @@ type View = (&'static str, &'static [&'static str]);
 const FOLDER: &str = "docs/gallery";
 
 /// The designs, each with the views of it, beside face and back: name and options.
-const DESIGNS: [(&str, &[View]); 6] = [
+const DESIGNS: [(&str, &[View]); 17] = [
     ("plain.toml", &[CLOSE_UP, CUT]),
     ("twill.toml", &[CLOSE_UP, CUT]),
     ("satin.toml", &[CLOSE_UP, CUT]),
     ("herringbone.wif", &[CLOSE_UP, ("oblique", &["--view", "oblique"])]),
     ("damask.toml", &[CLOSE_UP]),
     ("two-ply.toml", &[FINE]),
+    ("jersey.toml", &[]),
+    ("rib.toml", &[]),
+    ("interlock.toml", &[]),
+    ("garter.toml", &[]),
+    ("milano.toml", &[]),
+    ("cable.toml", &[]),
+    ("lace.toml", &[]),
+    ("tuck.toml", &[]),
+    ("miss.toml", &[]),
+    ("jacquard.toml", &[]),
+    ("double-jacquard.toml", &[]),
 ];
 
 const CLOSE_UP: View = ("close-up", &["--view", "close-up"]);

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 
 use path::{file_of, mesh_file};
+use render::point;
 pub(crate) use render::{RenderArgs, View};
 pub(crate) use settings::SettingsArgs;
 pub(crate) use settling::SettlingArgs;
@@ -51,7 +52,7 @@ pub(crate) struct DevicesArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct InspectArgs {
-    /// A .wif draft or a .toml design
+    /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
@@ -64,11 +65,14 @@ pub(crate) struct InspectArgs {
     /// settles
     #[arg(long, conflicts_with_all = ["settle", "settling_plot"])]
     pub(crate) counts: bool,
+    /// Say which yarns lie under a point, the topmost first, and what made them; mm from the cloth's left and lower edges
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) at: Option<[f32; 2]>,
 }
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct CheckArgs {
-    /// A .wif draft or a .toml design
+    /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// How far short of touching, as a share, yarns may come and still count as touching. Where yarns touch by
     /// construction the spline between their control points comes out at 0.99 of it
@@ -83,7 +87,7 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct MeshArgs {
-    /// A .wif draft or a .toml design
+    /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// The file to write: .glb or .ply
     #[arg(short, long, value_name = "FILE", value_parser = mesh_file())]
@@ -99,13 +103,14 @@ pub(crate) struct MeshArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct DraftArgs {
-    /// A .wif draft or a .toml design
+    /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point paper where there is no
-    /// shaft draft
+    /// shaft draft; of a knit the stitch chart and the needle diagram
     #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
     pub(crate) output: Option<PathBuf>,
-    /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left
+    /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left. Of a
+    /// knit a row for each course, in the symbols of its charts
     #[arg(long, required_unless_present = "output")]
     pub(crate) text: bool,
     /// Show the back of the cloth, turned over sideways: end 1 on the right

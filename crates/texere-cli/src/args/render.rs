@@ -10,7 +10,7 @@ use super::{SettingsArgs, SettlingArgs};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// A .wif draft or a .toml design
+    /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file; a turntable numbers its pictures: OUT-001.png and so on
     #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
@@ -84,7 +84,7 @@ fn millimetres(text: &str) -> Result<f32, String> {
 }
 
 /// A point from its numbers.
-fn point(text: &str) -> Result<[f32; 2], String> {
+pub(super) fn point(text: &str) -> Result<[f32; 2], String> {
     let (x, y) = text.split_once(',').ok_or("expected two numbers, such as 12.5,8")?;
     let number = |text: &str| match text.trim().parse::<f32>() {
         Ok(number) if number.is_finite() => Ok(number),

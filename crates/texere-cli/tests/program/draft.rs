@@ -134,3 +134,16 @@ fn faults_have_their_exit_codes() {
     }
     assert!(!Path::new(jpeg).exists());
 }
+
+#[test]
+fn a_knits_draft_is_its_chart() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tuck.png");
+    let text = stdout(&texere(&["draft", &design("tuck.toml"), "--text", "-o", path.to_str().unwrap()]));
+    assert_eq!(text, "kkkk\nkktk\nkkkk\ntkkk\n");
+    let [width, height] = png_size(&path);
+    // Below squares of 16 pixels stands the needle diagram.
+    assert!(width > 4 * 16 && height > 4 * 7 * 16, "{width} x {height}");
+    let back = stdout(&texere(&["draft", &design("rib.toml"), "--text", "--back"]));
+    assert_eq!(back, "kp\n");
+}

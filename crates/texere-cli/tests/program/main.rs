@@ -6,6 +6,7 @@ mod cli;
 mod draft;
 mod hostile;
 mod inspect;
+mod knit;
 mod outputs;
 mod settling;
 

@@ -114,18 +114,32 @@ impl Woven {
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<ClothClearance, FabricError> {
         let found = clearance_with_progress(yarns, settings, progress)?;
-        Ok(Names { cloth: self, yarns }.clearance(found))
+        Ok(Names { cloth: Some(self), yarns }.clearance(found))
     }
 
     /// A place on one of the cloth's `yarns`, named by thread and crossing.
     pub(crate) fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
-        Names { cloth: self, yarns }.place(place)
+        Names { cloth: Some(self), yarns }.place(place)
     }
 }
 
-/// A cloth and its yarns, to name places by.
+impl ThreadPlace {
+    /// A place on one of `yarns`, named by the yarn alone.
+    pub(crate) fn on(yarns: &Yarns, place: &YarnPlace) -> Self {
+        Names { cloth: None, yarns }.place(place)
+    }
+}
+
+impl ClothClearance {
+    /// What was found of `yarns`, at places named by the yarn alone.
+    pub(crate) fn named(found: Clearance, yarns: &Yarns) -> Self {
+        Names { cloth: None, yarns }.clearance(found)
+    }
+}
+
+/// Yarns to name places by, and the cloth that they are woven to.
 struct Names<'a> {
-    cloth: &'a Woven,
+    cloth: Option<&'a Woven>,
     yarns: &'a Yarns,
 }
 
@@ -151,11 +165,11 @@ impl Names<'_> {
 
     fn crowd(&self, crowd: &Crowd) -> ThreadCrowd {
         let place = self.place(&crowd.place);
-        let thread = match place.thread {
-            Origin::End(number) => self.cloth.warp().get((number as usize).wrapping_sub(1)),
-            Origin::Pick(number) => self.cloth.weft().get((number as usize).wrapping_sub(1)),
+        let thread = self.cloth.and_then(|cloth| match place.thread {
+            Origin::End(number) => cloth.warp().get((number as usize).wrapping_sub(1)),
+            Origin::Pick(number) => cloth.weft().get((number as usize).wrapping_sub(1)),
             _ => None,
-        };
+        });
         ThreadCrowd {
             place,
             thickness_mm: crowd.thickness_mm,
@@ -172,24 +186,26 @@ impl Names<'_> {
 
     fn crossing(&self, place: &YarnPlace) -> Option<Crossing> {
         let number = place.source.filter(|source| *source != NO_CROSSING)?;
-        let ends = self.cloth.warp().len() as u32;
+        let ends = self.cloth?.warp().len() as u32;
         Some(Crossing { end: number % ends + 1, pick: number / ends + 1 })
     }
 
     /// The thread that a yarn is at a place: a weft that turns round is many picks.
     fn thread(&self, place: &YarnPlace, crossing: Option<Crossing>) -> Origin {
         let origin = self.yarns.layout().yarns()[place.yarn].origin;
-        match (origin, crossing) {
-            (Origin::Pick(_), Some(crossing)) => Origin::Pick(crossing.pick),
-            (Origin::Pick(_), None) if self.cloth.selvedge() => Origin::Pick(self.pick_at(place.position[1])),
+        match (origin, crossing, self.cloth) {
+            (Origin::Pick(_), Some(crossing), _) => Origin::Pick(crossing.pick),
+            (Origin::Pick(_), None, Some(cloth)) if cloth.selvedge() => {
+                Origin::Pick(pick_at(cloth, place.position[1]))
+            }
             _ => origin,
         }
     }
+}
 
-    /// The pick nearest to height `y` of the cloth, mm.
-    fn pick_at(&self, y: f64) -> u32 {
-        let [_, middles] = self.cloth.middles_mm();
-        let distances = middles.into_iter().map(|middle| (middle - y).abs());
-        (1..).zip(distances).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(1, |(pick, _)| pick)
-    }
+/// The pick nearest to height `y` of `cloth`, mm.
+fn pick_at(cloth: &Woven, y: f64) -> u32 {
+    let [_, middles] = cloth.middles_mm();
+    let distances = middles.into_iter().map(|middle| (middle - y).abs());
+    (1..).zip(distances).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(1, |(pick, _)| pick)
 }

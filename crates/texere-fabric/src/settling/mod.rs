@@ -90,7 +90,7 @@ pub fn settle(
     };
     let measured = |done| progress(COMPARED + (1.0 - COMPARED) * done);
     let clearance = clearance_with_progress(&yarns, &settings, measured)?;
-    Ok(Settled { yarns, rest, linking, clearance, course })
+    Ok(Settled { yarns, length: finish.length(), rest, linking, clearance, course })
 }
 
 /// `yarns` with all their control points elsewhere.

@@ -1,9 +1,11 @@
 //! A piece of cloth that is to settle.
 
 use texere_core::settling::Settling;
-use texere_core::{Boundary, Yarns};
+use texere_core::{Boundary, Ends, Yarns};
 
 use super::Finish;
+use crate::length::round_length_mm;
+use crate::lengths_mm;
 
 /// A piece of cloth that is to settle: its yarns, how it goes on at its edges, and what holds it there.
 #[derive(Debug, Clone)]
@@ -41,13 +43,29 @@ impl Piece {
         Self { boundary: Boundary::without_repeat(layout), pinned, yarns }
     }
 
-    /// The problem that `finish` makes of it, for splines of `tension`.
-    pub(super) fn settling(&self, finish: &Finish, tension: f32) -> Settling<'_> {
+    /// Length of all its yarns, mm, their splines of `tension`: of one that goes on, as far as to its next round.
+    #[must_use]
+    pub fn length_mm(&self, tension: f32) -> f64 {
+        let lengths = lengths_mm(&self.yarns, tension);
+        let yarns = lengths.into_iter().enumerate().map(|(yarn, length)| match self.boundary.ends()[yarn] {
+            Ends::Open | Ends::Closed => length,
+            Ends::Repeats(_) => {
+                let points = self.yarns.yarn_points(yarn).unwrap_or(&[]);
+                round_length_mm(points, self.boundary.onward_mm(yarn), tension)
+            }
+        });
+        yarns.sum()
+    }
+
+    /// The problem that `finish` makes of it, for splines of `tension`: for those who run a settler themselves, and leave what came
+    /// to rest on its device.
+    #[must_use]
+    pub fn settling(&self, finish: &Finish, tension: f32) -> Settling<'_> {
         let settling = Settling::new(&self.yarns)
             .spline_tension(tension)
             .boundary(self.boundary.clone())
             .pinned(self.pinned.clone())
-            .length(finish.length)
+            .length(finish.length())
             .passes(finish.passes);
         match finish.press_mm {
             Some(gap) => settling.plates(gap),

@@ -1,5 +1,7 @@
 //! One repeat of a cloth, laid side by side.
 
+use std::ops::Range;
+
 use texere_core::{ControlPoint, Ends, Layout, Yarns};
 
 use super::Piece;
@@ -42,13 +44,22 @@ impl Repeat {
     /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's, [`FabricError::OutOfMemory`],
     /// and [`FabricError::Yarns`] where there is no copy, or coordinates would lie too far out.
     pub fn laid(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        self.laid_beyond(yarns, 0)
+    }
+
+    /// As [`Repeat::laid`], but a yarn that is cut off where the copies end goes so many control points further at both its ends, so
+    /// that all of it within the copies bends as in the repeat.
+    ///
+    /// **Errors**: those of [`Repeat::laid`].
+    pub fn laid_beyond(&self, yarns: &Yarns, beyond: u32) -> Result<Yarns, FabricError> {
         let (layout, boundary) = (yarns.layout(), &self.piece.boundary);
         if layout.offsets() != self.piece.yarns.layout().offsets() {
             let planned = self.piece.yarns.layout().point_count();
             return Err(FabricError::OtherYarns { points: layout.point_count(), planned });
         }
         let copies = u64::from(self.copies[0]) * u64::from(self.copies[1]);
-        let total = usize::try_from(u128::from(copies) * u128::from(layout.point_count()));
+        let ends = 2 * u64::from(beyond) * layout.yarns().len() as u64;
+        let total = usize::try_from(u128::from(copies) * u128::from(layout.point_count() + ends));
         let total = total.unwrap_or(usize::MAX);
         let (mut table, mut offsets) = (Vec::new(), vec![0]);
         let (mut points, mut sources) = (Vec::new(), Vec::new());
@@ -68,15 +79,28 @@ impl Repeat {
                 continue;
             }
             let next = |cell: &[i64; 2]| onward.map(|onward| [cell[0] + onward[0], cell[1] + onward[1]]);
-            for round in std::iter::successors(Some(cell), next).take_while(|cell| self.holds(*cell)) {
+            let range = yarns.range(yarn).unwrap_or_default();
+            let mut lay = |round: [i64; 2], part: Range<usize>| {
                 let [x, y] = [0, 1].map(|axis| round[axis] as f64 * f64::from(boundary.repeat()[axis]));
-                points.extend(yarns.yarn_points(yarn).unwrap_or(&[]).iter().map(|point| {
+                points.extend(yarns.points()[part.clone()].iter().map(|point| {
                     let at = |own: f32, moved: f64| (f64::from(own) + moved) as f32;
                     ControlPoint { x: at(point.x, x), y: at(point.y, y), ..*point }
                 }));
-                if let (Some(all), Some(range)) = (yarns.sources(), yarns.range(yarn)) {
-                    sources.extend_from_slice(&all[range]);
+                if let Some(all) = yarns.sources() {
+                    sources.extend_from_slice(&all[part]);
                 }
+            };
+            let beyond = (beyond as usize).min(range.len());
+            if let Some(onward) = onward {
+                lay([cell[0] - onward[0], cell[1] - onward[1]], range.end - beyond..range.end);
+            }
+            let mut last = cell;
+            for round in std::iter::successors(Some(cell), next).take_while(|cell| self.holds(*cell)) {
+                lay(round, range.clone());
+                last = round;
+            }
+            if let Some(after) = next(&last) {
+                lay(after, range.start..range.start + beyond);
             }
             table.push(layout.yarns()[yarn]);
             offsets.push(points.len() as u64);

@@ -8,8 +8,9 @@ use crate::{Clearance, Linking, YarnPlace};
 /// What is asked of yarns that settle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Finish {
-    /// What becomes of lengths, and the tension that draws yarns in where these are free.
-    pub length: Length,
+    /// What becomes of lengths, and the tension that draws yarns in where these are free. Where none is said, a knit's loops reach
+    /// the length that its gauge asks for, or are free; all other yarns are held.
+    pub length: Option<Length>,
     /// The cloth is pressed between two plates so many mm apart while yarns settle. Those that are at rest from the start stay
     /// as they are.
     pub press_mm: Option<f32>,
@@ -19,10 +20,17 @@ pub struct Finish {
     pub record: bool,
 }
 
+impl Finish {
+    /// What becomes of lengths: they are held where nothing else is said.
+    pub(super) fn length(&self) -> Length {
+        self.length.unwrap_or(Length::Held)
+    }
+}
+
 impl Default for Finish {
-    /// Lengths are held, nothing presses, 250 passes of either form at most, no record.
+    /// Lengths as the structure has them, nothing presses, 250 passes of either form at most, no record.
     fn default() -> Self {
-        Self { length: Length::Held, press_mm: None, passes: 250, record: false }
+        Self { length: None, press_mm: None, passes: 250, record: false }
     }
 }
 
@@ -32,6 +40,8 @@ pub struct Settled {
     /// The yarns: layout, materials and sources of those that came in. Where any have passed through one another on their way,
     /// these are the very ones that came in.
     pub yarns: Yarns,
+    /// What became of lengths.
+    pub length: Length,
     /// Passes, and what was seen at the start and at the end. Where the yarns are those that came in, its end is its start and
     /// they are not at rest.
     pub rest: Rest,

@@ -5,6 +5,8 @@ use std::path::{self, Path, PathBuf};
 use texere_core::Yarns;
 use texere_fabric::{FabricError, Finish, Structure};
 
+use super::knit::KnittedFrom;
+
 /// A design, read and checked.
 ///
 /// ```no_run
@@ -24,18 +26,52 @@ pub struct Design {
     pub finish: Finish,
     remarks: Vec<String>,
     files: Vec<PathBuf>,
+    knitted_from: Option<KnittedFrom>,
+    faults: Vec<MachineFault>,
+}
+
+/// What a knitting machine could not do, or a knitter would not want it to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MachineFault {
+    /// Where, and what.
+    pub said: String,
+    /// Whether a machine could not do it. Otherwise it can, but the cloth may not be what was meant.
+    pub is_error: bool,
+}
+
+/// What told a machine to make a piece of yarn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Told {
+    /// The line of a knitout file, or the cell of a chart.
+    pub place: String,
+    /// The instructions that stand there, as knitout writes them, with their carriers.
+    pub instructions: Vec<String>,
 }
 
 impl Design {
     /// A design whose yarns settle as those of its structure do.
     pub(super) fn new(name: String, structure: Structure, remarks: Vec<String>) -> Self {
         let (settle, finish) = (structure.settles(), Finish::default());
-        Self { name, structure, settle, finish, remarks, files: Vec::new() }
+        Self {
+            name,
+            structure,
+            settle,
+            finish,
+            remarks,
+            files: Vec::new(),
+            knitted_from: None,
+            faults: Vec::new(),
+        }
     }
 
     /// The same design with what it says about how its yarns settle.
     pub(super) fn finished(self, settle: Option<bool>, finish: Finish) -> Self {
         Self { settle: settle.unwrap_or(self.settle), finish, ..self }
+    }
+
+    /// The same design with the program that it is knitted from, and what a machine says of it.
+    pub(super) fn knitted(self, from: KnittedFrom, faults: Vec<MachineFault>) -> Self {
+        Self { knitted_from: Some(from), faults, ..self }
     }
 
     /// Notes a file that it was read from.
@@ -50,6 +86,19 @@ impl Design {
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {
         &self.files
+    }
+
+    /// What is wrong with the program of a knit; these are among the [`remarks`](Design::remarks), too.
+    #[must_use]
+    pub fn faults(&self) -> &[MachineFault] {
+        &self.faults
+    }
+
+    /// What told a machine to make the yarn of a control point, by that point's [source](Yarns::sources). None of what is not
+    /// knitted.
+    #[must_use]
+    pub fn told(&self, source: u32) -> Option<Told> {
+        self.knitted_from.as_ref().map(|from| from.told(source))
     }
 
     /// What the reader had to assume or leave out.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use texere_core::SectionError;
 use texere_fabric::FabricError;
+use texere_fabric::weft::ChartError;
 use thiserror::Error;
 
 /// A place in a design file.
@@ -78,6 +79,11 @@ pub(super) fn first_few(names: impl ExactSizeIterator<Item = String>) -> String 
     let more = names.len().saturating_sub(FEW);
     let few = names.take(FEW).map(|name| shown(&name)).collect::<Vec<_>>().join(", ");
     if more > 0 { format!("{few} and {more} more") } else { few }
+}
+
+/// A word in quotes; that there is none, where it is empty.
+fn quoted(word: &str) -> String {
+    if word.is_empty() { "the line ends".into() } else { format!("\"{word}\"") }
 }
 
 /// A number as a person writes it: with an exponent where it would have many zeros.
@@ -214,6 +220,20 @@ pub enum ReadError {
         /// What the parser says.
         message: String,
     },
+    /// A word of a line that the file's format does not allow there.
+    #[error("{}, line {line}, column {column}: {}, expected {expected}", named(.file), quoted(.value))]
+    Word {
+        /// The file.
+        file: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// The column at which the word begins, in letters from 1.
+        column: usize,
+        /// The word; empty where the line ends too early.
+        value: String,
+        /// What should stand there.
+        expected: String,
+    },
     /// A value that the file's format does not allow there.
     #[error("{place}: {message}")]
     Value {
@@ -237,6 +257,14 @@ pub enum ReadError {
         place: Place,
         /// Why.
         source: FabricError,
+    },
+    /// A chart that can't be knitted.
+    #[error("{place} is no chart")]
+    Chart {
+        /// Where.
+        place: Place,
+        /// Why.
+        source: ChartError,
     },
     /// A file that the design names can't be taken.
     #[error("{place} can't be taken")]

@@ -4,6 +4,8 @@ mod design;
 mod design_file;
 mod error;
 mod file;
+mod knit;
+mod knitout;
 mod memory;
 mod point_paper;
 mod threads;
@@ -11,13 +13,16 @@ mod wif;
 
 use std::path::Path;
 
+use file::file_name;
+use knitout::LoopLengths;
 use texere_fabric::{Relief, WovenDesign};
 
-pub use design::Design;
+pub use design::{Design, MachineFault, Told};
 pub use error::{Place, ReadError};
 pub use texere_fabric::Structure;
 
-/// Reads the design in `path`: a WIF draft (`.wif`) or texere's own design file (`.toml`).
+/// Reads the design in `path`: a WIF draft (`.wif`), a program of a knitting machine (knitout, `.k`), or texere's own design file
+/// (`.toml`).
 ///
 /// **Errors**: [`ReadError`], which names file, line, field, value and limit as far as they apply.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
@@ -31,7 +36,11 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
             Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings))
         }
         Some("toml") => design_file::read(path),
-        _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml" }),
+        Some("k" | "knitout") => {
+            let knitout = knitout::read(path, &LoopLengths::new())?;
+            knit::from_knitout(path, file_name(path), knitout)
+        }
+        _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml, .k, .knitout" }),
     }
     .map(|design| design.noting(path))
 }

@@ -34,7 +34,7 @@ const PIXELS_PER_BYTE: u64 = 8 * 1032;
 const COLORS_MAX: usize = 256;
 
 /// Which pick the first (top) row of an image is.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum RowOrder {
     /// As a weaver draws: the first pick at the bottom.

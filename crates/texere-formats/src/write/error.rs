@@ -98,6 +98,20 @@ pub enum WriteError {
         /// Most pixels of a side.
         limit: usize,
     },
+    /// A knit with more stitches than a chart has squares.
+    #[error(
+        "a chart of {wales} wales and {courses} courses; {side} of each are drawn at most, and {squares} squares"
+    )]
+    ChartTooLarge {
+        /// Wales of the chart.
+        wales: usize,
+        /// Courses of the chart.
+        courses: usize,
+        /// Most drawn of either.
+        side: usize,
+        /// Most squares.
+        squares: usize,
+    },
     /// A yarn refers to a material that the mesh does not have.
     #[error("yarn {yarn} is of material {material}, but there are {materials}")]
     UnknownMaterial {

@@ -5,5 +5,6 @@ mod draft;
 mod fabric;
 mod files;
 mod glb;
+mod knit_draft;
 mod outputs;
 mod ply;

@@ -32,11 +32,12 @@ impl FinishTable {
         Ok((settle, finish))
     }
 
-    fn length(&self, source: &Source<'_>) -> Result<Length, ReadError> {
+    /// What becomes of lengths, where the table says so.
+    fn length(&self, source: &Source<'_>) -> Result<Option<Length>, ReadError> {
         let field = "finish.length";
         let mut length = match &self.length {
-            None => Finish::default().length,
-            Some(given) => match (given.as_ref().as_str(), real(given.as_ref())) {
+            None => None,
+            Some(given) => Some(match (given.as_ref().as_str(), real(given.as_ref())) {
                 (Some("held"), _) => Length::Held,
                 (Some("free"), _) => Length::Free { tension: 0.0 },
                 (None, Some(factor)) => {
@@ -47,14 +48,14 @@ impl FinishTable {
                     let expected = "\"held\", \"free\" or how many times its length each yarn is to have";
                     return Err(source.odd(field, given, expected));
                 }
-            },
+            }),
         };
         if let Some(given) = &self.tension {
             let field = "finish.tension";
             let number =
                 source.float(field, given, "the tension that draws yarns in, a number from 0 to 0.1")?;
             let number = source.number(field, &number, 0.0, TENSION_MOST)? as f32;
-            let Length::Free { tension } = &mut length else {
+            let Some(Length::Free { tension }) = &mut length else {
                 let place = source.place(field, given.span());
                 return Err(ReadError::Without { place, needs: "finish.length = \"free\"" });
             };

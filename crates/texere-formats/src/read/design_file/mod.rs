@@ -65,6 +65,22 @@
 //! | `selvedge` | `true`: the weft turns back round the edge ends, one yarn; `false` where not given |
 //! | `jam` | what is done where threads are jammed: `"report"`, where not given, `"flatten"` or `"shrink"` ([`Relief`]) |
 //!
+//! Instead of `[weave]`, `[cloth]`, `[warp]` and `[weft]` a design may have `[knit]`, a weft knit:
+//!
+//! | key | value |
+//! |---|---|
+//! | `chart` | symbols, a line for each row, the last on top ([`Chart::parse`]) |
+//! | `image`, `[knit.colors]`, `rows` | a picture beside the design: each colour a yarn ([`Chart::jacquard`]) or a symbol |
+//! | `knitout` | a program of a knitting machine beside the design |
+//! | `beds`, `backing` | 1 or 2 ([`Beds`]); `"birdseye"` or `"ladder"` ([`Backing`]) |
+//! | `yarns` | the yarns of courses, or of carriers, in turn |
+//! | `repeat` | `[20, 16]`: copies across the wales and along the courses |
+//! | `wales_per_cm` or `needles_per_inch`, `courses_per_cm`, `loop_length_mm` | how close stitches lie ([`Gauge`]) |
+//! | `[knit.stitch_lengths_mm]` | yarn in a loop for each stitch size of a knitout file |
+//! | `compression` | how much of its diameter a yarn keeps, 0.8 to 1 |
+//! | `cells` | `"round"` or `"even"` ([`Cells`]) |
+//! | `float_max` | how many needles a yarn may float past before it is warned of |
+//!
 //! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`settle`](texere_fabric::settle)):
 //!
 //! | key | value |
@@ -78,6 +94,7 @@
 
 mod cloth;
 mod finish;
+mod knit;
 mod schema;
 mod threads;
 mod weave;
@@ -87,6 +104,8 @@ use std::path::Path;
 use texere_core::Section;
 #[cfg(doc)]
 use texere_core::settling::Length;
+#[cfg(doc)]
+use texere_fabric::weft::{Backing, Beds, Cells, Chart, Gauge};
 #[cfg(doc)]
 use texere_fabric::{Crimp, Finish, Relief, Shape, Weave};
 use texere_fabric::{Drawdown, Structure, Woven, WovenDesign};
@@ -108,12 +127,19 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let laid = Cloth::new(&source, &file.cloth)?;
     let (settle, finish) = file.finish.read(&source)?;
     let yarns = YarnTable::new(&source, &file.yarns)?;
+    let weave = match (&file.weave, &file.knit) {
+        (Some(weave), None) => weave,
+        (None, Some(table)) => {
+            return Ok(knit::read(&source, &file, table, &yarns)?.finished(settle, finish));
+        }
+        _ => return Err(ReadError::ExactlyOne { file: path.into(), keys: "[weave] and [knit]" }),
+    };
     let mut warnings = Vec::new();
-    let drawdown = match (&file.weave.notation, &file.weave.image, &file.weave.wif) {
-        (Some(notation), None, None) => weave::from_notation(&source, &file.weave, notation)?,
-        (None, Some(image), None) => weave::from_image(&source, &file.weave, image, &mut warnings)?,
+    let drawdown = match (&weave.notation, &weave.image, &weave.wif) {
+        (Some(notation), None, None) => weave::from_notation(&source, weave, notation)?,
+        (None, Some(image), None) => weave::from_image(&source, weave, image, &mut warnings)?,
         (None, None, Some(wif)) => {
-            return Ok(from_wif(&source, &file, wif, &yarns, laid)?.finished(settle, finish));
+            return Ok(from_wif(&source, &file, weave, wif, &yarns, laid)?.finished(settle, finish));
         }
         _ => {
             let keys = "weave.notation, weave.image and weave.wif";
@@ -122,10 +148,10 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     };
     let mut woven = threaded(&source, &file, &yarns, drawdown)?;
     laid.lay(&source, &mut woven)?;
-    let name = file.name.unwrap_or_else(|| file_name(path));
+    let name = file.name.clone().unwrap_or_else(|| file_name(path));
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
     let design = Design::new(name, Structure::Woven(woven), warnings).finished(settle, finish);
-    Ok(match &file.weave.image {
+    Ok(match &weave.image {
         Some(image) => design.noting(&path.parent().unwrap_or(Path::new("")).join(image.as_ref())),
         None => design,
     })
@@ -154,12 +180,13 @@ fn threaded(
 fn from_wif(
     source: &Source<'_>,
     file: &DesignFile,
+    weave: &schema::WeaveTable,
     wif: &toml::Spanned<String>,
     yarns: &YarnTable,
     laid: Cloth,
 ) -> Result<Design, ReadError> {
-    weave::without_image(source, &file.weave)?;
-    if file.weave.ends.is_some() || file.weave.picks.is_some() {
+    weave::without_image(source, weave)?;
+    if weave.ends.is_some() || weave.picks.is_some() {
         return Err(ReadError::ExactlyOne {
             file: source.path.into(),
             keys: "weave.wif and weave.ends with weave.picks",

@@ -16,7 +16,8 @@ use crate::read::{Place, ReadError};
 #[serde(deny_unknown_fields)]
 pub(super) struct DesignFile {
     pub(super) name: Option<String>,
-    pub(super) weave: WeaveTable,
+    pub(super) weave: Option<WeaveTable>,
+    pub(super) knit: Option<KnitTable>,
     #[serde(default)]
     pub(super) cloth: ClothTable,
     #[serde(default)]
@@ -38,6 +39,29 @@ pub(super) struct WeaveTable {
     pub(super) colors: Option<Spanned<BTreeMap<Spanned<String>, Spanned<String>>>>,
     pub(super) ends: Option<Spanned<i64>>,
     pub(super) picks: Option<Spanned<i64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct KnitTable {
+    pub(super) chart: Option<Spanned<String>>,
+    pub(super) image: Option<Spanned<String>>,
+    pub(super) knitout: Option<Spanned<String>>,
+    pub(super) rows: Option<Spanned<RowOrder>>,
+    pub(super) colors: Option<Spanned<BTreeMap<Spanned<String>, Spanned<String>>>>,
+    pub(super) beds: Option<Spanned<i64>>,
+    pub(super) backing: Option<Spanned<String>>,
+    pub(super) repeat: Option<Spanned<Vec<Spanned<i64>>>>,
+    pub(super) yarns: Option<Spanned<Vec<Spanned<String>>>>,
+    pub(super) wales_per_cm: Option<Spanned<f64>>,
+    pub(super) courses_per_cm: Option<Spanned<f64>>,
+    pub(super) needles_per_inch: Option<Spanned<f64>>,
+    pub(super) loop_length_mm: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub(super) stitch_lengths_mm: BTreeMap<Spanned<String>, Spanned<f64>>,
+    pub(super) compression: Option<Spanned<f64>>,
+    pub(super) cells: Option<Spanned<String>>,
+    pub(super) float_max: Option<Spanned<i64>>,
 }
 
 /// How threads lie. Values of any kind, so that one of the wrong kind is refused with its key.

@@ -20,6 +20,12 @@ const TEX: (f64, f64) = (1e-3, 1e7);
 /// Hardest twist, turns per metre either way.
 const TWIST_PER_M: f64 = 1e5;
 
+/// The most yarns in turn of a knit.
+const TURN_MAX: usize = 100_000;
+
+/// A yarn and its name.
+pub(super) type Named = (String, Thread);
+
 /// The named yarns, ready to be threaded: yarn k has material k and section k.
 #[derive(Debug)]
 pub(super) struct YarnTable {
@@ -114,7 +120,7 @@ impl YarnTable {
         };
         let mut repeat = Vec::new();
         for item in spec.yarns.as_ref() {
-            let (times, thread) = self.item(source, set, item)?;
+            let (times, _, thread) = self.item(source, &format!("{set}.yarns"), item)?;
             // What of a repeat goes beyond the cloth is never seen.
             let times = count.saturating_sub(repeat.len()).min(times as usize);
             repeat.extend(std::iter::repeat_n(thread, times));
@@ -129,27 +135,68 @@ impl YarnTable {
         Ok(threads)
     }
 
+    /// The yarn of that name.
+    pub(super) fn thread(&self, name: &str) -> Option<Thread> {
+        self.names.get(name).copied()
+    }
+
+    /// All names, in their order.
+    pub(super) fn names(&self) -> impl ExactSizeIterator<Item = &String> {
+        self.names.keys()
+    }
+
+    /// The yarn where there is one alone, and its name.
+    pub(super) fn only(&self) -> Option<Named> {
+        let (name, thread) = self.names.first_key_value().filter(|_| self.names.len() == 1)?;
+        Some((name.clone(), *thread))
+    }
+
+    /// The yarns of a list one after another, each a number among those that follow: names and yarns.
+    pub(super) fn in_turn(
+        &self,
+        source: &Source<'_>,
+        field: &str,
+        list: &Spanned<Vec<Spanned<String>>>,
+    ) -> Result<(Vec<u32>, Vec<Named>), ReadError> {
+        let (mut turn, mut yarns) = (Vec::new(), Vec::<Named>::new());
+        for item in list.as_ref() {
+            let (times, name, thread) = self.item(source, field, item)?;
+            let known = yarns.iter().position(|(other, _)| other == name);
+            let number = known.unwrap_or(yarns.len());
+            if known.is_none() {
+                yarns.push((name.into(), thread));
+            }
+            if turn.len() + times as usize > TURN_MAX {
+                return Err(source.bad(field, item, &format!("{TURN_MAX} yarns in turn at most")));
+            }
+            turn.extend(std::iter::repeat_n(number as u32, times as usize));
+        }
+        if turn.is_empty() {
+            return Err(source.unfit(field, list.span(), "at least one yarn"));
+        }
+        Ok((turn, yarns))
+    }
+
     /// One item of a repeat: `"indigo"`, or `"3 indigo"` for three in a row.
     fn item(
         &self,
         source: &Source<'_>,
-        set: &str,
+        field: &str,
         item: &Spanned<String>,
-    ) -> Result<(u32, Thread), ReadError> {
-        let field = format!("{set}.yarns");
+    ) -> Result<(u32, &str, Thread), ReadError> {
         let text = item.as_ref().trim();
-        if let Some(thread) = self.names.get(text) {
-            return Ok((1, *thread));
+        if let Some((name, thread)) = self.names.get_key_value(text) {
+            return Ok((1, name, *thread));
         }
         let (times, name) = text.split_once(char::is_whitespace).unwrap_or(("1", text));
-        let Some(thread) = self.names.get(name.trim()) else {
+        let Some((name, thread)) = self.names.get_key_value(name.trim()) else {
             let known = first_few(self.names.keys().map(|name| format!("\"{name}\"")));
             let expected = format!("a yarn of [yarns], with a number before it or none; there are: {known}");
-            return Err(source.bad(&field, item, &expected));
+            return Err(source.bad(field, item, &expected));
         };
         match times.parse() {
-            Ok(times @ 1..=1_000_000) => Ok((times, *thread)),
-            _ => Err(source.bad(&field, item, "a number from 1 to 1000000 before the yarn's name")),
+            Ok(times @ 1..=1_000_000) => Ok((times, name, *thread)),
+            _ => Err(source.bad(field, item, "a number from 1 to 1000000 before the yarn's name")),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Drafts and point paper as PNG pictures, as weavers draw them on squared paper.
+//! Drafts, point paper and stitch charts as PNG pictures, as weavers and knitters draw them on squared paper.
 //!
 //! ```text
 //! warp yarns
@@ -12,6 +12,7 @@
 //! So is the back of any cloth, turned over sideways so that end 1 is on the right: a draft is written for the face.
 
 mod font;
+mod knit;
 mod sheet;
 
 use texere_fabric::{Draft, Shedding, Thread, Woven};
@@ -19,6 +20,7 @@ use texere_fabric::{Draft, Shedding, Thread, Woven};
 use super::picture::{encoder_room, png};
 use super::target::Target;
 use super::{Output, WriteError};
+pub use knit::{NEEDLES_MAX, knit_draft, knit_rows};
 use sheet::{Block, INK, PAPER, Rgb, Sheet};
 
 /// The most shafts, and the most treadles, that are drawn: more than any loom with treadles or a dobby has.
@@ -157,7 +159,7 @@ fn lay_out<'a>(cloth: &'a Woven, loom: Option<&'a Loom<'a>>, side: Side) -> Shee
         place,
         squares: [ends, 1],
         square: [square, bar],
-        color: Box::new(move |column, _| yarn(cloth, &cloth.warp()[end_of(column)])),
+        color: Box::new(move |column, _, _| yarn(cloth, &cloth.warp()[end_of(column)])),
     });
     let mut squares = |place, squares, color| sheet.put(Block { place, squares, square: [square; 2], color });
     if let Some(loom) = loom {
@@ -166,17 +168,17 @@ fn lay_out<'a>(cloth: &'a Woven, loom: Option<&'a Loom<'a>>, side: Side) -> Shee
         [right, top] = squares(
             [left, top],
             [ends, shafts],
-            Box::new(move |end, row| mark(threading, end, shafts - 1 - row)),
+            Box::new(move |end, row, _| mark(threading, end, shafts - 1 - row)),
         );
         if let Shedding::TieUp { tie_up, .. } = &loom.draft.shedding {
-            let color = Box::new(move |treadle, row| mark(tie_up, treadle, shafts - 1 - row));
+            let color = Box::new(move |treadle, row, _| mark(tie_up, treadle, shafts - 1 - row));
             squares(beside, [columns, shafts], color);
         }
         let uses = loom.uses();
-        let color = Box::new(move |column, row| mark(uses, picks - 1 - row, column));
+        let color = Box::new(move |column, row, _| mark(uses, picks - 1 - row, column));
         [right, _] = squares([right, top], [columns, picks], color);
     }
-    let color = Box::new(move |column, row: usize| {
+    let color = Box::new(move |column, row: usize, _| {
         let up = drawdown.up(end_of(column), picks - 1 - row);
         if up == (side == Side::Face) { INK } else { PAPER }
     });
@@ -185,7 +187,7 @@ fn lay_out<'a>(cloth: &'a Woven, loom: Option<&'a Loom<'a>>, side: Side) -> Shee
         place: [right, top],
         squares: [1, picks],
         square: [bar, square],
-        color: Box::new(move |_, row| yarn(cloth, &cloth.weft()[picks - 1 - row])),
+        color: Box::new(move |_, row, _| yarn(cloth, &cloth.weft()[picks - 1 - row])),
     });
     sheet.close(legend(cloth, loom, side));
     sheet

@@ -39,8 +39,8 @@ pub(super) struct Block<'a> {
     pub(super) squares: [usize; 2],
     /// Width and height of a square, pixels.
     pub(super) square: [usize; 2],
-    /// The colour of a square, by its column and by its row from the top.
-    pub(super) color: Box<dyn Fn(usize, usize) -> Rgb + 'a>,
+    /// The colour of a pixel, by the column of its square, the square's row from the top, and the pixel's place in the square.
+    pub(super) color: Box<dyn Fn(usize, usize, [usize; 2]) -> Rgb + 'a>,
 }
 
 impl Block<'_> {
@@ -123,7 +123,11 @@ impl<'a> Sheet<'a> {
                 let line = across.max(self.line(block, 0, x - left));
                 *pixel = match line {
                     Some(group) => LINES[usize::from(group)],
-                    None => (block.color)((x - left) / block.square[0], (y - top) / block.square[1]),
+                    None => {
+                        let [at, down] = [x - left, y - top];
+                        let [wide, high] = block.square;
+                        (block.color)(at / wide, down / high, [at % wide, down % high])
+                    }
                 };
             }
         }

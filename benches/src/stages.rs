@@ -1,0 +1,204 @@
+//! From a design to its mesh on a device, stage by stage: what the paper's figure 7 takes about ten seconds for.
+
+use std::error::Error;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use texere::{Backend, ControlPoint, Design, Limits, Plan, Repeat, Settings, Yarns};
+use texere_core::settling::{Rest, Settler, SettlingPlan, settle, settled};
+use texere_core::{Layout, Session};
+
+use crate::measure::Bench;
+use crate::one_yarn;
+
+/// How long each stage of a design took, by the host's clock, and how large it is.
+#[derive(Debug, Clone, Default)]
+pub struct Stages {
+    /// The design's name.
+    pub name: String,
+    /// Its yarns.
+    pub yarns: usize,
+    /// Their control points.
+    pub points: u64,
+    /// Triangles of the mesh.
+    pub triangles: u64,
+    /// The file is read, and the structure is made of it.
+    pub read: Duration,
+    /// The structure gives its yarns.
+    pub generate: Duration,
+    /// The tables of mesh and settling, counted and sent.
+    pub plan: Duration,
+    /// Yarns come to rest on the device; nothing where the design's don't settle.
+    pub settle: Option<Duration>,
+    /// How they rest then.
+    pub rest: Option<Rest>,
+    /// Control points to the session: from the host, or from where they settled.
+    pub take: Duration,
+    /// Both stages of the mesh, all chunks, in the device's own memory.
+    pub mesh: Duration,
+}
+
+impl Stages {
+    /// All stages together.
+    #[must_use]
+    pub fn whole(&self) -> Duration {
+        let Self { read, generate, plan, settle, take, mesh, .. } = *self;
+        read + generate + plan + settle.unwrap_or_default() + take + mesh
+    }
+}
+
+/// Takes the design in `path` to a mesh in the memory of `device`. What has settled stays on the device where the design's cloth is
+/// one piece; where it is one repeat, that is read, copied and sent.
+///
+/// # Errors
+///
+/// Whatever the reader, the structure or the device says.
+pub fn stages(path: &Path, device: &dyn Backend) -> Result<Stages, Box<dyn Error>> {
+    let settings = Settings::default();
+    let mut clock = Clock(Instant::now());
+    let design = texere::read(path)?;
+    let mut stages = Stages { name: design.name.clone(), read: clock.lap(), ..Stages::default() };
+    let (yarns, mut rest) = if design.settle {
+        let repeat = match design.structure.knitted() {
+            Some(knit) => knit.repeat()?,
+            None => Repeat { piece: design.structure.piece()?, copies: [1, 1] },
+        };
+        stages.generate = clock.lap();
+        let (plan, mut settler) = settler(&design, &repeat, settings.tension, device)?;
+        stages.plan = clock.lap();
+        stages.rest = Some(settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?);
+        stages.settle = Some(clock.lap());
+        if repeat.copies == [1, 1] {
+            (repeat.piece.yarns, Some(settler))
+        } else {
+            let points = settled(&plan, &mut *settler, repeat.piece.yarns.points())?;
+            (repeat.laid(&moved(&repeat.piece.yarns, &points)?)?, None)
+        }
+    } else {
+        let yarns = design.yarns()?;
+        stages.generate = clock.lap();
+        (yarns, None)
+    };
+    stages.take += clock.lap();
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+    // Two chunks of this size fit beside a settler on the devices that are measured.
+    let limits = device.info().limits.min(&Limits { memory_bytes: CHUNKS, ..Limits::NONE });
+    let chunks: Vec<_> = plan.chunks(&limits)?.collect();
+    let mut session = Session::new(device, plan.clone())?;
+    stages.plan += clock.lap();
+    match &mut rest {
+        Some(settler) => session.take_settled(&mut **settler)?,
+        None => session.upload(0, yarns.points())?,
+    }
+    // Times are of work that has ended.
+    session.timings();
+    stages.take += clock.lap();
+    session.scan()?;
+    for chunk in &chunks {
+        session.mesh(chunk)?;
+    }
+    session.timings();
+    stages.mesh = clock.lap();
+    stages.yarns = yarns.layout().yarns().len();
+    (stages.points, stages.triangles) = (yarns.layout().point_count(), plan.counts().triangles);
+    Ok(stages)
+}
+
+/// Prints a row for each design, each of a second run, when the device is warm.
+///
+/// # Errors
+///
+/// Those of [`stages`].
+pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn Error>> {
+    let backend = texere::open(device)?;
+    println!(
+        "| design, on {device} | yarns | control points | triangles | read, ms | generate | plan | settle | points | mesh | whole | at rest, clearance, radius / d |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
+    for path in designs {
+        stages(path.as_ref(), &*backend)?;
+        let row = stages(path.as_ref(), &*backend)?;
+        let ms = |time: Duration| time.as_secs_f64() * 1e3;
+        let settle = row.settle.map_or_else(|| "-".into(), |time| format!("{:.0}", ms(time)));
+        let rest = row.rest.as_ref().map_or_else(
+            || "-".into(),
+            |rest| format!("{}, {:.3}, {:.3}", rest.at_rest, rest.end.clearance, rest.end.radius),
+        );
+        println!(
+            "| {} | {} | {} | {} | {:.0} | {:.0} | {:.0} | {settle} | {:.1} | {:.2} | {:.0} | {rest} |",
+            row.name,
+            row.yarns,
+            row.points,
+            row.triangles,
+            ms(row.read),
+            ms(row.generate),
+            ms(row.plan),
+            ms(row.take),
+            ms(row.mesh),
+            ms(row.whole()),
+        );
+    }
+    Ok(())
+}
+
+/// Prints what a triangle of each design's mesh takes on a device that is warm, and what it takes where all its control points lie in
+/// one yarn, as in a knit of one carrier.
+///
+/// # Errors
+///
+/// Whatever the reader, the structure or the device says.
+pub fn print_one_yarn(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn Error>> {
+    let backend = texere::open(device)?;
+    println!("\n| mesh, on {device} | yarns | ps a triangle | in one yarn |\n|---|---|---|---|");
+    for path in designs {
+        let design = texere::read(path)?;
+        let yarns = design.yarns()?;
+        let each = |yarns: Yarns| -> Result<f64, Box<dyn Error>> {
+            let mut bench = Bench::new(&*backend, yarns, Settings::default())?;
+            bench.fused()?;
+            let time = bench.fused()?.mesh.as_secs_f64();
+            Ok(time * 1e12 / bench.plan.counts().triangles as f64)
+        };
+        let (count, one) = (yarns.layout().yarns().len(), one_yarn(&yarns)?);
+        println!("| {} | {count} | {:.2} | {:.2} |", design.name, each(yarns)?, each(one)?);
+    }
+    Ok(())
+}
+
+/// Bytes that the chunks of a mesh may take.
+const CHUNKS: u64 = 32 << 30;
+
+/// What a design's repeat settles by on a device.
+fn settler(
+    design: &Design,
+    repeat: &Repeat,
+    tension: f32,
+    device: &dyn Backend,
+) -> Result<(Arc<SettlingPlan>, Box<dyn Settler>), Box<dyn Error>> {
+    let finish = match design.structure.knitted() {
+        Some(knit) => knit.finish_of(repeat, &design.finish, tension),
+        None => design.finish,
+    };
+    let plan = Arc::new(SettlingPlan::new(&repeat.piece.settling(&finish, tension))?);
+    let settler = device.settler(plan.clone())?;
+    Ok((plan, settler))
+}
+
+/// `yarns` with all their control points elsewhere.
+fn moved(yarns: &Yarns, points: &[ControlPoint]) -> Result<Yarns, Box<dyn Error>> {
+    Ok(Yarns::new(Layout::clone(yarns.layout()), yarns.materials().to_vec(), points.to_vec())?)
+}
+
+/// Laps of one clock.
+#[derive(Debug)]
+struct Clock(Instant);
+
+impl Clock {
+    /// Time since the lap before.
+    fn lap(&mut self) -> Duration {
+        let now = Instant::now();
+        now.duration_since(std::mem::replace(&mut self.0, now))
+    }
+}

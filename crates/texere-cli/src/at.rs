@@ -1,0 +1,53 @@
+//! Which yarns lie under a point, and what made them.
+
+use std::fmt;
+
+use serde::Serialize;
+use texere::{Design, Yarns, yarns_under};
+
+/// A yarn under the point. The keys of the JSON are these fields.
+#[derive(Debug, Serialize)]
+pub(crate) struct YarnUnder {
+    /// As a designer calls it: `course 3`, `end 12`.
+    yarn: String,
+    material: String,
+    /// The height of its centreline, mm.
+    z_mm: f64,
+    /// The line of a knitout file or the cell of a chart that it comes from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<String>,
+    /// The instructions that stand there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    instructions: Vec<String>,
+}
+
+/// The yarns under `point`, the topmost first.
+pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2], tension: f32) -> Vec<YarnUnder> {
+    let table = yarns.layout().yarns();
+    let named = |place: &texere::YarnPlace| {
+        let material = yarns.materials().get(table[place.yarn].material as usize);
+        let told = place.source.and_then(|source| design.told(source));
+        let (place_of, instructions) = told.map(|told| (told.place, told.instructions)).unzip();
+        YarnUnder {
+            yarn: design.structure.place(yarns, place).thread.to_string(),
+            material: material.map(|material| material.name.clone()).unwrap_or_default(),
+            z_mm: place.position[2],
+            place: place_of,
+            instructions: instructions.unwrap_or_default(),
+        }
+    };
+    yarns_under(yarns, point.map(f64::from), tension).iter().map(named).collect()
+}
+
+impl fmt::Display for YarnUnder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}, z {:.3} mm", self.yarn, self.material, self.z_mm)?;
+        if let Some(place) = &self.place {
+            write!(f, ": {place}")?;
+        }
+        if !self.instructions.is_empty() {
+            write!(f, ": {}", self.instructions.join("; "))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,95 @@
+//! Which yarns lie under a point of the cloth.
+
+use texere_core::{ControlPoint, Segment, Yarns};
+
+use crate::YarnPlace;
+
+/// Places at which each control interval is tried: between two of them a yarn that bends round another moves less than half its
+/// radius.
+const STEPS: u16 = 24;
+
+/// Where yarns lie under the point (`x`, `y`), mm: those whose outline, seen from the face, holds it; the topmost first. A yarn that
+/// passes several times is named as often, each time with the place nearest to the point.
+///
+/// `tension` is that of the yarns' splines.
+///
+/// ```
+/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|y| ControlPoint::new(1.0, y, 0.3, 0.1)));
+/// let yarns = yarns.build()?;
+/// let under = |point| texere_fabric::yarns_under(&yarns, point, 0.0).iter().map(|place| place.yarn).collect::<Vec<_>>();
+/// assert_eq!(under([1.05, 0.02]), [1, 0]);
+/// assert_eq!(under([0.5, 0.02]), [0]);
+/// # Ok::<(), texere_core::YarnError>(())
+/// ```
+#[must_use]
+pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlace> {
+    let s = (1.0 - tension) / 2.0;
+    let layout = yarns.layout();
+    let mut found = Vec::new();
+    for (number, yarn) in layout.yarns().iter().enumerate() {
+        let points = yarns.yarn_points(number).unwrap_or(&[]);
+        let sources =
+            yarns.sources().zip(yarns.range(number)).and_then(|(sources, range)| sources.get(range));
+        let intervals = if yarn.closed { points.len() } else { points.len().saturating_sub(1) };
+        // The passage that goes on from the interval before: its distance and its place.
+        let mut passage: Option<(f64, YarnPlace)> = None;
+        for interval in 0..intervals {
+            let four = around(points, interval, yarn.closed);
+            let nearest = if may_hold(&four, point) { nearest(&four, point, s) } else { None };
+            match nearest {
+                Some((distance, t, position)) => {
+                    let nearer = interval + usize::from(t > 0.5);
+                    let source = sources.and_then(|sources| sources.get(nearer % points.len()).copied());
+                    let place = YarnPlace { yarn: number, interval, t, position, source };
+                    if passage.is_none_or(|(least, _)| distance < least) {
+                        passage = Some((distance, place));
+                    }
+                }
+                None => found.extend(passage.take().map(|(_, place)| place)),
+            }
+        }
+        found.extend(passage.map(|(_, place)| place));
+    }
+    found.sort_by(|one, other| other.position[2].total_cmp(&one.position[2]));
+    found
+}
+
+/// The four control points of an interval, virtual ends among them.
+fn around(points: &[ControlPoint], interval: usize, closed: bool) -> [ControlPoint; 4] {
+    let count = points.len();
+    let at = |number: usize| points[number % count];
+    let (start, end) = (at(interval), at(interval + 1));
+    let before = if interval > 0 || closed { at(interval + count - 1) } else { start.reflected(&end) };
+    let after = if interval + 2 < count || closed { at(interval + 2) } else { end.reflected(&start) };
+    [before, start, end, after]
+}
+
+/// Whether the yarn can come to the point between the middle two of the four: a spline leaves their box by less than its size.
+fn may_hold(four: &[ControlPoint; 4], point: [f64; 2]) -> bool {
+    (0..2).all(|axis| {
+        let along = four.map(|point| f64::from(point.position()[axis]));
+        let low = along.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = along.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let thick = four.iter().map(|point| f64::from(point.half_width())).fold(0.0, f64::max);
+        let reach = (high - low) + 2.0 * thick;
+        (low - reach..=high + reach).contains(&point[axis])
+    })
+}
+
+/// Where the centreline comes nearest to the point in the plane of the cloth, if the yarn is that wide there: distance,
+/// parameter, centre.
+fn nearest(four: &[ControlPoint; 4], point: [f64; 2], s: f32) -> Option<(f64, f64, [f64; 3])> {
+    let segment = Segment::new(four, s);
+    let samples = (0..=STEPS).map(|step| {
+        let t = f32::from(step) / f32::from(STEPS);
+        let sample = segment.sample(t);
+        let centre = sample.centre.to_array().map(f64::from);
+        let distance = (centre[0] - point[0]).hypot(centre[1] - point[1]);
+        (distance, f64::from(t), centre, f64::from(sample.half_width))
+    });
+    let (distance, t, centre, half) = samples.min_by(|one, other| one.0.total_cmp(&other.0))?;
+    (distance <= half).then_some((distance, t, centre))
+}

@@ -1,0 +1,82 @@
+//! What can be wrong with a chart.
+
+use thiserror::Error;
+
+use crate::FabricError;
+
+/// A chart that can't be knitted. Rows and columns are counted from 1 at the top left.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ChartError {
+    /// No stitches at all, or more in a direction than are taken.
+    #[error("a chart of {wales} wales and {rows} rows; each must be 1 to {limit}")]
+    Size {
+        /// Its wales.
+        wales: usize,
+        /// Its rows.
+        rows: usize,
+        /// Most taken of either.
+        limit: usize,
+    },
+    /// More cells of all courses than are taken.
+    #[error("a chart of {cells} cells in all its courses, more than {limit}")]
+    Cells {
+        /// Wales times courses.
+        cells: usize,
+        /// Most taken.
+        limit: usize,
+    },
+    /// A row that is longer or shorter than the first.
+    #[error("row {row} of the chart has {wales} stitches, the first one {first}")]
+    Ragged {
+        /// The row.
+        row: usize,
+        /// Its stitches.
+        wales: usize,
+        /// Those of the first row.
+        first: usize,
+    },
+    /// A symbol that stands for nothing.
+    #[error("row {row}, column {column} of the chart: '{}' is no symbol; there are {known}", .symbol.escape_default())]
+    Symbol {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// The symbol.
+        symbol: char,
+        /// Those that there are.
+        known: &'static str,
+    },
+    /// A cable that has only one half.
+    #[error(
+        "row {row}, column {column} of the chart: {symbols} is half a cable; a whole one is such as RRrr or llLL"
+    )]
+    HalfCable {
+        /// The row.
+        row: usize,
+        /// The column at which it begins.
+        column: usize,
+        /// Its symbols, cut short where there are many.
+        symbols: String,
+    },
+    /// A stitch for other beds than the chart's.
+    #[error("row {row}, column {column} of the chart: this stitch needs {needs}")]
+    Beds {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// What it needs.
+        needs: &'static str,
+    },
+    /// A needle that gets loops and never knits them off, or a chart without any stitch that knits.
+    #[error("wale {wale} of the chart: its needle gets loops but never knits")]
+    NeverKnits {
+        /// The wale.
+        wale: usize,
+    },
+    /// Memory could not be had.
+    #[error(transparent)]
+    Memory(#[from] FabricError),
+}

@@ -1,0 +1,70 @@
+//! Jacquard: a picture whose colours are yarns.
+
+use super::{Beds, CHART_CELLS_MAX, Cell, Chart, ChartError, Course, sized};
+use crate::memory::room_for;
+
+/// Which back needles knit where a Jacquard picture is knitted on two beds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Backing {
+    /// Every other needle, by turns from yarn to yarn and from row to row: flecks of all yarns.
+    Birdseye,
+    /// Of n yarns in a row each knits every n-th needle, always the same ones: a light back of upright lines.
+    Ladder,
+}
+
+impl Chart {
+    /// A chart of a picture: `yarn` is that at a column and a row, both from 0, row 0 at the bottom. Each row of it becomes a course
+    /// for each yarn that occurs there, by rising numbers: the front needles knit where the picture has this yarn. Without a
+    /// backing the yarn floats past the others; with one, back needles knit it in between, half a needle beside the front ones.
+    ///
+    /// **Errors**: [`ChartError`] for a size that is not taken; with a backing also where a back needle would never knit.
+    ///
+    /// ```
+    /// use texere_fabric::weft::Chart;
+    /// // Two rows of two yarns and one of a single yarn.
+    /// let picture = [[0, 1, 1], [1, 1, 0], [1, 1, 1]];
+    /// let chart = Chart::jacquard(3, 3, None, |column, row| picture[row][column])?;
+    /// assert_eq!((chart.wales(), chart.courses()), (3, 5));
+    /// # Ok::<(), texere_fabric::weft::ChartError>(())
+    /// ```
+    pub fn jacquard(
+        wales: usize,
+        rows: usize,
+        backing: Option<Backing>,
+        yarn: impl Fn(usize, usize) -> u32,
+    ) -> Result<Self, ChartError> {
+        sized(wales, rows, 0)?;
+        let (mut courses, mut cells) = (Vec::new(), Vec::new());
+        for row in 0..rows {
+            let mut yarns: Vec<u32> = (0..wales).map(|column| yarn(column, row)).collect();
+            yarns.sort_unstable();
+            yarns.dedup();
+            let count = cells.len() + yarns.len() * wales;
+            if count > CHART_CELLS_MAX {
+                return Err(ChartError::Cells { cells: count, limit: CHART_CELLS_MAX });
+            }
+            if cells.capacity() < count {
+                let more = count.max(2 * cells.len()) - cells.len();
+                room_for(&mut cells, more, "cells of a chart")?;
+            }
+            for (place, &of) in yarns.iter().enumerate() {
+                cells.extend((0..wales).map(|column| {
+                    let back = match backing {
+                        None => false,
+                        Some(Backing::Birdseye) => (column + place + row).is_multiple_of(2),
+                        Some(Backing::Ladder) => column % yarns.len() == place,
+                    };
+                    match (yarn(column, row) == of, back) {
+                        (true, true) => Cell::Both,
+                        (true, false) => Cell::Knit,
+                        (false, true) => Cell::Purl,
+                        (false, false) => Cell::Miss,
+                    }
+                }));
+                courses.push(Course { yarn: of, row: row as u32 });
+            }
+        }
+        let beds = if backing.is_some() { Beds::Two } else { Beds::One };
+        Self { wales, beds, courses, cells }.checked()
+    }
+}

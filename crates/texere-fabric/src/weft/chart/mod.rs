@@ -1,0 +1,257 @@
+//! Charts: what is knitted in each wale of each course, as knitters draw it.
+
+mod error;
+mod jacquard;
+mod program;
+mod symbols;
+#[cfg(test)]
+mod tests;
+
+pub use error::ChartError;
+pub use jacquard::Backing;
+
+use crate::memory::room_for;
+
+/// The most wales or rows of a chart.
+pub const CHART_SIDE_MAX: usize = 1 << 16;
+
+/// The most cells of all courses of a chart.
+pub const CHART_CELLS_MAX: usize = 1 << 24;
+
+/// What is made in a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cell {
+    /// The front needle knits: `k`.
+    Knit,
+    /// The back needle knits: `p`. On one bed the loops are moved there first.
+    Purl,
+    /// Front and back needle both knit: `b`, with two beds, which lie half a needle apart then.
+    Both,
+    /// The needle takes the yarn and keeps what it has: `t`. With two beds it is the front needle.
+    Tuck,
+    /// The back needle tucks: `u`, with two beds.
+    BackTuck,
+    /// The yarn floats past: `m`.
+    Miss,
+    /// The front needle knits, and its loop then goes to another needle: `<` and `>` to the next one, for lace; `RRrr` and `llLL`
+    /// to the places of others, for cables.
+    Moved {
+        /// So many needles to the right.
+        by: i32,
+        /// Behind those that go in front: a cable's lower half.
+        behind: bool,
+    },
+}
+
+/// On which needles a chart is knitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Beds {
+    /// A wale has loops on one needle, front or back.
+    #[default]
+    One,
+    /// Both needles of a wale may hold loops of their own.
+    Two,
+}
+
+/// One course of yarn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Course {
+    yarn: u32,
+    /// The row of the drawing that it comes from, from 0 at the bottom.
+    row: u32,
+}
+
+/// A repeat of stitches: courses of one yarn each, seen from the right side.
+///
+/// ```
+/// use texere_fabric::weft::{Beds, Chart};
+/// // Rows from the top down, as a knitter writes them: purl one row, knit the next.
+/// let garter = Chart::parse("pp\nkk", Beds::One)?;
+/// assert_eq!((garter.wales(), garter.courses()), (2, 2));
+/// let program = garter.program()?;
+/// assert_eq!(program.repeat, Some(2));
+/// # Ok::<(), texere_fabric::weft::ChartError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chart {
+    wales: usize,
+    beds: Beds,
+    courses: Vec<Course>,
+    /// Course by course from the first, from left to right.
+    cells: Vec<Cell>,
+}
+
+impl Chart {
+    /// A chart of cells, `wales` to a course, the first course first. All courses are of yarn 0.
+    ///
+    /// **Errors**: [`ChartError`] for a size that is not taken, for cells that are not for these beds, and for needles that hold
+    /// loops but never knit.
+    pub fn new(wales: usize, beds: Beds, cells: Vec<Cell>) -> Result<Self, ChartError> {
+        let rows = cells.len().checked_div(wales).unwrap_or(0);
+        sized(wales, rows, cells.len())?;
+        if rows * wales != cells.len() {
+            return Err(ChartError::Ragged {
+                row: rows + 1,
+                wales: cells.len() - rows * wales,
+                first: wales,
+            });
+        }
+        let courses = (0..rows as u32).map(|row| Course { yarn: 0, row }).collect();
+        Self { wales, beds, courses, cells }.checked()
+    }
+
+    /// A chart from symbols, a line for each row, the last course on top. Spaces and empty lines count for nothing.
+    ///
+    /// | symbol | stitch |
+    /// |---|---|
+    /// | `k` | knit: the front needle |
+    /// | `p` | purl: the back needle |
+    /// | `t`, `u` | tuck; with two beds `u` on the back needle |
+    /// | `m` | miss: the yarn floats past |
+    /// | `b` | with two beds: both needles knit, half a needle apart |
+    /// | `<`, `>` | knit, and the loop goes to the next needle on that side |
+    /// | `RRrr` | a cable: the loops under capitals cross to the right, in front of the others |
+    /// | `llLL` | the loops under capitals cross to the left, in front |
+    ///
+    /// **Errors**: [`ChartError`] with row, from the top, and column.
+    pub fn parse(text: &str, beds: Beds) -> Result<Self, ChartError> {
+        let rows: Vec<Vec<char>> = text
+            .lines()
+            .map(|line| line.chars().filter(|letter| !letter.is_whitespace()).collect())
+            .filter(|row: &Vec<char>| !row.is_empty())
+            .collect();
+        let wales = rows.first().map_or(0, Vec::len);
+        if let Some((row, other)) = (1..).zip(&rows).find(|(_, row)| row.len() != wales) {
+            return Err(ChartError::Ragged { row, wales: other.len(), first: wales });
+        }
+        Self::from_symbols(wales, rows.len(), beds, |column, row| rows[row][column])
+    }
+
+    /// A chart from a symbol for each place, given by column and by row from the top: those of [`Chart::parse`].
+    ///
+    /// **Errors**: [`ChartError`] with row, from the top, and column.
+    pub fn from_symbols(
+        wales: usize,
+        rows: usize,
+        beds: Beds,
+        symbol: impl Fn(usize, usize) -> char,
+    ) -> Result<Self, ChartError> {
+        sized(wales, rows, wales.saturating_mul(rows))?;
+        let mut cells = Vec::new();
+        room_for(&mut cells, wales * rows, "cells of a chart")?;
+        for row in (0..rows).rev() {
+            symbols::read(wales, row, &symbol, &mut cells)?;
+        }
+        Self::new(wales, beds, cells)
+    }
+
+    /// The chart with these yarns for its courses, over and over from the first course on. Where they end in the middle of the
+    /// chart, it is repeated upwards until both end.
+    ///
+    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where that is too large.
+    ///
+    /// ```
+    /// use texere_fabric::weft::{Beds, Chart};
+    /// let striped = Chart::parse("k", Beds::One)?.with_yarns(&[0, 0, 1])?;
+    /// assert_eq!(striped.courses(), 3);
+    /// # Ok::<(), texere_fabric::weft::ChartError>(())
+    /// ```
+    pub fn with_yarns(mut self, yarns: &[u32]) -> Result<Self, ChartError> {
+        let own = self.courses();
+        if yarns.is_empty() {
+            return Ok(self);
+        }
+        let repeats = yarns.len() / greatest_common_divisor(own, yarns.len());
+        let courses = own.saturating_mul(repeats);
+        sized(self.wales, courses, courses.saturating_mul(self.wales))?;
+        room_for(&mut self.cells, (courses - own) * self.wales, "cells of a chart")?;
+        for course in own..courses {
+            self.courses.push(self.courses[course - own]);
+            let start = (course - own) * self.wales;
+            self.cells.extend_from_within(start..start + self.wales);
+        }
+        for (course, &yarn) in self.courses.iter_mut().zip(yarns.iter().cycle()) {
+            course.yarn = yarn;
+        }
+        Ok(self)
+    }
+
+    /// Wales of the repeat.
+    #[must_use]
+    pub const fn wales(&self) -> usize {
+        self.wales
+    }
+
+    /// Courses of the repeat.
+    #[must_use]
+    pub fn courses(&self) -> usize {
+        self.courses.len()
+    }
+
+    /// The cells of a course, from left to right.
+    fn course(&self, course: usize) -> &[Cell] {
+        &self.cells[course * self.wales..][..self.wales]
+    }
+
+    /// The chart, if its beds can knit it and every needle that holds loops knits.
+    fn checked(self) -> Result<Self, ChartError> {
+        let on_two = self.beds == Beds::Two;
+        let rows = self.courses.last().map_or(0, |course| course.row as usize + 1);
+        // Of the front and of the back needle of each wale: whether it gets loops, and whether it knits.
+        let mut gets = vec![[false; 2]; self.wales];
+        let mut knits = vec![[false; 2]; self.wales];
+        for (number, &cell) in self.cells.iter().enumerate() {
+            let (course, wale) = (number / self.wales, number % self.wales);
+            let place = || (rows - self.courses[course].row as usize, wale + 1);
+            match cell {
+                Cell::Knit => knits[wale][0] = true,
+                Cell::Purl => knits[wale][usize::from(on_two)] = true,
+                Cell::Tuck => gets[wale][0] = true,
+                Cell::Miss => {}
+                Cell::Both | Cell::BackTuck if !on_two => {
+                    let (row, column) = place();
+                    return Err(ChartError::Beds { row, column, needs: "two beds" });
+                }
+                Cell::Moved { .. } if on_two => {
+                    let (row, column) = place();
+                    return Err(ChartError::Beds { row, column, needs: "one bed" });
+                }
+                Cell::Both => knits[wale] = [true; 2],
+                Cell::BackTuck => gets[wale][1] = true,
+                Cell::Moved { by, .. } => {
+                    knits[wale][0] = true;
+                    let target = (wale as i64 + i64::from(by)).rem_euclid(self.wales as i64) as usize;
+                    gets[target][0] = true;
+                }
+            }
+        }
+        for (wale, (gets, knits)) in gets.iter().zip(&knits).enumerate() {
+            if gets.iter().zip(knits).any(|(gets, knits)| *gets && !knits) {
+                return Err(ChartError::NeverKnits { wale: wale + 1 });
+            }
+        }
+        if !knits.iter().flatten().any(|knits| *knits) {
+            return Err(ChartError::NeverKnits { wale: 1 });
+        }
+        Ok(self)
+    }
+}
+
+fn sized(wales: usize, rows: usize, cells: usize) -> Result<(), ChartError> {
+    let limit = CHART_SIDE_MAX;
+    if !(1..=limit).contains(&wales) || !(1..=limit).contains(&rows) {
+        return Err(ChartError::Size { wales, rows, limit });
+    }
+    if cells > CHART_CELLS_MAX {
+        return Err(ChartError::Cells { cells, limit: CHART_CELLS_MAX });
+    }
+    Ok(())
+}
+
+fn greatest_common_divisor(a: usize, b: usize) -> usize {
+    let (mut divisor, mut rest) = (a, b);
+    while rest != 0 {
+        (divisor, rest) = (rest, divisor % rest);
+    }
+    divisor
+}

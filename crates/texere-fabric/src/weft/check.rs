@@ -1,0 +1,165 @@
+//! Whether stitches, gauge and yarns can be a cloth.
+
+use texere_core::{Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, TWIST_LIMIT};
+
+use super::layers::held_until;
+use super::{Fate, Gauge, KnitYarn, LoopRef, Step, Stitches};
+use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
+
+/// The furthest that a needle lies from the first one, in wales.
+const WALES_MAX: f32 = 1e6;
+
+/// The most wales or courses of all copies of a repeat.
+const SIDE_MAX: u32 = 1 << 30;
+
+/// How many wales a loop is moved at most.
+const MOVED_MAX: f32 = 256.0;
+
+/// The most loops of several repeats that settle together.
+const TILED_MAX: u64 = 1 << 22;
+
+/// Control points of a loop at least, and of a needle or a course that its yarn passes.
+const LOOP_POINTS: u64 = 10;
+const PASSED_POINTS: u64 = 3;
+
+/// The most needles and courses that yarns pass: so many, and so many more for each loop. All of them take memory.
+const PASSED_MAX: u64 = 1 << 22;
+const PASSED_BESIDE_A_LOOP: u64 = 64;
+
+pub(super) fn gauge(gauge: &Gauge) -> Result<(), FabricError> {
+    let Gauge { wale_mm, course_mm, loop_length_mm } = *gauge;
+    let lengths = [("wales", wale_mm), ("courses", course_mm), ("loops", loop_length_mm.unwrap_or(1.0))];
+    match lengths.into_iter().find(|(_, mm)| !(SPACING_MIN..=SPACING_MAX).contains(mm)) {
+        Some((what, mm)) => Err(FabricError::Gauge { what, mm, low: SPACING_MIN, high: SPACING_MAX }),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn yarns(
+    yarns: &[KnitYarn],
+    materials: &[Material],
+    sections: &[Section],
+) -> Result<(), FabricError> {
+    for (section, each) in sections.iter().enumerate() {
+        each.validate().map_err(|source| FabricError::Section { section, source })?;
+    }
+    for (number, yarn) in (1..).zip(yarns) {
+        let thread = Origin::Carrier(number);
+        let KnitYarn { radius_mm, material, section, twist } = *yarn;
+        if !(RADIUS_MIN..=RADIUS_MAX).contains(&radius_mm) {
+            return Err(FabricError::Radius { thread, radius_mm, low: RADIUS_MIN, high: RADIUS_MAX });
+        }
+        if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&twist) {
+            return Err(FabricError::Twist { thread, twist, limit: TWIST_LIMIT });
+        }
+        if material as usize >= materials.len() {
+            return Err(FabricError::UnknownMaterial { thread, material, materials: materials.len() });
+        }
+        if section as usize >= sections.len() {
+            return Err(FabricError::UnknownSection { thread, section, sections: sections.len() });
+        }
+    }
+    Ok(())
+}
+
+/// Whether stitches refer only to what there is, with a yarn for each carrier.
+pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricError> {
+    let sound = |sound: bool, what| if sound { Ok(()) } else { Err(FabricError::Stitches { what }) };
+    let far = |at: f32| at.abs() <= WALES_MAX;
+    let refers = |other: LoopRef| {
+        (other.number as usize) < stitches.loops.len()
+            && (other.repeat == [0, 0] || stitches.repeat.is_some())
+            && other.repeat.iter().all(|repeats| repeats.unsigned_abs() < 1 << 16)
+    };
+    sound(
+        stitches.repeat.is_none_or(|repeat| repeat.iter().all(|size| (1..1 << 20).contains(size))),
+        "a repeat of no size",
+    )?;
+    sound(
+        stitches.parents.iter().all(|parent| refers(*parent)),
+        "a loop that is drawn through none that there is",
+    )?;
+    for stitch in &stitches.loops {
+        let parents = &stitch.parents;
+        let listed = parents.start <= parents.end && parents.end as usize <= stitches.parents.len();
+        sound(listed, "a loop whose parents are not listed")?;
+        sound(far(stitch.at) && far(stitch.head.at), "a loop on no needle")?;
+        sound(
+            (stitch.head.at - stitch.at).abs() <= MOVED_MAX,
+            "a loop that is moved over more than 256 needles",
+        )?;
+        if let Fate::Held(child) = stitch.fate {
+            sound(refers(child), "a loop that is held by none that there is")?;
+            let later =
+                held_until(stitches, stitch.fate).is_some_and(|course| course > i64::from(stitch.course));
+            sound(later, "a loop that is held by one of an earlier course")?;
+        }
+    }
+    for strand in &stitches.strands {
+        if strand.carrier as usize >= yarns {
+            return Err(FabricError::Carrier { carrier: strand.carrier + 1, yarns });
+        }
+        let onward = strand
+            .onward
+            .is_none_or(|onward| stitches.repeat.is_some() && [[1, 0], [-1, 0]].contains(&onward));
+        sound(onward, "a yarn that goes on elsewhere than beside itself")?;
+        let steps = strand.steps.iter().all(|step| match *step {
+            Step::Loop { number, .. } => (number as usize) < stitches.loops.len(),
+            Step::Float { at, .. } => far(at),
+        });
+        sound(steps, "a yarn that makes no loop that there is")?;
+    }
+    sound(!stitches.loops.is_empty() && !stitches.strands.is_empty(), "no loops")
+}
+
+/// Whether the cloth has no more control points than are taken: a low estimate, before any is made.
+pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricError> {
+    let held = stitches.loops.iter().filter_map(|stitch| {
+        let until = held_until(stitches, stitch.fate)?;
+        Some(until.saturating_sub(i64::from(stitch.course)).unsigned_abs())
+    });
+    let held: u64 = held.sum();
+    let passed: u64 = stitches.strands.iter().map(|strand| passed(stitches, strand)).sum();
+    let (passed, loops) = (passed.saturating_add(held.saturating_mul(2)), stitches.loops.len() as u64);
+    let limit = PASSED_MAX + PASSED_BESIDE_A_LOOP * loops;
+    if passed > limit {
+        return Err(FabricError::KnitRuns { passed, loops, limit });
+    }
+    let points = LOOP_POINTS * loops + PASSED_POINTS * passed;
+    let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
+    if sides.into_iter().any(|(size, copies)| u64::from(size) * u64::from(copies) > u64::from(SIDE_MAX)) {
+        return Err(FabricError::Stitches { what: "too many wales or courses" });
+    }
+    let copies = if stitches.repeat.is_some() { u64::from(copies[0]) * u64::from(copies[1]) } else { 1 };
+    let points = points.saturating_mul(copies);
+    if copies == 0 {
+        return Err(FabricError::Stitches { what: "no copy of the repeat" });
+    }
+    if points > POINTS_MAX { Err(FabricError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
+}
+
+/// Whether the repeats that settle together are not too many.
+pub(super) fn tiles(stitches: &Stitches, tiles: [u32; 2]) -> Result<(), FabricError> {
+    let count = u64::from(tiles[0]) * u64::from(tiles[1]);
+    if count > 1 && count.saturating_mul(stitches.loops.len() as u64) > TILED_MAX {
+        let what = "copies of a small repeat whose number has no divisor up to 16: take multiples of 4";
+        return Err(FabricError::Stitches { what });
+    }
+    Ok(())
+}
+
+/// How many needles a yarn passes from loop to loop, and how many courses.
+fn passed(stitches: &Stitches, strand: &super::Strand) -> u64 {
+    let place = |step: &Step| match *step {
+        Step::Loop { number, .. } => {
+            let stitch = &stitches.loops[number as usize];
+            (stitch.at, stitch.course)
+        }
+        Step::Float { at, course, .. } => (at, course),
+    };
+    let pairs = strand.steps.windows(2).map(|pair| {
+        let [(at, course), (next_at, next_course)] = [place(&pair[0]), place(&pair[1])];
+        (at - next_at).abs() as u64 + u64::from(course.abs_diff(next_course))
+    });
+    pairs.sum()
+}

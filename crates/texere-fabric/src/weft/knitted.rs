@@ -1,0 +1,277 @@
+//! A knitted cloth: its stitches, how close they lie, and what its yarns are like.
+
+use rayon::prelude::*;
+use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns};
+
+use super::layers::Layers;
+use super::path::Cloth;
+use super::pen::Laid;
+use super::shape::Shape;
+use super::{Gauge, Step, Stitches, Strand, check};
+use crate::memory::room_for;
+use crate::reach::Reach;
+use crate::{FabricError, POINTS_MAX, Piece, Repeat};
+
+/// A repeat that settles has so many wales and courses at least, if the cloth has as many: what lies over its seam is then another
+/// stitch.
+const SETTLED: u32 = 4;
+
+/// A yarn of a knitted cloth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnitYarn {
+    /// Its radius, mm.
+    pub radius_mm: f32,
+    /// Index into the materials.
+    pub material: u32,
+    /// Index into the sections.
+    pub section: u32,
+    /// Twist, rad per mm; positive is Z twist.
+    pub twist: f32,
+}
+
+impl KnitYarn {
+    /// A round, untwisted yarn of the first material and the first section.
+    #[must_use]
+    pub const fn new(radius_mm: f32) -> Self {
+        Self { radius_mm, material: 0, section: 0, twist: 0.0 }
+    }
+}
+
+/// How many control points stitches get.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Cells {
+    /// As many as their yarn needs for its bends: 12 for a plain loop, 3 where it floats.
+    #[default]
+    Round,
+    /// 12 for each needle that the yarn comes to, whether it makes a loop there or floats.
+    Even,
+}
+
+/// A weft-knitted cloth: its stitches, with sizes and yarns.
+#[derive(Debug, Clone)]
+pub struct Knitted {
+    stitches: Stitches,
+    gauge: Gauge,
+    yarns: Vec<KnitYarn>,
+    materials: Vec<Material>,
+    sections: Vec<Section>,
+    copies: [u32; 2],
+    cells: Cells,
+    shape: Shape,
+}
+
+impl Knitted {
+    /// A cloth of these stitches, with a yarn for each carrier. Where the stitches are one repeat, so many copies of it lie side by
+    /// side along x and y; else `copies` counts for nothing.
+    ///
+    /// **Errors**: [`FabricError::Gauge`] for distances that no cloth has, [`FabricError::Stitches`] for stitches that refer to
+    /// what there is not, [`FabricError::Carrier`] for a carrier without a yarn, [`FabricError::KnitPoints`] for more control points
+    /// than are taken, and errors of the yarns' radius, twist, material and section.
+    pub fn new(
+        stitches: Stitches,
+        gauge: Gauge,
+        yarns: Vec<KnitYarn>,
+        materials: Vec<Material>,
+        sections: Vec<Section>,
+        copies: [u32; 2],
+    ) -> Result<Self, FabricError> {
+        check::gauge(&gauge)?;
+        check::yarns(&yarns, &materials, &sections)?;
+        check::stitches(&stitches, yarns.len())?;
+        check::size(&stitches, copies)?;
+        check::tiles(&stitches, stitches.repeat.map_or([1, 1], |size| settled_together(size, copies)))?;
+        let shape = Shape::new(&gauge, thickest(&stitches, &yarns, &sections));
+        Ok(Self { stitches, gauge, yarns, materials, sections, copies, cells: Cells::Round, shape })
+    }
+
+    /// Gives every yarn the same section.
+    ///
+    /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
+        section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
+        self.sections = vec![section];
+        self.yarns.iter_mut().for_each(|yarn| yarn.section = 0);
+        self.shape = Shape::new(&self.gauge, thickest(&self.stitches, &self.yarns, &self.sections));
+        Ok(())
+    }
+
+    /// The same cloth with other numbers of control points.
+    #[must_use]
+    pub fn with_cells(mut self, cells: Cells) -> Self {
+        self.cells = cells;
+        self
+    }
+
+    /// The stitches.
+    #[must_use]
+    pub const fn stitches(&self) -> &Stitches {
+        &self.stitches
+    }
+
+    /// How close they lie.
+    #[must_use]
+    pub const fn gauge(&self) -> &Gauge {
+        &self.gauge
+    }
+
+    /// The yarn of each carrier.
+    #[must_use]
+    pub fn carriers(&self) -> &[KnitYarn] {
+        &self.yarns
+    }
+
+    /// What the yarns are of.
+    #[must_use]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Copies of the repeat along x and y; \[1, 1\] of a cloth that is none.
+    #[must_use]
+    pub fn copies(&self) -> [u32; 2] {
+        if self.stitches.repeat.is_some() { self.copies } else { [1, 1] }
+    }
+
+    /// Wales and courses of the whole cloth.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        match self.stitches.repeat {
+            Some(repeat) => [0, 1].map(|axis| repeat[axis] * self.copies[axis]),
+            None => {
+                let (left, right) = extent(&self.stitches);
+                let courses = self.stitches.loops.iter().map(|stitch| stitch.course + 1).max();
+                [(right - left).ceil() as u32 + 1, courses.unwrap_or(0)]
+            }
+        }
+    }
+
+    /// Width and height of the cloth, mm. The heads of its last course reach out further.
+    #[must_use]
+    pub fn size_mm(&self) -> [f64; 2] {
+        let [wales, courses] = self.size().map(f64::from);
+        [wales * self.gauge.wale_mm, courses * self.gauge.course_mm]
+    }
+
+    /// The yarns, about where they belong.
+    ///
+    /// The first wale lies half its width from x = 0, the feet of the first course at y = 0. Origins are [`Origin::Course`] of a
+    /// yarn that goes through a repeat, [`Origin::Carrier`] of one that a carrier brings in and takes out. The source of a control
+    /// point is that of the operation that its stitch or float comes from.
+    ///
+    /// **Errors**: [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] where they can't be taken.
+    pub fn yarns(&self) -> Result<Yarns, FabricError> {
+        let repeat = self.repeat()?;
+        self.laid(&repeat, &repeat.piece.yarns)
+    }
+
+    /// All copies of a repeat, settled or not. Yarns are cut off two control points beyond the last loop, where that does not spoil their
+    /// count.
+    pub(super) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        let beyond = match self.cells {
+            Cells::Round => 2,
+            Cells::Even => 0,
+        };
+        repeat.laid_beyond(yarns, beyond)
+    }
+
+    /// One repeat of the cloth, or all of it where none repeats, and what holds it: see [`Knitted::repeat`].
+    ///
+    /// **Errors**: those of [`Knitted::yarns`].
+    pub fn piece(&self) -> Result<Piece, FabricError> {
+        Ok(self.repeat()?.piece)
+    }
+
+    /// What settles, and how many copies of that the cloth is.
+    ///
+    /// A cloth that repeats settles as one repeat that goes on at all its edges, or a few that are taken together. Any other
+    /// settles whole: the ends of its yarns are held, the feet of its first course, and heads on needles.
+    ///
+    /// **Errors**: those of [`Knitted::yarns`].
+    pub fn repeat(&self) -> Result<Repeat, FabricError> {
+        let Some(size) = self.stitches.repeat else {
+            return Ok(Repeat { piece: self.piece_of(&self.stitches)?, copies: [1, 1] });
+        };
+        let tiles = settled_together(size, self.copies);
+        let copies = [0, 1].map(|axis| self.copies[axis] / tiles[axis]);
+        Ok(Repeat { piece: self.piece_of(&self.stitches.tiled(tiles))?, copies })
+    }
+
+    fn piece_of(&self, stitches: &Stitches) -> Result<Piece, FabricError> {
+        let layers = Layers::new(stitches);
+        let left = if stitches.repeat.is_some() { 0.0 } else { extent(stitches).0 };
+        let cloth = Cloth { stitches, layers: &layers, shape: &self.shape, left, kind: self.cells };
+        let laid: Vec<Laid> =
+            (0..stitches.strands.len()).into_par_iter().map(|strand| cloth.lay(strand)).collect();
+        let total = laid.iter().map(|laid| laid.points.len()).sum();
+        let (mut table, mut offsets, mut ends) = (Vec::new(), vec![0], Vec::new());
+        let (mut points, mut sources, mut pinned) = (Vec::new(), Vec::new(), Vec::new());
+        room_for(&mut points, total, "control points")?;
+        room_for(&mut sources, total, "sources")?;
+        for (strand, laid) in stitches.strands.iter().zip(laid) {
+            if laid.points.is_empty() {
+                continue;
+            }
+            let yarn = &self.yarns[strand.carrier as usize];
+            let origin = match strand.onward {
+                Some(_) => Origin::Course(first_course(stitches, strand) + 1),
+                None => Origin::Carrier(strand.carrier + 1),
+            };
+            let KnitYarn { radius_mm, material, section, twist } = *yarn;
+            table.push(Yarn { material, section, closed: false, twist, origin });
+            ends.push(strand.onward.map_or(Ends::Open, Ends::Repeats));
+            pinned.extend(laid.pinned.iter().map(|pin| pin + points.len() as u64));
+            let point =
+                |at: &glam::DVec3| ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, radius_mm);
+            points.extend(laid.points.iter().map(point));
+            sources.extend(laid.sources);
+            offsets.push(points.len() as u64);
+        }
+        if points.len() as u64 > POINTS_MAX {
+            return Err(FabricError::KnitPoints { points: points.len() as u64, limit: POINTS_MAX });
+        }
+        let layout = Layout::new(table, offsets, self.sections.clone())?;
+        let yarns = Yarns::new(layout, self.materials.clone(), points)?.with_sources(sources)?;
+        let size = stitches.repeat.unwrap_or([0, 0]).map(f64::from);
+        let size = [size[0] * self.gauge.wale_mm, size[1] * self.gauge.course_mm].map(|mm| mm as f32);
+        let boundary = Boundary::new(yarns.layout(), size, ends)?;
+        Ok(Piece { yarns, boundary, pinned })
+    }
+}
+
+/// Diameter of the thickest yarn, mm.
+fn thickest(stitches: &Stitches, yarns: &[KnitYarn], sections: &[Section]) -> f64 {
+    let used = stitches.strands.iter().map(|strand| &yarns[strand.carrier as usize]);
+    let half = |yarn: &KnitYarn| {
+        let [width, height] = Reach::new(&sections[yarn.section as usize]).room(yarn.twist);
+        yarn.radius_mm * width.max(height)
+    };
+    2.0 * f64::from(used.map(half).fold(0.0, f32::max))
+}
+
+/// How many repeats settle together along x and along y.
+fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
+    [0, 1].map(|axis| tiles(size[axis], copies[axis]))
+}
+
+/// The fewest repeats that divide `copies` and have enough wales or courses of `size` each; all where none does.
+fn tiles(size: u32, copies: u32) -> u32 {
+    let divides = |tiles: &u32| copies.is_multiple_of(*tiles) && tiles.saturating_mul(size) >= SETTLED;
+    (1..=copies.min(SETTLED * SETTLED)).find(divides).unwrap_or(copies)
+}
+
+/// The places of the first and of the last needle that any yarn comes to.
+fn extent(stitches: &Stitches) -> (f32, f32) {
+    let floats = stitches.strands.iter().flat_map(|strand| &strand.steps).filter_map(|step| match *step {
+        Step::Float { at, .. } => Some(at),
+        Step::Loop { .. } => None,
+    });
+    let places = stitches.loops.iter().map(|stitch| stitch.at).chain(floats);
+    places.fold((f32::INFINITY, f32::NEG_INFINITY), |(left, right), at| (left.min(at), right.max(at)))
+}
+
+fn first_course(stitches: &Stitches, strand: &Strand) -> u32 {
+    strand.steps.first().map_or(0, |step| match *step {
+        Step::Loop { number, .. } => stitches.loops[number as usize].course,
+        Step::Float { course, .. } => course,
+    })
+}

@@ -1,0 +1,272 @@
+//! What lies over and under what: loops that cross on their way to other needles, yarns that share a course, floats behind loops.
+
+use std::collections::HashMap;
+
+use super::{Bed, Direction, Fate, Head, Step, Stitch, Stitches};
+
+/// Half wales to the wale: needles of a bed that is racked by half a pitch lie between those of the other.
+const HALVES: f32 = 2.0;
+
+/// Loops further apart than so many wales have needles between them that are passed.
+pub(super) const STEP: f32 = 1.6;
+
+/// The loops of one bed at one needle, in one course.
+#[derive(Debug, Clone, Copy, Default)]
+struct Hanging {
+    /// Whether any hangs there.
+    any: bool,
+    /// Whether one is made there in that very course.
+    made: bool,
+}
+
+/// A course's place in cloth that may repeat: the course, and half wales from the left.
+type Place = [i64; 2];
+
+/// What a yarn does between two changes of direction or course.
+#[derive(Debug, Clone, Copy)]
+struct Pass {
+    strand: usize,
+    /// Its steps in the strand.
+    first: usize,
+    last: usize,
+    course: u32,
+    /// When: the number of its first loop.
+    time: u32,
+    /// Which of several yarns in the same stitches it is.
+    plate: u16,
+    /// Whether it goes from bed to bed, or floats.
+    mixed: bool,
+}
+
+/// What lies over and under what.
+#[derive(Debug)]
+pub(super) struct Layers {
+    hanging: HashMap<Place, [Hanging; 2]>,
+    repeat: Option<[u32; 2]>,
+    /// How many legs lie between each loop's own and the side that its head is drawn to; nothing where it crosses no other.
+    crossed: Vec<Option<u16>>,
+    /// For each step of each strand.
+    ranks: Vec<Vec<Rank>>,
+    /// Whether any yarn floats.
+    floats: bool,
+}
+
+/// Where a step lies among the yarns of its course.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Rank {
+    /// How far up, of the room that there is: -0.5 to 0.5.
+    pub(super) lift: f64,
+    /// How many times a yarn's width that room is.
+    pub(super) sharing: f64,
+    /// Which of several yarns in the same stitches it is.
+    pub(super) plate: u16,
+}
+
+/// How a float lies where it passes a needle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Behind {
+    /// Between loops of both beds.
+    Between,
+    /// Behind the loops of one bed; those may be made in the same course, by another yarn.
+    One {
+        /// The bed.
+        bed: Bed,
+        /// Whether they are.
+        made: bool,
+    },
+}
+
+impl Layers {
+    pub(super) fn new(stitches: &Stitches) -> Self {
+        let mut layers = Self {
+            hanging: HashMap::new(),
+            repeat: stitches.repeat,
+            crossed: crossed(stitches),
+            ranks: ranks(stitches),
+            floats: stitches
+                .strands
+                .iter()
+                .flat_map(|strand| &strand.steps)
+                .any(|step| matches!(step, Step::Float { .. })),
+        };
+        layers.hang(stitches);
+        layers
+    }
+
+    /// Of a loop whose legs cross those of others on the way to its needle: how many of these lie between its own and the side
+    /// that its head is drawn to.
+    pub(super) fn crossed(&self, number: u32) -> Option<f64> {
+        self.crossed[number as usize].map(f64::from)
+    }
+
+    /// Where a step lies among the yarns of its course: of the strand with the first number, the step with the second.
+    pub(super) fn rank(&self, [strand, step]: [usize; 2]) -> Rank {
+        self.ranks[strand][step]
+    }
+
+    /// Whether any yarn is told to float.
+    pub(super) const fn has_floats(&self) -> bool {
+        self.floats
+    }
+
+    /// Whether any loop hangs at a place.
+    pub(super) fn is_held(&self, course: i64, at: f32) -> bool {
+        self.hanging.contains_key(&self.place(course, at))
+    }
+
+    /// What a yarn passes behind that floats past a needle, laid by `bed`.
+    pub(super) fn behind(&self, course: i64, at: f32, bed: Bed) -> Behind {
+        // Needles of a bed that is racked by half a pitch lie on either side.
+        let beside = [-1.0, 0.0, 1.0].map(|halves| self.place(course, at + halves / HALVES));
+        let hanging = beside.map(|place| self.hanging.get(&place).copied().unwrap_or_default());
+        let of = |bed: usize| Hanging {
+            any: hanging.iter().any(|beds| beds[bed].any),
+            made: hanging.iter().any(|beds| beds[bed].made),
+        };
+        let [front, back] = [of(0), of(1)];
+        match (front.any, back.any) {
+            (true, true) => Behind::Between,
+            (true, false) => Behind::One { bed: Bed::Front, made: front.made },
+            (false, true) => Behind::One { bed: Bed::Back, made: back.made },
+            (false, false) => Behind::One { bed, made: false },
+        }
+    }
+
+    fn place(&self, course: i64, at: f32) -> Place {
+        let half = (at * HALVES).round() as i64;
+        match self.repeat {
+            Some([wales, courses]) => {
+                [course.rem_euclid(i64::from(courses)), half.rem_euclid(2 * i64::from(wales))]
+            }
+            None => [course, half],
+        }
+    }
+
+    /// Notes each loop in every course in which it hangs on a needle.
+    fn hang(&mut self, stitches: &Stitches) {
+        for stitch in &stitches.loops {
+            let bed = |bed| usize::from(bed == Bed::Back);
+            let own = self.hanging.entry(self.place(i64::from(stitch.course), stitch.at)).or_default();
+            own[bed(stitch.bed)] = Hanging { any: true, made: true };
+            let until = held_until(stitches, stitch.fate).unwrap_or(i64::from(stitch.course));
+            for course in i64::from(stitch.course) + 1..until {
+                let Head { at, bed: side, .. } = stitch.head;
+                self.hanging.entry(self.place(course, at)).or_default()[bed(side)].any = true;
+            }
+        }
+    }
+}
+
+/// The course in which a loop is drawn through one of that fate, counted on through repeats.
+pub(super) fn held_until(stitches: &Stitches, fate: Fate) -> Option<i64> {
+    let Fate::Held(child) = fate else { return None };
+    let courses = stitches.repeat.map_or(0, |[_, courses]| i64::from(courses));
+    let own = i64::from(stitches.loops[child.number as usize].course);
+    Some(own + i64::from(child.repeat[1]) * courses)
+}
+
+/// For each loop that crosses others of its course on their way to other needles, how many legs lie over its own.
+fn crossed(stitches: &Stitches) -> Vec<Option<u16>> {
+    let loops = &stitches.loops;
+    let mut levels = vec![None; loops.len()];
+    let leans = loops.iter().map(|stitch| (stitch.head.at - stitch.at).abs());
+    let furthest = leans.fold(0.0, f32::max);
+    if furthest == 0.0 {
+        return levels;
+    }
+    let mut order: Vec<_> = (0..loops.len()).collect();
+    order.sort_by(|&one, &other| {
+        let [one, other] = [one, other].map(|number| &loops[number]);
+        one.course.cmp(&other.course).then(one.at.total_cmp(&other.at))
+    });
+    for course in order.chunk_by(|&one, &other| loops[one].course == loops[other].course) {
+        let mut moved = course.to_vec();
+        moved.sort_by_key(|&number| loops[number].head.moved);
+        for &number in &moved {
+            let own = &loops[number];
+            let near = course.partition_point(|&other| loops[other].at < own.at - 2.0 * furthest);
+            let near = course[near..].iter().take_while(|&&other| loops[other].at <= own.at + 2.0 * furthest);
+            let crossing: Vec<_> = near.copied().filter(|&other| cross(own, &loops[other])).collect();
+            if crossing.is_empty() {
+                continue;
+            }
+            let over = crossing.iter().filter(|&&other| loops[other].head.moved < own.head.moved);
+            levels[number] =
+                Some(over.filter_map(|&other| levels[other]).map(|over| over + 1).max().unwrap_or(0));
+        }
+    }
+    levels
+}
+
+/// Whether the legs of two loops of a course cross.
+fn cross(one: &Stitch, other: &Stitch) -> bool {
+    one.head.bed == other.head.bed && (other.at - one.at) * (other.head.at - one.head.at) < 0.0
+}
+
+/// For each step, where it lies among the yarns of its course.
+///
+/// Yarns cross where one goes from its loops to floating behind those of another, or from bed to bed: there the one that is laid
+/// later lies above. Yarns that only knit side by side on one bed don't cross.
+fn ranks(stitches: &Stitches) -> Vec<Vec<Rank>> {
+    let strands = &stitches.strands;
+    let mut all: Vec<_> = strands.iter().map(|strand| vec![Rank::default(); strand.steps.len()]).collect();
+    let mut passes: Vec<_> =
+        (0..stitches.strands.len()).flat_map(|strand| passes_of(stitches, strand)).collect();
+    passes.sort_by_key(|pass| (pass.course, pass.time, pass.plate));
+    for course in passes.chunk_by(|one, other| one.course == other.course) {
+        let crosses = course.iter().any(|pass| pass.mixed);
+        // All plates of a stitch go the same way.
+        let most = course.iter().filter(|pass| pass.plate == 0).count().saturating_sub(1) as f64;
+        let mut number = -1.0;
+        for pass in course {
+            number += if pass.plate == 0 { 1.0 } else { 0.0 };
+            let lift = if crosses && most > 0.0 { f64::max(number, 0.0) / most - 0.5 } else { 0.0 };
+            let rank = Rank { lift, sharing: most, plate: pass.plate };
+            all[pass.strand][pass.first..=pass.last].fill(rank);
+        }
+    }
+    all
+}
+
+/// A step, whatever it is.
+#[derive(Debug, Clone, Copy)]
+struct Laid {
+    at: f32,
+    bed: Bed,
+    course: u32,
+    direction: Direction,
+    /// The loop's number and plate.
+    made: Option<(u32, u16)>,
+}
+
+/// The passes of a strand, in order.
+fn passes_of(stitches: &Stitches, strand: usize) -> Vec<Pass> {
+    let steps = stitches.strands[strand].steps.iter().map(|step| match *step {
+        Step::Loop { number, direction } => {
+            let Stitch { at, bed, course, plate, .. } = stitches.loops[number as usize];
+            Laid { at, bed, course, direction, made: Some((number, plate)) }
+        }
+        Step::Float { at, bed, course, direction, .. } => Laid { at, bed, course, direction, made: None },
+    });
+    let steps: Vec<_> = steps.collect();
+    let across = stitches.repeat.filter(|_| stitches.strands[strand].onward.is_some());
+    let (mut passes, mut first, mut time) = (Vec::new(), 0, 0);
+    for run in steps.chunk_by(|one, other| (one.course, one.direction) == (other.course, other.direction)) {
+        let made = run.iter().find_map(|step| step.made);
+        time = made.map_or(time, |(number, _)| number);
+        let span = run.last().map_or(0.0, |last| (last.at - run[0].at).abs());
+        let seam = across.map_or(0.0, |[wales, _]| wales as f32 - span);
+        let mixed = |pair: &[Laid]| pair[0].bed != pair[1].bed || (pair[0].at - pair[1].at).abs() > STEP;
+        passes.push(Pass {
+            strand,
+            first,
+            last: first + run.len() - 1,
+            course: run[0].course,
+            time,
+            plate: made.map_or(0, |(_, plate)| plate),
+            mixed: seam > STEP || run.iter().any(|step| step.made.is_none()) || run.windows(2).any(mixed),
+        });
+        first += run.len();
+    }
+    passes
+}

@@ -1,0 +1,119 @@
+//! Needles and what hangs on them.
+
+use super::super::{Bed, LoopRef, Needle};
+use crate::FabricError;
+use crate::memory::room_for;
+
+/// Half wales to the wale: needles of a bed that is racked by half a pitch lie between those of the other.
+pub(super) const HALVES: i64 = 2;
+
+/// A loop that hangs on a needle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Held {
+    /// Its number.
+    pub(super) number: u32,
+    /// The round of the repeat in which it was made.
+    pub(super) round: u32,
+    /// Which repeat of the loop hangs on the needle of repeat 0.
+    pub(super) repeat: i32,
+    /// Its transfer's number, 0 before any.
+    pub(super) moved: u32,
+    /// The loop that was drawn through it when its needle was split, as seen from it.
+    pub(super) split: Option<LoopRef>,
+}
+
+/// Where a needle's loops are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Slot {
+    /// Which list it is.
+    pub(super) index: usize,
+    /// The repeat in which the needle lies.
+    pub(super) repeat: i32,
+}
+
+/// Both beds, with their sliders.
+#[derive(Debug)]
+pub(super) struct Beds {
+    low: i32,
+    width: i32,
+    repeats: bool,
+    /// Front needles, front sliders, back needles, back sliders.
+    stacks: Vec<Vec<Held>>,
+    /// By how many half wales the back bed is shifted to the right.
+    racked: i64,
+}
+
+impl Beds {
+    /// Empty needles `low` to `low + width - 1`; where they are those of a repeat, all others are theirs in other repeats.
+    pub(super) fn new(low: i32, width: i32, repeats: bool) -> Result<Self, FabricError> {
+        let count = 4 * usize::try_from(width).unwrap_or(0);
+        let mut stacks = Vec::new();
+        room_for(&mut stacks, count, "needles")?;
+        stacks.resize(count, Vec::new());
+        Ok(Self { low, width, repeats, stacks, racked: 0 })
+    }
+
+    /// Shifts the back bed. A fraction puts its needles half way between those of the front bed.
+    pub(super) fn rack(&mut self, rack: f64) {
+        let whole = rack.floor();
+        self.racked = HALVES * whole as i64 + i64::from(rack > whole);
+    }
+
+    /// A needle's place, in half wales.
+    pub(super) fn place(&self, needle: Needle) -> i64 {
+        let racked = if needle.bed == Bed::Back { self.racked } else { 0 };
+        HALVES * i64::from(needle.number) + racked
+    }
+
+    /// How many half wales a loop is to the left of its needle of repeat 0, which hangs there so many repeats further on.
+    pub(super) fn shift(&self, repeats: i32) -> i64 {
+        HALVES * i64::from(repeats) * i64::from(self.width)
+    }
+
+    /// A needle's slot; none outside the beds.
+    pub(super) fn slot(&self, needle: Needle) -> Option<Slot> {
+        let (number, repeat) = if self.repeats {
+            (needle.number.rem_euclid(self.width), needle.number.div_euclid(self.width))
+        } else {
+            (needle.number.checked_sub(self.low)?, 0)
+        };
+        let number = usize::try_from(number).ok().filter(|_| number < self.width)?;
+        let row = 2 * usize::from(needle.bed == Bed::Back) + usize::from(needle.slider);
+        Some(Slot { index: row * self.width as usize + number, repeat })
+    }
+
+    /// The needle of repeat 0 whose list that is.
+    pub(super) fn needle(&self, index: usize) -> Needle {
+        let width = self.width as usize;
+        let bed = if index / width < 2 { Bed::Front } else { Bed::Back };
+        Needle { bed, slider: index / width % 2 == 1, number: self.low + (index % width) as i32 }
+    }
+
+    /// What hangs on a needle, the loop that came first at the front.
+    pub(super) fn stack(&mut self, slot: Slot) -> &mut Vec<Held> {
+        &mut self.stacks[slot.index]
+    }
+
+    /// All lists.
+    pub(super) fn stacks(&self) -> &[Vec<Held>] {
+        &self.stacks
+    }
+
+    /// Whether a needle of the other bed less than a wale away holds loops.
+    pub(super) fn opposite(&self, needle: Needle) -> bool {
+        let (place, bed) = (self.place(needle), needle.bed.other());
+        let start = self.place(Needle { bed, slider: false, number: 0 });
+        (place - 1..=place + 1).filter(|near| (near - start) % HALVES == 0).any(|near| {
+            let number = ((near - start) / HALVES) as i32;
+            [false, true].into_iter().any(|slider| {
+                let slot = self.slot(Needle { bed, slider, number });
+                slot.is_some_and(|slot| !self.stacks[slot.index].is_empty())
+            })
+        })
+    }
+
+    /// Whether loops can go from one needle straight to the other.
+    pub(super) fn aligned(&self, one: Needle, other: Needle) -> bool {
+        self.place(one) == self.place(other)
+    }
+}

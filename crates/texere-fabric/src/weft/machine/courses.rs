@@ -1,0 +1,67 @@
+//! Which course each pass of a carrier belongs to.
+
+/// That a pass is drawn through loops of another, made so many rounds of the repeat ago.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Above {
+    /// The pass.
+    pub(super) pass: u32,
+    /// The one that it lies above.
+    pub(super) below: u32,
+    /// Rounds between them; 0 where nothing repeats.
+    pub(super) rounds: u32,
+}
+
+/// How often passes are gone through to see how many courses a round adds.
+const ROUNDS: u32 = 4;
+
+/// How often passes are gone through before a repeat is taken to need another course.
+const SWEEPS_MAX: u32 = 64;
+
+/// The course of each pass, and how many courses a repeat has; none where it is no repeat.
+///
+/// A pass lies one course above the highest pass that it is drawn through. One that is drawn through nothing lies in the course
+/// of its carrier's pass before it (`before`), and the first of all in course 0. `aboves` are ordered by pass. In a repeat the
+/// loops of the round before lie as many courses lower as the repeat has.
+pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -> (Vec<u32>, Option<u32>) {
+    let mut courses = vec![0; before.len()];
+    sweep(before, aboves, &mut courses, 0);
+    if !repeats {
+        return (courses, None);
+    }
+    let top = |courses: &[u32]| courses.iter().copied().max().unwrap_or(0);
+    let mut added = 0;
+    for _ in 1..ROUNDS {
+        let under = top(&courses);
+        sweep(before, aboves, &mut courses, 0);
+        added = top(&courses) - under;
+    }
+    // The last one is always enough: no chain of loops that closes up has more passes.
+    let heights = [added.max(1), added + 1, before.len().max(1) as u32];
+    for height in heights {
+        courses.fill(0);
+        if (0..SWEEPS_MAX).any(|_| !sweep(before, aboves, &mut courses, height)) {
+            return (courses, Some(height));
+        }
+    }
+    (courses, Some(heights[2]))
+}
+
+/// Raises each pass above those that it is drawn through, where they count `height` courses lower for each round between. Returns
+/// whether any was too low.
+fn sweep(before: &[Option<u32>], aboves: &[Above], courses: &mut [u32], height: u32) -> bool {
+    let (mut changed, mut rest) = (false, aboves);
+    for (pass, &previous) in before.iter().enumerate() {
+        let count = rest.iter().take_while(|above| above.pass as usize == pass).count();
+        let (own, others) = rest.split_at(count);
+        rest = others;
+        let least = |above: &Above| {
+            let lowered = u64::from(height) * u64::from(above.rounds);
+            (u64::from(courses[above.below as usize]) + 1).saturating_sub(lowered) as u32
+        };
+        let level = previous.map_or(0, |previous| courses[previous as usize]);
+        let course = own.iter().map(least).max().unwrap_or(level);
+        changed |= course > courses[pass];
+        courses[pass] = course.max(courses[pass]);
+    }
+    changed
+}

@@ -1,0 +1,238 @@
+//! A knitting machine: runs a program, and says which loop is drawn through which.
+
+mod beds;
+mod carriers;
+mod courses;
+mod fault;
+mod floats;
+mod run;
+
+pub use fault::{Fault, FaultKind};
+
+use super::{Fate, Instruction, Operation, Program, Step, Stitches};
+use crate::FabricError;
+use beds::{Beds, Held, Slot};
+use run::Run;
+
+/// The furthest needle on either side that is taken.
+pub const NEEDLE_MAX: i32 = 1 << 16;
+
+/// The most loops of a program that are taken.
+pub const LOOPS_MAX: usize = 1 << 27;
+
+/// The most loops that one needle may hold.
+pub const STACK_MAX: usize = 256;
+
+/// The most faults that are listed.
+pub const FAULTS_LISTED: usize = 1000;
+
+/// The most entries of [`Stitches::parents`]: splits can draw loop after loop through the same ones.
+const PARENTS_MAX: usize = 1 << 28;
+
+/// The most carriers and sets of carriers.
+const CARRIERS_MAX: usize = 1 << 16;
+
+/// How often a repeat is knitted until what hangs on needles at its end is the same each time. Most take two rounds: loops
+/// that go on being transferred without being knitted take longer.
+const ROUNDS_MAX: u32 = 8;
+
+/// What a knitting machine can do. The default is a V-bed machine's usual limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Machine {
+    /// How far the beds can be racked to either side, in needles: 4.
+    pub rack_max: f64,
+    /// How many needles a yarn may float past: 6, "usually the maximum number for a continuous float" (Spencer, Knitting
+    /// Technology).
+    pub float_max: u32,
+    /// How many loops a needle may hold: 4, as many as a needle usually tucks at most (likewise).
+    pub pile_max: u32,
+}
+
+impl Default for Machine {
+    fn default() -> Self {
+        Self { rack_max: 4.0, float_max: 6, pile_max: 4 }
+    }
+}
+
+/// What comes of a program.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Knit {
+    /// Loops and yarns.
+    pub stitches: Stitches,
+    /// What is wrong, in the order of the operations: [`FAULTS_LISTED`] of it at most. In a repeat, what is wrong every time.
+    pub faults: Vec<Fault>,
+    /// How many more faults there are.
+    pub unlisted: u64,
+}
+
+impl Machine {
+    /// Runs a program.
+    ///
+    /// A program that is a repeat is run over and over, until what hangs on its needles at the end is the same each time; one
+    /// such round is the cloth. Each pass of a carrier is then a strand that goes on in the repeat beside, unless the program
+    /// itself brings the carrier in.
+    ///
+    /// No fault stops the machine: [`FaultKind`] says what is done instead.
+    ///
+    /// **Errors**: [`FabricError::KnitSize`] for too many loops, carriers or loops on one needle, [`FabricError::KnitNeedle`] for
+    /// needles beyond [`NEEDLE_MAX`], [`FabricError::KnitCarriers`] for carriers that the program does not have, and
+    /// [`FabricError::OutOfMemory`].
+    ///
+    /// ```
+    /// use texere_fabric::weft::{CarrierSet, Direction, Fate, Instruction, LoopRef, Machine, Needle, Operation, Program};
+    /// let knit = Instruction::Knit(Direction::Right, Needle::front(0));
+    /// let one = Operation { instruction: knit, carriers: CarrierSet(1), source: 0 };
+    /// let program = Program {
+    ///     carriers: vec!["1".into()],
+    ///     carrier_sets: vec![vec![], vec![0]],
+    ///     operations: vec![one],
+    ///     repeat: Some(1),
+    /// };
+    /// let stitches = Machine::default().knit(&program)?.stitches;
+    /// // The same loop of the next round is drawn through it.
+    /// assert_eq!(stitches.loops[0].fate, Fate::Held(LoopRef { number: 0, repeat: [0, 1] }));
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    pub fn knit(&self, program: &Program) -> Result<Knit, FabricError> {
+        let loops = check(program)?;
+        let (low, width) = beds_of(program)?;
+        let mut run = Run::new(*self, program, Beds::new(low, width, program.repeat.is_some())?, loops)?;
+        run.all()?;
+        if program.repeat.is_some() {
+            let mut hung = state(&run);
+            while run.round < ROUNDS_MAX {
+                run.round += 1;
+                run.all()?;
+                let next = state(&run);
+                if std::mem::replace(&mut hung, next) == hung {
+                    break;
+                }
+            }
+        }
+        let width = program.repeat.map(|_| width);
+        finish(run, width, self.float_max)
+    }
+}
+
+/// What the next round begins with: what hangs where, since how many rounds; rack and loop length.
+fn state(run: &Run<'_>) -> (Vec<(usize, Held)>, f64, Option<f32>) {
+    let since = |held: &Held| Held { round: run.round - held.round, ..*held };
+    let stacks = run.beds.stacks().iter().enumerate();
+    let hung = stacks.flat_map(|(index, stack)| stack.iter().map(move |held| (index, since(held))));
+    (hung.collect(), run.rack, run.length_mm)
+}
+
+/// Checks carriers, and counts loops.
+fn check(program: &Program) -> Result<usize, FabricError> {
+    let size = |what, count: usize, limit: usize, operation| {
+        let (count, limit) = (count as u64, limit as u64);
+        if count > limit { Err(FabricError::KnitSize { what, count, limit, operation }) } else { Ok(()) }
+    };
+    size("carriers", program.carriers.len(), CARRIERS_MAX, 0)?;
+    size("sets of carriers", program.carrier_sets.len(), CARRIERS_MAX, 0)?;
+    let mut loops = 0_usize;
+    for (number, operation) in (1..).zip(&program.operations) {
+        let unknown = FabricError::KnitCarriers { operation: number };
+        let none = Vec::new();
+        let set = match program.carrier_sets.get(operation.carriers.0 as usize) {
+            Some(set) => set,
+            // The first set is the empty one, also where it is not written.
+            None if operation.carriers.0 == 0 => &none,
+            None => return Err(unknown),
+        };
+        if set.iter().any(|carrier| *carrier as usize >= program.carriers.len()) {
+            return Err(unknown);
+        }
+        if let Instruction::Knit(..) | Instruction::Tuck(..) | Instruction::Split(..) = operation.instruction
+        {
+            loops = loops.saturating_add(set.len());
+            size("loops", loops, LOOPS_MAX, number)?;
+        }
+    }
+    Ok(loops)
+}
+
+/// The lowest needle, and how many there are up to the highest.
+fn beds_of(program: &Program) -> Result<(i32, i32), FabricError> {
+    let (mut low, mut high) = (i32::MAX, i32::MIN);
+    for (operation, Operation { instruction, .. }) in (1..).zip(&program.operations) {
+        let needles = match *instruction {
+            Instruction::Knit(_, needle)
+            | Instruction::Tuck(_, needle)
+            | Instruction::Miss(_, needle)
+            | Instruction::Drop(needle) => [needle; 2],
+            Instruction::Split(_, from, to) | Instruction::Transfer(from, to) => [from, to],
+            _ => continue,
+        };
+        for needle in needles {
+            if needle.number.unsigned_abs() > NEEDLE_MAX.unsigned_abs() {
+                return Err(FabricError::KnitNeedle { needle, limit: NEEDLE_MAX, operation });
+            }
+            (low, high) = (low.min(needle.number), high.max(needle.number));
+        }
+    }
+    match program.repeat {
+        Some(width) => match i32::try_from(width) {
+            Ok(wales @ 1..=NEEDLE_MAX) => Ok((0, wales)),
+            _ => {
+                let (what, limit) = ("needles in a repeat", NEEDLE_MAX as u64);
+                Err(FabricError::KnitSize { what, count: u64::from(width), limit, operation: 0 })
+            }
+        },
+        None if low > high => Ok((0, 1)),
+        None => Ok((low, high - low + 1)),
+    }
+}
+
+/// Puts in what is known at the end: courses, fates and heads, and faults of the whole.
+fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, FabricError> {
+    left(&mut run, width.is_some());
+    let aboves = run.aboves();
+    let (courses, height) = courses::courses(&run.carriers.before, &aboves, width.is_some());
+    for (stitch, end) in run.loops.iter_mut().zip(&run.ends) {
+        stitch.course = courses[stitch.course as usize];
+        if let Some((fate, head)) = *end {
+            (stitch.fate, stitch.head) = (fate, head);
+        }
+    }
+    for step in run.carriers.strands.iter_mut().flat_map(|strand| &mut strand.steps) {
+        if let Step::Float { course, .. } = step {
+            *course = courses[*course as usize];
+        }
+    }
+    // Carriers that are brought in and out without a stitch lay no yarn.
+    run.carriers.strands.retain(|strand| !strand.steps.is_empty());
+    floats::long(&mut run, width, float_max);
+    let repeat = width.zip(height).map(|(width, height)| [width.unsigned_abs(), height]);
+    let strands = std::mem::take(&mut run.carriers.strands);
+    run.faults.sort_by_key(|fault| fault.source);
+    let stitches = Stitches { loops: run.loops, parents: run.parents, strands, repeat };
+    Ok(Knit { stitches, faults: run.faults, unlisted: run.unlisted })
+}
+
+/// What still hangs on needles in the end.
+fn left(run: &mut Run<'_>, repeats: bool) {
+    let stacks = run.beds.stacks().iter().enumerate();
+    let hung: Vec<(usize, Vec<Held>)> =
+        stacks.filter(|(_, stack)| !stack.is_empty()).map(|(index, stack)| (index, stack.clone())).collect();
+    if !repeats {
+        let loops: usize = hung.iter().map(|(_, stack)| stack.len()).sum();
+        if let Some(&(index, ref stack)) = hung.first() {
+            run.at_source(run.loops[stack[0].number as usize].source);
+            run.fault(FaultKind::LeftOnNeedles(loops as u32), Some(run.beds.needle(index)), None);
+        }
+    }
+    for (index, stack) in hung {
+        let (needle, slot) = (run.beds.needle(index), Slot { index, repeat: 0 });
+        // The first round may have begun with other needles than the next ones.
+        if repeats && stack.iter().any(|held| run.round - held.round + 1 >= ROUNDS_MAX) {
+            run.at_source(run.loops[stack[0].number as usize].source);
+            run.fault(FaultKind::NeverKnits, Some(needle), None);
+        }
+        for (layer, held) in stack.iter().enumerate() {
+            if !repeats || run.ends[held.number as usize].is_none() {
+                run.ends[held.number as usize] = Some((Fate::OnNeedle, run.head(held, needle, slot, layer)));
+            }
+        }
+    }
+}

@@ -1,0 +1,455 @@
+//! One operation after the other.
+
+use super::super::{
+    Bed, CarrierSet, Direction, Fate, Head, Instruction, LoopKind, LoopRef, Needle, Operation, Program, Step,
+    Stitch,
+};
+use super::beds::{Beds, HALVES, Held, Slot};
+use super::carriers::{Carriers, Spot};
+use super::courses::Above;
+use super::{FAULTS_LISTED, Fault, FaultKind, Machine, NEEDLE_MAX, PARENTS_MAX, STACK_MAX};
+use crate::FabricError;
+use crate::memory::room_for;
+
+/// What a loop has come to, and how its head hangs then.
+pub(super) type End = (Fate, Head);
+
+/// A machine at work.
+#[derive(Debug)]
+pub(super) struct Run<'a> {
+    machine: Machine,
+    program: &'a Program,
+    pub(super) beds: Beds,
+    pub(super) rack: f64,
+    pub(super) length_mm: Option<f32>,
+    pub(super) carriers: Carriers,
+    /// The round of the repeat, from 0.
+    pub(super) round: u32,
+    /// Transfers in this round.
+    moved: u32,
+    /// The loops made in this round. Their courses are still numbers of passes.
+    pub(super) loops: Vec<Stitch>,
+    pub(super) parents: Vec<LoopRef>,
+    /// What has become in this round of loops, whenever they were made.
+    pub(super) ends: Vec<Option<End>>,
+    /// The pass of each loop.
+    passes: Vec<u32>,
+    /// Which passes lie above which loops: of the passes of earlier rounds, the numbers may have been others.
+    aboves: Vec<Above>,
+    pub(super) faults: Vec<Fault>,
+    pub(super) unlisted: u64,
+    /// The operation that is done.
+    source: u32,
+    operation: u64,
+}
+
+/// A stitch that is to be made.
+#[derive(Debug, Clone, Copy)]
+struct Order {
+    kind: LoopKind,
+    direction: Direction,
+    needle: Needle,
+    slot: Slot,
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(
+        machine: Machine,
+        program: &'a Program,
+        beds: Beds,
+        loops: usize,
+    ) -> Result<Self, FabricError> {
+        let mut run = Self {
+            machine,
+            program,
+            beds,
+            rack: 0.0,
+            length_mm: None,
+            carriers: Carriers::default(),
+            round: 0,
+            moved: 0,
+            loops: Vec::new(),
+            parents: Vec::new(),
+            ends: Vec::new(),
+            passes: Vec::new(),
+            aboves: Vec::new(),
+            faults: Vec::new(),
+            unlisted: 0,
+            source: 0,
+            operation: 0,
+        };
+        room_for(&mut run.loops, loops, "loops")?;
+        room_for(&mut run.parents, loops, "parents of loops")?;
+        room_for(&mut run.ends, loops, "fates of loops")?;
+        room_for(&mut run.passes, loops, "passes of loops")?;
+        run.passes.resize(loops, 0);
+        Ok(run)
+    }
+
+    /// Does all operations once. What the round before made is forgotten but for what hangs on needles.
+    pub(super) fn all(&mut self) -> Result<(), FabricError> {
+        let loops = self.passes.len();
+        self.carriers = Carriers::new(self.program.carriers.len(), self.program.repeat.is_some());
+        (self.moved, self.unlisted) = (0, 0);
+        self.loops.clear();
+        self.parents.clear();
+        self.aboves.clear();
+        self.faults.clear();
+        self.ends.clear();
+        self.ends.resize(loops, None);
+        for (number, operation) in (1..).zip(&self.program.operations) {
+            self.operation = number;
+            self.source = operation.source;
+            self.one(operation)?;
+        }
+        Ok(())
+    }
+
+    /// Which passes lie above which others, in order.
+    pub(super) fn aboves(&mut self) -> Vec<Above> {
+        let mut aboves = std::mem::take(&mut self.aboves);
+        for above in &mut aboves {
+            above.below = self.passes[above.below as usize];
+        }
+        aboves.sort_unstable();
+        aboves.dedup();
+        aboves
+    }
+
+    pub(super) fn fault(&mut self, kind: FaultKind, needle: Option<Needle>, carrier: Option<u32>) {
+        if self.faults.len() == FAULTS_LISTED {
+            self.unlisted += 1;
+            return;
+        }
+        let carrier = carrier.map(|carrier| self.name(carrier));
+        self.faults.push(Fault { kind, source: self.source, needle, carrier });
+    }
+
+    /// Says of which operation faults are from here on.
+    pub(super) fn at_source(&mut self, source: u32) {
+        self.source = source;
+    }
+
+    fn name(&self, carrier: u32) -> String {
+        self.program.carriers[carrier as usize].clone()
+    }
+
+    fn one(&mut self, operation: &Operation) -> Result<(), FabricError> {
+        let program = self.program;
+        let CarrierSet(set) = operation.carriers;
+        let carriers = program.carrier_sets.get(set as usize).map_or(&[][..], Vec::as_slice);
+        match operation.instruction {
+            Instruction::In => self.bring_in(carriers),
+            Instruction::InHook => {
+                self.free_hook(carriers);
+                self.carriers.hook(carriers);
+                self.bring_in(carriers);
+            }
+            Instruction::ReleaseHook => {
+                for &carrier in carriers {
+                    if !self.carriers.let_go(carrier) {
+                        self.fault(FaultKind::HookWithout, None, Some(carrier));
+                    }
+                }
+            }
+            Instruction::Out | Instruction::OutHook => {
+                if operation.instruction == Instruction::OutHook {
+                    self.free_hook(carriers);
+                }
+                for &carrier in carriers {
+                    if !self.carriers.take_out(carrier) {
+                        self.fault(FaultKind::OutWithoutIn, None, Some(carrier));
+                    }
+                }
+            }
+            Instruction::Knit(_, needle) if carriers.is_empty() => self.drop(needle)?,
+            Instruction::Drop(needle) => self.drop(needle)?,
+            Instruction::Split(_, from, to) if carriers.is_empty() => self.transfer(from, to)?,
+            Instruction::Transfer(from, to) => self.transfer(from, to)?,
+            // Nothing is laid: the needle only pulls at its loops.
+            Instruction::Tuck(..) | Instruction::Miss(..) if carriers.is_empty() => {}
+            Instruction::Knit(direction, needle) => {
+                self.knit(set, carriers, LoopKind::Knit, direction, needle)?;
+            }
+            Instruction::Tuck(direction, needle) => {
+                self.knit(set, carriers, LoopKind::Tuck, direction, needle)?;
+            }
+            Instruction::Split(direction, from, to) => self.split(set, carriers, direction, [from, to])?,
+            Instruction::Miss(direction, needle) => self.miss(set, carriers, direction, needle)?,
+            Instruction::Rack(rack) => self.rack(rack),
+            Instruction::LoopLength(length) => {
+                self.length_mm = length.map(|mm| mm as f32).filter(|mm| mm.is_finite() && *mm > 0.0);
+            }
+        }
+        Ok(())
+    }
+
+    /// A fault if the hook is to take carriers while it holds another.
+    fn free_hook(&mut self, carriers: &[u32]) {
+        if let (Some(held), Some(&carrier)) = (self.carriers.hooked_beside(carriers), carriers.first()) {
+            self.fault(FaultKind::HookHolds(self.name(held)), None, Some(carrier));
+        }
+    }
+
+    fn bring_in(&mut self, carriers: &[u32]) {
+        for &carrier in carriers {
+            if !self.carriers.bring_in(carrier) {
+                self.fault(FaultKind::CarrierIn, None, Some(carrier));
+            }
+        }
+    }
+
+    fn rack(&mut self, rack: f64) {
+        let limit = self.machine.rack_max;
+        if rack.is_nan() || rack.abs() > limit {
+            self.fault(FaultKind::Racked { rack, limit }, None, None);
+        }
+        if rack.abs() <= f64::from(NEEDLE_MAX) {
+            self.rack = rack;
+            self.beds.rack(rack);
+        }
+    }
+
+    fn slot(&self, needle: Needle) -> Result<Slot, FabricError> {
+        let error = FabricError::KnitNeedle { needle, limit: NEEDLE_MAX, operation: self.operation };
+        self.beds.slot(needle).ok_or(error)
+    }
+
+    /// Lets all loops of a needle fall.
+    fn drop(&mut self, needle: Needle) -> Result<(), FabricError> {
+        let slot = self.slot(needle)?;
+        let held = std::mem::take(self.beds.stack(slot));
+        let mut fallen = 0;
+        for (layer, held) in held.iter().enumerate() {
+            let fate = held.split.map_or(Fate::Dropped, Fate::Held);
+            fallen += u32::from(fate == Fate::Dropped);
+            let head = self.head(held, needle, slot, layer);
+            self.ends[held.number as usize] = Some((fate, head));
+        }
+        if fallen > 0 {
+            self.fault(FaultKind::Dropped(fallen), Some(needle), None);
+        }
+        Ok(())
+    }
+
+    /// Moves all loops of a needle.
+    ///
+    /// They keep their order from the front of the machine to its back. Needles of both beds point at each other, so the loop
+    /// that lay nearest to the tip of one needle lies nearest to the stem of the other: their order on the needle turns over. All
+    /// lie nearer to its tip than those that hang there.
+    fn transfer(&mut self, from: Needle, to: Needle) -> Result<(), FabricError> {
+        let (start, end) = (self.slot(from)?, self.slot(to)?);
+        self.aim(from, to);
+        if from == to {
+            return Ok(());
+        }
+        let held = std::mem::take(self.beds.stack(start));
+        self.hang(held, start, (to, end))
+    }
+
+    /// Faults of loops that go from one needle to the other.
+    fn aim(&mut self, from: Needle, to: Needle) {
+        if from.bed == to.bed {
+            self.fault(FaultKind::SameBed(to), Some(from), None);
+        } else if self.rack.fract() != 0.0 || !self.beds.aligned(from, to) {
+            self.fault(FaultKind::NotAligned { to, rack: self.rack }, Some(from), None);
+        }
+    }
+
+    /// Hangs loops that hung elsewhere on a needle.
+    fn hang(&mut self, held: Vec<Held>, start: Slot, (to, end): (Needle, Slot)) -> Result<(), FabricError> {
+        if held.is_empty() {
+            return Ok(());
+        }
+        self.moved += 1;
+        let (count, moved) = (held.len(), self.moved);
+        let repeat = |held: &Held| held.repeat.saturating_add(start.repeat).saturating_sub(end.repeat);
+        let turned = held.iter().rev().map(|held| Held { repeat: repeat(held), moved, ..*held });
+        self.beds.stack(end).extend(turned);
+        self.piled(to, end, count)
+    }
+
+    /// A fault or an error if a needle holds too many loops, of which `added` are new.
+    fn piled(&mut self, needle: Needle, slot: Slot, added: usize) -> Result<(), FabricError> {
+        let (loops, limit) = (self.beds.stack(slot).len(), self.machine.pile_max);
+        if loops > STACK_MAX {
+            let (what, count, limit) = ("loops on a needle", loops as u64, STACK_MAX as u64);
+            return Err(FabricError::KnitSize { what, count, limit, operation: self.operation });
+        }
+        if loops > limit as usize && loops - added <= limit as usize {
+            self.fault(FaultKind::Piled { loops: loops as u32, limit }, Some(needle), None);
+        }
+        Ok(())
+    }
+
+    /// Knits or tucks.
+    fn knit(
+        &mut self,
+        set: u32,
+        carriers: &[u32],
+        kind: LoopKind,
+        direction: Direction,
+        needle: Needle,
+    ) -> Result<(), FabricError> {
+        let slot = self.slot(needle)?;
+        let order = Order { kind, direction, needle, slot };
+        let mut held = std::mem::take(self.beds.stack(slot));
+        let first = self.make(set, carriers, order, &held)?;
+        if kind == LoopKind::Knit {
+            for (layer, loop_held) in held.iter().enumerate() {
+                let head = self.head(loop_held, needle, slot, layer);
+                let child = self.child(first, loop_held, slot);
+                self.ends[loop_held.number as usize] = Some((Fate::Held(child), head));
+            }
+            held.clear();
+        }
+        self.place(held, first, carriers.len(), slot);
+        if kind == LoopKind::Tuck { self.piled(needle, slot, carriers.len()) } else { Ok(()) }
+    }
+
+    fn split(
+        &mut self,
+        set: u32,
+        carriers: &[u32],
+        direction: Direction,
+        [from, to]: [Needle; 2],
+    ) -> Result<(), FabricError> {
+        let (start, end) = (self.slot(from)?, self.slot(to)?);
+        self.aim(from, to);
+        let mut held = std::mem::take(self.beds.stack(start));
+        let order = Order { kind: LoopKind::Split, direction, needle: from, slot: start };
+        let first = self.make(set, carriers, order, &held)?;
+        for loop_held in &mut held {
+            loop_held.split = Some(self.child(first, loop_held, start));
+        }
+        self.hang(held, start, (to, end))?;
+        let under = std::mem::take(self.beds.stack(start));
+        self.place(under, first, carriers.len(), start);
+        self.piled(from, start, carriers.len())
+    }
+
+    fn miss(
+        &mut self,
+        set: u32,
+        carriers: &[u32],
+        direction: Direction,
+        needle: Needle,
+    ) -> Result<(), FabricError> {
+        self.slot(needle)?;
+        self.check_in(carriers, needle);
+        let spot = self.spot(direction, needle);
+        let pass = self.carriers.pass(set, carriers, spot, None);
+        let (at, bed) = (spot.at as f32 / HALVES as f32, needle.bed);
+        let float = Step::Float { at, bed, course: pass, direction, source: self.source };
+        for &carrier in carriers {
+            self.lay(carrier, [set, pass], spot, float, needle);
+        }
+        Ok(())
+    }
+
+    /// Puts new loops on top of what hangs on a needle.
+    fn place(&mut self, mut held: Vec<Held>, first: u32, count: usize, slot: Slot) {
+        // The needle lies in this repeat of the program: its own needle in repeat 0 holds the loop of one further back.
+        let new = Held { number: 0, round: self.round, repeat: -slot.repeat, moved: 0, split: None };
+        held.extend((first..).take(count).map(|number| Held { number, ..new }));
+        *self.beds.stack(slot) = held;
+    }
+
+    /// A loop that is drawn through one that hangs on a needle, as seen from that one.
+    fn child(&self, number: u32, held: &Held, slot: Slot) -> LoopRef {
+        let repeat = [-held.repeat.saturating_add(slot.repeat), (self.round - held.round) as i32];
+        LoopRef { number, repeat }
+    }
+
+    /// How the head of a loop hangs on a needle.
+    pub(super) fn head(&self, held: &Held, needle: Needle, slot: Slot, layer: usize) -> Head {
+        let place = self.beds.place(needle) - self.beds.shift(held.repeat.saturating_add(slot.repeat));
+        let at = place as f32 / HALVES as f32;
+        Head { at, bed: needle.bed, layer: layer as u16, moved: held.moved }
+    }
+
+    fn spot(&self, direction: Direction, needle: Needle) -> Spot {
+        let row = 1 << (2 * u8::from(needle.bed == Bed::Back) + u8::from(needle.slider));
+        Spot { direction, at: self.beds.place(needle), row }
+    }
+
+    /// Makes a loop of each carrier; the number of the first.
+    fn make(&mut self, set: u32, carriers: &[u32], order: Order, held: &[Held]) -> Result<u32, FabricError> {
+        let Order { kind, direction, needle, slot } = order;
+        self.check_in(carriers, needle);
+        if needle.slider {
+            self.fault(FaultKind::OnSlider, Some(needle), None);
+        }
+        let spot = self.spot(direction, needle);
+        let own = |held: &&Held| held.round == self.round;
+        let newest = held.iter().filter(own).map(|held| self.passes[held.number as usize]).max();
+        let pass = self.carriers.pass(set, carriers, spot, newest);
+        for held in held {
+            let (below, rounds) = (held.number, self.round - held.round);
+            let pass_of = |above: &Above| self.passes[above.below as usize];
+            let same = |last: &Above| {
+                last.pass == pass
+                    && [last.rounds, rounds] == [0, 0]
+                    && pass_of(last) == self.passes[below as usize]
+            };
+            if !self.aboves.last().is_some_and(same) {
+                self.aboves.push(Above { pass, below, rounds });
+            }
+        }
+        let first = self.loops.len() as u32;
+        let start = self.parents.len();
+        if kind != LoopKind::Tuck {
+            if start + held.len() > PARENTS_MAX {
+                let (what, count) = ("loops that others are drawn through", (start + held.len()) as u64);
+                let (limit, operation) = (PARENTS_MAX as u64, self.operation);
+                return Err(FabricError::KnitSize { what, count, limit, operation });
+            }
+            let round = self.round;
+            let parent = |held: &Held| LoopRef {
+                number: held.number,
+                repeat: [held.repeat.saturating_add(slot.repeat), held.round as i32 - round as i32],
+            };
+            room_for(&mut self.parents, held.len(), "parents of loops")?;
+            self.parents.extend(held.iter().map(parent));
+        }
+        let parents = start as u32..self.parents.len() as u32;
+        let at = spot.at as f32 / HALVES as f32;
+        let opposite = self.beds.opposite(needle);
+        for (plate, &carrier) in carriers.iter().enumerate() {
+            let number = self.loops.len() as u32;
+            self.passes[number as usize] = pass;
+            let head = Head { at, bed: needle.bed, layer: 0, moved: 0 };
+            self.loops.push(Stitch {
+                kind,
+                bed: needle.bed,
+                at,
+                opposite,
+                course: pass,
+                plate: plate as u16,
+                parents: parents.clone(),
+                head,
+                fate: Fate::OnNeedle,
+                length_mm: self.length_mm,
+                source: self.source,
+            });
+            self.lay(carrier, [set, pass], spot, Step::Loop { number, direction }, needle);
+        }
+        Ok(first)
+    }
+
+    /// Brings in carriers that make a stitch and are not in, which is a fault.
+    fn check_in(&mut self, carriers: &[u32], needle: Needle) {
+        for &carrier in carriers {
+            if !self.carriers.is_in(carrier) {
+                self.fault(FaultKind::CarrierNotIn, Some(needle), Some(carrier));
+                self.carriers.bring_in(carrier);
+            }
+        }
+    }
+
+    fn lay(&mut self, carrier: u32, pass: [u32; 2], spot: Spot, step: Step, needle: Needle) {
+        if let Some(other) = self.carriers.lay(carrier, pass, spot, step) {
+            self.fault(FaultKind::Tangled(self.name(other)), Some(needle), Some(carrier));
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! The way of a yarn: from loop to loop, behind the needles that it passes, and round at the edges.
+
+use glam::DVec3;
+
+use super::cells::{Cell, cells};
+use super::form::{Form, side};
+use super::layers::{Behind, Layers};
+use super::pen::{Laid, Pen};
+use super::shape::{ARC, Shape};
+use super::{Cells, Fate, Stitches};
+
+/// Yarns that share a course lie so many diameters apart where they cross, if the course has room for it.
+const CROSSING: f64 = 1.0;
+
+/// The share of a course that such yarns take.
+const ROOM: f64 = 0.75;
+
+/// The end of a yarn lies so many diameters behind loops that hang where it begins or ends.
+const END_BEHIND: f64 = 1.3;
+
+/// How far a yarn goes out beyond its arc where it turns, in wales; and each carrier further than the one before, in diameters.
+const TURN: f64 = 0.3;
+const NEXT_TURN: f64 = 1.1;
+
+/// A cloth that is to be laid.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cloth<'a> {
+    pub(super) stitches: &'a Stitches,
+    pub(super) layers: &'a Layers,
+    pub(super) shape: &'a Shape,
+    /// The place of the leftmost needle, in wales.
+    pub(super) left: f32,
+    pub(super) kind: Cells,
+}
+
+impl Cloth<'_> {
+    /// Lays a yarn, one round of it where it goes on in the next repeat.
+    pub(super) fn lay(&self, strand: usize) -> Laid {
+        let (cells, onward) = cells(self.stitches, self.layers, strand);
+        let (Some(first), Some(last)) = (cells.first(), cells.last()) else { return Laid::default() };
+        let mut pen = Pen::default();
+        match onward {
+            Some([right, up]) => {
+                pen.cell(first.source);
+                let before = Cell { at: last.at - right as f32, course: last.course - up, ..*last };
+                self.join(&mut pen, strand, &before, first);
+            }
+            None => self.begin(&mut pen, first),
+        }
+        self.cell(&mut pen, first);
+        for pair in cells.windows(2) {
+            pen.cell(pair[1].source);
+            self.join(&mut pen, strand, &pair[0], &pair[1]);
+            self.cell(&mut pen, &pair[1]);
+        }
+        if onward.is_none() {
+            self.end(&mut pen, last);
+        }
+        let onward = onward.map(|[right, up]| {
+            DVec3::new(right as f64 * self.shape.wale, up as f64 * self.shape.course, 0.0)
+        });
+        match self.kind {
+            Cells::Round => pen.laid(),
+            Cells::Even => pen.even(onward),
+        }
+    }
+
+    /// The middle of a needle's wale, mm.
+    fn x(&self, at: f32) -> f64 {
+        (f64::from(at - self.left) + 0.5) * self.shape.wale
+    }
+
+    /// The height of the arcs on either side of a cell, mm.
+    fn y(&self, cell: &Cell) -> f64 {
+        let room = (CROSSING * self.shape.diameter * cell.sharing).min(ROOM * self.shape.course);
+        cell.course as f64 * self.shape.course + cell.lift * room
+    }
+
+    /// z of the arcs on either side of a cell.
+    fn z(&self, cell: &Cell) -> f64 {
+        if let Some(number) = cell.number {
+            return self.form(cell, number).arc_z();
+        }
+        let Shape { depth, diameter, .. } = *self.shape;
+        let plate = f64::from(cell.plate) * diameter;
+        match self.layers.behind(cell.course, cell.at, cell.bed) {
+            Behind::Between => -side(cell.bed) * plate,
+            Behind::One { bed, made } => {
+                let loops = if made { diameter } else { 0.0 };
+                -side(bed) * (ARC.z.abs() * depth + loops + plate)
+            }
+        }
+    }
+
+    fn form(&self, cell: &Cell, number: u32) -> Form<'_> {
+        let y = cell.course as f64 * self.shape.course;
+        let at = [self.x(cell.at), y, self.y(cell) - y];
+        Form::new(self.shape, self.stitches, self.layers, number, at)
+    }
+
+    /// What a yarn does at a needle.
+    fn cell(&self, pen: &mut Pen, cell: &Cell) {
+        match cell.number {
+            Some(number) => {
+                let (points, head) = self.form(cell, number).points(cell.direction);
+                let on_needle = self.stitches.loops[number as usize].fate == Fate::OnNeedle;
+                for (index, point) in points.into_iter().enumerate() {
+                    pen.point(point);
+                    if on_needle && index == head {
+                        pen.pin();
+                    }
+                }
+            }
+            None => {
+                let ways: &[f64] = if cell.short { &[0.0] } else { &[-1.0, 1.0] };
+                for across in ways {
+                    let x = self.x(cell.at) + across * cell.direction * self.shape.wale / 6.0;
+                    pen.point(DVec3::new(x, self.y(cell), self.z(cell)));
+                }
+            }
+        }
+    }
+
+    /// The yarn between two needles.
+    fn join(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) {
+        if one.direction != other.direction {
+            return self.turn(pen, strand, one, other);
+        }
+        let x = f64::midpoint(self.x(one.at), self.x(other.at));
+        let y = f64::midpoint(self.y(one), self.y(other));
+        pen.point(DVec3::new(x, y, between(self.z(one), self.z(other))));
+        if self.is_first(one) && self.is_first(other) {
+            pen.pin();
+        }
+    }
+
+    /// Whether a loop is of the first course, drawn through nothing.
+    fn is_first(&self, cell: &Cell) -> bool {
+        let stitch = cell.number.map(|number| &self.stitches.loops[number as usize]);
+        self.stitches.repeat.is_none()
+            && cell.course == 0
+            && stitch.is_some_and(|stitch| stitch.parents.is_empty())
+    }
+
+    /// The yarn turns round beside the outer of two needles.
+    fn turn(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) {
+        let Shape { wale, course, diameter, .. } = *self.shape;
+        let outwards = one.direction;
+        let outer = f64::max(outwards * self.x(one.at), outwards * self.x(other.at)) + 0.5 * wale;
+        let carrier = f64::from(self.stitches.strands[strand].carrier);
+        let out = outwards * (outer + TURN * wale + NEXT_TURN * carrier * diameter);
+        let (mut from, mut to) = (self.y(one), self.y(other));
+        if (to - from).abs() < diameter {
+            // In the same course it lies beside itself.
+            let middle = f64::midpoint(from, to);
+            (from, to) = (middle - diameter / 2.0, middle + diameter / 2.0);
+        }
+        let [start, end] =
+            [(from, one), (to, other)].map(|(y, cell)| DVec3::new(outwards * outer, y, self.z(cell)));
+        pen.point(start);
+        let steps = ((to - from).abs() / course).round().max(1.0) as u32;
+        for step in 0..steps {
+            let way = (f64::from(step) + 0.5) / f64::from(steps);
+            pen.point(start.lerp(end, way).with_x(out));
+        }
+        pen.point(end);
+    }
+
+    /// The beginning of a yarn.
+    fn begin(&self, pen: &mut Pen, first: &Cell) {
+        let [near, far] = self.loose(first, -first.direction);
+        pen.source(first.source);
+        pen.point(far);
+        pen.pin();
+        pen.cell(first.source);
+        pen.point(near);
+        pen.pin();
+    }
+
+    /// The end of a yarn.
+    fn end(&self, pen: &mut Pen, last: &Cell) {
+        pen.tail();
+        for point in self.loose(last, last.direction) {
+            pen.point(point);
+            pen.pin();
+        }
+    }
+
+    /// Half a wale and a whole one beside a cell: level, or behind what hangs there.
+    fn loose(&self, cell: &Cell, outwards: f64) -> [DVec3; 2] {
+        let beside = cell.at + outwards as f32;
+        let behind =
+            if self.layers.is_held(cell.course, beside) { END_BEHIND * self.shape.diameter } else { 0.0 };
+        let z = self.z(cell);
+        let back = if z > 0.0 { 1.0 } else { -1.0 };
+        [0.5, 1.0].map(|way| {
+            let x = self.x(cell.at) + way * outwards * self.shape.wale;
+            DVec3::new(x, self.y(cell), z + way * back * behind)
+        })
+    }
+}
+
+/// z of the arc between two loops: as far back as the further one, half way if they lie on opposite sides.
+fn between(one: f64, other: f64) -> f64 {
+    if one * other <= 0.0 {
+        f64::midpoint(one, other)
+    } else if one.abs() > other.abs() {
+        one
+    } else {
+        other
+    }
+}

@@ -1,0 +1,155 @@
+//! What a knitting machine is told to do.
+
+use std::fmt;
+
+/// A row of needles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Bed {
+    /// The front bed: its needles draw loops to the technical face, towards +z.
+    Front,
+    /// The back bed: its needles draw loops to the technical back.
+    Back,
+}
+
+impl Bed {
+    /// The other bed.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Front => Self::Back,
+            Self::Back => Self::Front,
+        }
+    }
+}
+
+/// A needle, or the slider beside it that can hold loops but not knit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Needle {
+    /// Its bed.
+    pub bed: Bed,
+    /// Whether it is the slider.
+    pub slider: bool,
+    /// Its number on the bed, rising to the right; it may be negative.
+    pub number: i32,
+}
+
+impl Needle {
+    /// A needle of the front bed.
+    #[must_use]
+    pub const fn front(number: i32) -> Self {
+        Self { bed: Bed::Front, slider: false, number }
+    }
+
+    /// A needle of the back bed.
+    #[must_use]
+    pub const fn back(number: i32) -> Self {
+        Self { bed: Bed::Back, slider: false, number }
+    }
+}
+
+impl fmt::Display for Needle {
+    /// As knitout writes it: `f3`, `bs-1`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bed = if self.bed == Bed::Front { 'f' } else { 'b' };
+        let slider = if self.slider { "s" } else { "" };
+        write!(f, "{bed}{slider}{}", self.number)
+    }
+}
+
+/// Which way the carriage moves while a stitch is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// To the left: needle numbers fall. Knitout's `-`.
+    Left,
+    /// To the right: needle numbers rise. Knitout's `+`.
+    Right,
+}
+
+/// Which yarns an operation takes: an index into [`Program::carrier_sets`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct CarrierSet(pub u32);
+
+/// One thing that the machine does. Names and meaning are those of knitout 2 (McCann, "The Knitout File Format", v0.6).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Instruction {
+    /// Yarns are brought in.
+    In,
+    /// Yarns are brought in by the hook that holds their ends until it lets go.
+    InHook,
+    /// The hook lets go.
+    ReleaseHook,
+    /// Yarns are taken out.
+    Out,
+    /// Yarns are cut, and their ends taken out by the hook.
+    OutHook,
+    /// Draws a new loop through all loops of a needle, which fall off it. Without a carrier they just fall.
+    Knit(Direction, Needle),
+    /// Lays a loop on a needle, on top of what it holds.
+    Tuck(Direction, Needle),
+    /// Knits, but the loops of the first needle go to the second instead of falling off.
+    Split(Direction, Needle, Needle),
+    /// Lets all loops of a needle fall.
+    Drop(Needle),
+    /// Moves all loops of a needle to one of the other bed, in front of what hangs there.
+    Transfer(Needle, Needle),
+    /// Carriers pass a needle: `Left` to its left side, `Right` to its right side.
+    Miss(Direction, Needle),
+    /// Back needle b comes to lie at front needle b + rack. A fraction puts back needles between front ones.
+    Rack(f64),
+    /// From here on loops are so long, mm; `None`: as the cloth says.
+    LoopLength(Option<f64>),
+}
+
+impl fmt::Display for Direction {
+    /// As knitout writes it: `+` or `-`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", if *self == Self::Right { '+' } else { '-' })
+    }
+}
+
+impl fmt::Display for Instruction {
+    /// As knitout writes it, without its carriers: `knit + f3`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::In => write!(f, "in"),
+            Self::InHook => write!(f, "inhook"),
+            Self::ReleaseHook => write!(f, "releasehook"),
+            Self::Out => write!(f, "out"),
+            Self::OutHook => write!(f, "outhook"),
+            Self::Knit(direction, needle) => write!(f, "knit {direction} {needle}"),
+            Self::Tuck(direction, needle) => write!(f, "tuck {direction} {needle}"),
+            Self::Split(direction, from, to) => write!(f, "split {direction} {from} {to}"),
+            Self::Drop(needle) => write!(f, "drop {needle}"),
+            Self::Transfer(from, to) => write!(f, "xfer {from} {to}"),
+            Self::Miss(direction, needle) => write!(f, "miss {direction} {needle}"),
+            Self::Rack(rack) => write!(f, "rack {rack}"),
+            Self::LoopLength(Some(length_mm)) => write!(f, "loops of {length_mm} mm"),
+            Self::LoopLength(None) => write!(f, "loops of any length"),
+        }
+    }
+}
+
+/// An instruction with its yarns, and where it stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Operation {
+    /// What is done.
+    pub instruction: Instruction,
+    /// The yarns that take part. In a set of several the first lies in front on the face: yarns are plated.
+    pub carriers: CarrierSet,
+    /// The line of the file, or the cell of the chart, that it comes from: kept with each control point.
+    pub source: u32,
+}
+
+/// A knitting program: what a machine is told, in order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Program {
+    /// The names of the yarn carriers. Which yarn is in which the cloth says.
+    pub carriers: Vec<String>,
+    /// The sets of carriers that operations take, each a list of indices into `carriers`. The first set is the empty one.
+    pub carrier_sets: Vec<Vec<u32>>,
+    /// The operations.
+    pub operations: Vec<Operation>,
+    /// Width of a repeat, in needles, where the program is one repeat of a cloth: needles are 0 to `width` - 1, and what is done
+    /// on others is done in the neighbouring repeats. The operations then end where they begin again: in the next courses.
+    pub repeat: Option<u32>,
+}

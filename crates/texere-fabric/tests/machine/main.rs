@@ -1,0 +1,9 @@
+//! What comes of knitting programs.
+
+#![allow(clippy::expect_used, clippy::panic, reason = "a test ends at what it did not expect")]
+
+mod known;
+mod laws;
+mod limits;
+mod naive;
+mod program;

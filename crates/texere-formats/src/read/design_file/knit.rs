@@ -1,0 +1,400 @@
+//! The `[knit]` table: a weft knit, from a chart, a picture or a knitout file.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use texere_fabric::Thread;
+use texere_fabric::weft::{Backing, Beds, Cells, Chart, ChartError, Gauge};
+use toml::Spanned;
+
+use super::schema::{DesignFile, KnitTable, Source};
+use super::threads::{Named, YarnTable};
+use crate::read::error::{first_few, named};
+use crate::read::file::file_name;
+use crate::read::knit::{Drawn, Knit};
+use crate::read::knitout::{self, LoopLengths};
+use crate::read::point_paper::{PointPaper, RowOrder};
+use crate::read::{Design, ReadError};
+
+/// Wales and courses to the cm, and needles to the inch, that a design may ask for.
+const PER_CM: (f64, f64) = (0.01, 1000.0);
+const PER_INCH: (f64, f64) = (0.1, 100.0);
+
+/// Loop lengths that a design may ask for, mm.
+const LOOP_MM: (f64, f64) = (0.01, 1000.0);
+
+/// How far yarns may be pressed together, as a share of their diameter.
+const COMPRESSION: (f64, f64) = (0.8, 1.0);
+
+/// Most copies of a repeat in either direction, and most needles that a float may be allowed to pass.
+const COPIES_MAX: i64 = 1_000_000;
+
+/// Courses for each wale where nothing says how close courses lie: Munden's, for plain jersey.
+const COURSE_OF_WALE: f64 = 4.2 / 5.5;
+
+/// Reads the knit that `table` describes.
+pub(super) fn read(
+    source: &Source<'_>,
+    file: &DesignFile,
+    table: &KnitTable,
+    yarns: &YarnTable,
+) -> Result<Design, ReadError> {
+    without_weaving(source, file)?;
+    let name = file.name.clone().unwrap_or_else(|| file_name(source.path));
+    let reader = Reader { source, table, yarns };
+    match (&table.chart, &table.image, &table.knitout) {
+        (Some(chart), None, None) => reader.chart(name, chart),
+        (None, Some(image), None) => reader.image(name, image),
+        (None, None, Some(knitout)) => reader.knitout(name, knitout),
+        _ => {
+            let keys = "knit.chart, knit.image and knit.knitout";
+            Err(ReadError::ExactlyOne { file: source.path.into(), keys })
+        }
+    }
+}
+
+/// Refuses keys that are about weaving.
+fn without_weaving(source: &Source<'_>, file: &DesignFile) -> Result<(), ReadError> {
+    let cloth = &file.cloth;
+    let spans = [
+        ("warp", file.warp.as_ref().map(|set| set.yarns.span())),
+        ("weft", file.weft.as_ref().map(|set| set.yarns.span())),
+        ("cloth.shape", cloth.shape.as_ref().map(Spanned::span)),
+        ("cloth.warp_crimp", cloth.warp_crimp.as_ref().map(Spanned::span)),
+        ("cloth.selvedge", cloth.selvedge.as_ref().map(Spanned::span)),
+        ("cloth.jam", cloth.jam.as_ref().map(Spanned::span)),
+    ];
+    match spans.into_iter().find_map(|(field, span)| Some((field, span?))) {
+        Some((field, span)) => Err(ReadError::Without { place: source.place(field, span), needs: "[weave]" }),
+        None => Ok(()),
+    }
+}
+
+struct Reader<'a> {
+    source: &'a Source<'a>,
+    table: &'a KnitTable,
+    yarns: &'a YarnTable,
+}
+
+impl Reader<'_> {
+    fn chart(&self, name: String, text: &Spanned<String>) -> Result<Design, ReadError> {
+        let table = self.table;
+        self.belongs(
+            "knit.image",
+            &[
+                ("knit.colors", table.colors.as_ref().map(Spanned::span)),
+                ("knit.rows", table.rows.as_ref().map(Spanned::span)),
+                ("knit.backing", table.backing.as_ref().map(Spanned::span)),
+            ],
+        )?;
+        self.without_stitch_lengths()?;
+        let refused = |error| self.refused("knit.chart", text.span(), error);
+        let chart = Chart::parse(text.as_ref(), self.beds()?).map_err(refused)?;
+        let drawn = Drawn::Cells {
+            file: self.source.path.into(),
+            columns: chart.wales(),
+            rows: chart.courses(),
+            upside_down: false,
+        };
+        let (turn, yarns) = self.yarns_in_turn()?;
+        let chart = chart.with_yarns(&turn).map_err(refused)?;
+        self.charted(name, &chart, yarns, drawn, Vec::new())
+    }
+
+    fn image(&self, name: String, image: &Spanned<String>) -> Result<Design, ReadError> {
+        let (source, table) = (self.source, self.table);
+        self.without_stitch_lengths()?;
+        let path = self.beside(image);
+        let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
+        let upside_down = rows == RowOrder::FirstPickFirst;
+        let refused = |error: ReadError| error.named(source.place("knit.image", image.span()));
+        let paper = PointPaper::read(&path, rows).map_err(refused)?;
+        let Some(colors) = &table.colors else {
+            return Err(ReadError::MissingKey {
+                file: source.path.into(),
+                field: "knit.colors".into(),
+                needed_for: "it says which yarn, or which symbol of a chart, each colour of the image is",
+            });
+        };
+        let mut warnings = Vec::new();
+        let meant = self.of_colors(&paper, colors.as_ref(), &mut warnings)?.map_err(refused)?;
+        let (columns, rows) = (paper.ends, paper.picks);
+        let drawn = Drawn::Cells { file: path.clone(), columns, rows, upside_down };
+        let fault = |error| self.refused("knit.image", image.span(), error);
+        let is_yarn = |text: &String| self.yarns.thread(text).is_some();
+        let design = if meant.iter().all(is_yarn) {
+            if let Some(span) =
+                table.yarns.as_ref().map(Spanned::span).or(table.beds.as_ref().map(Spanned::span))
+            {
+                let place = source.place("knit.yarns or knit.beds", span);
+                return Err(ReadError::Without { place, needs: "symbols in [knit.colors]" });
+            }
+            // Courses of a row come in the order of their yarns' names: the same whatever the image.
+            let mut names: Vec<&String> = meant.iter().collect();
+            names.sort_unstable();
+            names.dedup();
+            let numbers: Vec<u32> =
+                meant.iter().map(|name| names.binary_search(&name).unwrap_or(0) as u32).collect();
+            let yarn = |column, row| numbers[paper.color(column, row)];
+            let chart = Chart::jacquard(columns, rows, self.backing()?, yarn).map_err(fault)?;
+            let named = |name: &&String| self.yarns.thread(name).map(|thread| (name.to_string(), thread));
+            let yarns = names.iter().filter_map(named).collect();
+            self.charted(name, &chart, yarns, drawn, warnings)?
+        } else {
+            if let Some(backing) = &table.backing {
+                let place = source.place("knit.backing", backing.span());
+                return Err(ReadError::Without { place, needs: "yarns in [knit.colors]" });
+            }
+            let mut symbols = Vec::new();
+            for (text, color) in meant.iter().zip(&paper.colors) {
+                let mut letters = text.chars();
+                match (letters.next(), letters.next()) {
+                    (Some(symbol), None) => symbols.push(symbol),
+                    _ => {
+                        let known = first_few(self.yarns.names().map(|name| format!("\"{name}\"")));
+                        let expected = format!(
+                            "of all colours a symbol of a chart, or of all of them a yarn: {known}; it stands for \"{text}\""
+                        );
+                        return Err(refused(color.refused(&paper.file, expected)));
+                    }
+                }
+            }
+            let symbol = |column, row| symbols[paper.color(column, rows - 1 - row)];
+            let chart = Chart::from_symbols(columns, rows, self.beds()?, symbol).map_err(fault)?;
+            let (turn, yarns) = self.yarns_in_turn()?;
+            let chart = chart.with_yarns(&turn).map_err(fault)?;
+            self.charted(name, &chart, yarns, drawn, warnings)?
+        };
+        Ok(design.noting(&path))
+    }
+
+    fn knitout(&self, name: String, knitout: &Spanned<String>) -> Result<Design, ReadError> {
+        let (source, table) = (self.source, self.table);
+        self.belongs(
+            "knit.chart or knit.image",
+            &[
+                ("knit.colors", table.colors.as_ref().map(Spanned::span)),
+                ("knit.rows", table.rows.as_ref().map(Spanned::span)),
+                ("knit.backing", table.backing.as_ref().map(Spanned::span)),
+                ("knit.beds", table.beds.as_ref().map(Spanned::span)),
+                ("knit.repeat", table.repeat.as_ref().map(Spanned::span)),
+            ],
+        )?;
+        let mut lengths = LoopLengths::new();
+        for (size, length) in &table.stitch_lengths_mm {
+            let field = format!("knit.stitch_lengths_mm.\"{}\"", size.as_ref());
+            lengths.insert(size.as_ref().clone(), source.number(&field, length, LOOP_MM.0, LOOP_MM.1)?);
+        }
+        let path = self.beside(knitout);
+        let read = knitout::read(&path, &lengths)
+            .map_err(|error| error.named(source.place("knit.knitout", knitout.span())))?;
+        let (turn, yarns) = self.yarns_in_turn()?;
+        // Yarns go in turn to the carriers that are used at all; what the others have nobody sees.
+        let mut turn = turn.into_iter().cycle();
+        let of_carrier = |used| if used { turn.next().unwrap_or(0) } else { 0 };
+        let carriers = read.used_carriers().into_iter().map(of_carrier);
+        let threads = carriers.map(|yarn| yarns[yarn as usize].1).collect();
+        let gauge = self.gauge(read.gauge)?;
+        let drawn = Drawn::Lines { file: path.clone() };
+        let knit = self.knit(gauge, threads)?;
+        Ok(knit.design(source.path, name, read.program, drawn, read.warnings)?.noting(&path))
+    }
+
+    /// A knit of one repeat.
+    fn charted(
+        &self,
+        name: String,
+        chart: &Chart,
+        yarns: Vec<Named>,
+        drawn: Drawn,
+        warnings: Vec<String>,
+    ) -> Result<Design, ReadError> {
+        let mut program = chart.program().map_err(|error| self.refused("knit", 0..0, error))?;
+        let (names, threads): (Vec<_>, Vec<_>) = yarns.into_iter().unzip();
+        // Carriers are numbers of yarns, of which the last may not come in the chart.
+        program.carriers.iter_mut().zip(names).for_each(|(carrier, name)| *carrier = name);
+        let knit = self.knit(self.gauge(None)?, threads)?;
+        knit.design(self.source.path, name, program, drawn, warnings)
+    }
+
+    /// All but the program, with these yarns for its carriers.
+    fn knit(&self, gauge: Gauge, threads: Vec<Thread>) -> Result<Knit, ReadError> {
+        let (source, table) = (self.source, self.table);
+        let compression = match &table.compression {
+            Some(share) => source.number("knit.compression", share, COMPRESSION.0, COMPRESSION.1)?,
+            None => 1.0,
+        };
+        let copies = match &table.repeat {
+            None => [1, 1],
+            Some(repeat) => match &repeat.as_ref()[..] {
+                [across, along] => [
+                    source.integer("knit.repeat", across, 1, COPIES_MAX)?,
+                    source.integer("knit.repeat", along, 1, COPIES_MAX)?,
+                ],
+                _ => {
+                    let expected = "two whole numbers, across the wales and along the courses";
+                    return Err(source.unfit("knit.repeat", repeat.span(), expected));
+                }
+            },
+        };
+        let cells = match &table.cells {
+            None => Cells::Round,
+            Some(cells) => match cells.as_ref().as_str() {
+                "round" => Cells::Round,
+                "even" => Cells::Even,
+                _ => return Err(source.bad("knit.cells", cells, "\"round\" or \"even\"")),
+            },
+        };
+        let float_max = table
+            .float_max
+            .as_ref()
+            .map(|most| source.integer("knit.float_max", most, 1, COPIES_MAX))
+            .transpose()?;
+        let (yarns, materials, sections) =
+            Knit::yarns_of(threads, compression, &self.yarns.materials, &self.yarns.sections);
+        Ok(Knit { gauge, yarns, materials, sections, copies, cells, float_max })
+    }
+
+    /// How close stitches lie. `needles` to the inch are what a knitout file says.
+    fn gauge(&self, needles: Option<f64>) -> Result<Gauge, ReadError> {
+        let (source, table) = (self.source, self.table);
+        let number = |field, value: &Option<Spanned<f64>>, (low, high)| {
+            value.as_ref().map(|value| source.number(field, value, low, high)).transpose()
+        };
+        let wales = number("knit.wales_per_cm", &table.wales_per_cm, PER_CM)?;
+        let courses = number("knit.courses_per_cm", &table.courses_per_cm, PER_CM)?;
+        let per_inch = number("knit.needles_per_inch", &table.needles_per_inch, PER_INCH)?;
+        let loop_mm = number("knit.loop_length_mm", &table.loop_length_mm, LOOP_MM)?;
+        let wale_mm = match (wales, per_inch) {
+            (Some(_), Some(_)) => {
+                let keys = "knit.wales_per_cm and knit.needles_per_inch";
+                return Err(ReadError::ExactlyOne { file: source.path.into(), keys });
+            }
+            (Some(wales), None) => Some(10.0 / wales),
+            (None, Some(needles)) => Some(25.4 / needles),
+            (None, None) => None,
+        };
+        let gauge = match (wale_mm, courses, loop_mm, needles) {
+            (Some(wale_mm), Some(courses), ..) => Gauge::new(wale_mm, 10.0 / courses),
+            (None, None, Some(loop_mm), _) => Gauge::munden(loop_mm),
+            (None, None, None, Some(needles)) => {
+                let wale_mm = 25.4 / needles;
+                Gauge::new(wale_mm, COURSE_OF_WALE * wale_mm)
+            }
+            (None, None, None, None) => {
+                return Err(ReadError::MissingKey {
+                    file: source.path.into(),
+                    field: "knit.wales_per_cm".into(),
+                    needed_for: "with knit.courses_per_cm it says how close stitches lie; so does knit.loop_length_mm",
+                });
+            }
+            (wale_mm, ..) => {
+                let field = if wale_mm.is_some() { "knit.courses_per_cm" } else { "knit.wales_per_cm" };
+                return Err(ReadError::MissingKey {
+                    file: source.path.into(),
+                    field: field.into(),
+                    needed_for: "wales and courses are given together",
+                });
+            }
+        };
+        Ok(Gauge { loop_length_mm: loop_mm, ..gauge })
+    }
+
+    fn beds(&self) -> Result<Beds, ReadError> {
+        match &self.table.beds {
+            None => Ok(Beds::One),
+            Some(beds) if *beds.as_ref() == 1 => Ok(Beds::One),
+            Some(beds) if *beds.as_ref() == 2 => Ok(Beds::Two),
+            Some(beds) => Err(self.source.bad("knit.beds", beds, "1 or 2")),
+        }
+    }
+
+    fn backing(&self) -> Result<Option<Backing>, ReadError> {
+        match &self.table.backing {
+            None => Ok(None),
+            Some(backing) => match backing.as_ref().as_str() {
+                "birdseye" => Ok(Some(Backing::Birdseye)),
+                "ladder" => Ok(Some(Backing::Ladder)),
+                _ => Err(self.source.bad("knit.backing", backing, "\"birdseye\" or \"ladder\"")),
+            },
+        }
+    }
+
+    /// Numbers of the yarns of `knit.yarns`, one after another, and their names by number. Where nothing is given, it is the only
+    /// yarn that there is.
+    fn yarns_in_turn(&self) -> Result<(Vec<u32>, Vec<Named>), ReadError> {
+        let Some(list) = &self.table.yarns else {
+            return match self.yarns.only() {
+                Some(only) => Ok((vec![0], vec![only])),
+                None => Err(ReadError::MissingKey {
+                    file: self.source.path.into(),
+                    field: "knit.yarns".into(),
+                    needed_for: "it says which of the yarns are knitted",
+                }),
+            };
+        };
+        self.yarns.in_turn(self.source, "knit.yarns", list)
+    }
+
+    /// What each colour of the paper stands for, or the refusal of one that stands for nothing; a warning of those in the table
+    /// alone.
+    fn of_colors(
+        &self,
+        paper: &PointPaper,
+        colors: &BTreeMap<Spanned<String>, Spanned<String>>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Result<Vec<String>, ReadError>, ReadError> {
+        let mut by_rgb = BTreeMap::new();
+        for (color, meant) in colors {
+            let rgb = self.source.rgb("a colour of [knit.colors]", color)?;
+            if by_rgb.insert(rgb, meant.as_ref()).is_some() {
+                let expected = "each colour once, in either case";
+                return Err(self.source.bad("a colour of [knit.colors]", color, expected));
+            }
+        }
+        let hex = |[red, green, blue]: &[u8; 3]| format!("#{red:02x}{green:02x}{blue:02x}");
+        let known = first_few(by_rgb.keys().map(hex));
+        let mut found = Vec::new();
+        for color in &paper.colors {
+            match color.rgb().and_then(|rgb| by_rgb.remove(&rgb)) {
+                Some(meant) => found.push(meant.clone()),
+                None => return Ok(Err(color.refused(&paper.file, format!("one of [knit.colors]: {known}")))),
+            }
+        }
+        if !by_rgb.is_empty() {
+            let (count, unused) = (by_rgb.len(), first_few(by_rgb.keys().map(hex)));
+            let colors = if count == 1 { "a colour" } else { &format!("{count} colours") };
+            warnings.push(format!(
+                "knit.colors has {colors} that no pixel of {} has: {unused}",
+                named(&paper.file)
+            ));
+        }
+        Ok(Ok(found))
+    }
+
+    /// Refuses keys that belong to another one, which is not there.
+    fn belongs(&self, needs: &'static str, keys: &[(&str, Option<Range<usize>>)]) -> Result<(), ReadError> {
+        match keys.iter().find_map(|(field, span)| Some((field, span.clone()?))) {
+            Some((field, span)) => Err(ReadError::Without { place: self.source.place(field, span), needs }),
+            None => Ok(()),
+        }
+    }
+
+    fn without_stitch_lengths(&self) -> Result<(), ReadError> {
+        let first = self.table.stitch_lengths_mm.keys().next().map(Spanned::span);
+        self.belongs("knit.knitout", &[("knit.stitch_lengths_mm", first)])
+    }
+
+    /// The path of a file that the design names.
+    fn beside(&self, file: &Spanned<String>) -> PathBuf {
+        self.source.path.parent().unwrap_or(Path::new("")).join(file.as_ref())
+    }
+
+    fn refused(&self, field: &str, span: Range<usize>, error: ChartError) -> ReadError {
+        match error {
+            ChartError::Memory(error) => self.source.fabric(error),
+            source => ReadError::Chart { place: self.source.place(field, span), source },
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! From a knitting program to a design: what the machine makes of it, and where its operations come from.
+
+use std::mem::{Discriminant, discriminant};
+use std::path::{Path, PathBuf};
+
+use texere_core::{Material, Section};
+use texere_fabric::weft::{
+    CarrierSet, Cells, FaultKind, Gauge, Knit as Made, KnitYarn, Knitted, Machine, Operation, Program,
+};
+use texere_fabric::{Structure, Thread};
+
+use super::design::{MachineFault, Told};
+use super::error::named;
+use super::knitout::Knitout;
+use super::threads::only_used;
+use super::{Design, ReadError};
+
+/// How many faults of a kind are told.
+const FAULTS_TOLD: usize = 3;
+
+/// Needles to the inch where a file says nothing.
+const GAUGE: f64 = 15.0;
+
+/// Courses for each wale where nothing says how close courses lie, and how many times a yarn's diameter a wale is: those of plain
+/// jersey.
+const COURSE_OF_WALE: f64 = 0.76;
+const WALE_OF_DIAMETER: f64 = 5.0;
+
+/// Colours of carriers where a file says nothing that can be drawn: easily told apart, none too dark to show its shape.
+const COLORS: [[u8; 3]; 8] = [
+    [0xd9, 0xcf, 0xb8],
+    [0x9c, 0x3b, 0x2e],
+    [0x3d, 0x5a, 0x80],
+    [0x5b, 0x8c, 0x5a],
+    [0xc9, 0x8b, 0x2b],
+    [0x7a, 0x5a, 0x8a],
+    [0x4b, 0x9a, 0x9a],
+    [0x8a, 0x8a, 0x8a],
+];
+
+/// What a knit is beside its program.
+#[derive(Debug)]
+pub(super) struct Knit {
+    pub(super) gauge: Gauge,
+    /// One for each carrier.
+    pub(super) yarns: Vec<KnitYarn>,
+    pub(super) materials: Vec<Material>,
+    pub(super) sections: Vec<Section>,
+    pub(super) copies: [u32; 2],
+    pub(super) cells: Cells,
+    /// How many needles a yarn may float past, where the design says so.
+    pub(super) float_max: Option<u32>,
+}
+
+/// What the sources of a program's operations are.
+#[derive(Debug, Clone)]
+pub(super) enum Drawn {
+    /// Lines of a file, from 1.
+    Lines { file: PathBuf },
+    /// Cells of a chart, row by row from the bottom, both from 0. In an image the bottom row may be the top one.
+    Cells { file: PathBuf, columns: usize, rows: usize, upside_down: bool },
+}
+
+impl Drawn {
+    /// A source as a designer finds it.
+    fn place(&self, source: u32) -> String {
+        match self {
+            Self::Lines { file } => format!("{}, line {source}", named(file)),
+            Self::Cells { file, columns, rows, upside_down } => {
+                let (row, column) = (source as usize / columns, source as usize % columns);
+                let row = if *upside_down { row + 1 } else { rows.saturating_sub(row) };
+                format!("{}, row {row} from the top, column {}", named(file), column + 1)
+            }
+        }
+    }
+}
+
+/// A program and where its operations come from.
+#[derive(Debug, Clone)]
+pub(super) struct KnittedFrom {
+    drawn: Drawn,
+    program: Program,
+}
+
+impl KnittedFrom {
+    /// Where operations come from, and what they do.
+    pub(super) fn told(&self, source: u32) -> Told {
+        let carriers = |CarrierSet(set): CarrierSet| {
+            let set = self.program.carrier_sets.get(set as usize).into_iter().flatten();
+            set.filter_map(|&carrier| self.program.carriers.get(carrier as usize))
+        };
+        let written = |operation: &Operation| {
+            let carriers = carriers(operation.carriers).map(|name| format!(" {name}"));
+            format!("{}{}", operation.instruction, carriers.collect::<String>())
+        };
+        let mut instructions: Vec<String> = Vec::new();
+        for operation in self.program.operations.iter().filter(|operation| operation.source == source) {
+            let written = written(operation);
+            if !instructions.contains(&written) {
+                instructions.push(written);
+            }
+        }
+        Told { place: self.drawn.place(source), instructions }
+    }
+}
+
+impl Knit {
+    /// The yarns of carriers, with the materials and sections that they have. `compression` is what is left of their diameters.
+    pub(super) fn yarns_of(
+        mut threads: Vec<Thread>,
+        compression: f64,
+        materials: &[Material],
+        sections: &[Section],
+    ) -> (Vec<KnitYarn>, Vec<Material>, Vec<Section>) {
+        let (materials, sections) = only_used([&mut threads, &mut []], materials, sections);
+        let yarn = |thread: &Thread| KnitYarn {
+            radius_mm: (f64::from(thread.radius_mm) * compression) as f32,
+            material: thread.material,
+            section: thread.section,
+            twist: thread.twist,
+        };
+        (threads.iter().map(yarn).collect(), materials, sections)
+    }
+
+    /// Runs the program and makes a design of what comes of it. `file` is the design's own.
+    pub(super) fn design(
+        self,
+        file: &Path,
+        name: String,
+        program: Program,
+        drawn: Drawn,
+        mut warnings: Vec<String>,
+    ) -> Result<Design, ReadError> {
+        let fabric = |error| ReadError::fabric(file, error);
+        let usual = Machine::default();
+        let machine = Machine { float_max: self.float_max.unwrap_or(usual.float_max), ..usual };
+        let knit = machine.knit(&program).map_err(fabric)?;
+        let (faults, more) = told(&knit, &drawn);
+        warnings.extend(faults.iter().map(|fault| fault.said.clone()));
+        if more > 0 {
+            warnings.push(format!("{}: {more} more faults of the kinds that are told", named(file)));
+        }
+        let knitted =
+            Knitted::new(knit.stitches, self.gauge, self.yarns, self.materials, self.sections, self.copies)
+                .map_err(fabric)?
+                .with_cells(self.cells);
+        let design = Design::new(name, Structure::Weft(knitted), warnings);
+        Ok(design.knitted(KnittedFrom { drawn, program }, faults))
+    }
+}
+
+/// The faults of a program as a designer reads them, the first few of each kind, and how many more there are.
+fn told(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
+    let mut kinds: Vec<(Discriminant<FaultKind>, usize)> = Vec::new();
+    let mut faults = Vec::new();
+    for fault in &knit.faults {
+        let kind = discriminant(&fault.kind);
+        let place = kinds.iter().position(|(other, _)| *other == kind).unwrap_or(kinds.len());
+        if place == kinds.len() {
+            kinds.push((kind, 0));
+        }
+        kinds[place].1 += 1;
+        if kinds[place].1 <= FAULTS_TOLD {
+            let said = format!("{}: {fault}", drawn.place(fault.source));
+            faults.push(MachineFault { said, is_error: fault.kind.is_error() });
+        }
+    }
+    let more = (knit.faults.len() - faults.len()) as u64 + knit.unlisted;
+    (faults, more)
+}
+
+/// The design of a knitout file alone: plain jersey's proportions, and yarns of different colours.
+pub(super) fn from_knitout(path: &Path, name: String, read: Knitout) -> Result<Design, ReadError> {
+    let wale_mm = 25.4 / read.gauge.unwrap_or(GAUGE);
+    let materials: Vec<_> = read
+        .program
+        .carriers
+        .iter()
+        .zip(&read.yarns)
+        .zip(COLORS.iter().cycle())
+        .map(|((carrier, yarn), &srgb)| {
+            let name = yarn.as_ref().map_or_else(|| carrier.clone(), |yarn| format!("{carrier}: {yarn}"));
+            Material { name, srgb, tex: None }
+        })
+        .collect();
+    let thread =
+        |material| Thread { material, ..Thread::new(0.0, (wale_mm / WALE_OF_DIAMETER / 2.0) as f32) };
+    let threads: Vec<_> = (0..materials.len() as u32).map(thread).collect();
+    let (yarns, materials, sections) = Knit::yarns_of(threads, 1.0, &materials, &[Section::Circle]);
+    let knit = Knit {
+        gauge: Gauge::new(wale_mm, COURSE_OF_WALE * wale_mm),
+        yarns,
+        materials,
+        sections,
+        copies: [1, 1],
+        cells: Cells::Round,
+        float_max: None,
+    };
+    knit.design(path, name, read.program, Drawn::Lines { file: path.into() }, read.warnings)
+}

@@ -1,0 +1,127 @@
+//! The first lines of a knitout file: what machine, carriers and yarns it is for.
+
+use std::collections::HashMap;
+use std::iter::Peekable;
+
+use super::CARRIERS_MAX;
+use super::carriers::{NAME, is_name};
+use super::line::Line;
+use super::warnings::Warnings;
+use crate::read::ReadError;
+use crate::read::error::shown;
+
+/// The version of knitout that is read.
+const VERSION: u32 = 2;
+
+/// Needles to the inch that a header may say.
+const GAUGES: (f64, f64) = (0.1, 100.0);
+
+/// The longest text about a yarn that is kept, in letters.
+const YARN_MAX: usize = 80;
+
+/// Reads the line `;!knitout-2`, where it is there.
+pub(super) fn magic<'a>(
+    lines: &mut Peekable<impl Iterator<Item = (usize, &'a str)>>,
+    warnings: &mut Warnings,
+) {
+    let version = |(_, text): &(usize, &str)| text.trim_end().strip_prefix(";!knitout-").map(str::to_owned);
+    let Some(version) = lines.peek().and_then(version) else {
+        warnings.once("magic", 1, "no \";!knitout-2\", with which knitout begins; it is taken for that");
+        return;
+    };
+    lines.next();
+    if version.parse() != Ok(VERSION) {
+        let said = format!("knitout {}; it is read as knitout {VERSION}", shown(&version));
+        warnings.once("magic", 1, &said);
+    }
+}
+
+/// Name and value of a header, `;;Name: value`.
+pub(super) fn name(text: &str) -> Option<(&str, &str)> {
+    let (name, value) = text.trim_start().strip_prefix(";;")?.split_once(':')?;
+    Some((name.trim(), value.trim()))
+}
+
+/// Whether a header of that name says anything in knitout 2.
+pub(super) fn is_known(name: &str) -> bool {
+    matches!(name, "Machine" | "Gauge" | "Carriers" | "Position") || name.starts_with("Yarn-")
+}
+
+/// What the header says.
+#[derive(Debug, Default)]
+pub(super) struct Header<'a> {
+    /// The carriers, front to back.
+    pub(super) carriers: Option<Vec<&'a str>>,
+    /// Needles to the inch.
+    pub(super) gauge: Option<f64>,
+    machine: Option<&'a str>,
+    /// What is in each carrier, and the line that says so.
+    yarns: HashMap<&'a str, (&'a str, usize)>,
+}
+
+impl<'a> Header<'a> {
+    /// Reads a line without an operation.
+    pub(super) fn read(&mut self, line: &Line<'a>, warnings: &mut Warnings) -> Result<(), ReadError> {
+        let Some((name, value)) = name(line.text) else { return Ok(()) };
+        match name {
+            "Carriers" => {
+                let mut carriers = Vec::new();
+                for carrier in value.split_whitespace() {
+                    if !is_name(carrier) {
+                        return Err(line.refused(carrier, NAME));
+                    }
+                    if carriers.contains(&carrier) {
+                        return Err(line.refused(carrier, "each carrier once"));
+                    }
+                    if carriers.len() == CARRIERS_MAX {
+                        return Err(line.refused(carrier, format!("{CARRIERS_MAX} carriers at most")));
+                    }
+                    carriers.push(carrier);
+                }
+                self.carriers = Some(carriers).filter(|carriers| !carriers.is_empty());
+            }
+            "Gauge" => {
+                let gauge = value.parse().ok().filter(|gauge| (GAUGES.0..=GAUGES.1).contains(gauge));
+                if gauge.is_none() {
+                    let said = format!("Gauge \"{}\" is no number of needles to the inch", shown(value));
+                    warnings.once("gauge", line.number, &said);
+                }
+                self.gauge = gauge;
+            }
+            "Machine" => self.machine = Some(value),
+            // The cloth is the same wherever on the bed it is knitted.
+            "Position" => {}
+            _ => match name.strip_prefix("Yarn-") {
+                Some(carrier) => drop(self.yarns.insert(carrier, (value, line.number))),
+                None => {
+                    let said = format!("header \"{}\" is not known; it is left out", shown(name));
+                    warnings.once(&format!("header {name}"), line.number, &said);
+                }
+            },
+        }
+        Ok(())
+    }
+
+    /// The fractions of a rack at which the machine's back needles lie between its front needles, so that both beds can knit at
+    /// once: 0.25 on Shima Seiki's SWG machines, also below 0 (-0.75), and 0.5 elsewhere. Either where no machine is named.
+    pub(super) fn all_needle_racks(&self) -> &'static [f64] {
+        match self.machine {
+            Some(machine) if machine.starts_with("SWG") => &[0.25],
+            Some(_) => &[0.5],
+            None => &[0.25, 0.5],
+        }
+    }
+
+    /// What is in each of these carriers.
+    pub(super) fn yarns_of(mut self, carriers: &[String], warnings: &mut Warnings) -> Vec<Option<String>> {
+        let text = |(yarn, _): (&str, _)| {
+            yarn.chars().filter(|letter| !letter.is_control()).take(YARN_MAX).collect()
+        };
+        let yarns = carriers.iter().map(|carrier| self.yarns.remove(carrier.as_str()).map(text)).collect();
+        if let Some((carrier, (_, line))) = self.yarns.iter().min_by_key(|(_, (_, line))| line) {
+            let said = format!("a yarn in carrier \"{}\", which there is not", shown(carrier));
+            warnings.once("yarn", *line, &said);
+        }
+        yarns
+    }
+}

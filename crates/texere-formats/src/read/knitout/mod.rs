@@ -1,0 +1,122 @@
+//! Knitout 2, the operations of a knitting machine (J. McCann, "The Knitout (.k) File Format", v0.6).
+//!
+//! Strict about what is knitted, lenient about how a file is written. Refused, with line and column: an operation that is none,
+//! a word that does not belong there, a carrier that the header does not list. Warned of, each kind once: a first line without
+//! `;!knitout-2` or with a later version, no list of carriers (then they are those that occur), headers and extensions that
+//! are not known, stitch sizes without a length, carriage returns, text that is not UTF-8.
+//!
+//! With an empty carrier set `knit` is `drop`, `split` is `xfer`, and `tuck` and `miss` are nothing. `pause` is nothing.
+
+mod carriers;
+mod header;
+mod line;
+mod operations;
+#[cfg(test)]
+mod tests;
+mod warnings;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use texere_fabric::weft::Program;
+
+use super::ReadError;
+use super::file::bytes_of;
+use carriers::Carriers;
+use header::Header;
+use line::Line;
+use operations::Operations;
+use warnings::Warnings;
+
+/// The largest knitout file that is read: ten million operations and more.
+const FILE_LIMIT: u64 = 1 << 28;
+
+/// The most operations of a file: so many stitches lie on some square metres of fine cloth.
+const OPERATIONS_MAX: usize = 1 << 24;
+
+/// The most carriers: machines have up to sixteen.
+const CARRIERS_MAX: usize = 256;
+
+/// The furthest needle from needle 0: machines have up to a thousand or two.
+const NEEDLE_MAX: i32 = 1 << 16;
+
+/// How long a loop is, mm, for each stitch size of a file: the number behind `x-stitch-number`, or both behind `stitch`.
+pub(super) type LoopLengths = BTreeMap<String, f64>;
+
+/// A knitout file, read.
+#[derive(Debug)]
+pub(super) struct Knitout {
+    pub(super) program: Program,
+    /// Needles to the inch, where the header says so.
+    pub(super) gauge: Option<f64>,
+    /// What the header says of the yarn in each carrier of the program.
+    pub(super) yarns: Vec<Option<String>>,
+    pub(super) warnings: Vec<String>,
+}
+
+impl Knitout {
+    /// Of each carrier whether an operation takes it.
+    pub(super) fn used_carriers(&self) -> Vec<bool> {
+        let mut used = vec![false; self.program.carriers.len()];
+        // Sets are those that occur.
+        for &carrier in self.program.carrier_sets.iter().flatten() {
+            used[carrier as usize] = true;
+        }
+        used
+    }
+}
+
+/// Reads the file in `path`. Sources of its operations are lines, from 1.
+pub(super) fn read(path: &Path, lengths: &LoopLengths) -> Result<Knitout, ReadError> {
+    parse(path, &bytes_of(path, FILE_LIMIT)?, lengths)
+}
+
+fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<Knitout, ReadError> {
+    let mut warnings = Warnings::new(path);
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = String::from_utf8_lossy(bytes);
+    if let Err(error) = std::str::from_utf8(bytes) {
+        let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        warnings.once("utf-8", line, "not UTF-8, as knitout asks for; letters that are none are left out");
+    }
+    if let Some(at) = text.find('\r') {
+        let line = text[..at].bytes().filter(|&byte| byte == b'\n').count() + 1;
+        warnings.once(
+            "carriage return",
+            line,
+            "a carriage return; lines of knitout end in a line feed alone",
+        );
+    }
+
+    let mut lines = (1..).zip(text.lines()).peekable();
+    header::magic(&mut lines, &mut warnings);
+    let mut header = Header::default();
+    // It ends where operations begin; empty lines and other comments may stand in between.
+    while let Some((number, text)) = lines.next_if(|(_, text)| is_comment(text)) {
+        header.read(&Line::new(path, number, text), &mut warnings)?;
+    }
+    let mut operations =
+        Operations::new(Carriers::new(header.carriers.as_deref()), lengths, header.all_needle_racks());
+    for (number, text) in lines {
+        let line = Line::new(path, number, text);
+        operations.read(&line, &mut warnings)?;
+        if header::name(text).is_some_and(|(name, _)| header::is_known(name)) {
+            let said = "a header behind the first operation, where it is a comment; it is left out";
+            warnings.once("late header", number, said);
+        }
+    }
+    let (program, undeclared) = operations.finish(&mut warnings);
+    if undeclared && !program.carriers.is_empty() {
+        let said = "no header \";;Carriers: \", which knitout asks for; carriers are those that occur, in that order";
+        warnings.once("carriers", 1, said);
+    }
+    let gauge = header.gauge;
+    let yarns = header.yarns_of(&program.carriers, &mut warnings);
+    Ok(Knitout { program, gauge, yarns, warnings: warnings.list() })
+}
+
+/// Whether a line has no operation.
+fn is_comment(text: &str) -> bool {
+    let text = text.trim_start();
+    text.is_empty() || text.starts_with(';')
+}

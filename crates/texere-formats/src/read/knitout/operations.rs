@@ -1,0 +1,212 @@
+//! What each line tells the machine to do.
+
+use std::collections::HashSet;
+
+use texere_fabric::weft::{CarrierSet, Instruction, Operation, Program};
+
+use super::carriers::Carriers;
+use super::line::{Line, Words};
+use super::warnings::Warnings;
+use super::{LoopLengths, OPERATIONS_MAX};
+use crate::read::ReadError;
+use crate::read::error::shown;
+
+/// What an operation without yarns takes.
+const NO_CARRIERS: CarrierSet = CarrierSet(0);
+
+const OPERATION: &str = "an operation of knitout: in, inhook, releasehook, out, outhook, stitch, rack, knit, tuck, split, drop, \
+                         amiss, xfer, miss, pause or x-…";
+
+/// Operations, line by line.
+#[derive(Debug)]
+pub(super) struct Operations<'a> {
+    carriers: Carriers<'a>,
+    lengths: &'a LoopLengths,
+    /// Fractions of a rack that stand for half a needle.
+    all_needle_racks: &'static [f64],
+    operations: Vec<Operation>,
+    /// Stitch sizes that have no length, and the first line that has one; no more than two are kept.
+    unsized_stitches: HashSet<String>,
+    first_unsized: usize,
+}
+
+impl<'a> Operations<'a> {
+    pub(super) fn new(
+        carriers: Carriers<'a>,
+        lengths: &'a LoopLengths,
+        all_needle_racks: &'static [f64],
+    ) -> Self {
+        Self {
+            carriers,
+            lengths,
+            all_needle_racks,
+            operations: Vec::new(),
+            unsized_stitches: HashSet::new(),
+            first_unsized: 0,
+        }
+    }
+
+    /// Reads a line, which may have no operation.
+    pub(super) fn read(&mut self, line: &Line<'a>, warnings: &mut Warnings) -> Result<(), ReadError> {
+        let mut words = line.words();
+        let Some(code) = words.next() else { return Ok(()) };
+        let told = match code {
+            "in" => self.yarns(line, words, Instruction::In, warnings)?,
+            "inhook" => self.yarns(line, words, Instruction::InHook, warnings)?,
+            "releasehook" => self.yarns(line, words, Instruction::ReleaseHook, warnings)?,
+            "out" => self.yarns(line, words, Instruction::Out, warnings)?,
+            "outhook" => self.yarns(line, words, Instruction::OutHook, warnings)?,
+            "knit" => {
+                let (direction, needle) = (words.direction()?, words.needle()?);
+                match self.carriers.set(words)? {
+                    Some(set) => Some((Instruction::Knit(direction, needle), set)),
+                    None => Some((Instruction::Drop(needle), NO_CARRIERS)),
+                }
+            }
+            "tuck" => {
+                let (direction, needle) = (words.direction()?, words.needle()?);
+                self.carriers.set(words)?.map(|set| (Instruction::Tuck(direction, needle), set))
+            }
+            "miss" => {
+                let (direction, needle) = (words.direction()?, words.needle()?);
+                self.carriers.set(words)?.map(|set| (Instruction::Miss(direction, needle), set))
+            }
+            "split" => {
+                let (direction, from, to) = (words.direction()?, words.needle()?, words.needle()?);
+                match self.carriers.set(words)? {
+                    Some(set) => Some((Instruction::Split(direction, from, to), set)),
+                    None => Some((Instruction::Transfer(from, to), NO_CARRIERS)),
+                }
+            }
+            "xfer" => {
+                let (from, to) = (words.needle()?, words.needle()?);
+                words.end()?;
+                Some((Instruction::Transfer(from, to), NO_CARRIERS))
+            }
+            "drop" => {
+                let needle = words.needle()?;
+                words.end()?;
+                Some((Instruction::Drop(needle), NO_CARRIERS))
+            }
+            "amiss" => {
+                words.needle()?;
+                words.end()?;
+                None
+            }
+            "rack" => {
+                let (rack, word) = words.number("by how many needles the back bed is moved")?;
+                words.end()?;
+                Some((Instruction::Rack(self.rack(line, rack, word, warnings)), NO_CARRIERS))
+            }
+            "stitch" => {
+                let expected = "how far needles are drawn back, in units of the machine";
+                let (_, leading) = words.number(expected)?;
+                let (_, stitch) = words.number(expected)?;
+                words.end()?;
+                Some(self.stitch_size(line, format!("{leading} {stitch}")))
+            }
+            "x-stitch-number" => {
+                let (_, number) = words.number("a number in the machine's table of stitches")?;
+                words.end()?;
+                Some(self.stitch_size(line, number.into()))
+            }
+            "pause" => {
+                words.end()?;
+                None
+            }
+            _ if code.starts_with("x-") => {
+                let said = format!("extension \"{}\" is not known; it is left out", shown(code));
+                warnings.once(code, line.number, &said);
+                None
+            }
+            _ => return Err(line.refused(code, OPERATION)),
+        };
+        match told {
+            Some((instruction, carriers)) => self.push(line, code, instruction, carriers),
+            None => Ok(()),
+        }
+    }
+
+    /// An operation that brings yarns in or out.
+    fn yarns(
+        &mut self,
+        line: &Line<'a>,
+        mut words: Words<'a>,
+        instruction: Instruction,
+        warnings: &mut Warnings,
+    ) -> Result<Option<(Instruction, CarrierSet)>, ReadError> {
+        if words.pass_place()? {
+            let said = "direction and needle before the carriers, as old files have them; they are left out";
+            warnings.once("place", line.number, said);
+        }
+        match self.carriers.set(words)? {
+            Some(set) => Ok(Some((instruction, set))),
+            None => {
+                let end = line.text.split(';').next().unwrap_or_default().trim_end();
+                Err(line.refused(&end[end.len()..], "at least one carrier"))
+            }
+        }
+    }
+
+    /// A rack in needles; back needles that lie between front ones lie half way.
+    fn rack(&self, line: &Line<'_>, rack: f64, word: &str, warnings: &mut Warnings) -> f64 {
+        let (whole, fraction) = (rack.floor(), rack - rack.floor());
+        if fraction == 0.0 {
+            return rack;
+        }
+        if !self.all_needle_racks.contains(&fraction) {
+            let usual: Vec<_> = self.all_needle_racks.iter().map(ToString::to_string).collect();
+            let said = format!(
+                "rack {}, where {} beyond a whole number is usual; it is taken as half a needle",
+                shown(word),
+                usual.join(" or ")
+            );
+            warnings.once("rack", line.number, &said);
+        }
+        whole + 0.5
+    }
+
+    /// The length of loops from here on, where there is one for this size.
+    fn stitch_size(&mut self, line: &Line<'_>, size: String) -> (Instruction, CarrierSet) {
+        let length = self.lengths.get(&size).copied();
+        if length.is_none() && self.unsized_stitches.len() < 2 {
+            if self.unsized_stitches.is_empty() {
+                self.first_unsized = line.number;
+            }
+            self.unsized_stitches.insert(size);
+        }
+        (Instruction::LoopLength(length), NO_CARRIERS)
+    }
+
+    fn push(
+        &mut self,
+        line: &Line<'_>,
+        code: &str,
+        instruction: Instruction,
+        carriers: CarrierSet,
+    ) -> Result<(), ReadError> {
+        let count = self.operations.len();
+        if count == OPERATIONS_MAX {
+            return Err(line.refused(code, format!("{OPERATIONS_MAX} operations at most")));
+        }
+        if count == self.operations.capacity() {
+            let more = count.max(1024);
+            let bytes = ((count + more) * size_of::<Operation>()) as u64;
+            let refused = |_| ReadError::OutOfMemory { what: "operations of a knitting machine", bytes };
+            self.operations.try_reserve_exact(more).map_err(refused)?;
+        }
+        self.operations.push(Operation { instruction, carriers, source: line.number as u32 });
+        Ok(())
+    }
+
+    /// The program, and whether no header lists its carriers.
+    pub(super) fn finish(self, warnings: &mut Warnings) -> (Program, bool) {
+        // One size for all loops says no more than none.
+        if self.unsized_stitches.len() > 1 {
+            let said = "stitch sizes, which the machine's own table turns into lengths; loops without a length are all alike";
+            warnings.once("stitch sizes", self.first_unsized, said);
+        }
+        let (carriers, carrier_sets, undeclared) = self.carriers.finish();
+        (Program { carriers, carrier_sets, operations: self.operations, repeat: None }, undeclared)
+    }
+}

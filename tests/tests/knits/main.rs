@@ -1,0 +1,178 @@
+//! Weft knits: which loops are drawn through which, and how they settle, by checks that share no code with texere's crates.
+
+mod topology;
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use texere_conformance::rest::{CROSSED, Ends, Length, Report, Start, StartYarn, check, linking};
+use texere_core::{Material, Section, Yarns, settling};
+use texere_cpu::ParallelBackend;
+use texere_fabric::weft::{Backing, Beds, Chart, Gauge, KnitYarn, Knitted, Machine, Step, Stitches};
+use texere_fabric::{Finish, Piece, Settled, settle};
+
+/// The diameter of all yarns, mm.
+const D: f64 = 0.2;
+
+/// Courses lie so much closer than wales.
+const COURSE: f64 = 0.75;
+
+/// The stitches of a chart, each with a source of its own.
+fn stitches(chart: &Chart) -> Stitches {
+    let knit = Machine::default().knit(&chart.program().expect("a program")).expect("a knit");
+    assert!(knit.faults.is_empty(), "{:?}", knit.faults);
+    let mut stitches = knit.stitches;
+    let mut sources = 0..;
+    for step in stitches.strands.iter_mut().flat_map(|strand| &mut strand.steps) {
+        let own = sources.next().expect("numbers");
+        match step {
+            Step::Loop { number, .. } => stitches.loops[*number as usize].source = own,
+            Step::Float { source, .. } => *source = own,
+        }
+    }
+    stitches
+}
+
+/// Every kind of stitch, each in a repeat of its own.
+fn charts() -> Vec<(&'static str, Chart)> {
+    let one = |text: &str| Chart::parse(text, Beds::One).expect("a chart");
+    let two = |text: &str| Chart::parse(text, Beds::Two).expect("a chart");
+    let picture = |backing| Chart::jacquard(6, 4, backing, |x, y| ((x / 2 + y) % 2) as u32).expect("a chart");
+    vec![
+        ("jersey", one("kkkk\nkkkk\nkkkk\nkkkk")),
+        ("rib", one("kpkp\nkpkp\nkpkp\nkpkp")),
+        ("garter", one("kkkk\npppp\nkkkk\npppp")),
+        ("tuck", one("tktk\nkkkk\nktkt\nkkkk")),
+        ("two tucks", one("kkkk\nktkk\nktkk\nkkkk")),
+        ("miss", one("mkmk\nkkkk\nkmkm\nkkkk")),
+        ("lace", one("kkkkkkkk\nk>kkkk<k\nkkkkkkkk\nkk>kk<kk\nkkkkkkkk\nkkk><kkk")),
+        ("cable", one("ppkkkkpp\nppkkkkpp\nppkkkkpp\nppRRrrpp")),
+        ("interlock", two("pkpk\nkpkp\npkpk\nkpkp\npkpk\nkpkp\npkpk\nkpkp")),
+        ("milano", two("pppp\nkkkk\nbbbb\npppp\nkkkk\nbbbb")),
+        ("tube", two("pppp\nkkkk\npppp\nkkkk\npppp\nkkkk\npppp\nkkkk")),
+        ("jacquard", picture(None)),
+        ("birdseye", picture(Some(Backing::Birdseye))),
+    ]
+}
+
+fn knitted(stitches: Stitches, gauge: Gauge) -> Knitted {
+    let yarns = vec![KnitYarn::new(D as f32 / 2.0); 2];
+    Knitted::new(stitches, gauge, yarns, vec![Material::default()], vec![Section::Circle], [1, 1])
+        .expect("a knit")
+}
+
+fn gauge(wale: f64) -> Gauge {
+    Gauge::new(wale * D, COURSE * wale * D)
+}
+
+fn points(yarns: &Yarns) -> Vec<Vec<DVec3>> {
+    let position = |yarn| yarns.yarn_points(yarn).expect("a yarn").iter().map(|at| at.position().as_dvec3());
+    (0..yarns.layout().yarns().len()).map(|yarn| position(yarn).collect()).collect()
+}
+
+/// A piece as the checks have it.
+fn start(name: &str, piece: &Piece) -> Start {
+    let ends = piece.boundary.ends().iter().map(|ends| match ends {
+        texere_core::Ends::Open => Ends::Open,
+        texere_core::Ends::Closed => Ends::Closed,
+        texere_core::Ends::Repeats(shift) => Ends::Repeats(*shift),
+    });
+    let yarns = points(&piece.yarns).into_iter().zip(ends);
+    Start {
+        name: name.to_owned(),
+        yarns: yarns.map(|(points, ends)| StartYarn { points, radius: D / 2.0, ends }).collect(),
+        repeat: piece.boundary.repeat().map(f64::from),
+        pinned: Vec::new(),
+        length: Length::Free,
+    }
+}
+
+/// Settles a piece, and checks it: clearance, bends, and whether yarns have passed through one another.
+fn settled(name: &str, piece: &Piece, length: settling::Length) -> (Settled, Report, f64) {
+    let finish = Finish { length: Some(length), ..Finish::default() };
+    let device = ParallelBackend::open().expect("the CPU");
+    let settled = settle(piece, &finish, 0.0, &device, |_| ControlFlow::Continue(())).expect("a settling");
+    let start = start(name, piece);
+    let after = points(&settled.yarns);
+    let report = check(&start, &after);
+    let linked = linking(&start, &start.points(), &after).change;
+    println!(
+        "{name}: clearance {:.3}, radius {:.3} d, {:.2} d thick, {:+.1} % long, {} passes",
+        report.clearance,
+        report.bend,
+        report.thickness / D,
+        100.0 * report.growth,
+        settled.rest.passes
+    );
+    (settled, report, linked)
+}
+
+const FREE: settling::Length = settling::Length::Free { tension: 0.0 };
+
+#[test]
+fn loops_are_drawn_through_what_the_chart_says() {
+    for wale in [4.4, 6.0, 10.0] {
+        for (name, chart) in charts() {
+            let knit = knitted(stitches(&chart), gauge(wale));
+            let piece = knit.piece().expect("a piece");
+            let faults = topology::faults(knit.stitches(), &piece, &piece.yarns);
+            assert!(faults.is_empty(), "{name} {wale}: {faults:?}");
+        }
+    }
+}
+
+/// The check of topology sees a head that has slipped off the loop which it holds.
+#[test]
+fn a_dropped_stitch_is_seen() {
+    let chart = Chart::parse("kkkk\nkkkk\nkkkk\nkkkk", Beds::One).expect("a chart");
+    let knit = knitted(stitches(&chart), gauge(5.0));
+    let piece = knit.piece().expect("a piece");
+    let mut yarns = piece.yarns.clone();
+    let mut moved = yarns.yarn_points(1).expect("a yarn").to_vec();
+    // The first loop's shoulders and head, in front of the legs of the loop above.
+    for point in &mut moved[5..=7] {
+        point.z = 2.0 * D as f32;
+    }
+    yarns.set_points(1, &moved).expect("points");
+    let faults = topology::faults(knit.stitches(), &piece, &yarns);
+    assert!(faults.iter().any(|fault| fault.contains("is drawn through")), "{faults:?}");
+}
+
+#[test]
+fn knits_come_to_rest() {
+    let mut failed = Vec::new();
+    for (name, chart) in charts() {
+        for wale in [4.4, 6.0, 10.0] {
+            let name = format!("{name} {wale}");
+            let piece = knitted(stitches(&chart), gauge(wale)).piece().expect("a piece");
+            let (settled, report, linked) = settled(&name, &piece, FREE);
+            if report.clearance < 0.98 || report.bend < 0.58 || linked > CROSSED || !settled.is_linked() {
+                failed.push(format!("{name}: {report:?}, linking {linked}"));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// Plain jersey as Munden has it, from loose to tight: tightness is √tex over the loop length in cm, and a cotton yarn is
+/// 0.0373 √tex mm thick.
+#[test]
+fn jersey_of_any_tightness_has_the_loop_length_asked_for() {
+    let chart = Chart::parse("kkkk\nkkkk\nkkkk\nkkkk", Beds::One).expect("a chart");
+    for tightness in [11.0, 13.0, 15.0, 17.0] {
+        let loop_length = 10.0 * D / (0.0373 * tightness);
+        let knit = knitted(stitches(&chart), Gauge::munden(loop_length));
+        let piece = knit.piece().expect("a piece");
+        let factor = loop_length * 16.0 / piece.length_mm(0.0);
+        let given = settling::Length::Given(factor as f32);
+        let (settled, report, linked) = settled(&format!("jersey of tightness {tightness}"), &piece, given);
+        assert!(
+            report.clearance >= 0.98 && report.bend >= 0.58 && linked < CROSSED,
+            "{tightness}: {report:?}"
+        );
+        let after = Piece { yarns: settled.yarns, ..piece };
+        let off = after.length_mm(0.0) / (16.0 * loop_length) - 1.0;
+        assert!(off.abs() < 0.03, "{tightness}: loops are off by {off}");
+        assert!((2.0..3.0).contains(&(report.thickness / D)), "{tightness}: {report:?}");
+    }
+}

@@ -11,6 +11,9 @@ use super::{Case, USUAL};
 /// Ends, and picks, that a cut cloth has at most.
 const THREADS: usize = 20;
 
+/// Control points that a yarn of a cut knit has at most.
+const POINTS: usize = 240;
+
 /// `designs/` of this workspace, or else of the working folder, for a suite that runs on another machine than it was built
 /// on.
 fn folder() -> PathBuf {
@@ -61,12 +64,31 @@ fn gather(root: &Path, within: &Path, paths: &mut Vec<PathBuf>) {
     }
 }
 
-/// The yarns of a design, of which a cloth is cut to a few threads.
+/// The yarns of a design, cut to a few threads.
 fn small(design: &Design) -> Yarns {
     match design.structure.woven() {
         Some(woven) => middle(woven.cloth()).yarns().unwrap(),
-        None => design.yarns().unwrap(),
+        None => few(&design.yarns().unwrap()),
     }
+}
+
+/// Yarns from the middle of a knit, and the beginning of each.
+fn few(yarns: &Yarns) -> Yarns {
+    let layout = yarns.layout();
+    let count = layout.yarns().len().min(THREADS);
+    let first = (layout.yarns().len() - count) / 2;
+    let mut few = Yarns::builder();
+    for material in yarns.materials().iter() {
+        few.material(material.clone());
+    }
+    for section in layout.sections() {
+        few.section(section.clone());
+    }
+    for (number, yarn) in layout.yarns().iter().enumerate().skip(first).take(count) {
+        let points = yarns.yarn_points(number).unwrap();
+        few.yarn(*yarn, &points[..points.len().min(POINTS)]);
+    }
+    few.build().unwrap()
 }
 
 /// A piece from the middle of a cloth, where a figured cloth has its figure.

@@ -88,39 +88,92 @@ float3 contact_direction(const Contact *contact, float3 velocity, float3 other_v
     return square > 0.0f ? way * (1.0f / sqrt(square)) : (float3)(0.0f, 0.0f, 1.0f);
 }
 
-// A chord of an interval that meets its neighbours.
+// The chord whose neighbours are gone through: its number, where its list ends, and where it lies.
+typedef struct {
+    uint number;
+    uint end;
+    Chord chord;
+} ListedChord;
+
+// Goes on to the chord that entry `next` of an interval's lists is a neighbour of.
+void go_to(ListedChord *here, __global const uint4 *chords, __global const uint *starts, uint next) {
+    while (next >= here->end) {
+        here->number += 1u;
+        here->end = starts[here->number + 1u];
+        here->chord = chord_of(chords, here->number);
+    }
+}
+
+// An interval whose chords meet their neighbours one after the other.
 typedef struct {
     Interval interval;
     uint tags;
-    // Which of the interval's chords it is, and one over how many there are.
-    Chord chord;
-    float piece;
+    // Its first chord, and one over how many there are.
+    uint first;
     float step;
 } Meeting;
 
-// What chord `number` does to the one that meets it.
-Push meet(const SettlingParams *params, const Meeting *one, __global const uint4 *places,
+// Another chord where it comes nearest to the one here.
+typedef struct {
+    Chord there;
+    uint2 image;
+    float2 shares;
+    float distance;
+} Approach;
+
+Approach approach_of(const SettlingParams *params, const Chord *here, __global const uint4 *chords, size_t number) {
+    Approach approach;
+    approach.there = chord_of(chords, number);
+    float3 span = approach.there.span;
+    uint3 way = approach.there.at - here->at;
+    approach.image = nearest_image(params, here->span, span, way);
+    float3 between = to_mm(params, to_image(params, way, approach.image));
+    approach.shares = chords_nearest(here->span, span, between);
+    approach.distance = length3(between + span * approach.shares.y - here->span * approach.shares.x);
+    return approach;
+}
+
+// Whether chord `number` may touch the one here. Of one that may not, how far it is off is seen.
+bool may_touch(const SettlingParams *params, const Chord *here, __global const uint4 *chords, size_t number,
+               Sight *sight) {
+    Approach approach = approach_of(params, here, chords, number);
+    float most = here->thickest + approach.there.thickest;
+    if (approach.distance < NEAR * MARGIN * params->growth * most) {
+        return true;
+    }
+    sight->near = fmin(sight->near, approach.distance);
+    sight->clearance = fmin(sight->clearance, approach.distance / most);
+    return false;
+}
+
+#define MOST_AT_ONCE 32u
+
+// Which neighbours may touch, of the `count` from entry `begin` on: a bit each. Lanes that sort them out first meet those few together.
+uint touching(const SettlingParams *params, ListedChord here, __global const uint4 *chords,
+              __global const uint *starts, __global const uint *neighbours, uint begin, uint count, Sight *sight) {
+    uint bits = 0u;
+    for (uint entry = 0u; entry < count; entry++) {
+        go_to(&here, chords, starts, begin + entry);
+        if (may_touch(params, &here.chord, chords, neighbours[begin + entry], sight)) {
+            bits |= 1u << entry;
+        }
+    }
+    return bits;
+}
+
+// What chord `number` does to the one here.
+Push meet(const SettlingParams *params, const Meeting *one, const ListedChord *here, __global const uint4 *places,
           __global const PlaceRow *place_rows, __global const uint4 *chords, size_t number, Sight *sight) {
     Push push;
     push.weights = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
-    float3 span = one->chord.span;
-    Chord there = chord_of(chords, number);
-    uint3 way = there.at - one->chord.at;
-    uint2 image = nearest_image(params, span, there.span, way);
-    float3 between = to_mm(params, to_image(params, way, image));
-    float2 shares = chords_nearest(span, there.span, between);
-    float distance = length3(between + there.span * shares.y - span * shares.x);
-    float most = one->chord.thickest + there.thickest;
-    if (distance >= NEAR * MARGIN * params->growth * most) {
-        sight->near = fmin(sight->near, distance);
-        sight->clearance = fmin(sight->clearance, distance / most);
-        return push;
-    }
+    Approach approach = approach_of(params, &here->chord, chords, number);
+    Chord there = approach.there;
     Interval other = interval_at(params, places, there.place);
     uint first = place_rows[there.place].first_chord;
     float2 step = (float2)(one->step, 1.0f / (float)(place_rows[there.place + 1u].first_chord - first));
-    float2 place = ((float2)(one->piece, (float)(uint)(number - first)) + shares) * step;
-    float3 apart = to_mm(params, to_image(params, other.start - one->interval.start, image));
+    float2 piece = (float2)((float)(here->number - one->first), (float)(uint)(number - first));
+    float2 place = (piece + approach.shares) * step;
+    float3 apart = to_mm(params, to_image(params, other.start - one->interval.start, approach.image));
     Contact contact = refined(&one->interval, &other, apart, place, step * STRIDE);
     float3 direction = contact_direction(&contact, interval_velocity(&one->interval, contact.at.x),
                                          interval_velocity(&other, contact.at.y));

@@ -52,19 +52,23 @@ Bend bend_at(const SettlingParams *params, const Interval *interval, uint tags, 
     return bend;
 }
 
-// An interval whose chords meet their neighbours one after the other.
+// The interval that begins at `place`.
 Meeting meeting_at(const SettlingParams *params, __global const uint4 *places, __global const PlaceRow *place_rows,
                    uint place) {
     Meeting one;
     one.interval = interval_at(params, places, place);
     one.tags = place_rows[place].tags;
-    one.step = 1.0f / (float)(place_rows[place + 1u].first_chord - place_rows[place].first_chord);
+    one.first = place_rows[place].first_chord;
+    one.step = 1.0f / (float)(place_rows[place + 1u].first_chord - one.first);
     return one;
 }
 
-void turn_to_chord(Meeting *one, __global const uint4 *chords, size_t number, uint piece) {
-    one->chord = chord_of(chords, number);
-    one->piece = (float)piece;
+// Before the first neighbour of an interval whose chords begin with number `first`.
+ListedChord before_listed(__global const uint *starts, uint first) {
+    ListedChord here;
+    here.number = first - 1u;
+    here.end = starts[first];
+    return here;
 }
 
 // Writes what an interval knows of itself from plane `plane` on, and gives back what it adds to what all have seen.
@@ -104,15 +108,19 @@ float4 pull_weighted(const SettlingParams *params, __global const uint4 *places,
                      __global const uint4 *chords, __global const uint *starts, __global const uint *neighbours,
                      __global const float *lengths, __global float *pulls, uint place) {
     Meeting one = meeting_at(params, places, place_rows, place);
+    ListedChord here = before_listed(starts, one.first);
     Sight sight = {UNSEEN, UNSEEN, UNSEEN};
-    uint first = place_rows[place].first_chord;
-    uint pieces = place_rows[place + 1u].first_chord - first;
+    uint pieces = place_rows[place + 1u].first_chord - one.first;
+    uint end = starts[one.first + pieces];
     float4 ways[4] = {(float4)(0.0f), (float4)(0.0f), (float4)(0.0f), (float4)(0.0f)};
-    for (uint piece = 0u; piece < pieces; piece++) {
-        turn_to_chord(&one, chords, first + piece, piece);
-        uint end = starts[first + piece + 1u];
-        for (uint next = starts[first + piece]; next < end; next++) {
-            Push push = meet(params, &one, places, place_rows, chords, neighbours[next], &sight);
+    for (uint begin = here.end; begin < end; begin += MOST_AT_ONCE) {
+        uint count = min(end - begin, MOST_AT_ONCE);
+        uint bits = touching(params, here, chords, starts, neighbours, begin, count, &sight);
+        while (bits != 0u) {
+            uint next = begin + 31u - clz(bits & -bits);
+            bits &= bits - 1u;
+            go_to(&here, chords, starts, next);
+            Push push = meet(params, &one, &here, places, place_rows, chords, neighbours[next], &sight);
             float4 weights = push.weights;
             if (any(weights != 0.0f)) {
                 ways[0] += (float4)(push.back * weights.x, CONTACT * fabs(weights.x));
@@ -159,18 +167,22 @@ float4 pull_block(const SettlingParams *params, __global const uint4 *places, __
                   __global const uint4 *chords, __global const uint *starts, __global const uint *neighbours,
                   __global const float *lengths, __global float *pulls, uint place) {
     Meeting one = meeting_at(params, places, place_rows, place);
+    ListedChord here = before_listed(starts, one.first);
     Sight sight = {UNSEEN, UNSEEN, UNSEEN};
-    uint first = place_rows[place].first_chord;
-    uint pieces = place_rows[place + 1u].first_chord - first;
+    uint pieces = place_rows[place + 1u].first_chord - one.first;
+    uint end = starts[one.first + pieces];
     Block slots[4];
     for (uint slot = 0u; slot < 4u; slot++) {
         slots[slot].way = slots[slot].with_x = slots[slot].others = (float3)(0.0f, 0.0f, 0.0f);
     }
-    for (uint piece = 0u; piece < pieces; piece++) {
-        turn_to_chord(&one, chords, first + piece, piece);
-        uint end = starts[first + piece + 1u];
-        for (uint next = starts[first + piece]; next < end; next++) {
-            Push push = meet(params, &one, places, place_rows, chords, neighbours[next], &sight);
+    for (uint begin = here.end; begin < end; begin += MOST_AT_ONCE) {
+        uint count = min(end - begin, MOST_AT_ONCE);
+        uint bits = touching(params, here, chords, starts, neighbours, begin, count, &sight);
+        while (bits != 0u) {
+            uint next = begin + 31u - clz(bits & -bits);
+            bits &= bits - 1u;
+            go_to(&here, chords, starts, next);
+            Push push = meet(params, &one, &here, places, place_rows, chords, neighbours[next], &sight);
             float4 weights = push.weights;
             if (any(weights != 0.0f)) {
                 add_block(&slots[0], push.back * weights.x, push.direction, CONTACT * fabs(weights.x));

@@ -93,37 +93,92 @@ fn contact_direction(contact: Contact, velocity: vec3<f32>, other_velocity: vec3
     return vec3(0.0, 0.0, 1.0);
 }
 
-// A chord of an interval that meets its neighbours.
+// The chord whose neighbours are gone through: its number, where its list ends, and where it lies.
+struct ListedChord {
+    number: u32,
+    end: u32,
+    chord: Chord,
+}
+
+// Goes on to the chord that entry `next` of an interval's lists is a neighbour of.
+fn go_to(here: ptr<function, ListedChord>, next: u32) {
+    while next >= (*here).end {
+        (*here).number += 1u;
+        let number = (*here).number;
+        (*here).end = starts[number + 1u];
+        (*here).chord = chord_of(chords[2u * number], chords[2u * number + 1u]);
+    }
+}
+
+// An interval whose chords meet their neighbours one after the other.
 struct Meeting {
     interval: Interval,
     tags: u32,
-    // Which of the interval's chords it is, and one over how many there are.
-    chord: Chord,
-    piece: f32,
+    // Its first chord, and one over how many there are.
+    first: u32,
     step: f32,
 }
 
-// What chord `number` does to the one that meets it.
-fn meet(one: Meeting, number: u32, sight: ptr<function, Sight>) -> Push {
-    var push: Push;
-    let span = one.chord.span;
-    let there = chord_of(chords[2u * number], chords[2u * number + 1u]);
-    let way = there.at - one.chord.at;
-    let image = nearest_image(span, there.span, way);
-    let between = to_mm(to_image(way, image));
-    let shares = chords_nearest(span, there.span, between);
-    let distance = length3(between + there.span * shares.y - span * shares.x);
-    let most = one.chord.thickest + there.thickest;
-    if distance >= NEAR * MARGIN * settling.growth * most {
-        (*sight).near = min((*sight).near, distance);
-        (*sight).clearance = min((*sight).clearance, distance / most);
-        return push;
+// Another chord where it comes nearest to the one here.
+struct Approach {
+    there: Chord,
+    image: vec2<i32>,
+    shares: vec2<f32>,
+    distance: f32,
+}
+
+fn approach_of(here: Chord, number: u32) -> Approach {
+    var approach: Approach;
+    approach.there = chord_of(chords[2u * number], chords[2u * number + 1u]);
+    let span = approach.there.span;
+    let way = approach.there.at - here.at;
+    approach.image = nearest_image(here.span, span, way);
+    let between = to_mm(to_image(way, approach.image));
+    approach.shares = chords_nearest(here.span, span, between);
+    approach.distance = length3(between + span * approach.shares.y - here.span * approach.shares.x);
+    return approach;
+}
+
+// Whether chord `number` may touch the one here. Of one that may not, how far it is off is seen.
+fn may_touch(here: Chord, number: u32, sight: ptr<function, Sight>) -> bool {
+    let approach = approach_of(here, number);
+    let most = here.thickest + approach.there.thickest;
+    if approach.distance < NEAR * MARGIN * settling.growth * most {
+        return true;
     }
+    (*sight).near = min((*sight).near, approach.distance);
+    (*sight).clearance = min((*sight).clearance, approach.distance / most);
+    return false;
+}
+
+const MOST_AT_ONCE = 32u;
+
+// Which neighbours may touch, of the `count` from entry `begin` on: a bit each. Lanes that sort them out first meet those few together.
+fn touching(start: ListedChord, begin: u32, count: u32, sight: ptr<function, Sight>) -> u32 {
+    var here = start;
+    var bits = 0u;
+    for (var entry = 0u; entry < count; entry++) {
+        go_to(&here, begin + entry);
+        let number = neighbours[begin + entry];
+        // A number that is no chord's is no neighbour.
+        if number < settling.chords {
+            bits |= u32(may_touch(here.chord, number, sight)) << entry;
+        }
+    }
+    return bits;
+}
+
+// What chord `number` does to the one here.
+fn meet(one: Meeting, here: ListedChord, number: u32, sight: ptr<function, Sight>) -> Push {
+    var push: Push;
+    let approach = approach_of(here.chord, number);
+    let there = approach.there;
     let other = interval_at(there.place);
     let first = place_rows[there.place].first_chord;
     let step = vec2(one.step, 1.0 / f32(place_rows[there.place + 1u].first_chord - first));
-    let at = (vec2(one.piece, f32(number - first)) + shares) * step;
-    let apart = to_mm(to_image(other.start - one.interval.start, image));
+    let piece = vec2(f32(here.number - one.first), f32(number - first));
+    let at = (piece + approach.shares) * step;
+    let apart = to_mm(to_image(other.start - one.interval.start, approach.image));
     let contact = refined(one.interval, other, apart, at, step * STRIDE);
     let velocity = interval_velocity(one.interval, contact.at.x);
     let direction = contact_direction(contact, velocity, interval_velocity(other, contact.at.y));

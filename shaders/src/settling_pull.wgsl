@@ -59,23 +59,22 @@ fn bend_at(interval: Interval, tags: u32, u: f32, sight: ptr<function, Sight>) -
     return bend;
 }
 
-// An interval whose chords meet their neighbours one after the other.
+// The interval that begins at `place`.
 fn meeting_at(place: u32) -> Meeting {
     var one: Meeting;
     one.interval = interval_at(place);
     one.tags = place_rows[place].tags;
-    one.step = 1.0 / f32(place_rows[place + 1u].first_chord - place_rows[place].first_chord);
+    one.first = place_rows[place].first_chord;
+    one.step = 1.0 / f32(place_rows[place + 1u].first_chord - one.first);
     return one;
 }
 
-fn turn_to_chord(one: ptr<function, Meeting>, number: u32, piece: u32) {
-    (*one).chord = chord_of(chords[2u * number], chords[2u * number + 1u]);
-    (*one).piece = f32(piece);
-}
-
-// Where the list of chord `number` ends.
-fn list_end(number: u32) -> u32 {
-    return min(starts[number + 1u], arrayLength(&neighbours));
+// Before the first neighbour of an interval whose chords begin with number `first`.
+fn before_listed(first: u32) -> ListedChord {
+    var here: ListedChord;
+    here.number = first - 1u;
+    here.end = starts[first];
+    return here;
 }
 
 // The direction from an interval's beginning to its end.
@@ -138,21 +137,20 @@ fn add_ways(sums: Ways, way: vec3<f32>, ways: vec4<f32>, weights: vec4<f32>) -> 
 }
 
 fn pull_weighted(place: u32) -> SeenRow {
-    var one = meeting_at(place);
+    let one = meeting_at(place);
+    var here = before_listed(one.first);
     var sight = Sight(UNSEEN, UNSEEN, UNSEEN);
-    let first = place_rows[place].first_chord;
-    let pieces = place_rows[place + 1u].first_chord - first;
+    let pieces = place_rows[place + 1u].first_chord - one.first;
+    let end = min(starts[one.first + pieces], arrayLength(&neighbours));
     var ways: Ways;
-    for (var piece = 0u; piece < pieces; piece++) {
-        turn_to_chord(&one, first + piece, piece);
-        let end = list_end(first + piece);
-        for (var next = starts[first + piece]; next < end; next++) {
-            let number = neighbours[next];
-            // A number that is no chord's ends a list.
-            if number >= settling.chords {
-                break;
-            }
-            let push = meet(one, number, &sight);
+    for (var begin = here.end; begin < end; begin += MOST_AT_ONCE) {
+        let count = min(end - begin, MOST_AT_ONCE);
+        var bits = touching(here, begin, count, &sight);
+        while bits != 0u {
+            let next = begin + firstTrailingBit(bits);
+            bits &= bits - 1u;
+            go_to(&here, next);
+            let push = meet(one, here, neighbours[next], &sight);
             if any(push.weights != vec4(0.0)) {
                 ways = add_ways(ways, push.back, push.weights, CONTACT * abs(push.weights));
             }
@@ -214,20 +212,20 @@ fn write_block(plane: u32, place: u32, slot: Block) {
 }
 
 fn pull_block(place: u32) -> SeenRow {
-    var one = meeting_at(place);
+    let one = meeting_at(place);
+    var here = before_listed(one.first);
     var sight = Sight(UNSEEN, UNSEEN, UNSEEN);
-    let first = place_rows[place].first_chord;
-    let pieces = place_rows[place + 1u].first_chord - first;
+    let pieces = place_rows[place + 1u].first_chord - one.first;
+    let end = min(starts[one.first + pieces], arrayLength(&neighbours));
     var blocks: Blocks;
-    for (var piece = 0u; piece < pieces; piece++) {
-        turn_to_chord(&one, first + piece, piece);
-        let end = list_end(first + piece);
-        for (var next = starts[first + piece]; next < end; next++) {
-            let number = neighbours[next];
-            if number >= settling.chords {
-                break;
-            }
-            let push = meet(one, number, &sight);
+    for (var begin = here.end; begin < end; begin += MOST_AT_ONCE) {
+        let count = min(end - begin, MOST_AT_ONCE);
+        var bits = touching(here, begin, count, &sight);
+        while bits != 0u {
+            let next = begin + firstTrailingBit(bits);
+            bits &= bits - 1u;
+            go_to(&here, next);
+            let push = meet(one, here, neighbours[next], &sight);
             if any(push.weights != vec4(0.0)) {
                 let weights = CONTACT * abs(push.weights);
                 blocks = add_blocks(blocks, push.back, push.weights, push.direction, weights);

@@ -1,6 +1,8 @@
 //! What the benchmarks of all stages share: the paper's benchmark cloth, and sessions that are ready to run.
 
 #[cfg(feature = "gpu")]
+pub mod crossings;
+#[cfg(feature = "gpu")]
 pub mod fill;
 #[cfg(feature = "gpu")]
 pub mod floor;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::Parser;
 use texere::DeviceKind;
-use texere_bench::{floor, settling, stages, tables};
+use texere_bench::{crossings, floor, settling, stages, tables};
 
 /// Measures devices.
 #[derive(Debug, Parser)]
@@ -29,6 +29,20 @@ enum Args {
         /// Wales and courses of lace, multiples of four
         #[arg(long, value_delimiter = ',', default_value = "200")]
         lace: Vec<usize>,
+        /// Runs of each
+        #[arg(long, default_value_t = 5)]
+        rounds: usize,
+    },
+    /// Crossings of Jacquards: passes beside a plain fill of the bytes that they move, and cloth until it rests
+    Crossings {
+        /// Devices, such as cpu, opencl:0 or wgpu:0 [default: all GPUs that `texere devices` lists]
+        devices: Vec<String>,
+        /// Ends x picks
+        #[arg(long, value_delimiter = ',', default_value = "360x230,720x460,1440x920,2880x1840")]
+        sizes: Vec<Size>,
+        /// The most passes of a course
+        #[arg(long, default_value_t = 400)]
+        passes: u32,
         /// Runs of each
         #[arg(long, default_value_t = 5)]
         rounds: usize,
@@ -129,6 +143,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 devices
             };
             settling::print(&devices, &settling::Cloths { random, lace }, rounds)
+        }
+        Args::Crossings { devices, sizes, passes, rounds } => {
+            let devices = if devices.is_empty() { gpus().collect() } else { devices };
+            let sizes: Vec<_> = sizes.iter().map(|size| (size.0, size.1)).collect();
+            crossings::print(&devices, &sizes, passes, rounds)
         }
         Args::Stages { designs, device } => {
             stages::print(&designs, &device)?;

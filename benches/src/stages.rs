@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, ControlPoint, Design, Limits, Plan, Repeat, Settings, Yarns};
+use texere::{Backend, Design, Limits, Plan, Repeat, Settings, Yarns};
+use texere_core::Session;
 use texere_core::settling::{Rest, Settler, SettlingPlan, settle, settled};
-use texere_core::{Layout, Session};
 
 use crate::measure::Bench;
 use crate::one_yarn;
@@ -74,7 +74,7 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<Stages, Box<dyn Error
             (repeat.piece.yarns, Some(settler))
         } else {
             let points = settled(&plan, &mut *settler, repeat.piece.yarns.points())?;
-            (repeat.laid(&moved(&repeat.piece.yarns, &points)?)?, None)
+            (repeat.laid(&repeat.piece.moved(&points)?)?, None)
         }
     } else {
         let yarns = design.yarns()?;
@@ -184,11 +184,6 @@ fn settler(
     let plan = Arc::new(SettlingPlan::new(&repeat.piece.settling(&finish, tension))?);
     let settler = device.settler(plan.clone())?;
     Ok((plan, settler))
-}
-
-/// `yarns` with all their control points elsewhere.
-fn moved(yarns: &Yarns, points: &[ControlPoint]) -> Result<Yarns, Box<dyn Error>> {
-    Ok(Yarns::new(Layout::clone(yarns.layout()), yarns.materials().to_vec(), points.to_vec())?)
 }
 
 /// Laps of one clock.

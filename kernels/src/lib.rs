@@ -97,6 +97,12 @@ pub const SETTLING_POINTS: EntryPoint = EntryPoint { name: "settling_points", gr
 /// How far control points reach: any number of workgroups, each of which takes every so many places.
 pub const SETTLING_BOUNDS: EntryPoint = EntryPoint { name: "settling_bounds", group: 256 };
 
+/// The step of each crossing, and a row of what was seen for each workgroup: a lane a crossing.
+pub const CROSSINGS_MOVE: EntryPoint = EntryPoint { name: "crossings_move", group: 64 };
+
+/// What all groups have seen in a pass: one workgroup.
+pub const CROSSINGS_SEEN: EntryPoint = EntryPoint { name: "crossings_seen", group: 256 };
+
 /// Sources that are compiled together, and the entry points in them.
 #[derive(Debug, Clone, Copy)]
 pub struct Program {
@@ -161,13 +167,25 @@ pub const SETTLING: Program = Program {
     ],
 };
 
+/// Crossings at rest. It is compiled apart from the others, where a settler of crossings is first wanted.
+pub const CROSSINGS: Program = Program {
+    name: "crossings",
+    sources: &[
+        include_str!("crossings.cl"),
+        include_str!("crossings_passage.cl"),
+        include_str!("crossings_terms.cl"),
+        include_str!("crossings_pass.cl"),
+    ],
+    entries: &[CROSSINGS_MOVE, CROSSINGS_SEEN],
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn workgroups_are_what_the_sources_require() {
-        for program in [PER_RING, PER_YARN, SETTLING] {
+        for program in [PER_RING, PER_YARN, SETTLING, CROSSINGS] {
             let source = program.sources.concat();
             for entry in program.entries {
                 let head = source.split_once(&format!("void {}(", entry.name)).unwrap().0;
@@ -186,10 +204,10 @@ mod tests {
 
     #[test]
     fn no_function_of_lower_accuracy_is_called() {
-        for program in [PER_RING, PER_YARN, SETTLING] {
+        for program in [PER_RING, PER_YARN, SETTLING, CROSSINGS] {
             let source = program.sources.concat();
-            // Half widths, half heights and half gaps are no functions.
-            let source = ["half_width", "half_height", "half_gap"]
+            // Half widths, half heights, half gaps and half ways are no functions of the language.
+            let source = ["half_width", "half_height", "half_gap", "half_way"]
                 .iter()
                 .fold(source, |source, name| source.replace(name, ""));
             for word in ["native_", "half_", "fast_", "mad("] {

@@ -11,7 +11,7 @@
 //! | `caps.wgsl` | `caps` | closed ends |
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
-//! Those that bring yarns to rest are in [`settling`], those that make pictures in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
+//! Those that bring yarns to rest are in [`settling`] and [`crossings`], those that make pictures in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
 //!
 //! ```
 //! use texere_shaders::{MESH, Resource};
@@ -19,6 +19,7 @@
 //! assert!(MESH.bindings.iter().any(|binding| binding.resource == Resource::Vertices));
 //! ```
 
+pub mod crossings;
 pub mod picture;
 pub mod settling;
 
@@ -107,6 +108,22 @@ pub enum Resource {
     SettledRows = 32,
     /// How far control points reach, by workgroup.
     Bounds = 33,
+    /// `CrossingsParams` of `texere-gpu`.
+    CrossingsParams = 34,
+    /// `ThreadRow`s, ends first.
+    ThreadRows = 35,
+    /// Where the warp lies on the face: a bit a crossing.
+    Ups = 36,
+    /// `Crossing`s as others find them.
+    FoundCrossings = 37,
+    /// `Crossing`s as they are.
+    Crossings = 38,
+    /// `Crossing`s as others find them in the next pass.
+    NextCrossings = 39,
+    /// What each workgroup of crossings has seen.
+    CrossingsGroupRows = 40,
+    /// What each pass since the last wait has seen.
+    CrossingsPassRows = 41,
 }
 
 /// How a shader uses a resource.

@@ -7,17 +7,18 @@ use std::mem::offset_of;
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
+use texere_core::crossings::{Crossing, Lie};
 use texere_core::settling::Place;
 use texere_core::{Block, ControlPoint, Ring, SectionPoint, Vertex};
 use texere_gpu::{
-    BoundsRow, CapRow, ChordRow, ExtentRow, Language, Params, PlaceRow, SeenRow, SettledParams, SettledRow,
-    SettlingParams, StrandRow, YarnRow, prelude,
+    BoundsRow, CapRow, ChordRow, CrossingsParams, CrossingsSeenRow, ExtentRow, Language, Params, PlaceRow,
+    SeenRow, SettledParams, SettledRow, SettlingParams, StrandRow, ThreadRow, YarnRow, prelude,
 };
-use texere_shaders::{ALL, Access, Shader, picture, settling};
+use texere_shaders::{ALL, Access, Shader, crossings, picture, settling};
 
-/// Those of meshes and those of settling.
+/// Those of meshes and those that bring yarns and crossings to rest.
 fn all() -> impl Iterator<Item = &'static Shader> {
-    ALL.into_iter().chain(settling::ALL)
+    ALL.into_iter().chain(settling::ALL).chain(crossings::ALL)
 }
 
 fn parse(shader: &Shader) -> (Module, ModuleInfo) {
@@ -136,6 +137,33 @@ fn tables_of_settling_lie_as_in_rust() {
     }
 }
 
+#[test]
+fn tables_of_crossings_lie_as_in_rust() {
+    let (module, _) = parse(&crossings::MOVE);
+    same_layout!(&module, ThreadRow { gap, radius, stiffness, freedom });
+    same_layout!(
+        &module,
+        CrossingsParams {
+            crossings,
+            ends,
+            picks,
+            repeats,
+            tension_warp,
+            tension_weft,
+            press,
+            penalty,
+            area,
+            pass_number,
+            padding
+        }
+    );
+    // Read as vectors: the order of the fields matters.
+    assert_eq!((offset_of!(Crossing, warp), offset_of!(Crossing, weft)), (0, 16));
+    assert_eq!([offset_of!(Lie, shift), offset_of!(Lie, height)], [0, 4]);
+    assert_eq!([offset_of!(Lie, half_width), offset_of!(Lie, half_height)], [8, 12]);
+    assert_eq!([offset_of!(CrossingsSeenRow, step), offset_of!(CrossingsSeenRow, clearance)], [0, 4]);
+}
+
 /// Bytes of an element, and whether they are floats, of each runtime array that a shader binds.
 fn elements(module: &Module) -> BTreeMap<u32, Vec<usize>> {
     let mut elements = BTreeMap::<u32, Vec<usize>>::new();
@@ -197,6 +225,13 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (30, size_of::<SeenRow>()),
         (32, size_of::<SettledRow>()),
         (33, size_of::<BoundsRow>()),
+        (35, size_of::<ThreadRow>()),
+        (36, size_of::<u32>()),
+        (37, size_of::<Crossing>()),
+        (38, size_of::<Crossing>()),
+        (39, size_of::<Crossing>()),
+        (40, size_of::<CrossingsSeenRow>()),
+        (41, size_of::<CrossingsSeenRow>()),
     ];
     let rust = BTreeMap::from(rust);
     for shader in all() {

@@ -9,6 +9,7 @@
 //! A session's times, and the bytes that an edit moves, are checked on each device too. A backend from elsewhere runs the
 //! whole suite with one line: see [`run`].
 
+mod broken_crossings;
 mod broken_settler;
 pub mod cases;
 mod check;
@@ -26,6 +27,7 @@ mod sessions;
 mod suite;
 mod worst;
 
+pub use broken_crossings::{CrossingsSabotage, SabotagedCrossings};
 pub use broken_settler::{SabotagedSettler, SettlingSabotage};
 pub use check::{check, check_within};
 pub use deferred::DeferredBackend;

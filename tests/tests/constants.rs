@@ -1,10 +1,10 @@
 //! Kernels and shaders take the core's constants from one place, and have none of their own.
 
-use texere_gpu::{CONSTANTS, Constant, SETTLING_CONSTANTS};
-use texere_kernels::{PER_RING, PER_YARN, Program, SETTLING};
+use texere_gpu::{CONSTANTS, CROSSINGS_CONSTANTS, Constant, SETTLING_CONSTANTS};
+use texere_kernels::{CROSSINGS, PER_RING, PER_YARN, Program, SETTLING};
 
-/// All that is compiled for a mesh or for a settling, without what stands before it, and the constants that it is to use.
-fn sources() -> [(&'static str, String, &'static [Constant]); 4] {
+/// All that is compiled for a mesh, for a settling or for crossings, without what stands before it, and the constants that it is to use.
+fn sources() -> [(&'static str, String, &'static [Constant]); 6] {
     let kernels =
         |programs: &[Program]| programs.iter().flat_map(|program| program.sources).copied().collect();
     [
@@ -15,6 +15,12 @@ fn sources() -> [(&'static str, String, &'static [Constant]); 4] {
             "shaders of a settling",
             texere_shaders::settling::ALL.map(|shader| shader.source).concat(),
             &SETTLING_CONSTANTS,
+        ),
+        ("kernels of crossings", kernels(&[CROSSINGS]), &CROSSINGS_CONSTANTS),
+        (
+            "shaders of crossings",
+            texere_shaders::crossings::ALL.map(|shader| shader.source).concat(),
+            &CROSSINGS_CONSTANTS,
         ),
     ]
 }

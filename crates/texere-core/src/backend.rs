@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::{BackendError, Engine, Limits, Plan, Settler, SettlingPlan};
+use crate::{BackendError, CrossingsPlan, CrossingsSettler, Engine, Limits, Plan, Settler, SettlingPlan};
 
 /// What kind of machine a device is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -97,6 +97,14 @@ pub trait Backend: fmt::Debug + Send + Sync {
     fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
         let _ = plan;
         Err(BackendError::NoSettling { name: self.info().name.clone() })
+    }
+
+    /// Opens a settler of crossings for a plan. It owns all the device memory that the work needs.
+    ///
+    /// **Errors**: [`BackendError::NoCrossings`] where the backend has none, and other ones where memory or the device does not allow it.
+    fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
+        let _ = plan;
+        Err(BackendError::NoCrossings { name: self.info().name.clone() })
     }
 }
 

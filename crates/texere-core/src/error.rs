@@ -348,6 +348,12 @@ pub enum BackendError {
         /// The backend's name.
         name: String,
     },
+    /// The backend can't settle crossings.
+    #[error("{name} can't settle crossings of woven cloth")]
+    NoCrossings {
+        /// The backend's name.
+        name: String,
+    },
     /// Memory could not be allocated.
     #[error("out of memory: {bytes} bytes for {what}")]
     OutOfMemory {

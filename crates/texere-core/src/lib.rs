@@ -18,6 +18,7 @@
 
 mod backend;
 mod boundary;
+pub mod crossings;
 mod engine;
 mod error;
 mod frame;
@@ -41,6 +42,7 @@ mod yarns;
 
 pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
 pub use boundary::{Boundary, Ends};
+pub use crossings::{Crossings, CrossingsError, CrossingsPlan, CrossingsSettler};
 pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings, take_over_host};
 pub use error::{
     BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use texere_core::{
-    Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Schedule, Settler, SettlingPlan,
+    Backend, BackendError, CrossingsPlan, CrossingsSettler, DeviceInfo, DeviceKind, Engine, Limits, Plan,
+    Schedule, Settler, SettlingPlan,
 };
 
 use crate::engine::CpuEngine;
-use crate::parallel::{Parallel, ParallelSettler};
-use crate::serial::{Serial, SerialSettler};
+use crate::parallel::{Parallel, ParallelCrossings, ParallelSettler};
+use crate::serial::{Serial, SerialCrossings, SerialSettler};
 
 /// One thread, one yarn after the other: the reference.
 #[derive(Debug)]
@@ -102,6 +103,10 @@ impl Backend for SerialBackend {
     fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
         Ok(Box::new(SerialSettler::new(plan)))
     }
+
+    fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
+        Ok(Box::new(SerialCrossings::new(plan)?))
+    }
 }
 
 impl Backend for ParallelBackend {
@@ -115,5 +120,9 @@ impl Backend for ParallelBackend {
 
     fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
         Ok(Box::new(ParallelSettler::new(self.parallel, plan)))
+    }
+
+    fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
+        Ok(Box::new(ParallelCrossings::new(plan)?))
     }
 }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
 //! | tables of a settling, and what devices give back of it | [`PlaceRow`], [`StrandRow`], [`ChordRow`], [`SettlingParams`], [`ExtentRow`], [`SeenRow`] |
+//! | tables of crossings | [`CrossingsParams`], [`ThreadRow`], [`crossings_ups`], [`CrossingsSeenRow`] |
 //! | tables of a settling, and of the way from it to control points | [`SettlingParams`], [`SettledRow`] |
 //! | control points with virtual ends, written straight to the memory that is sent | [`YarnEnds`], [`PaddedUpload`] |
 //! | the constants that kernels and shaders share with the core | [`prelude()`] |
@@ -24,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod crossings;
 mod loaded;
 mod memory;
 mod prelude;
@@ -33,9 +35,12 @@ mod settling;
 mod tables;
 mod upload;
 
+pub use crossings::{
+    CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_pass_bytes, crossings_ups,
+};
 pub use loaded::LoadedChunk;
 pub use memory::{device_buffers, host_bytes_beside_gpu};
-pub use prelude::{CONSTANTS, Constant, Language, SETTLING_CONSTANTS, Value, prelude};
+pub use prelude::{CONSTANTS, CROSSINGS_CONSTANTS, Constant, Language, SETTLING_CONSTANTS, Value, prelude};
 pub use schedule::{check_schedule, device_name, serial_unsupported};
 pub use settled::{BoundsRow, SettledParams, SettledRow};
 pub use settling::{

@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use texere_core::{
     ARCTANGENT, BLOCK_RINGS, COSINE, Frame, NO_LENGTH, NO_MIRROR, RADIUS_FLOOR, SINE, SLOPE_LIMIT,
-    TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY, settling,
+    TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY, crossings, settling,
 };
 
+use crate::crossings::CrossingsParams;
 use crate::settling::{SettlingParams, UNSEEN};
 
 /// A language of device code.
@@ -116,7 +117,37 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
     integer("PLATES", SettlingParams::PLATES),
 ];
 
-/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`] and [`SETTLING_CONSTANTS`], and of `FLATTENED`. Decimals are
+/// Those of crossings, which stand before all sources, too. The two flags are [`CrossingsParams`]' own, all others the core's.
+pub const CROSSINGS_CONSTANTS: [Constant; 26] = [
+    float("CROSSINGS_ASPECT", crossings::ASPECT),
+    float("CROSSINGS_SHAPE", crossings::SHAPE),
+    float("CROSSINGS_AREA_LOSS", crossings::AREA_LOSS),
+    float("CROSSINGS_AREA_GAIN", crossings::AREA_GAIN),
+    float("CROSSINGS_BEND", crossings::BEND),
+    float("CROSSINGS_SIDEWAYS_BEND", crossings::SIDEWAYS_BEND),
+    float("CROSSINGS_TENSION", crossings::TENSION),
+    float("CROSSINGS_SIDEWAYS_TENSION", crossings::SIDEWAYS_TENSION),
+    float("CROSSINGS_PRESS", crossings::PRESS),
+    float("CROSSINGS_SMOOTH", crossings::SMOOTH),
+    float("CROSSINGS_MARGIN", crossings::MARGIN),
+    float("CROSSINGS_NEAR", crossings::NEAR),
+    float("CROSSINGS_DAMPING", crossings::DAMPING),
+    float("CROSSINGS_PIVOT", crossings::PIVOT),
+    float("CROSSINGS_HEIGHT", crossings::HEIGHT),
+    float("CROSSINGS_MOMENTUM", crossings::MOMENTUM),
+    float("CROSSINGS_STEP", crossings::STEP),
+    float("CROSSINGS_HALF_WIDTH_LEAST", crossings::HALF_WIDTH[0]),
+    float("CROSSINGS_HALF_WIDTH_MOST", crossings::HALF_WIDTH[1]),
+    float("CROSSINGS_HALF_HEIGHT_LEAST", crossings::HALF_HEIGHT[0]),
+    float("CROSSINGS_HALF_HEIGHT_MOST", crossings::HALF_HEIGHT[1]),
+    integer("PASSAGE_STEPS", crossings::STEPS),
+    float("PASSAGE_CURVED", crossings::CURVED),
+    float("PASSAGE_TURN", crossings::TURN),
+    integer("REPEATS_ENDS", CrossingsParams::ENDS),
+    integer("REPEATS_PICKS", CrossingsParams::PICKS),
+];
+
+/// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`], [`SETTLING_CONSTANTS`] and [`CROSSINGS_CONSTANTS`], and of `FLATTENED`. Decimals are
 /// as short as give the same bits again.
 ///
 /// Where `flattened` is false the program is for round yarns alone, as wide as high at each control point: it takes no account of
@@ -131,7 +162,8 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
 #[must_use]
 pub fn prelude(language: Language, flattened: bool) -> String {
     let mut text = String::new();
-    for Constant { name, value } in CONSTANTS.into_iter().chain(SETTLING_CONSTANTS) {
+    for Constant { name, value } in CONSTANTS.into_iter().chain(SETTLING_CONSTANTS).chain(CROSSINGS_CONSTANTS)
+    {
         // Writing to a string does not fail.
         let _ = match (language, value) {
             (Language::OpenClC, Value::Float(value)) if value < 0.0 => {
@@ -155,7 +187,7 @@ mod tests {
     use super::*;
 
     /// The core's values, each written here once more: a number in place of a name above is found.
-    const OF_THE_CORE: [(&str, &[f32]); 50] = [
+    const OF_THE_CORE: [(&str, &[f32]); 74] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
         ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
@@ -206,6 +238,30 @@ mod tests {
         ("TAG_OPENS", &[settling::tag::OPENS as f32]),
         ("TAG_ENDS", &[settling::tag::ENDS as f32]),
         ("TAG_PINNED", &[settling::tag::PINNED as f32]),
+        ("CROSSINGS_ASPECT", &[crossings::ASPECT]),
+        ("CROSSINGS_SHAPE", &[crossings::SHAPE]),
+        ("CROSSINGS_AREA_LOSS", &[crossings::AREA_LOSS]),
+        ("CROSSINGS_AREA_GAIN", &[crossings::AREA_GAIN]),
+        ("CROSSINGS_BEND", &[crossings::BEND]),
+        ("CROSSINGS_SIDEWAYS_BEND", &[crossings::SIDEWAYS_BEND]),
+        ("CROSSINGS_TENSION", &[crossings::TENSION]),
+        ("CROSSINGS_SIDEWAYS_TENSION", &[crossings::SIDEWAYS_TENSION]),
+        ("CROSSINGS_PRESS", &[crossings::PRESS]),
+        ("CROSSINGS_SMOOTH", &[crossings::SMOOTH]),
+        ("CROSSINGS_MARGIN", &[crossings::MARGIN]),
+        ("CROSSINGS_NEAR", &[crossings::NEAR]),
+        ("CROSSINGS_DAMPING", &[crossings::DAMPING]),
+        ("CROSSINGS_PIVOT", &[crossings::PIVOT]),
+        ("CROSSINGS_HEIGHT", &[crossings::HEIGHT]),
+        ("CROSSINGS_MOMENTUM", &[crossings::MOMENTUM]),
+        ("CROSSINGS_STEP", &[crossings::STEP]),
+        ("CROSSINGS_HALF_WIDTH_LEAST", &[crossings::HALF_WIDTH[0]]),
+        ("CROSSINGS_HALF_WIDTH_MOST", &[crossings::HALF_WIDTH[1]]),
+        ("CROSSINGS_HALF_HEIGHT_LEAST", &[crossings::HALF_HEIGHT[0]]),
+        ("CROSSINGS_HALF_HEIGHT_MOST", &[crossings::HALF_HEIGHT[1]]),
+        ("PASSAGE_STEPS", &[5.0]),
+        ("PASSAGE_CURVED", &[crossings::CURVED]),
+        ("PASSAGE_TURN", &[crossings::TURN]),
     ];
 
     /// The texts are read again as their compilers do, and must have the core's bits.

@@ -12,10 +12,12 @@ use opencl3::context::context::{create_context, retain_context};
 use opencl3::device::Device;
 use opencl3::error_codes::ClError;
 use opencl3::platform::Platform;
+use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
 use texere_core::settling::{Settler, SettlingPlan};
 use texere_core::{Backend, BackendError, DeviceInfo, Engine, Limits, Plan, Session};
 use texere_gpu::device_name;
 
+use crate::crossings::OpenClCrossings;
 use crate::device::{self, listed};
 use crate::faults::failed;
 use crate::handles::Handle;
@@ -177,5 +179,9 @@ impl Backend for OpenClBackend {
     /// Both schedules settle in the same way.
     fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
         Ok(Box::new(OpenClSettler::new(self.opened.clone(), &self.info.limits, plan)?))
+    }
+
+    fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
+        Ok(Box::new(OpenClCrossings::new(self.opened.clone(), &self.info.limits, plan)?))
     }
 }

@@ -105,3 +105,25 @@ impl Kernel {
         Ok(launches)
     }
 }
+
+/// Starts a kernel with a lane for each of `lanes` or a few more, after those in the queue.
+///
+/// # Safety
+///
+/// As [`Kernel::run`].
+pub(crate) unsafe fn start(
+    kernel: &mut Kernel,
+    opened: &Opened,
+    args: &[Arg<'_>],
+    lanes: u32,
+) -> Result<(), BackendError> {
+    let groups = (lanes as usize).div_ceil(kernel.group());
+    // SAFETY: this function's contract.
+    unsafe { kernel.run(opened, args, groups, None) }?;
+    Ok(())
+}
+
+/// Arguments that lie in memory.
+pub(crate) fn in_memory<'a, const COUNT: usize>(buffers: [&'a Buffer; COUNT]) -> [Arg<'a>; COUNT] {
+    buffers.map(Arg::Memory)
+}

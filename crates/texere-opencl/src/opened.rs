@@ -11,7 +11,7 @@ use opencl3::program::{
 };
 use texere_core::{BackendError, DeviceInfo, Schedule};
 use texere_gpu::{Language, prelude, serial_unsupported};
-use texere_kernels::{PER_RING, PER_YARN, Program, SETTLING};
+use texere_kernels::{CROSSINGS, PER_RING, PER_YARN, Program, SETTLING};
 
 use crate::faults::failed;
 use crate::handles::Handle;
@@ -34,6 +34,8 @@ pub(crate) struct Opened {
     flattened: OnceLock<Handle>,
     /// Those of settlings, for round yarns alone and for all, likewise.
     settling: [OnceLock<Handle>; 2],
+    /// That of crossings, likewise.
+    crossings: OnceLock<Handle>,
 }
 
 impl Opened {
@@ -57,6 +59,7 @@ impl Opened {
             round,
             flattened: OnceLock::new(),
             settling: Default::default(),
+            crossings: OnceLock::new(),
         })
     }
 
@@ -75,6 +78,14 @@ impl Opened {
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn settling(&self, flattened: bool) -> Result<&Handle, BackendError> {
         self.compiled(&self.settling[usize::from(flattened)], SETTLING, flattened)
+    }
+
+    /// The program of crossings.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn crossings(&self) -> Result<&Handle, BackendError> {
+        // It does not ask whether yarns are flattened: there all are.
+        self.compiled(&self.crossings, CROSSINGS, true)
     }
 
     /// What `held` holds: `program`, compiled where it is wanted first.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
 use texere_core::settling::{Settler, SettlingPlan};
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Session};
 use texere_gpu::device_name;
@@ -9,6 +10,7 @@ use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, I
 
 use crate::Schedule;
 use crate::clock::has_clock;
+use crate::crossings::WgpuCrossings;
 use crate::engine::WgpuEngine;
 use crate::gpu::Gpu;
 use crate::kernels::Opened;
@@ -171,6 +173,10 @@ impl Backend for WgpuBackend {
 
     fn settler(&self, plan: Arc<SettlingPlan>) -> Result<Box<dyn Settler>, BackendError> {
         Ok(Box::new(WgpuSettler::new(self.opened.clone(), &self.info.limits, plan)?))
+    }
+
+    fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
+        Ok(Box::new(WgpuCrossings::new(self.opened.clone(), &self.info.limits, plan)?))
     }
 }
 

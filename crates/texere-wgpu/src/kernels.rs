@@ -9,6 +9,7 @@ use wgpu::{
     BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ShaderStages,
 };
 
+use crate::crossings::CrossingsKernels;
 use crate::gpu::Gpu;
 use crate::settling::SettlingKernels;
 
@@ -31,6 +32,8 @@ pub(crate) struct Opened {
     flattened: OnceLock<Arc<Kernels>>,
     /// Those that bring yarns to rest, for round yarns alone and for all yarns, likewise.
     settling: [OnceLock<Arc<SettlingKernels>>; 2],
+    /// Those that bring crossings to rest, likewise.
+    crossings: OnceLock<Arc<CrossingsKernels>>,
 }
 
 impl Opened {
@@ -39,7 +42,14 @@ impl Opened {
     /// **Errors**: [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
     pub(crate) fn new(gpu: Gpu, schedule: Schedule) -> Result<Self, BackendError> {
         let round = Arc::new(Kernels::new(&gpu, schedule, false)?);
-        Ok(Self { gpu, schedule, round, flattened: OnceLock::new(), settling: <_>::default() })
+        Ok(Self {
+            gpu,
+            schedule,
+            round,
+            flattened: OnceLock::new(),
+            settling: <_>::default(),
+            crossings: OnceLock::new(),
+        })
     }
 
     /// The shaders for all yarns.
@@ -55,6 +65,13 @@ impl Opened {
     pub(crate) fn settling(&self, flattened: bool) -> Result<Arc<SettlingKernels>, BackendError> {
         let place = &self.settling[usize::from(flattened)];
         compiled(place, || SettlingKernels::new(&self.gpu, flattened))
+    }
+
+    /// The shaders that bring crossings to rest.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn crossings(&self) -> Result<Arc<CrossingsKernels>, BackendError> {
+        compiled(&self.crossings, || CrossingsKernels::new(&self.gpu))
     }
 }
 
@@ -244,5 +261,9 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // - Loops run up to a count, to a place in a list, which is below its buffer's length, or over halves of a workgroup.
     // - Divisors of whole numbers are a cell's size and the counts of cells, which the host makes at least 1, and a repeat where
     //   there is one.
+    // In those of crossings:
+    // - A site beside another is one of the plan's, or is not read: its end is below the ends, its pick below the picks. Tables are the plan's,
+    //   bound whole, as is all that has a number each; the rows of passes are as many as the host counts passes to.
+    // - Whole numbers are divided by the ends, at least 2, and by constants.
     unsafe { gpu.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }
 }

@@ -25,9 +25,11 @@
 //! - The shaders run without bounds checks. What they index by comes from a plan and the chunks that it was cut into, and a
 //!   session takes no other plan's chunks.
 
+mod answer;
 mod buffer;
 mod chunk_memory;
 mod clock;
+mod crossings;
 mod device;
 mod engine;
 mod gpu;
@@ -35,6 +37,7 @@ mod kernels;
 mod mapped;
 mod per_yarn;
 mod readback;
+mod room;
 mod session;
 mod settling;
 mod tables;

@@ -4,6 +4,7 @@
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod crossings;
 mod instruction_set;
 mod lines;
 mod planar;
@@ -29,6 +30,7 @@ use crate::caps::caps;
 use crate::engine::{Executor, Work};
 use crate::pages;
 use crate::rolls::Rolls;
+pub(crate) use crossings::ParallelCrossings;
 use instruction_set::InstructionSet;
 use lines::{IndexLines, IndexTable, Lines, VertexLines};
 use rings::{Rings, Source, Stretch, Walk};

@@ -1,10 +1,12 @@
 //! The paper's serial algorithms: one loop inside the other, nothing clever.
 
+mod crossings;
 mod mesh;
 mod scan;
 mod settling;
 mod trajectory;
 
+pub(crate) use crossings::SerialCrossings;
 pub(crate) use settling::SerialSettler;
 
 use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan, Ring};

@@ -11,9 +11,8 @@ use texere_kernels::{
 };
 
 use super::memory::Memory;
-use super::{in_memory, start};
 use crate::buffers::Buffer;
-use crate::kernel::{Arg, Kernel};
+use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
 /// They run one after the other; the host waits for the extent of all chords, and for how many neighbours there are.

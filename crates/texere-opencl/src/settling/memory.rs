@@ -1,6 +1,5 @@
 //! The memory of a settling.
 
-use bytemuck::Pod;
 use texere_core::settling::{Place, SettlingPlan};
 use texere_core::{BackendError, Limits};
 use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, StrandRow};
@@ -8,6 +7,7 @@ use texere_kernels::{SETTLING_PULL_WEIGHTED, SETTLING_SCAN_VALUES};
 
 use crate::buffers::Buffer;
 use crate::opened::Opened;
+use crate::room::Room;
 
 /// Numbers that the block form writes for each place, the more of both forms.
 const PULL_PLANES: u64 = 4 * 9 + 6;
@@ -45,42 +45,10 @@ pub(super) struct Memory {
     room: Room,
 }
 
-/// What a device may still be asked for.
-#[derive(Debug, Clone, Copy)]
-struct Room {
-    binding_bytes: u64,
-    memory_bytes: u64,
-}
-
-impl Room {
-    /// Takes `bytes` for `what` off it.
-    fn take(&mut self, what: &'static str, bytes: u64) -> Result<u64, BackendError> {
-        if bytes > self.binding_bytes || bytes > self.memory_bytes {
-            return Err(BackendError::OutOfMemory { what, bytes });
-        }
-        self.memory_bytes -= bytes;
-        Ok(bytes)
-    }
-
-    fn zeroed(&mut self, opened: &Opened, what: &'static str, bytes: u64) -> Result<Buffer, BackendError> {
-        Buffer::zeroed(opened, what, self.take(what, bytes)?)
-    }
-
-    fn holding<T: Pod>(
-        &mut self,
-        opened: &Opened,
-        what: &'static str,
-        data: &[T],
-    ) -> Result<Buffer, BackendError> {
-        self.take(what, size_of_val(data) as u64)?;
-        Buffer::holding(opened, what, data)
-    }
-}
-
 impl Memory {
     /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
     pub(super) fn new(opened: &Opened, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
-        let mut room = Room { binding_bytes: limits.binding_bytes, memory_bytes: limits.memory_bytes };
+        let mut room = Room::new(limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let groups = places.div_ceil(SETTLING_PULL_WEIGHTED.group as u64);
         let of = |count: u64, each: usize| count * each as u64;

@@ -13,7 +13,7 @@ use texere_gpu::{SettlingParams, settles_flattened};
 use texere_kernels::EntryPoint;
 
 use crate::buffers::Buffer;
-use crate::kernel::{Arg, Kernel};
+use crate::kernel::Kernel;
 use crate::opened::Opened;
 use list::ListKernels;
 use memory::Memory;
@@ -141,26 +141,4 @@ impl Settler for OpenClSettler {
     fn bounds(&mut self) -> Result<[[i32; 3]; 2], BackendError> {
         self.points.bounds(&self.opened, &self.plan, &self.memory)
     }
-}
-
-/// Starts a kernel with a lane for each of `lanes` or a few more, after those in the queue.
-///
-/// # Safety
-///
-/// As [`Kernel::run`].
-unsafe fn start(
-    kernel: &mut Kernel,
-    opened: &Opened,
-    args: &[Arg<'_>],
-    lanes: u32,
-) -> Result<(), BackendError> {
-    let groups = (lanes as usize).div_ceil(kernel.group());
-    // SAFETY: this function's contract.
-    unsafe { kernel.run(opened, args, groups, None) }?;
-    Ok(())
-}
-
-/// Arguments that lie in memory.
-fn in_memory<'a, const COUNT: usize>(buffers: [&'a Buffer; COUNT]) -> [Arg<'a>; COUNT] {
-    buffers.map(Arg::Memory)
 }

@@ -10,8 +10,7 @@ use texere_kernels::{
 };
 
 use super::memory::Memory;
-use super::{in_memory, start};
-use crate::kernel::{Arg, Kernel};
+use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
 /// They run one after the other; the host waits for 16 bytes at the end.

@@ -7,9 +7,8 @@ use texere_gpu::{BoundsRow, EXTENT_GROUPS, SettledParams, SettledRow};
 use texere_kernels::{EntryPoint, SETTLING_BOUNDS, SETTLING_POINTS};
 
 use super::memory::Memory;
-use super::{in_memory, start};
 use crate::buffers::Buffer;
-use crate::kernel::{Arg, Kernel};
+use crate::kernel::{Arg, Kernel, in_memory, start};
 use crate::opened::Opened;
 
 /// The kernels that read where yarns rest.

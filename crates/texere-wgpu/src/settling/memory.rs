@@ -1,6 +1,5 @@
 //! The memory of a settling.
 
-use bytemuck::Pod;
 use texere_core::settling::{Place, SettlingPlan};
 use texere_core::{BackendError, Limits};
 use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow};
@@ -9,6 +8,7 @@ use texere_shaders::settling::SCAN_VALUES;
 use wgpu::{BindingResource, BufferUsages};
 
 use crate::gpu::Gpu;
+use crate::room::Room;
 
 /// Numbers that the block form writes for each place, the more of both forms.
 const PULL_PLANES: u64 = 4 * 9 + 6;
@@ -52,42 +52,10 @@ pub(super) struct Memory {
     room: Room,
 }
 
-/// What a device may still be asked for.
-#[derive(Debug, Clone, Copy)]
-struct Room {
-    binding_bytes: u64,
-    memory_bytes: u64,
-}
-
-impl Room {
-    /// Takes `bytes` for `what` off it.
-    fn take(&mut self, gpu: &Gpu, what: &'static str, bytes: u64) -> Result<wgpu::Buffer, BackendError> {
-        if bytes > self.binding_bytes || bytes > self.memory_bytes {
-            return Err(BackendError::OutOfMemory { what, bytes });
-        }
-        self.memory_bytes -= bytes;
-        gpu.buffer(what, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)
-    }
-
-    fn holding<T: Pod>(
-        &mut self,
-        gpu: &Gpu,
-        what: &'static str,
-        data: &[T],
-    ) -> Result<wgpu::Buffer, BackendError> {
-        let buffer = self.take(gpu, what, size_of_val(data) as u64)?;
-        gpu.write(&buffer, 0, bytemuck::cast_slice(data))?;
-        Ok(buffer)
-    }
-}
-
 impl Memory {
     /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
     pub(super) fn new(gpu: &Gpu, limits: &Limits, plan: &SettlingPlan) -> Result<Self, BackendError> {
-        let mut room = Room {
-            binding_bytes: limits.binding_bytes.min(gpu.device.limits().max_storage_buffer_binding_size),
-            memory_bytes: limits.memory_bytes,
-        };
+        let mut room = Room::new(gpu, limits);
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());

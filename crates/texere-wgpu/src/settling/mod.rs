@@ -1,6 +1,5 @@
 //! Settling on a wgpu device.
 
-mod answer;
 mod kernels;
 mod list;
 mod memory;
@@ -14,11 +13,11 @@ use texere_core::{BackendError, Limits, zeroed};
 use texere_gpu::{SeenRow, SettlingParams, settles_flattened};
 use wgpu::{CommandEncoder, ComputePassDescriptor};
 
+use crate::answer::Answer;
 use crate::gpu::Gpu;
 use crate::kernels::{Kernel, Opened};
 use crate::readback::Readback;
 
-use answer::Answer;
 pub(crate) use kernels::SettlingKernels;
 use memory::Memory;
 

@@ -9,18 +9,18 @@ use crate::mapped::Mapped;
 
 /// A small buffer that the host reads.
 #[derive(Debug)]
-pub(super) struct Answer {
+pub(crate) struct Answer {
     buffer: wgpu::Buffer,
 }
 
 impl Answer {
     /// Takes memory for answers of up to `bytes`.
-    pub(super) fn new(gpu: &Gpu, bytes: u64) -> Result<Self, BackendError> {
+    pub(crate) fn new(gpu: &Gpu, bytes: u64) -> Result<Self, BackendError> {
         Ok(Self { buffer: gpu.buffer("readback", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)? })
     }
 
     /// Hands over what `record` records, and waits for `count` numbers of `source` from number `first` on, as they are after that.
-    pub(super) fn after<T: Pod>(
+    pub(crate) fn after<T: Pod>(
         &self,
         gpu: &Gpu,
         source: &wgpu::Buffer,

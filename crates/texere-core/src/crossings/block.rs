@@ -1,0 +1,84 @@
+//! What pulls at a crossing: eight equations.
+
+/// Unknowns of a crossing: shift, height, half width and half height of the end, then of the pick.
+const UNKNOWNS: usize = 8;
+
+/// What is added to the equations' diagonal: a share of it, and so much where nothing pulls.
+pub const DAMPING: f32 = 1e-3;
+
+/// A pivot is never less than that.
+pub const PIVOT: f32 = 1e-9;
+
+/// The energy's slope and curvature in the eight unknowns of a crossing, by Gauss and Newton: every term is a weight times the square of a
+/// residual.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Block {
+    /// Half the energy's gradient.
+    pub gradient: [f32; UNKNOWNS],
+    /// At least half the energy's curvature, when neighbours step as well: up to the diagonal, as it is symmetric.
+    pub curvature: [[f32; UNKNOWNS]; UNKNOWNS],
+    /// The least distance of two threads here, over what they need: 1 where they touch.
+    pub clearance: f32,
+}
+
+impl Block {
+    pub(crate) const NOTHING: Self =
+        Self { gradient: [0.0; UNKNOWNS], curvature: [[0.0; UNKNOWNS]; UNKNOWNS], clearance: f32::INFINITY };
+
+    /// Adds the term `weight` times `residual` squared, whose residual has these slopes in the unknowns of this crossing.
+    ///
+    /// All crossings step at once. `share` is by how much this one's step has to be shorter than if it stepped alone: the sum of all
+    /// crossings' slopes over its own, which keeps the term from growing.
+    pub(crate) fn add<const N: usize>(
+        &mut self,
+        weight: f32,
+        share: f32,
+        residual: f32,
+        slopes: [(usize, f32); N],
+    ) {
+        for (row, slope) in slopes {
+            self.gradient[row] += weight * residual * slope;
+            for (column, other) in slopes {
+                if column <= row {
+                    self.curvature[row][column] += weight * share * slope * other;
+                }
+            }
+        }
+    }
+
+    /// A distance of two threads over what they need.
+    pub(crate) const fn see(&mut self, clearance: f32) {
+        self.clearance = self.clearance.min(clearance);
+    }
+
+    /// The step down to the least of these equations, by Cholesky's method.
+    #[must_use]
+    pub fn step(&self) -> [f32; UNKNOWNS] {
+        let mut lower = [[0.0_f32; UNKNOWNS]; UNKNOWNS];
+        for row in 0..UNKNOWNS {
+            for column in 0..=row {
+                let known = lower[row][..column].iter().zip(&lower[column][..column]);
+                let left = known.fold(self.curvature[row][column], |left, (one, other)| left - one * other);
+                lower[row][column] = if row == column {
+                    (left + DAMPING + DAMPING * self.curvature[row][row]).max(PIVOT).sqrt()
+                } else {
+                    left / lower[column][column]
+                };
+            }
+        }
+        let mut step = self.gradient.map(|slope| -slope);
+        for (row, known) in lower.iter().enumerate() {
+            let left = known[..row]
+                .iter()
+                .zip(&step[..row])
+                .fold(step[row], |left, (one, other)| left - one * other);
+            step[row] = left / known[row];
+        }
+        for row in (0..UNKNOWNS).rev() {
+            let known = lower[row + 1..].iter().zip(&step[row + 1..]);
+            let left = known.fold(step[row], |left, (below, other)| left - below[row] * other);
+            step[row] = left / lower[row][row];
+        }
+        step
+    }
+}

@@ -1,0 +1,99 @@
+//! What is unknown at a crossing.
+
+use bytemuck::{Pod, Zeroable};
+
+/// One of the two sets of threads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Set {
+    /// Threads along y.
+    Warp,
+    /// Threads along x.
+    Weft,
+}
+
+impl Set {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::Warp, Self::Weft];
+
+    /// The set that this one crosses.
+    ///
+    /// ```
+    /// assert_eq!(texere_core::crossings::Set::Warp.other(), texere_core::crossings::Set::Weft);
+    /// ```
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Warp => Self::Weft,
+            Self::Weft => Self::Warp,
+        }
+    }
+
+    /// Where this set's four unknowns begin among a crossing's eight.
+    pub(crate) const fn first(self) -> usize {
+        match self {
+            Self::Warp => 0,
+            Self::Weft => 4,
+        }
+    }
+}
+
+/// How a thread lies at a crossing. All lengths are in the plan's [`unit`](super::CrossingsPlan::unit).
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+#[repr(C)]
+pub struct Lie {
+    /// How far it has moved sideways: an end along x, a pick along y.
+    pub shift: f32,
+    /// The height of its middle.
+    pub height: f32,
+    /// Half of its width, in the plane of the cloth.
+    pub half_width: f32,
+    /// Half of its thickness.
+    pub half_height: f32,
+}
+
+/// How both threads lie at a crossing.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+#[repr(C)]
+pub struct Crossing {
+    /// The end.
+    pub warp: Lie,
+    /// The pick.
+    pub weft: Lie,
+}
+
+impl Crossing {
+    /// The thread of a set.
+    ///
+    /// ```
+    /// use texere_core::crossings::{Crossing, Lie, Set};
+    /// let crossing = Crossing { weft: Lie { height: 0.5, ..Lie::default() }, ..Crossing::default() };
+    /// assert_eq!(crossing.lie(Set::Weft).height, 0.5);
+    /// ```
+    #[must_use]
+    pub const fn lie(&self, set: Set) -> &Lie {
+        match set {
+            Set::Warp => &self.warp,
+            Set::Weft => &self.weft,
+        }
+    }
+
+    /// By how much that unknown differs which differs most.
+    ///
+    /// ```
+    /// use texere_core::crossings::{Crossing, Lie};
+    /// let risen = Crossing { weft: Lie { height: 0.5, ..Lie::default() }, ..Crossing::default() };
+    /// assert_eq!(risen.difference(&Crossing::default()), 0.5);
+    /// ```
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> f32 {
+        let [one, other]: [[f32; 8]; 2] = [bytemuck::cast(*self), bytemuck::cast(*other)];
+        one.iter().zip(other).fold(0.0, |most, (one, other)| most.max((one - other).abs()))
+    }
+
+    pub(crate) const fn lie_mut(&mut self, set: Set) -> &mut Lie {
+        match set {
+            Set::Warp => &mut self.warp,
+            Set::Weft => &mut self.weft,
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! What may be wrong with a problem.
+
+use thiserror::Error;
+
+/// A cloth whose crossings can't be settled as asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CrossingsError {
+    /// A drawdown of another size than the threads'.
+    #[error("a drawdown of {ups} crossings does not fit {ends} ends and {picks} picks")]
+    Drawdown {
+        /// Its crossings.
+        ups: usize,
+        /// Threads of the warp.
+        ends: usize,
+        /// Threads of the weft.
+        picks: usize,
+    },
+    /// A set with too few threads.
+    #[error("{count} {what}, at least {least} are needed")]
+    TooFew {
+        /// `ends` or `picks`.
+        what: &'static str,
+        /// How many.
+        count: usize,
+        /// The least that are taken.
+        least: usize,
+    },
+    /// More than can be counted.
+    #[error("{count} {what} are more than {limit}")]
+    TooMany {
+        /// What.
+        what: &'static str,
+        /// How many.
+        count: u64,
+        /// How many are taken at most.
+        limit: u64,
+    },
+    /// A setting that is out of its range.
+    #[error("{setting} is {value}, not between {low} and {high}")]
+    Setting {
+        /// Its name.
+        setting: &'static str,
+        /// What was given.
+        value: f32,
+        /// The least that is taken.
+        low: f32,
+        /// The most that is taken.
+        high: f32,
+    },
+    /// A value of a thread that is out of its range.
+    #[error("{setting} of {set} thread {thread} is {value}, not between {low} and {high}")]
+    Thread {
+        /// `warp` or `weft`.
+        set: &'static str,
+        /// The thread's number, from 0.
+        thread: usize,
+        /// `pitch`, `diameter` or `stiffness`.
+        setting: &'static str,
+        /// What was given.
+        value: f32,
+        /// The least that is taken.
+        low: f32,
+        /// The most that is taken.
+        high: f32,
+    },
+    /// Memory could not be allocated.
+    #[error("out of memory: {bytes} bytes for {what}")]
+    OutOfMemory {
+        /// What for.
+        what: &'static str,
+        /// How many bytes.
+        bytes: u64,
+    },
+}

@@ -1,0 +1,29 @@
+//! Crossings: dense woven cloth comes to rest. The drawdown says which threads meet, so nothing has to be searched: at every crossing both
+//! threads shift sideways, rise, widen and flatten, until an energy is least that keeps them from piercing one another.
+//!
+//! A [`Crossings`] says what is asked, a [`CrossingsPlan`] works out every table, a [`CrossingsSettler`] does the passes on a device, and
+//! [`settle`] leads it. What all devices agree on is here: [`CrossingsPlan::block`] gathers the energy's terms at one crossing,
+//! [`CrossingsPlan::moved`] takes its step, [`CrossingsPlan::ahead`] says where its neighbours meet it next.
+
+mod block;
+mod crossing;
+mod error;
+mod passage;
+mod plan;
+mod problem;
+mod run;
+mod settler;
+mod terms;
+
+pub use block::{Block, DAMPING, PIVOT};
+pub use crossing::{Crossing, Lie, Set};
+pub use error::CrossingsError;
+pub use passage::{CURVED, Passage, STEPS, TURN};
+pub use plan::{CrossingsPlan, HALF_HEIGHT, HALF_WIDTH, HEIGHT, MOMENTUM, Row, STEP, Site};
+pub use problem::{Crossings, Thread};
+pub use run::{CrossingsPass, CrossingsRest, settle};
+pub use settler::{CrossingsSeen, CrossingsSettler};
+pub use terms::{
+    AREA_GAIN, AREA_LOSS, ASPECT, BEND, MARGIN, NEAR, PRESS, SHAPE, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH,
+    TENSION,
+};

@@ -1,0 +1,351 @@
+//! The plan: every count and table of a problem, made on the host before anything is launched.
+
+use super::{Block, Crossing, Crossings, CrossingsError, CrossingsPass, Lie, Set, Thread, terms};
+use crate::{BackendError, RADIUS_MAX, RADIUS_MIN, zeroed};
+
+/// A repeat has at least so many threads of either set.
+const THREADS_MIN: usize = 2;
+
+/// Crossings that can be counted.
+const CROSSINGS_MAX: u64 = 1 << 31;
+
+/// Ranges of pitch and diameter in units, and of a thread's stiffness.
+const PITCH: [f32; 2] = [0.2, 1000.0];
+const DIAMETER: [f32; 2] = [0.1, 10.0];
+const STIFFNESS: [f32; 2] = [0.01, 100.0];
+
+/// The longest step of an unknown, in units.
+pub const STEP: f32 = 0.1;
+
+/// The share of a step that a crossing goes on by.
+pub const MOMENTUM: f32 = 0.8;
+
+/// How far threads go sideways: a quarter of a unit, and two fifths of the way to a neighbour.
+const SIDEWAYS: [f32; 2] = [0.25, 0.4];
+
+/// How far up and down, in units.
+pub const HEIGHT: f32 = 1.5;
+
+/// The least and the most of a half width, in radii.
+pub const HALF_WIDTH: [f32; 2] = [0.4, 3.3];
+
+/// The least and the most of a half height, in radii.
+pub const HALF_HEIGHT: [f32; 2] = [0.3, 2.0];
+
+/// The share of its area with which a thread starts, as a share of its radius.
+const THIN: f32 = 0.632_455_5;
+
+/// A thread, in units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// To the next thread.
+    pub gap: f32,
+    /// Its radius.
+    pub radius: f32,
+    /// Its stiffness against bending, 1 for cotton.
+    pub stiffness: f32,
+    /// How far it may shift.
+    pub freedom: f32,
+}
+
+/// A crossing by its end and its pick, from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Site {
+    /// The end.
+    pub end: usize,
+    /// The pick.
+    pub pick: usize,
+}
+
+impl Site {
+    /// The number of its thread of a set.
+    #[must_use]
+    pub const fn thread(self, set: Set) -> usize {
+        match set {
+            Set::Warp => self.end,
+            Set::Weft => self.pick,
+        }
+    }
+}
+
+/// All tables of a problem. Lengths are in its unit, the mean diameter of warp and weft.
+///
+/// ```
+/// use texere_core::crossings::{Crossings, CrossingsPlan, Set, Site, Thread};
+/// let thread = Thread { pitch: 0.5, diameter: 0.25, stiffness: 1.0 };
+/// let plan = CrossingsPlan::new(&Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]))?;
+/// assert_eq!((plan.unit(), plan.rows(Set::Warp)[0].gap), (0.25, 2.0));
+/// // Beyond the last end the first one comes again.
+/// let last = Site { end: 1, pick: 0 };
+/// assert_eq!(plan.beside(last, Set::Weft, 1, 0), Some(Site { end: 0, pick: 0 }));
+/// # Ok::<(), texere_core::crossings::CrossingsError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct CrossingsPlan {
+    unit: f32,
+    ups: Vec<bool>,
+    rows: [Vec<Row>; 2],
+    repeats: [bool; 2],
+    tension: [f32; 2],
+    press: f32,
+    passes: u32,
+}
+
+impl CrossingsPlan {
+    /// Checks a problem and makes its tables.
+    ///
+    /// **Errors**: [`CrossingsError`] for a drawdown that does not fit, fewer than two threads of a set, and values that are out of range or not
+    /// finite.
+    pub fn new(problem: &Crossings) -> Result<Self, CrossingsError> {
+        let [ends, picks] = [0, 1].map(|set| problem.threads[set].len());
+        for (what, count) in [("ends", ends), ("picks", picks)] {
+            if count < THREADS_MIN {
+                return Err(CrossingsError::TooFew { what, count, least: THREADS_MIN });
+            }
+        }
+        if ends.checked_mul(picks) != Some(problem.ups.len()) {
+            return Err(CrossingsError::Drawdown { ups: problem.ups.len(), ends, picks });
+        }
+        let count = problem.ups.len() as u64;
+        if count > CROSSINGS_MAX {
+            return Err(CrossingsError::TooMany { what: "crossings", count, limit: CROSSINGS_MAX });
+        }
+        setting("tension of the warp", problem.tension[0], [0.0, 10.0])?;
+        setting("tension of the weft", problem.tension[1], [0.0, 10.0])?;
+        setting("press", problem.press, [0.0, 10.0])?;
+        setting("passes", problem.passes as f32, [1.0, 1e6])?;
+        for (set, threads) in ["warp", "weft"].into_iter().zip(&problem.threads) {
+            each(set, "diameter", threads, |thread| thread.diameter, [2.0 * RADIUS_MIN, 2.0 * RADIUS_MAX])?;
+            each(set, "stiffness", threads, |thread| thread.stiffness, STIFFNESS)?;
+        }
+        let mean = |threads: &[Thread]| {
+            threads.iter().map(|thread| f64::from(thread.diameter)).sum::<f64>() / threads.len() as f64
+        };
+        let unit = (f64::midpoint(mean(&problem.threads[0]), mean(&problem.threads[1]))) as f32;
+        for (set, threads) in ["warp", "weft"].into_iter().zip(&problem.threads) {
+            each(set, "diameter", threads, |thread| thread.diameter, DIAMETER.map(|limit| limit * unit))?;
+            each(set, "pitch", threads, |thread| thread.pitch, PITCH.map(|limit| limit * unit))?;
+        }
+        Ok(Self {
+            unit,
+            ups: copied("the drawdown", &problem.ups)?,
+            rows: [rows(&problem.threads[0], unit)?, rows(&problem.threads[1], unit)?],
+            repeats: problem.repeats,
+            tension: problem.tension,
+            press: problem.press,
+            passes: problem.passes,
+        })
+    }
+
+    /// How many crossings there are.
+    #[must_use]
+    pub const fn crossings(&self) -> usize {
+        self.ups.len()
+    }
+
+    /// Bytes that a settler holds beside the plan: all crossings as they are, as others find them, and as they will find them.
+    #[must_use]
+    pub const fn settler_bytes(&self) -> u64 {
+        3 * size_of::<Crossing>() as u64 * self.ups.len() as u64
+    }
+
+    /// The unit of all lengths, mm.
+    #[must_use]
+    pub const fn unit(&self) -> f32 {
+        self.unit
+    }
+
+    /// The threads of a set.
+    #[must_use]
+    pub fn rows(&self, set: Set) -> &[Row] {
+        match set {
+            Set::Warp => &self.rows[0],
+            Set::Weft => &self.rows[1],
+        }
+    }
+
+    /// Whether the first end comes again after the last one, and the first pick after the last one.
+    #[must_use]
+    pub const fn repeats(&self) -> [bool; 2] {
+        self.repeats
+    }
+
+    /// How taut a set is.
+    #[must_use]
+    pub const fn tension(&self, set: Set) -> f32 {
+        match set {
+            Set::Warp => self.tension[0],
+            Set::Weft => self.tension[1],
+        }
+    }
+
+    /// How strongly the cloth is pressed.
+    #[must_use]
+    pub const fn press(&self) -> f32 {
+        self.press
+    }
+
+    /// The most passes.
+    #[must_use]
+    pub const fn passes(&self) -> u32 {
+        self.passes
+    }
+
+    /// The number of a crossing: pick after pick, and in each pick end after end.
+    #[must_use]
+    pub fn number(&self, site: Site) -> usize {
+        site.pick * self.rows[0].len() + site.end
+    }
+
+    /// The crossing of a number.
+    #[must_use]
+    pub fn site(&self, number: usize) -> Site {
+        let ends = self.rows[0].len();
+        Site { end: number % ends, pick: number / ends }
+    }
+
+    /// The side on which a set's thread lies: 1 on the face, -1 on the back.
+    ///
+    /// **Panics** past the last crossing.
+    #[must_use]
+    pub fn side(&self, site: Site, set: Set) -> f32 {
+        if self.ups[self.number(site)] == (set == Set::Warp) { 1.0 } else { -1.0 }
+    }
+
+    /// The crossing so many further along a thread of `set`, and so many threads of that set across, -2 to 2. None beyond an edge.
+    #[must_use]
+    pub fn beside(&self, site: Site, set: Set, along: i32, across: i32) -> Option<Site> {
+        let [ends, picks] = match set {
+            Set::Warp => [across, along],
+            Set::Weft => [along, across],
+        };
+        let end = further(site.end, ends, self.rows[0].len(), self.repeats[0])?;
+        let pick = further(site.pick, picks, self.rows[1].len(), self.repeats[1])?;
+        Some(Site { end, pick })
+    }
+
+    /// All crossings before the first pass: thin round threads, one on top of the other.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`].
+    pub fn start(&self) -> Result<Vec<Crossing>, BackendError> {
+        let mut all = zeroed("crossings", self.ups.len() as u64)?;
+        for (number, crossing) in all.iter_mut().enumerate() {
+            let site = self.site(number);
+            let radii = Set::BOTH.map(|set| THIN * self.rows(set)[site.thread(set)].radius);
+            let lie = |set: Set, radius: f32| Lie {
+                shift: 0.0,
+                height: 0.5 * self.side(site, set) * (radii[0] + radii[1]),
+                half_width: radius,
+                half_height: radius,
+            };
+            *crossing = Crossing { warp: lie(Set::Warp, radii[0]), weft: lie(Set::Weft, radii[1]) };
+        }
+        Ok(all)
+    }
+
+    /// What pulls at a crossing while all lie as `crossings` says.
+    ///
+    /// **Panics** where `crossings` has fewer than the plan.
+    #[must_use]
+    pub fn block(&self, pass: &CrossingsPass, crossings: &[Crossing], site: Site) -> Block {
+        terms::gather(self, pass, crossings, site)
+    }
+
+    /// A crossing after its step.
+    #[must_use]
+    pub fn moved(&self, crossing: &Crossing, block: &Block, site: Site) -> Crossing {
+        let step = block.step();
+        let longest = step.iter().fold(0.0, |longest: f32, step| longest.max(step.abs()));
+        let share = if longest > STEP { STEP / longest } else { 1.0 };
+        self.bounded(crossing, step.map(|step| share * step), site)
+    }
+
+    /// Where other crossings find one in the next pass that has come from `was` to `is`: momentum carries it on.
+    #[must_use]
+    pub fn ahead(&self, was: &Crossing, is: &Crossing, site: Site) -> Crossing {
+        let [before, after]: [[f32; 8]; 2] = [bytemuck::cast(*was), bytemuck::cast(*is)];
+        let on = std::array::from_fn(|unknown| MOMENTUM * (after[unknown] - before[unknown]));
+        self.bounded(is, on, site)
+    }
+
+    /// A crossing moved by `step`, as far as its unknowns may go.
+    fn bounded(&self, crossing: &Crossing, step: [f32; 8], site: Site) -> Crossing {
+        let mut moved = *crossing;
+        for set in Set::BOTH {
+            let row = self.rows(set)[site.thread(set)];
+            let by = |unknown: usize| step[set.first() + unknown];
+            let lie = moved.lie_mut(set);
+            lie.shift = (lie.shift + by(0)).clamp(-row.freedom, row.freedom);
+            lie.height = (lie.height + by(1)).clamp(-HEIGHT, HEIGHT);
+            let within = |value: f32, [low, high]: [f32; 2]| value.clamp(low * row.radius, high * row.radius);
+            lie.half_width = within(lie.half_width + by(2), HALF_WIDTH);
+            lie.half_height = within(lie.half_height + by(3), HALF_HEIGHT);
+        }
+        moved
+    }
+}
+
+/// `at` and `by` further on among `count`; back at the first after the last one where they repeat.
+fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
+    let to = at.wrapping_add_signed(by as isize);
+    if to < count {
+        return Some(to);
+    }
+    // Before the first one it has wrapped round.
+    repeats.then(|| if by < 0 { to.wrapping_add(count) } else { to - count })
+}
+
+/// A set's threads in units.
+fn rows(threads: &[Thread], unit: f32) -> Result<Vec<Row>, CrossingsError> {
+    let mut rows = room("threads", threads.len())?;
+    let mut before = threads.last().map_or(unit, |thread| thread.pitch) / unit;
+    for thread in threads {
+        let gap = thread.pitch / unit;
+        let [most, share] = SIDEWAYS;
+        rows.push(Row {
+            gap,
+            radius: 0.5 * thread.diameter / unit,
+            stiffness: thread.stiffness,
+            freedom: most.min(share * gap.min(before)),
+        });
+        before = gap;
+    }
+    Ok(rows)
+}
+
+fn room<T>(what: &'static str, count: usize) -> Result<Vec<T>, CrossingsError> {
+    let mut all = Vec::new();
+    all.try_reserve_exact(count)
+        .map_err(|_| CrossingsError::OutOfMemory { what, bytes: (count * size_of::<T>()) as u64 })?;
+    Ok(all)
+}
+
+fn copied<T: Copy>(what: &'static str, from: &[T]) -> Result<Vec<T>, CrossingsError> {
+    let mut all = room(what, from.len())?;
+    all.extend_from_slice(from);
+    Ok(all)
+}
+
+fn setting(setting: &'static str, value: f32, [low, high]: [f32; 2]) -> Result<(), CrossingsError> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(CrossingsError::Setting { setting, value, low, high })
+}
+
+fn each(
+    set: &'static str,
+    setting: &'static str,
+    threads: &[Thread],
+    value: impl Fn(&Thread) -> f32,
+    [low, high]: [f32; 2],
+) -> Result<(), CrossingsError> {
+    let wrong = |thread: &Thread| !(low..=high).contains(&value(thread));
+    match threads.iter().position(wrong) {
+        None => Ok(()),
+        Some(thread) => {
+            let value = value(&threads[thread]);
+            Err(CrossingsError::Thread { set, thread, setting, value, low, high })
+        }
+    }
+}

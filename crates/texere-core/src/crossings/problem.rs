@@ -1,0 +1,68 @@
+//! The problem: which thread lies on top where, and what threads there are.
+
+/// A thread of the warp or the weft.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thread {
+    /// From its middle to that of the next thread of its set, mm. The last one's leads to the first of the next repeat.
+    pub pitch: f32,
+    /// The diameter of a circle with its section's area, mm, before it loses any.
+    pub diameter: f32,
+    /// How stiff it is against bending, 1 for a cotton yarn of its diameter.
+    pub stiffness: f32,
+}
+
+/// Woven cloth that is to come to rest.
+///
+/// ```
+/// use texere_core::crossings::{Crossings, CrossingsPlan, Thread};
+/// // Plain weave, two ends and two picks a repeat; threads of 0.2 mm every 0.4 mm.
+/// let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0 };
+/// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
+/// assert_eq!(CrossingsPlan::new(&plain)?.crossings(), 4);
+/// # Ok::<(), texere_core::crossings::CrossingsError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Crossings {
+    pub(crate) ups: Vec<bool>,
+    pub(crate) threads: [Vec<Thread>; 2],
+    pub(crate) repeats: [bool; 2],
+    pub(crate) tension: [f32; 2],
+    pub(crate) press: f32,
+    pub(crate) passes: u32,
+}
+
+impl Crossings {
+    /// A repeat, endless along both axes. `ups` says where the warp lies on the face: pick after pick, and in each pick end after end.
+    #[must_use]
+    pub const fn new(ups: Vec<bool>, warp: Vec<Thread>, weft: Vec<Thread>) -> Self {
+        Self { ups, threads: [warp, weft], repeats: [true; 2], tension: [1.0; 2], press: 1.0, passes: 400 }
+    }
+
+    /// Whether the cloth goes on beyond its last end, and beyond its last pick. Where it does not, nothing holds its edge.
+    #[must_use]
+    pub const fn repeats(mut self, ends: bool, picks: bool) -> Self {
+        self.repeats = [ends, picks];
+        self
+    }
+
+    /// How taut warp and weft are, 1 for relaxed cloth: more of it straightens a set at the cost of the other one. 0 to 10.
+    #[must_use]
+    pub const fn tension(mut self, warp: f32, weft: f32) -> Self {
+        self.tension = [warp, weft];
+        self
+    }
+
+    /// How strongly a finish presses the cloth flat, 1 for relaxed cloth. 0 to 10.
+    #[must_use]
+    pub const fn press(mut self, press: f32) -> Self {
+        self.press = press;
+        self
+    }
+
+    /// The most passes, 1 to a million. In the first fifty threads grow to their full area.
+    #[must_use]
+    pub const fn passes(mut self, passes: u32) -> Self {
+        self.passes = passes;
+        self
+    }
+}

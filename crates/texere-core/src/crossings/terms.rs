@@ -1,0 +1,298 @@
+//! The energy: what threads want, and what keeps them apart.
+//!
+//! Each term is a weight times the square of a residual. A term of several crossings is worked out by each of them, which keeps the slopes in
+//! its own unknowns: so all is gathered and nothing scattered. The sum over all crossings counts each term once.
+
+use super::{Block, Crossing, CrossingsPass, CrossingsPlan, Lie, Passage, Set, Site};
+
+/// Weights of second differences of heights and of shifts, times the fourth power of a diameter over the third power of a pitch.
+pub const BEND: f32 = 1.0;
+/// See [`BEND`]. Threads that skew collide at corners that no passage sees.
+pub const SIDEWAYS_BEND: f32 = 20.0;
+
+/// Weights of first differences of heights and of shifts, times the square of a diameter over a pitch.
+pub const TENSION: f32 = 1.0;
+/// See [`TENSION`].
+pub const SIDEWAYS_TENSION: f32 = 0.1;
+
+/// Weight of heights, times the square of a diameter: a finish presses the cloth flat.
+pub const PRESS: f32 = 0.3;
+
+/// Weight of first differences of half widths and half heights along a thread, in radii.
+pub const SMOOTH: f32 = 3.0;
+
+/// A thread wants to be so many times as wide as thick, with that weight.
+pub const ASPECT: f32 = 1.4;
+/// See [`ASPECT`].
+pub const SHAPE: f32 = 0.5;
+
+/// Weights of what its section lacks of its area, and of what it has too much.
+pub const AREA_LOSS: f32 = 6.0;
+/// See [`AREA_LOSS`].
+pub const AREA_GAIN: f32 = 100.0;
+
+/// Threads are kept so far apart, in units, since penalties give way a little.
+pub const MARGIN: f32 = 0.003;
+
+/// Threads that are so near to touching, in units, are felt already: they do not pull, but make each other's steps short. Without it
+/// contacts that come and go make momentum swing.
+pub const NEAR: f32 = 0.02;
+
+// Unknowns of a thread, after the first of its set.
+const SHIFT: usize = 0;
+const HEIGHT: usize = 1;
+const WIDTH: usize = 2;
+const THICKNESS: usize = 3;
+
+/// Gathers all terms that the crossing at `site` is part of.
+pub(super) fn gather(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing], site: Site) -> Block {
+    let mut block = Block::NOTHING;
+    for set in Set::BOTH {
+        let here = Here { plan, pass, all, site, set, row: set.first() };
+        here.own(&mut block);
+        here.bends(&mut block);
+        here.steps(&mut block);
+        for [from, to] in [[-1, 0], [0, 1]] {
+            let [Some(first), Some(second)] = [from, to].map(|steps| here.along(steps)) else { continue };
+            if plan.side(first, set) == plan.side(second, set) {
+                here.shoulder(&mut block, [first, second], to == 0);
+            } else {
+                here.passage(&mut block, [first, second], to == 0);
+            }
+        }
+        for across in [-1, 1] {
+            here.neighbour(&mut block, across);
+            for along in [-1, 1] {
+                here.half_way(&mut block, along, across);
+            }
+        }
+    }
+    contact(plan, pass, &all[plan.number(site)], site, &mut block);
+    block
+}
+
+/// Both threads of a crossing lie one on top of the other.
+fn contact(plan: &CrossingsPlan, pass: &CrossingsPass, crossing: &Crossing, site: Site, block: &mut Block) {
+    let side = plan.side(site, Set::Warp);
+    let apart = side * (crossing.warp.height - crossing.weft.height);
+    let need = crossing.warp.half_height + crossing.weft.half_height;
+    block.see(apart / need);
+    let room = apart - need - MARGIN;
+    if room < NEAR {
+        let [warp, weft] = Set::BOTH.map(Set::first);
+        let slopes = [
+            (warp + HEIGHT, side),
+            (weft + HEIGHT, -side),
+            (warp + THICKNESS, -1.0),
+            (weft + THICKNESS, -1.0),
+        ];
+        block.add(pass.penalty, 1.0, room.min(0.0), slopes);
+    }
+}
+
+/// One thread at one crossing.
+#[derive(Clone, Copy)]
+struct Here<'a> {
+    plan: &'a CrossingsPlan,
+    pass: &'a CrossingsPass,
+    all: &'a [Crossing],
+    site: Site,
+    set: Set,
+    /// The first of its unknowns.
+    row: usize,
+}
+
+impl Here<'_> {
+    fn crossing(&self, site: Site) -> &Crossing {
+        &self.all[self.plan.number(site)]
+    }
+
+    fn lie(&self, site: Site) -> &Lie {
+        self.crossing(site).lie(self.set)
+    }
+
+    fn along(&self, steps: i32) -> Option<Site> {
+        self.plan.beside(self.site, self.set, steps, 0)
+    }
+
+    /// From the crossing at `site` to the next one along the thread.
+    fn pitch(&self, site: Site) -> f32 {
+        let crossed = self.set.other();
+        self.plan.rows(crossed)[site.thread(crossed)].gap
+    }
+
+    fn radius(&self) -> f32 {
+        self.plan.rows(self.set)[self.site.thread(self.set)].radius
+    }
+
+    /// Shape, area, and the press.
+    fn own(&self, block: &mut Block) {
+        let (lie, radius, row) = (self.lie(self.site), self.radius(), self.row);
+        let (wide, thick) = (lie.half_width / radius, lie.half_height / radius);
+        let aspect = [(row + WIDTH, 1.0 / radius), (row + THICKNESS, -ASPECT / radius)];
+        block.add(SHAPE, 1.0, wide - ASPECT * thick, aspect);
+        let gain = wide * thick - self.pass.area;
+        let weight = if gain < 0.0 { AREA_LOSS } else { AREA_GAIN };
+        block.add(weight, 1.0, gain, [(row + WIDTH, thick / radius), (row + THICKNESS, wide / radius)]);
+        let press = PRESS * self.plan.press() * 4.0 * radius * radius;
+        block.add(press, 1.0, lie.height, [(row + HEIGHT, 1.0)]);
+    }
+
+    /// Second differences along the thread, at this crossing and at those before and after.
+    fn bends(&self, block: &mut Block) {
+        let thread = self.plan.rows(self.set)[self.site.thread(self.set)];
+        let square = 4.0 * thread.radius * thread.radius;
+        for middle in [-1, 0, 1] {
+            let sites = [middle - 1, middle, middle + 1].map(|steps| self.along(steps));
+            let [Some(before), Some(at), Some(after)] = sites else { continue };
+            let pitch = 0.5 * (self.pitch(before) + self.pitch(at));
+            let stiff = thread.stiffness * square * square / (pitch * pitch * pitch);
+            // Slopes are 1, -2 and 1.
+            let (slope, share) = if middle == 0 { (-2.0, 2.0) } else { (1.0, 4.0) };
+            let [before, at, after] = [before, at, after].map(|site| self.lie(site));
+            let bend = before.height - 2.0 * at.height + after.height;
+            block.add(BEND * stiff, share, bend, [(self.row + HEIGHT, slope)]);
+            let bend = before.shift - 2.0 * at.shift + after.shift;
+            block.add(SIDEWAYS_BEND * stiff, share, bend, [(self.row + SHIFT, slope)]);
+        }
+    }
+
+    /// First differences along the thread: tension, and sections that change little.
+    fn steps(&self, block: &mut Block) {
+        let (lie, radius) = (self.lie(self.site), self.radius());
+        let tension = self.plan.tension(self.set) * 4.0 * radius * radius;
+        let smooth = SMOOTH / (radius * radius);
+        for steps in [-1, 1] {
+            let Some(site) = self.along(steps) else { continue };
+            let other = self.lie(site);
+            let taut = tension / self.pitch(if steps < 0 { site } else { self.site });
+            block.add(TENSION * taut, 2.0, lie.height - other.height, [(self.row + HEIGHT, 1.0)]);
+            block.add(SIDEWAYS_TENSION * taut, 2.0, lie.shift - other.shift, [(self.row + SHIFT, 1.0)]);
+            block.add(smooth, 2.0, lie.half_width - other.half_width, [(self.row + WIDTH, 1.0)]);
+            block.add(smooth, 2.0, lie.half_height - other.half_height, [(self.row + THICKNESS, 1.0)]);
+        }
+    }
+
+    /// The thread stays on its side between two crossings, the `second` of which is this one or else the first. Where it slopes it clears the
+    /// shoulder of the thread under its upper end.
+    fn shoulder(&self, block: &mut Block, sites: [Site; 2], second: bool) {
+        let crossed = self.set.other();
+        let [first, last] = sites.map(|site| self.crossing(site));
+        let side = self.plan.side(sites[0], self.set);
+        let rises = side * (last.lie(self.set).height - first.lie(self.set).height) > 0.0;
+        let [upper, lower] = if rises { [last, first] } else { [first, last] };
+        let (own, other, under) = (upper.lie(self.set), lower.lie(self.set), upper.lie(crossed));
+        let across = self.pitch(sites[0]) + last.lie(crossed).shift - first.lie(crossed).shift;
+        let slope = side * (own.height - other.height) / across;
+        // Upright, not across the slope.
+        let length = (1.0 + slope * slope).sqrt();
+        let (x, z) = (under.half_width * slope, under.half_height);
+        let reach = (x * x + z * z).sqrt();
+        let above = side * (own.height - under.height);
+        let need = reach + own.half_height * length;
+        block.see(above / need);
+        let room = above - need - MARGIN;
+        if room < NEAR {
+            let steeper = under.half_width * x / reach + own.half_height * slope / length;
+            let row = crossed.first();
+            let wider = steeper * slope / across;
+            let shift = (row + SHIFT, if second { wider } else { -wider });
+            let rise = steeper / across;
+            let (penalty, room) = (self.pass.penalty, room.min(0.0));
+            if second == rises {
+                let slopes = [
+                    shift,
+                    (self.row + HEIGHT, side * (1.0 - rise)),
+                    (self.row + THICKNESS, -length),
+                    (row + HEIGHT, -side),
+                    (row + WIDTH, -x * slope / reach),
+                    (row + THICKNESS, -z / reach),
+                ];
+                block.add(penalty, 2.0, room, slopes);
+            } else {
+                block.add(penalty, 2.0, room, [shift, (self.row + HEIGHT, side * rise)]);
+            }
+        }
+    }
+
+    /// The thread changes sides between two crossings, the `second` of which is this one or else the first.
+    fn passage(&self, block: &mut Block, [first, last]: [Site; 2], second: bool) {
+        let side = self.plan.side(first, self.set);
+        let crossed = self.set.other();
+        let [one, two] = [first, last].map(|site| self.crossing(site).lie(crossed));
+        let across = self.pitch(first) + two.shift - one.shift;
+        let rise = side * (two.height - one.height);
+        let halves = [one, two].map(|lie| [lie.half_width, lie.half_height]);
+        let thread = self.lie(first).half_height + self.lie(last).half_height;
+        let passage = Passage::new(across, rise, halves, thread);
+        block.see(passage.clearance());
+        let room = passage.room - MARGIN;
+        if room < NEAR {
+            let [c, s] = passage.slope;
+            // This crossing's share of it.
+            let (sign, lie, reach) =
+                if second { (1.0, two, passage.reach[1]) } else { (-1.0, one, passage.reach[0]) };
+            let row = crossed.first();
+            let slopes = [
+                (row + SHIFT, sign * s),
+                (row + HEIGHT, sign * side * c),
+                (row + WIDTH, -lie.half_width * s * s / reach),
+                (row + THICKNESS, -lie.half_height * c * c / reach),
+                (self.row + THICKNESS, -1.0),
+            ];
+            block.add(self.pass.penalty, 2.0, room.min(0.0), slopes);
+        }
+    }
+
+    /// From this thread's place to that of the next one (`across` 1) or of the one before (-1).
+    fn gap(&self, neighbour: Site, across: i32) -> f32 {
+        let lower = if across < 0 { neighbour } else { self.site };
+        self.plan.rows(self.set)[lower.thread(self.set)].gap
+    }
+
+    /// Neighbours of one set keep to their own places at a crossing, whatever their heights.
+    fn neighbour(&self, block: &mut Block, across: i32) {
+        let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
+        let (lie, other, sign) = (self.lie(self.site), self.lie(neighbour), across as f32);
+        let apart = self.gap(neighbour, across) + sign * (other.shift - lie.shift);
+        let need = lie.half_width + other.half_width;
+        block.see(apart / need);
+        let room = apart - need - MARGIN;
+        if room < NEAR {
+            block.add(
+                self.pass.penalty,
+                2.0,
+                room.min(0.0),
+                [(self.row + SHIFT, -sign), (self.row + WIDTH, -1.0)],
+            );
+        }
+    }
+
+    /// Neighbours of one set half way between two crossings, as ellipses.
+    fn half_way(&self, block: &mut Block, along: i32, across: i32) {
+        let beside = |along, across| self.plan.beside(self.site, self.set, along, across);
+        let sites = [beside(along, 0), beside(0, across), beside(along, across)];
+        let [Some(next), Some(neighbour), Some(opposite)] = sites else { return };
+        let gap = self.gap(neighbour, across);
+        let lies = [self.site, next, neighbour, opposite].map(|site| *self.lie(site));
+        let [own, next, neighbour, opposite] = lies;
+        let sign = across as f32;
+        let apart = gap + sign * 0.5 * (neighbour.shift + opposite.shift - own.shift - next.shift);
+        let rise = 0.5 * (neighbour.height + opposite.height - own.height - next.height);
+        let wide = 0.5 * (own.half_width + next.half_width + neighbour.half_width + opposite.half_width);
+        let thick = 0.5 * (own.half_height + next.half_height + neighbour.half_height + opposite.half_height);
+        let (x, z) = (apart / wide, rise / thick);
+        let clearance = (x * x + z * z).sqrt();
+        block.see(clearance);
+        let room = (clearance - 1.0) * wide - MARGIN;
+        if room < NEAR {
+            let slopes = [
+                (self.row + SHIFT, -sign * 0.5 * x / clearance),
+                (self.row + HEIGHT, -0.5 * z * wide / (thick * clearance)),
+                (self.row + WIDTH, 0.5 * (clearance - 1.0 - x * x / clearance)),
+                (self.row + THICKNESS, -0.5 * z * z * wide / (thick * clearance)),
+            ];
+            block.add(self.pass.penalty, 4.0, room.min(0.0), slopes);
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! Crossings at rest: the cloths of the mills, the energy against an oracle of its own, and both backends against one another.
+
+#![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
+
+mod cloths;
+mod measure;
+mod oracle;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use texere_core::crossings::{
+    Crossing, Crossings, CrossingsError, CrossingsPass, CrossingsPlan, CrossingsRest, Passage, Set, Thread,
+    settle,
+};
+use texere_core::{Backend, BackendError, NullBackend};
+use texere_cpu::{ParallelBackend, SerialBackend};
+
+use cloths::{Cloth, cloths};
+
+fn rest(backend: &dyn Backend, problem: &Crossings) -> (CrossingsPlan, Vec<Crossing>, CrossingsRest) {
+    let plan = Arc::new(CrossingsPlan::new(problem).unwrap());
+    let mut settler = backend.crossings_settler(Arc::clone(&plan)).unwrap();
+    let rest = settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(())).unwrap();
+    let mut crossings = vec![Crossing::default(); plan.crossings()];
+    settler.read(&mut crossings).unwrap();
+    ((*plan).clone(), crossings, rest)
+}
+
+/// A number between -1 and 1 that looks like chance.
+fn chance(seed: &mut u64) -> f32 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    ((*seed >> 40) as f32 / (1_u64 << 23) as f32) - 1.0
+}
+
+/// Uneven threads in a drawdown without any order.
+fn uneven(ends: usize, picks: usize, repeats: bool) -> Crossings {
+    let mut seed = 7;
+    let mut threads = |count: usize, pitch: f32| -> Vec<Thread> {
+        let thread = |_| Thread {
+            pitch: pitch * (1.0 + 0.2 * chance(&mut seed)),
+            diameter: 0.3 * (1.0 + 0.3 * chance(&mut seed)),
+            stiffness: 1.0 + 0.5 * chance(&mut seed),
+        };
+        (0..count).map(thread).collect()
+    };
+    let (warp, weft) = (threads(ends, 0.45), threads(picks, 0.5));
+    let ups = (0..ends * picks).map(|_| chance(&mut seed) > 0.0).collect();
+    Crossings::new(ups, warp, weft).repeats(repeats, repeats).tension(0.7, 1.4).press(2.0)
+}
+
+#[test]
+fn cloths_of_the_mills_come_to_rest() {
+    for Cloth { name, problem, tex, crimp, area, grams } in cloths() {
+        let (plan, crossings, rest) = rest(&SerialBackend::new(), &problem);
+        let found = measure::measures(&plan, &crossings, tex);
+        println!(
+            "{name:10} {:3} passes, step {:.0e}, clearance {:.3}, by outlines {:.3}, area {:.2} {:.2} ({:.2} {:.2}), crimp {:.1} {:.1} %, \
+             ground {:.1} %, weft {:.0} %, {:.2} mm, {:.0} g/m2",
+            rest.passes,
+            rest.seen.step,
+            rest.seen.clearance,
+            found.clearance,
+            found.area[0],
+            found.area[1],
+            found.least_area[0],
+            found.least_area[1],
+            found.crimp[0],
+            found.crimp[1],
+            found.ground,
+            found.weft_on_face,
+            found.thickness,
+            found.weight,
+        );
+        assert!(rest.seen.step < 1e-2, "{name} still moves by {}", rest.seen.step);
+        assert!(rest.seen.clearance > 0.995, "{name}: {}", rest.seen.clearance);
+        assert!(found.clearance > 0.99, "{name}: {} by outlines", found.clearance);
+        for set in 0..2 {
+            assert!((found.crimp[set] - crimp[set]).abs() < 4.0, "{name}: crimp {:?}", found.crimp);
+            assert!(found.area[set] > area[set], "{name}: area {:?}", found.area);
+        }
+        assert!(
+            grams.is_none_or(|weight| (found.weight / weight - 1.0).abs() < 0.1),
+            "{name}: {}",
+            found.weight
+        );
+    }
+}
+
+#[test]
+fn gradients_are_the_energys() {
+    for repeats in [true, false] {
+        let plan = CrossingsPlan::new(&uneven(5, 6, repeats)).unwrap();
+        let mut seed = 3;
+        // Thick threads near one another, so that all kinds of contact are there.
+        let crossings: Vec<Crossing> =
+            plan.start().unwrap().iter().map(|crossing| oracle::stirred(crossing, &mut seed)).collect();
+        let pass = CrossingsPass { penalty: 40.0, area: 0.8 };
+        let mut kinds = [0; oracle::KINDS];
+        for number in 0..plan.crossings() {
+            let block = plan.block(&pass, &crossings, plan.site(number));
+            let expected = oracle::gradient(&plan, &pass, &crossings, number, &mut kinds);
+            let size = expected.iter().fold(1.0, |size: f64, slope| size.max(slope.abs()));
+            for (unknown, (found, expected)) in block.gradient.iter().zip(expected).enumerate() {
+                let off = (2.0 * f64::from(*found) - expected).abs() / size;
+                assert!(off < 2e-4, "crossing {number}, unknown {unknown}: {found} twice, not {expected}");
+            }
+        }
+        assert!(kinds.iter().all(|&count| count > 0), "no contact of some kind: {kinds:?}");
+    }
+}
+
+#[test]
+fn energy_goes_down_while_penalties_stay() {
+    let plan = CrossingsPlan::new(&uneven(8, 6, true)).unwrap();
+    let pass = CrossingsPass::of(60);
+    let mut crossings = rest(&SerialBackend::new(), &uneven(8, 6, true).passes(61)).1;
+    let mut before = oracle::energy(&plan, &pass, &crossings, &mut [0; oracle::KINDS]);
+    let first = before;
+    for _ in 0..40 {
+        let step = |number| {
+            let site = plan.site(number);
+            plan.moved(&crossings[number], &plan.block(&pass, &crossings, site), site)
+        };
+        crossings = (0..plan.crossings()).map(step).collect();
+        let energy = oracle::energy(&plan, &pass, &crossings, &mut [0; oracle::KINDS]);
+        assert!(energy < before * 1.02, "{energy} after {before}");
+        before = energy;
+    }
+    assert!(before < first);
+}
+
+#[test]
+fn balanced_plain_weave_is_alike_both_ways() {
+    for pitch in [0.36, 0.4, 0.5] {
+        let thread = Thread { pitch, diameter: 0.2, stiffness: 1.0 };
+        let problem = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
+        let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);
+        assert!(rest.at_rest, "{rest:?}");
+        let [up, down] = [crossings[0], crossings[1]];
+        // Turned over and by a right angle, the cloth is itself; half a repeat further on it is upside down.
+        for (one, other, sign) in [
+            (up.warp, up.weft, -1.0),
+            (up.warp, down.weft, 1.0),
+            (up.warp, down.warp, -1.0),
+            (up.warp, crossings[3].warp, 1.0),
+        ] {
+            assert!((one.height - sign * other.height).abs() < 2e-4, "{pitch}: {one:?}, {other:?}");
+            assert!((one.half_width - other.half_width).abs() < 2e-4, "{pitch}: {one:?}, {other:?}");
+            assert!((one.half_height - other.half_height).abs() < 2e-4, "{pitch}: {one:?}, {other:?}");
+            assert!(one.shift.abs() < 2e-4, "{pitch}: {one:?}");
+        }
+    }
+}
+
+#[test]
+fn far_from_its_edges_a_piece_rests_as_a_repeat() {
+    let (warp, weft) = (
+        Thread { pitch: 0.2, diameter: 0.15, stiffness: 1.0 },
+        Thread { pitch: 0.3, diameter: 0.15, stiffness: 1.0 },
+    );
+    let piece = |ends: usize, picks: usize| {
+        let ups = (0..ends * picks).map(|number| (number % ends + number / ends).is_multiple_of(2));
+        Crossings::new(ups.collect(), vec![warp; ends], vec![weft; picks])
+    };
+    let (_, repeat, _) = rest(&SerialBackend::new(), &piece(2, 2));
+    let (_, open, found) = rest(&SerialBackend::new(), &piece(24, 20).repeats(false, false));
+    assert!(found.seen.clearance > 0.995 && found.seen.step < 1e-3, "{found:?}");
+    let (middle, repeat) = (open[10 * 24 + 12], repeat[0]);
+    for set in Set::BOTH {
+        let (middle, repeat) = (middle.lie(set), repeat.lie(set));
+        assert!((middle.height - repeat.height).abs() < 0.02, "{middle:?}, not {repeat:?}");
+        assert!((middle.half_width - repeat.half_width).abs() < 0.02, "{middle:?}, not {repeat:?}");
+        assert!((middle.half_height - repeat.half_height).abs() < 0.02, "{middle:?}, not {repeat:?}");
+    }
+    // Nothing holds the outermost threads, which give way; from the fourth one on none does.
+    for end in 3..21 {
+        assert!(open[10 * 24 + end].warp.shift.abs() < 0.02, "end {end}: {:?}", open[10 * 24 + end]);
+    }
+    let outwards = [open[10 * 24].warp.shift, -open[10 * 24 + 23].warp.shift];
+    assert!(outwards.iter().all(|shift| *shift < 0.0), "{outwards:?}");
+}
+
+#[test]
+fn mirrored_cloth_rests_mirrored() {
+    let [ends, picks] = [6, 4];
+    let problem = |mirrored: bool| {
+        let up = |pick: usize, end: usize| (3 * end + pick) % 5 < 3;
+        let ups = (0..ends * picks).map(|number| {
+            let (pick, end) = (number / ends, number % ends);
+            up(pick, if mirrored { ends - 1 - end } else { end })
+        });
+        let thread = Thread { pitch: 0.4, diameter: 0.25, stiffness: 1.0 };
+        Crossings::new(ups.collect(), vec![thread; ends], vec![thread; picks]).repeats(true, false).passes(30)
+    };
+    let one = rest(&SerialBackend::new(), &problem(false)).1;
+    let other = rest(&SerialBackend::new(), &problem(true)).1;
+    for pick in 0..picks {
+        for end in 0..ends {
+            let (one, other) = (one[pick * ends + end], other[pick * ends + ends - 1 - end]);
+            assert!((one.warp.height - other.warp.height).abs() < 1e-3, "{one:?}, {other:?}");
+            assert!((one.warp.shift + other.warp.shift).abs() < 1e-3, "{one:?}, {other:?}");
+            assert!((one.weft.half_width - other.weft.half_width).abs() < 1e-3, "{one:?}, {other:?}");
+        }
+    }
+}
+
+#[test]
+fn all_cores_give_the_bits_of_one() {
+    for repeats in [true, false] {
+        let problem = uneven(37, 29, repeats).passes(130);
+        let one = rest(&SerialBackend::new(), &problem);
+        let all = rest(&ParallelBackend::open().unwrap(), &problem);
+        assert_eq!(bytemuck::cast_slice::<_, u32>(&one.1), bytemuck::cast_slice::<_, u32>(&all.1));
+        assert_eq!(one.2, all.2);
+    }
+}
+
+#[test]
+fn round_threads_jam_where_peirce_says() {
+    // Between circles the best way is across the line of their middles: distance² = across² + rise².
+    let mut seed = 11;
+    for _ in 0..200 {
+        let mut some = |low: f32, high: f32| low + (high - low) * f32::midpoint(1.0, chance(&mut seed));
+        let (across, rise, radii, thread) =
+            (some(0.4, 3.0), some(0.01, 2.0), [some(0.2, 1.0), some(0.2, 1.0)], some(0.2, 2.0));
+        let passage = Passage::new(across, rise, radii.map(|radius| [radius; 2]), thread);
+        let room = across.hypot(rise) - radii[0] - radii[1] - thread;
+        assert!((passage.room - room).abs() < 1e-5, "{passage:?}, not {room}");
+    }
+}
+
+#[test]
+fn a_passage_takes_the_best_slope() {
+    let mut seed = 5;
+    for _ in 0..2000 {
+        let mut some = |low: f32, high: f32| low + (high - low) * f32::midpoint(1.0, chance(&mut seed));
+        let halves = [[some(0.3, 1.2), some(0.2, 0.8)], [some(0.3, 1.2), some(0.2, 0.8)]];
+        // Neighbours keep to their own places.
+        let across = (halves[0][0] + halves[1][0]) * some(0.95, 3.0);
+        let rise = some(-0.5, 2.0);
+        let found = Passage::new(across, rise, halves, 0.7).room;
+        let best = oracle::room(across.into(), rise.into(), halves.map(|half| half.map(f64::from)), 0.7).0;
+        assert!(
+            f64::from(found) < best + 1e-5 && f64::from(found) > best - 2e-3,
+            "{found}, not {best}: {across} {rise} {halves:?}"
+        );
+    }
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0 };
+    let plan = |problem: &Crossings| CrossingsPlan::new(problem).map(|_| ());
+    let plain = || Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
+    let few = Crossings::new(vec![true; 2], vec![thread; 2], vec![thread; 1]);
+    assert_eq!(plan(&few), Err(CrossingsError::TooFew { what: "picks", count: 1, least: 2 }));
+    let short = Crossings::new(vec![true; 3], vec![thread; 2], vec![thread; 2]);
+    assert_eq!(plan(&short), Err(CrossingsError::Drawdown { ups: 3, ends: 2, picks: 2 }));
+    for wrong in [f32::NAN, f32::INFINITY, -1.0, 0.0] {
+        for of in [
+            Thread { pitch: wrong, ..thread },
+            Thread { diameter: wrong, ..thread },
+            Thread { stiffness: wrong, ..thread },
+        ] {
+            let problem = Crossings::new(vec![true; 4], vec![thread, of], vec![thread; 2]);
+            let found = plan(&problem).unwrap_err();
+            assert!(matches!(found, CrossingsError::Thread { set: "warp", thread: 1, .. }), "{found:?}");
+        }
+    }
+    for problem in
+        [plain().tension(-1.0, 1.0), plain().tension(1.0, f32::NAN), plain().press(11.0), plain().passes(0)]
+    {
+        assert!(matches!(plan(&problem), Err(CrossingsError::Setting { .. })));
+    }
+    let null = NullBackend::default().crossings_settler(Arc::new(CrossingsPlan::new(&plain()).unwrap()));
+    assert!(matches!(null, Err(BackendError::NoCrossings { .. })));
+}
+
+#[test]
+fn nothing_flies_apart_whatever_the_sett() {
+    // Far beyond any loom: it stays finite, and says how much is lacking.
+    for pitch in [0.06, 0.1, 5.0] {
+        let thread = Thread { pitch, diameter: 0.2, stiffness: 1.0 };
+        let problem =
+            Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]).passes(200);
+        let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);
+        let values = bytemuck::cast_slice::<_, f32>(&crossings);
+        assert!(values.iter().all(|value| value.is_finite()) && rest.seen.clearance.is_finite());
+        assert_eq!(rest.seen.clearance < 0.99, pitch < 0.2, "{pitch}: {rest:?}");
+    }
+    assert_eq!(Set::Warp.other().other(), Set::Warp);
+}

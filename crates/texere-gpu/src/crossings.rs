@@ -1,0 +1,150 @@
+//! Tables of crossings. They go to a device as they are, and what passes have seen comes back in them.
+
+use bytemuck::{Pod, Zeroable};
+use texere_core::crossings::{CrossingsPass, CrossingsPlan, CrossingsSeen, Row, Set};
+
+/// The most passes that a device makes between two waits.
+pub const CROSSINGS_PASSES: u32 = 16;
+
+/// A thread, in units.
+///
+/// **Shape**: four `f32`, 16 bytes. A table has all ends, then all picks.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct ThreadRow {
+    /// To the next thread.
+    pub gap: f32,
+    /// Its radius.
+    pub radius: f32,
+    /// Its stiffness against bending.
+    pub stiffness: f32,
+    /// How far it may shift.
+    pub freedom: f32,
+}
+
+const _: () = assert!(size_of::<ThreadRow>() == 16 && std::mem::offset_of!(ThreadRow, freedom) == 12);
+
+/// What is the same for all lanes of a pass.
+///
+/// **Shape**: twelve 4-byte values, 48 bytes, a multiple of 16 as a uniform buffer wants.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct CrossingsParams {
+    /// How many there are.
+    pub crossings: u32,
+    /// Ends.
+    pub ends: u32,
+    /// Picks.
+    pub picks: u32,
+    /// Bits: [`CrossingsParams::ENDS`], [`CrossingsParams::PICKS`].
+    pub repeats: u32,
+    /// How taut the warp is.
+    pub tension_warp: f32,
+    /// And the weft.
+    pub tension_weft: f32,
+    /// How strongly the cloth is pressed.
+    pub press: f32,
+    /// The weight of terms that keep threads apart.
+    pub penalty: f32,
+    /// The share of its area that a thread wants.
+    pub area: f32,
+    /// Which of the passes between two waits it is, from 0.
+    pub pass_number: u32,
+    /// Unused, 0.
+    pub padding: [u32; 2],
+}
+
+const _: () =
+    assert!(size_of::<CrossingsParams>() == 48 && std::mem::offset_of!(CrossingsParams, pass_number) == 36);
+
+/// What a group, or all of them, has seen in a pass.
+///
+/// **Shape**: two `f32`, 8 bytes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct CrossingsSeenRow {
+    /// The longest step of any unknown.
+    pub step: f32,
+    /// The least distance of two threads over what they need.
+    pub clearance: f32,
+}
+
+const _: () = assert!(size_of::<CrossingsSeenRow>() == 8);
+
+impl ThreadRow {
+    /// All threads of `plan`.
+    #[must_use]
+    pub fn all(plan: &CrossingsPlan) -> Vec<Self> {
+        let row = |&Row { gap, radius, stiffness, freedom }: &Row| Self { gap, radius, stiffness, freedom };
+        Set::BOTH.into_iter().flat_map(|set| plan.rows(set)).map(row).collect()
+    }
+}
+
+impl CrossingsParams {
+    /// Bit of [`CrossingsParams::repeats`]: after the last end the first one comes again.
+    pub const ENDS: u32 = 1;
+    /// Bit of [`CrossingsParams::repeats`]: after the last pick the first one comes again.
+    pub const PICKS: u32 = 2;
+
+    /// What `plan` says. The pass is still to come.
+    ///
+    /// ```
+    /// use texere_core::crossings::{Crossings, CrossingsPass, CrossingsPlan, Thread};
+    /// use texere_gpu::{CrossingsParams, ThreadRow, crossings_ups};
+    /// let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0 };
+    /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
+    /// let plan = CrossingsPlan::new(&plain.repeats(true, false))?;
+    /// let params = CrossingsParams::new(&plan).with_pass(&CrossingsPass::of(50), 3);
+    /// assert_eq!((params.crossings, params.repeats, params.penalty), (4, CrossingsParams::ENDS, 1000.0));
+    /// assert_eq!((ThreadRow::all(&plan).len(), crossings_ups(&plan)), (4, vec![0b1001]));
+    /// # Ok::<(), texere_core::crossings::CrossingsError>(())
+    /// ```
+    #[must_use]
+    pub fn new(plan: &CrossingsPlan) -> Self {
+        let [ends, picks] = plan.repeats();
+        Self {
+            crossings: plan.crossings() as u32,
+            ends: plan.rows(Set::Warp).len() as u32,
+            picks: plan.rows(Set::Weft).len() as u32,
+            repeats: if ends { Self::ENDS } else { 0 } | if picks { Self::PICKS } else { 0 },
+            tension_warp: plan.tension(Set::Warp),
+            tension_weft: plan.tension(Set::Weft),
+            press: plan.press(),
+            ..Self::default()
+        }
+    }
+
+    /// The same for a pass, `number` of those between two waits.
+    #[must_use]
+    pub const fn with_pass(self, pass: &CrossingsPass, number: u32) -> Self {
+        Self { penalty: pass.penalty, area: pass.area, pass_number: number, ..self }
+    }
+}
+
+impl CrossingsSeenRow {
+    /// What a pass has seen.
+    #[must_use]
+    pub const fn seen(self) -> CrossingsSeen {
+        CrossingsSeen { step: self.step, clearance: self.clearance }
+    }
+}
+
+/// Where the warp lies on the face, a bit for each crossing of `plan` from the lowest one on.
+#[must_use]
+pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
+    let mut ups = vec![0; plan.crossings().div_ceil(32)];
+    for number in 0..plan.crossings() {
+        if plan.side(plan.site(number), Set::Warp) > 0.0 {
+            ups[number / 32] |= 1 << (number % 32);
+        }
+    }
+    ups
+}
+
+/// Bytes of device memory that a pass of `plan` moves at least: each crossing as others find it is read, as it is read and written, and as
+/// others will find it written, and a bit for which thread lies on top; what neighbours read again is not counted.
+#[must_use]
+pub fn crossings_pass_bytes(plan: &CrossingsPlan) -> u64 {
+    let crossings = plan.crossings() as u64;
+    crossings * 4 * 32 + crossings / 8
+}

@@ -1,0 +1,52 @@
+//! What may still be taken of a device's memory.
+
+use bytemuck::Pod;
+use texere_core::{BackendError, Limits};
+
+use crate::buffers::Buffer;
+use crate::opened::Opened;
+
+/// What a device may still be asked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Room {
+    pub(crate) binding_bytes: u64,
+    pub(crate) memory_bytes: u64,
+}
+
+impl Room {
+    pub(crate) fn new(limits: &Limits) -> Self {
+        Self { binding_bytes: limits.binding_bytes, memory_bytes: limits.memory_bytes }
+    }
+
+    /// Takes `bytes` for `what` off it.
+    fn take(&mut self, what: &'static str, bytes: u64) -> Result<u64, BackendError> {
+        if bytes > self.binding_bytes || bytes > self.memory_bytes {
+            return Err(BackendError::OutOfMemory { what, bytes });
+        }
+        self.memory_bytes -= bytes;
+        Ok(bytes)
+    }
+
+    /// `bytes` of zeros for `what`.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`], also for what is more than one buffer, or all of them, may have.
+    pub(crate) fn zeroed(
+        &mut self,
+        opened: &Opened,
+        what: &'static str,
+        bytes: u64,
+    ) -> Result<Buffer, BackendError> {
+        Buffer::zeroed(opened, what, self.take(what, bytes)?)
+    }
+
+    /// Memory that holds `data`, likewise.
+    pub(crate) fn holding<T: Pod>(
+        &mut self,
+        opened: &Opened,
+        what: &'static str,
+        data: &[T],
+    ) -> Result<Buffer, BackendError> {
+        self.take(what, size_of_val(data) as u64)?;
+        Buffer::holding(opened, what, data)
+    }
+}

@@ -1,0 +1,165 @@
+// What the kernels of crossings share: tables, sites, and what is gathered at one of them.
+//
+// The formulas, the thresholds and the order of operations are those of texere-core (crossings/), and crossings.wgsl is the
+// twin of this file. OpenCL C 1.2, no extension. Constants are the core's; texere-gpu writes them before this file.
+
+#pragma OPENCL FP_CONTRACT OFF
+
+// Rust: texere_gpu::CrossingsParams, 48 bytes.
+typedef struct {
+    uint crossings;
+    uint ends;
+    uint picks;
+    uint repeats;
+    float tension_warp;
+    float tension_weft;
+    float press;
+    float penalty;
+    float area;
+    uint pass_number;
+    uint padding[2];
+} CrossingsParams;
+
+// Rust: texere_gpu::ThreadRow, 16 bytes.
+typedef struct {
+    float gap;
+    float radius;
+    float stiffness;
+    float freedom;
+} ThreadRow;
+
+// A lie (Rust: Lie) is a float4: shift, height, half width, half height. A crossing is two of them, its end's and its pick's.
+
+// What every lane reads.
+typedef struct {
+    const CrossingsParams *params;
+    __global const ThreadRow *threads;
+    __global const uint *ups;
+    // As others find them in this pass.
+    __global const float4 *found;
+} Cloth;
+
+#define WARP 0u
+#define WEFT 1u
+
+// ---- Site: an end (x) and a pick (y) ----
+
+#define NOWHERE 0xffffffffu
+
+// `at` and `by` further on among `count`; back at the first after the last one where they repeat.
+uint further(uint at, int by, uint count, bool repeats) {
+    int way = (int)at + by;
+    int whole = (int)count;
+    if (way >= 0 && way < whole) {
+        return (uint)way;
+    }
+    return repeats ? (uint)(by < 0 ? way + whole : way - whole) : NOWHERE;
+}
+
+// The crossing so many further along a thread of `set`, and so many threads of that set across.
+uint2 beside(const Cloth *cloth, uint2 site, uint of_set, int along, int across) {
+    int ends = of_set == WARP ? across : along;
+    int picks = of_set == WARP ? along : across;
+    return (uint2)(further(site.x, ends, cloth->params->ends, (cloth->params->repeats & REPEATS_ENDS) != 0u),
+                   further(site.y, picks, cloth->params->picks, (cloth->params->repeats & REPEATS_PICKS) != 0u));
+}
+
+bool is_there(uint2 site) {
+    return site.x != NOWHERE && site.y != NOWHERE;
+}
+
+uint number_of(const Cloth *cloth, uint2 site) {
+    return site.y * cloth->params->ends + site.x;
+}
+
+// How the thread of a set lies at a site.
+float4 lie_of(const Cloth *cloth, uint2 site, uint of_set) {
+    return cloth->found[2u * (size_t)number_of(cloth, site) + of_set];
+}
+
+// The thread of a set at a site. Ends come first in the table.
+ThreadRow thread_of(const Cloth *cloth, uint2 site, uint of_set) {
+    return cloth->threads[of_set == WARP ? site.x : cloth->params->ends + site.y];
+}
+
+// The side on which a set's thread lies: 1 on the face, -1 on the back.
+float side_of(const Cloth *cloth, uint2 site, uint of_set) {
+    uint number = number_of(cloth, site);
+    bool up = ((cloth->ups[number / 32u] >> (number % 32u)) & 1u) != 0u;
+    return up == (of_set == WARP) ? 1.0f : -1.0f;
+}
+
+// ---- Block: the energy's slope and curvature in the eight unknowns of a crossing ----
+
+// Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of `own_own` has the unknowns of its own with
+// its unknown k, row k of `own_crossed` those of the other set with it. Rows count up to the diagonal.
+typedef struct {
+    float4 own;
+    float4 crossed;
+    float4 own_own[4];
+    float4 own_crossed[4];
+    float4 crossed_crossed[4];
+    float clearance;
+} Block;
+
+// The same seen from the other set.
+Block turned(const Block *block) {
+    const float4 *rows = block->own_crossed;
+    Block other;
+    other.own = block->crossed;
+    other.crossed = block->own;
+    for (uint k = 0u; k < 4u; k++) {
+        other.own_own[k] = block->crossed_crossed[k];
+        other.crossed_crossed[k] = block->own_own[k];
+    }
+    other.own_crossed[0] = (float4)(rows[0].x, rows[1].x, rows[2].x, rows[3].x);
+    other.own_crossed[1] = (float4)(rows[0].y, rows[1].y, rows[2].y, rows[3].y);
+    other.own_crossed[2] = (float4)(rows[0].z, rows[1].z, rows[2].z, rows[3].z);
+    other.own_crossed[3] = (float4)(rows[0].w, rows[1].w, rows[2].w, rows[3].w);
+    other.clearance = block->clearance;
+    return other;
+}
+
+// A distance of two threads over what they need.
+void see(Block *block, float clearance) {
+    block->clearance = fmin(block->clearance, clearance);
+}
+
+// Adds a term for each unknown of its own, whose residual has that slope in it alone.
+void add_alone(Block *block, float4 weights, float share, float4 residuals, float slope) {
+    block->own += weights * residuals * slope;
+    float4 more = weights * share * slope * slope;
+    block->own_own[0].x += more.x;
+    block->own_own[1].y += more.y;
+    block->own_own[2].z += more.z;
+    block->own_own[3].w += more.w;
+}
+
+// Adds a term whose residual has these slopes in its own unknowns.
+void add_own(Block *block, float weight, float share, float residual, float4 slopes) {
+    block->own += (weight * residual) * slopes;
+    float4 weighted = (weight * share) * slopes;
+    block->own_own[0] += weighted.x * slopes;
+    block->own_own[1] += weighted.y * slopes;
+    block->own_own[2] += weighted.z * slopes;
+    block->own_own[3] += weighted.w * slopes;
+}
+
+// Adds one with these slopes in its own height and half height, and in what is unknown of the other set.
+void add_between(Block *block, float weight, float share, float residual, float2 slopes, float4 crossed) {
+    float height = slopes.x;
+    float thickness = slopes.y;
+    block->own.y += weight * residual * height;
+    block->own.w += weight * residual * thickness;
+    block->crossed += (weight * residual) * crossed;
+    float4 weighted = (weight * share) * crossed;
+    block->own_own[1].y += weight * share * height * height;
+    block->own_own[3].y += weight * share * thickness * height;
+    block->own_own[3].w += weight * share * thickness * thickness;
+    block->own_crossed[1] += weighted * height;
+    block->own_crossed[3] += weighted * thickness;
+    block->crossed_crossed[0] += weighted.x * crossed;
+    block->crossed_crossed[1] += weighted.y * crossed;
+    block->crossed_crossed[2] += weighted.z * crossed;
+    block->crossed_crossed[3] += weighted.w * crossed;
+}

@@ -1,0 +1,196 @@
+// A pass: the step of every crossing, and what all of them have seen. After crossings_terms.cl.
+//
+// The twin of crossings_pass.wgsl; Block::step and CrossingsPlan in texere-core (crossings/) are the definitions.
+
+// ---- Eight equations by Cholesky's method, in two halves of four ----
+
+// The root of four rows.
+typedef struct {
+    float4 rows[4];
+} Root;
+
+// What is added to a pivot, and the least that it may be.
+float pivot(float left, float whole) {
+    return sqrt(fmax(left + CROSSINGS_DAMPING + CROSSINGS_DAMPING * whole, CROSSINGS_PIVOT));
+}
+
+// The root of four rows, of which some is taken off; `whole` is their diagonal before that.
+Root root_of(const float4 *rows, float4 whole) {
+    float4 a = rows[0];
+    float4 b = rows[1];
+    float4 c = rows[2];
+    float4 d = rows[3];
+    a.x = pivot(a.x, whole.x);
+    b.x = b.x / a.x;
+    b.y = pivot(b.y - b.x * b.x, whole.y);
+    c.x = c.x / a.x;
+    c.y = (c.y - c.x * b.x) / b.y;
+    c.z = pivot(c.z - c.x * c.x - c.y * c.y, whole.z);
+    d.x = d.x / a.x;
+    d.y = (d.y - d.x * b.x) / b.y;
+    d.z = (d.z - d.x * c.x - d.y * c.y) / c.z;
+    d.w = pivot(d.w - d.x * d.x - d.y * d.y - d.z * d.z, whole.w);
+    Root root;
+    root.rows[0] = a;
+    root.rows[1] = b;
+    root.rows[2] = c;
+    root.rows[3] = d;
+    return root;
+}
+
+// What the root turns into `right`.
+float4 forwards(const Root *root, float4 right) {
+    const float4 *rows = root->rows;
+    float x = right.x / rows[0].x;
+    float y = (right.y - rows[1].x * x) / rows[1].y;
+    float z = (right.z - rows[2].x * x - rows[2].y * y) / rows[2].z;
+    float w = (right.w - rows[3].x * x - rows[3].y * y - rows[3].z * z) / rows[3].w;
+    return (float4)(x, y, z, w);
+}
+
+// What the root's transpose turns into `right`.
+float4 backwards(const Root *root, float4 right) {
+    const float4 *rows = root->rows;
+    float w = right.w / rows[3].w;
+    float z = (right.z - rows[3].z * w) / rows[2].z;
+    float y = (right.y - rows[2].y * z - rows[3].y * w) / rows[1].y;
+    float x = (right.x - rows[1].x * y - rows[2].x * z - rows[3].x * w) / rows[0].x;
+    return (float4)(x, y, z, w);
+}
+
+float dot4(float4 one, float4 other) {
+    return one.x * other.x + one.y * other.y + one.z * other.z + one.w * other.w;
+}
+
+// How both threads of a crossing lie, or step.
+typedef struct {
+    float4 warp;
+    float4 weft;
+} Pair;
+
+// The step down to the least of the equations.
+Pair step_of(const Block *block) {
+    const float4 *own = block->own_own;
+    Root warp = root_of(own, (float4)(own[0].x, own[1].y, own[2].z, own[3].w));
+    Block other = turned(block);
+    float4 a = forwards(&warp, other.own_crossed[0]);
+    float4 b = forwards(&warp, other.own_crossed[1]);
+    float4 c = forwards(&warp, other.own_crossed[2]);
+    float4 d = forwards(&warp, other.own_crossed[3]);
+    float4 *rows = other.own_own;
+    float4 whole = (float4)(rows[0].x, rows[1].y, rows[2].z, rows[3].w);
+    rows[0].x -= dot4(a, a);
+    rows[1].x -= dot4(b, a);
+    rows[1].y -= dot4(b, b);
+    rows[2].x -= dot4(c, a);
+    rows[2].y -= dot4(c, b);
+    rows[2].z -= dot4(c, c);
+    rows[3].x -= dot4(d, a);
+    rows[3].y -= dot4(d, b);
+    rows[3].z -= dot4(d, c);
+    rows[3].w -= dot4(d, d);
+    Root weft = root_of(rows, whole);
+    float4 right = forwards(&warp, -block->own);
+    float4 left = -block->crossed - (float4)(dot4(a, right), dot4(b, right), dot4(c, right), dot4(d, right));
+    float4 step = backwards(&weft, forwards(&weft, left));
+    Pair both;
+    both.warp = backwards(&warp, right - a * step.x - b * step.y - c * step.z - d * step.w);
+    both.weft = step;
+    return both;
+}
+
+// ---- Pass ----
+
+// As far as what is unknown of a thread may go.
+float4 bounded(float4 lie, const ThreadRow *thread) {
+    float4 most = (float4)(thread->freedom, CROSSINGS_HEIGHT, CROSSINGS_HALF_WIDTH_MOST * thread->radius,
+                           CROSSINGS_HALF_HEIGHT_MOST * thread->radius);
+    float4 least = (float4)(-thread->freedom, -CROSSINGS_HEIGHT, CROSSINGS_HALF_WIDTH_LEAST * thread->radius,
+                            CROSSINGS_HALF_HEIGHT_LEAST * thread->radius);
+    return fmin(fmax(lie, least), most);
+}
+
+float largest(float4 one) {
+    float4 all = fabs(one);
+    return fmax(fmax(all.x, all.y), fmax(all.z, all.w));
+}
+
+// Moves one thread of a crossing, and gives back by how much that differs from where it was.
+float move_thread(const Cloth *cloth, __global float4 *crossings, __global float4 *next, uint number, uint2 site,
+                  uint of_set, float4 step) {
+    ThreadRow thread = thread_of(cloth, site, of_set);
+    size_t lie = 2u * (size_t)number + of_set;
+    float4 was = crossings[lie];
+    float4 moved = bounded(cloth->found[lie] + step, &thread);
+    // Momentum carries it on: there others find it.
+    next[lie] = bounded(moved + CROSSINGS_MOMENTUM * (moved - was), &thread);
+    crossings[lie] = moved;
+    return largest(moved - was);
+}
+
+// Moves a crossing. Gives back the longest step and the least clearance.
+float2 move_crossing(const Cloth *cloth, __global float4 *crossings, __global float4 *next, uint number) {
+    uint2 site = (uint2)(number % cloth->params->ends, number / cloth->params->ends);
+    Block block = gathered(cloth, site);
+    Pair step = step_of(&block);
+    float longest = fmax(largest(step.warp), largest(step.weft));
+    float share = longest > CROSSINGS_STEP ? CROSSINGS_STEP / longest : 1.0f;
+    float warp = move_thread(cloth, crossings, next, number, site, WARP, share * step.warp);
+    float weft = move_thread(cloth, crossings, next, number, site, WEFT, share * step.weft);
+    return (float2)(fmax(warp, weft), block.clearance);
+}
+
+// The longest step and the least clearance of both.
+float2 seen_by_both(float2 one, float2 other) {
+    return (float2)(fmax(one.x, other.x), fmin(one.y, other.y));
+}
+
+// What all lanes of a group have seen, by a fixed tree.
+float2 seen_by_group(__local float2 *rows, uint lane, uint lanes, float2 seen) {
+    rows[lane] = seen;
+    for (uint reach = lanes / 2u; reach > 0u; reach /= 2u) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (lane < reach) {
+            rows[lane] = seen_by_both(rows[lane], rows[lane + reach]);
+        }
+    }
+    return rows[0];
+}
+
+#define CROSSINGS_MOVE_GROUP 64
+
+// A lane a crossing. A row of what it has seen from each group.
+__kernel __attribute__((reqd_work_group_size(CROSSINGS_MOVE_GROUP, 1, 1)))
+void crossings_move(const CrossingsParams params, __global const ThreadRow *threads, __global const uint *ups,
+                    __global const float4 *found, __global float4 *crossings, __global float4 *next,
+                    __global float2 *group_rows) {
+    __local float2 group[CROSSINGS_MOVE_GROUP];
+    Cloth cloth = {&params, threads, ups, found};
+    uint number = get_global_id(0);
+    float2 seen = (float2)(0.0f, UNSEEN);
+    if (number < params.crossings) {
+        seen = move_crossing(&cloth, crossings, next, number);
+    }
+    seen = seen_by_group(group, get_local_id(0), CROSSINGS_MOVE_GROUP, seen);
+    if (get_local_id(0) == 0u) {
+        group_rows[number / CROSSINGS_MOVE_GROUP] = seen;
+    }
+}
+
+#define CROSSINGS_SEEN_GROUP 256
+
+// One group: what all rows have seen, into the row of this pass.
+__kernel __attribute__((reqd_work_group_size(CROSSINGS_SEEN_GROUP, 1, 1)))
+void crossings_seen(const CrossingsParams params, __global const float2 *group_rows, __global float2 *pass_rows) {
+    __local float2 group[CROSSINGS_SEEN_GROUP];
+    uint lane = get_local_id(0);
+    uint count = (params.crossings + CROSSINGS_MOVE_GROUP - 1u) / CROSSINGS_MOVE_GROUP;
+    float2 seen = (float2)(0.0f, UNSEEN);
+    for (uint row = lane; row < count; row += CROSSINGS_SEEN_GROUP) {
+        seen = seen_by_both(seen, group_rows[row]);
+    }
+    seen = seen_by_group(group, lane, CROSSINGS_SEEN_GROUP, seen);
+    if (lane == 0u) {
+        pass_rows[params.pass_number] = seen;
+    }
+}

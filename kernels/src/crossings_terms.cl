@@ -1,0 +1,237 @@
+// The energy: what threads want, and what keeps them apart. After crossings.cl and crossings_passage.cl.
+//
+// The twin of crossings_terms.wgsl, and of texere-core (crossings/terms.rs).
+
+// A crossing along a thread.
+typedef struct {
+    uint2 site;
+    bool there;
+    // How the thread lies there, and how far it is to the next crossing.
+    float4 lie;
+    float gap;
+} Along;
+
+Along along_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
+    Along along;
+    along.site = beside(cloth, site, of_set, steps, 0);
+    along.there = is_there(along.site);
+    along.lie = along.there ? lie_of(cloth, along.site, of_set) : (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+    along.gap = along.there ? thread_of(cloth, along.site, 1u - of_set).gap : 0.0f;
+    return along;
+}
+
+// Shape, area, and the press.
+void add_section(const Cloth *cloth, Block *block, float4 lie, float radius) {
+    float wide = lie.z / radius;
+    float thick = lie.w / radius;
+    float4 aspect = (float4)(0.0f, 0.0f, 1.0f / radius, -CROSSINGS_ASPECT / radius);
+    add_own(block, CROSSINGS_SHAPE, 1.0f, wide - CROSSINGS_ASPECT * thick, aspect);
+    float gain = wide * thick - cloth->params->area;
+    float weight = gain < 0.0f ? CROSSINGS_AREA_LOSS : CROSSINGS_AREA_GAIN;
+    add_own(block, weight, 1.0f, gain, (float4)(0.0f, 0.0f, thick / radius, wide / radius));
+    float press = CROSSINGS_PRESS * cloth->params->press * 4.0f * radius * radius;
+    add_alone(block, (float4)(0.0f, press, 0.0f, 0.0f), 1.0f, lie, 1.0f);
+}
+
+// A second difference along the thread, which has this slope in what is unknown here.
+void add_bend(Block *block, const ThreadRow *thread, const Along *before, const Along *middle, const Along *after,
+              float slope, float share) {
+    if (!before->there || !middle->there || !after->there) {
+        return;
+    }
+    float square = 4.0f * thread->radius * thread->radius;
+    float pitch = 0.5f * (before->gap + middle->gap);
+    float stiff = thread->stiffness * square * square / (pitch * pitch * pitch);
+    float4 weights = (float4)(CROSSINGS_SIDEWAYS_BEND * stiff, CROSSINGS_BEND * stiff, 0.0f, 0.0f);
+    add_alone(block, weights, share, before->lie - 2.0f * middle->lie + after->lie, slope);
+}
+
+// First differences along the thread to a crossing `gap` away: tension, and sections that change little.
+void add_difference(Block *block, float4 lie, const Along *other, float gap, float tension, float evenness) {
+    if (other->there) {
+        float taut = tension / gap;
+        float4 weights = (float4)(CROSSINGS_SIDEWAYS_TENSION * taut, CROSSINGS_TENSION * taut, evenness, evenness);
+        add_alone(block, weights, 2.0f, lie - other->lie, 1.0f);
+    }
+}
+
+// What a thread does to what it crosses between two crossings, the `second` of which is this one or else the first.
+typedef struct {
+    float room;
+    // Slopes in its own height and half height, and in what is unknown of the thread that it crosses here.
+    float2 slopes;
+    float4 crossed;
+    float clearance;
+} Meeting;
+
+// The thread stays on its side. Where it slopes it clears the shoulder of the thread under its upper end.
+Meeting shoulder(float side, const Along *first, const Along *last, float4 one, float4 two, bool second) {
+    bool rises = side * (last->lie.y - first->lie.y) > 0.0f;
+    float4 upper = rises ? last->lie : first->lie;
+    float4 lower = rises ? first->lie : last->lie;
+    float4 under = rises ? two : one;
+    float across = first->gap + two.x - one.x;
+    float slope = side * (upper.y - lower.y) / across;
+    // Upright, not across the slope.
+    float length = sqrt(1.0f + slope * slope);
+    float x = under.z * slope;
+    float z = under.w;
+    float reach = sqrt(x * x + z * z);
+    float above = side * (upper.y - under.y);
+    float need = reach + upper.w * length;
+    float steeper = under.z * x / reach + upper.w * slope / length;
+    float wider = steeper * slope / across;
+    float shift = second ? wider : -wider;
+    float rise = steeper / across;
+    Meeting meeting;
+    meeting.clearance = above / need;
+    meeting.room = above - need - CROSSINGS_MARGIN;
+    if (second == rises) {
+        meeting.slopes = (float2)(side * (1.0f - rise), -length);
+        meeting.crossed = (float4)(shift, -side, -x * slope / reach, -z / reach);
+    } else {
+        meeting.slopes = (float2)(side * rise, 0.0f);
+        meeting.crossed = (float4)(shift, 0.0f, 0.0f, 0.0f);
+    }
+    return meeting;
+}
+
+// The thread changes sides.
+Meeting passage(float side, const Along *first, const Along *last, float4 one, float4 two, bool second) {
+    float across = first->gap + two.x - one.x;
+    float rise = side * (two.y - one.y);
+    Passage found = passage_of(across, rise, (float4)(one.zw, two.zw), first->lie.w + last->lie.w);
+    // This crossing's share of it.
+    float c = found.slope.x;
+    float s = found.slope.y;
+    float4 lie = second ? two : one;
+    float reach = second ? found.reach.y : found.reach.x;
+    float sign = second ? 1.0f : -1.0f;
+    Meeting meeting;
+    meeting.clearance = found.between / (found.between - found.room);
+    meeting.room = found.room - CROSSINGS_MARGIN;
+    meeting.slopes = (float2)(0.0f, -1.0f);
+    meeting.crossed = (float4)(sign * s, sign * side * c, -lie.z * s * s / reach, -lie.w * c * c / reach);
+    return meeting;
+}
+
+void add_meeting(const Cloth *cloth, Block *block, uint of_set, const Along *first, const Along *last, bool second) {
+    if (!first->there || !last->there) {
+        return;
+    }
+    float4 one = lie_of(cloth, first->site, 1u - of_set);
+    float4 two = lie_of(cloth, last->site, 1u - of_set);
+    float side = side_of(cloth, first->site, of_set);
+    Meeting meeting = side == side_of(cloth, last->site, of_set) ? shoulder(side, first, last, one, two, second)
+                                                              : passage(side, first, last, one, two, second);
+    see(block, meeting.clearance);
+    if (meeting.room < CROSSINGS_NEAR) {
+        add_between(block, cloth->params->penalty, 2.0f, fmin(meeting.room, 0.0f), meeting.slopes, meeting.crossed);
+    }
+}
+
+// Neighbours of one set half way between two crossings, as ellipses.
+void add_half_way(const Cloth *cloth, Block *block, float4 own, const Along *next, float4 neighbour, float4 opposite,
+                  float gap, float sign) {
+    float apart = gap + sign * 0.5f * (neighbour.x + opposite.x - own.x - next->lie.x);
+    float rise = 0.5f * (neighbour.y + opposite.y - own.y - next->lie.y);
+    float wide = 0.5f * (own.z + next->lie.z + neighbour.z + opposite.z);
+    float thick = 0.5f * (own.w + next->lie.w + neighbour.w + opposite.w);
+    float x = apart / wide;
+    float z = rise / thick;
+    float clearance = sqrt(x * x + z * z);
+    see(block, clearance);
+    float room = (clearance - 1.0f) * wide - CROSSINGS_MARGIN;
+    if (room < CROSSINGS_NEAR) {
+        float4 slopes = (float4)(-sign * 0.5f * x / clearance, -0.5f * z * wide / (thick * clearance),
+                                 0.5f * (clearance - 1.0f - x * x / clearance),
+                                 -0.5f * z * z * wide / (thick * clearance));
+        add_own(block, cloth->params->penalty, 4.0f, fmin(room, 0.0f), slopes);
+    }
+}
+
+// Neighbours of one set keep to their own places at a crossing, whatever their heights, and are clear of one another beside it.
+void add_neighbour(const Cloth *cloth, Block *block, uint of_set, const Along *before, const Along *here,
+                   const Along *after, int across) {
+    uint2 site = beside(cloth, here->site, of_set, 0, across);
+    if (!is_there(site)) {
+        return;
+    }
+    float sign = (float)across;
+    float4 other = lie_of(cloth, site, of_set);
+    float gap = thread_of(cloth, across < 0 ? site : here->site, of_set).gap;
+    float apart = gap + sign * (other.x - here->lie.x);
+    float need = here->lie.z + other.z;
+    see(block, apart / need);
+    float room = apart - need - CROSSINGS_MARGIN;
+    if (room < CROSSINGS_NEAR) {
+        add_own(block, cloth->params->penalty, 2.0f, fmin(room, 0.0f), (float4)(-sign, 0.0f, -1.0f, 0.0f));
+    }
+    if (before->there) {
+        float4 opposite = lie_of(cloth, beside(cloth, before->site, of_set, 0, across), of_set);
+        add_half_way(cloth, block, here->lie, before, other, opposite, gap, sign);
+    }
+    if (after->there) {
+        float4 opposite = lie_of(cloth, beside(cloth, after->site, of_set, 0, across), of_set);
+        add_half_way(cloth, block, here->lie, after, other, opposite, gap, sign);
+    }
+}
+
+// Both threads of a crossing lie one on top of the other. The block is seen from the warp.
+void add_contact(const Cloth *cloth, Block *block, uint2 site) {
+    float4 warp = lie_of(cloth, site, WARP);
+    float4 weft = lie_of(cloth, site, WEFT);
+    float side = side_of(cloth, site, WARP);
+    float apart = side * (warp.y - weft.y);
+    float need = warp.w + weft.w;
+    see(block, apart / need);
+    float room = apart - need - CROSSINGS_MARGIN;
+    if (room < CROSSINGS_NEAR) {
+        add_between(block, cloth->params->penalty, 1.0f, fmin(room, 0.0f), (float2)(side, -1.0f),
+                    (float4)(0.0f, -side, 0.0f, -1.0f));
+    }
+}
+
+// All terms of one set that a crossing is part of.
+void add_set(const Cloth *cloth, Block *block, uint2 site, uint of_set) {
+    ThreadRow thread = thread_of(cloth, site, of_set);
+    float radius = thread.radius;
+    Along two_before = along_of(cloth, site, of_set, -2);
+    Along before = along_of(cloth, site, of_set, -1);
+    Along here = along_of(cloth, site, of_set, 0);
+    Along after = along_of(cloth, site, of_set, 1);
+    Along two_after = along_of(cloth, site, of_set, 2);
+    add_section(cloth, block, here.lie, radius);
+    // Slopes are 1, -2 and 1.
+    add_bend(block, &thread, &two_before, &before, &here, 1.0f, 4.0f);
+    add_bend(block, &thread, &before, &here, &after, -2.0f, 2.0f);
+    add_bend(block, &thread, &here, &after, &two_after, 1.0f, 4.0f);
+    float taut = of_set == WARP ? cloth->params->tension_warp : cloth->params->tension_weft;
+    float tension = taut * 4.0f * radius * radius;
+    float evenness = CROSSINGS_SMOOTH / (radius * radius);
+    add_difference(block, here.lie, &before, before.gap, tension, evenness);
+    add_difference(block, here.lie, &after, here.gap, tension, evenness);
+    add_meeting(cloth, block, of_set, &before, &here, true);
+    add_meeting(cloth, block, of_set, &here, &after, false);
+    add_neighbour(cloth, block, of_set, &before, &here, &after, -1);
+    add_neighbour(cloth, block, of_set, &before, &here, &after, 1);
+}
+
+// All terms that a crossing is part of, seen from the warp.
+Block gathered(const Cloth *cloth, uint2 site) {
+    Block block;
+    block.own = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+    block.crossed = block.own;
+    for (uint k = 0u; k < 4u; k++) {
+        block.own_own[k] = block.own;
+        block.own_crossed[k] = block.own;
+        block.crossed_crossed[k] = block.own;
+    }
+    block.clearance = UNSEEN;
+    for (uint of_set = WARP; of_set <= WEFT; of_set++) {
+        add_set(cloth, &block, site, of_set);
+        block = turned(&block);
+    }
+    add_contact(cloth, &block, site);
+    return block;
+}

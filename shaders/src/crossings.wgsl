@@ -1,0 +1,162 @@
+// What the shaders of crossings share: tables, sites, and what is gathered at one of them. Stands before each of them.
+//
+// The formulas, the thresholds and the order of operations are those of texere-core (crossings/), and crossings.cl is the twin
+// of this file. Core WGSL, no feature required. Constants are the core's; texere-gpu writes them before this file.
+
+// Rust: texere_gpu::CrossingsParams, 48 bytes.
+struct CrossingsParams {
+    crossings: u32,
+    ends: u32,
+    picks: u32,
+    repeats: u32,
+    tension_warp: f32,
+    tension_weft: f32,
+    press: f32,
+    penalty: f32,
+    area: f32,
+    pass_number: u32,
+    padding: vec2<u32>,
+}
+
+// Rust: texere_gpu::ThreadRow, 16 bytes.
+struct ThreadRow {
+    gap: f32,
+    radius: f32,
+    stiffness: f32,
+    freedom: f32,
+}
+
+// A lie (Rust: Lie) is a vec4<f32>: shift, height, half width, half height. A crossing is two of them, its end's and its pick's.
+
+@group(0) @binding(34) var<uniform> cloth: CrossingsParams;
+@group(0) @binding(35) var<storage, read> threads: array<ThreadRow>;
+@group(0) @binding(36) var<storage, read> ups: array<u32>;
+// As others find them in this pass.
+@group(0) @binding(37) var<storage, read> found: array<vec4<f32>>;
+
+const WARP = 0u;
+const WEFT = 1u;
+
+// ---- Site: an end (x) and a pick (y) ----
+
+const NOWHERE = 0xffffffffu;
+
+// `at` and `by` further on among `count`; back at the first after the last one where they repeat.
+fn further(at: u32, by: i32, count: u32, repeats: bool) -> u32 {
+    let way = bitcast<i32>(at) + by;
+    let whole = bitcast<i32>(count);
+    if way >= 0 && way < whole {
+        return bitcast<u32>(way);
+    }
+    return select(NOWHERE, bitcast<u32>(select(way - whole, way + whole, by < 0)), repeats);
+}
+
+// The crossing so many further along a thread of `set`, and so many threads of that set across.
+fn beside(site: vec2<u32>, of_set: u32, along: i32, across: i32) -> vec2<u32> {
+    let ends = select(along, across, of_set == WARP);
+    let picks = select(across, along, of_set == WARP);
+    return vec2(
+        further(site.x, ends, cloth.ends, (cloth.repeats & REPEATS_ENDS) != 0u),
+        further(site.y, picks, cloth.picks, (cloth.repeats & REPEATS_PICKS) != 0u),
+    );
+}
+
+fn is_there(site: vec2<u32>) -> bool {
+    return site.x != NOWHERE && site.y != NOWHERE;
+}
+
+fn number_of(site: vec2<u32>) -> u32 {
+    return site.y * cloth.ends + site.x;
+}
+
+// How the thread of a set lies at a site.
+fn lie_of(site: vec2<u32>, of_set: u32) -> vec4<f32> {
+    return found[2u * number_of(site) + of_set];
+}
+
+// The thread of a set at a site. Ends come first in the table.
+fn thread_of(site: vec2<u32>, of_set: u32) -> ThreadRow {
+    return threads[select(cloth.ends + site.y, site.x, of_set == WARP)];
+}
+
+// The side on which a set's thread lies: 1 on the face, -1 on the back.
+fn side_of(site: vec2<u32>, of_set: u32) -> f32 {
+    let number = number_of(site);
+    let up = ((ups[number / 32u] >> (number % 32u)) & 1u) != 0u;
+    return select(-1.0, 1.0, up == (of_set == WARP));
+}
+
+// ---- Block: the energy's slope and curvature in the eight unknowns of a crossing ----
+
+// Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of `own_own` has the unknowns of its own with
+// its unknown k, row k of `own_crossed` those of the other set with it. Rows count up to the diagonal.
+struct Block {
+    own: vec4<f32>,
+    crossed: vec4<f32>,
+    own_own: array<vec4<f32>, 4>,
+    own_crossed: array<vec4<f32>, 4>,
+    crossed_crossed: array<vec4<f32>, 4>,
+    clearance: f32,
+}
+
+// The same seen from the other set.
+fn turned(block: Block) -> Block {
+    let rows = block.own_crossed;
+    return Block(
+        block.crossed,
+        block.own,
+        block.crossed_crossed,
+        array(
+            vec4(rows[0].x, rows[1].x, rows[2].x, rows[3].x),
+            vec4(rows[0].y, rows[1].y, rows[2].y, rows[3].y),
+            vec4(rows[0].z, rows[1].z, rows[2].z, rows[3].z),
+            vec4(rows[0].w, rows[1].w, rows[2].w, rows[3].w),
+        ),
+        block.own_own,
+        block.clearance,
+    );
+}
+
+// A distance of two threads over what they need.
+fn see(block: ptr<function, Block>, clearance: f32) {
+    (*block).clearance = min((*block).clearance, clearance);
+}
+
+// Adds a term for each unknown of its own, whose residual has that slope in it alone.
+fn add_alone(block: ptr<function, Block>, weights: vec4<f32>, share: f32, residuals: vec4<f32>, slope: f32) {
+    (*block).own += weights * residuals * slope;
+    let more = weights * share * slope * slope;
+    (*block).own_own[0].x += more.x;
+    (*block).own_own[1].y += more.y;
+    (*block).own_own[2].z += more.z;
+    (*block).own_own[3].w += more.w;
+}
+
+// Adds a term whose residual has these slopes in its own unknowns.
+fn add_own(block: ptr<function, Block>, weight: f32, share: f32, residual: f32, slopes: vec4<f32>) {
+    (*block).own += (weight * residual) * slopes;
+    let weighted = (weight * share) * slopes;
+    (*block).own_own[0] += weighted.x * slopes;
+    (*block).own_own[1] += weighted.y * slopes;
+    (*block).own_own[2] += weighted.z * slopes;
+    (*block).own_own[3] += weighted.w * slopes;
+}
+
+// Adds one with these slopes in its own height and half height, and in what is unknown of the other set.
+fn add_between(block: ptr<function, Block>, weight: f32, share: f32, residual: f32, slopes: vec2<f32>, crossed: vec4<f32>) {
+    let height = slopes.x;
+    let thickness = slopes.y;
+    (*block).own.y += weight * residual * height;
+    (*block).own.w += weight * residual * thickness;
+    (*block).crossed += (weight * residual) * crossed;
+    let weighted = (weight * share) * crossed;
+    (*block).own_own[1].y += weight * share * height * height;
+    (*block).own_own[3].y += weight * share * thickness * height;
+    (*block).own_own[3].w += weight * share * thickness * thickness;
+    (*block).own_crossed[1] += weighted * height;
+    (*block).own_crossed[3] += weighted * thickness;
+    (*block).crossed_crossed[0] += weighted.x * crossed;
+    (*block).crossed_crossed[1] += weighted.y * crossed;
+    (*block).crossed_crossed[2] += weighted.z * crossed;
+    (*block).crossed_crossed[3] += weighted.w * crossed;
+}

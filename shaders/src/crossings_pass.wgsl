@@ -1,0 +1,199 @@
+// A pass: the step of every crossing, and what all of them have seen. After crossings_terms.wgsl.
+//
+// crossings_pass.cl is the twin of this file; Block::step and CrossingsPlan in texere-core (crossings/) are the definitions.
+
+// As crossings are.
+@group(0) @binding(38) var<storage, read_write> crossings: array<vec4<f32>>;
+// As others find them in the next pass.
+@group(0) @binding(39) var<storage, read_write> next: array<vec4<f32>>;
+// What groups have seen, and what passes have: the longest step and the least clearance.
+@group(0) @binding(40) var<storage, read_write> group_rows: array<vec2<f32>>;
+@group(0) @binding(41) var<storage, read_write> pass_rows: array<vec2<f32>>;
+
+// ---- Eight equations by Cholesky's method, in two halves of four ----
+
+// What is added to a pivot, and the least that it may be.
+fn pivot(left: f32, whole: f32) -> f32 {
+    return sqrt(max(left + CROSSINGS_DAMPING + CROSSINGS_DAMPING * whole, CROSSINGS_PIVOT));
+}
+
+// The root of four rows, of which some is taken off; `whole` is their diagonal before that.
+fn root_of(rows: array<vec4<f32>, 4>, whole: vec4<f32>) -> array<vec4<f32>, 4> {
+    var root: array<vec4<f32>, 4>;
+    root[0].x = pivot(rows[0].x, whole.x);
+    root[1].x = rows[1].x / root[0].x;
+    root[1].y = pivot(rows[1].y - root[1].x * root[1].x, whole.y);
+    root[2].x = rows[2].x / root[0].x;
+    root[2].y = (rows[2].y - root[2].x * root[1].x) / root[1].y;
+    root[2].z = pivot(rows[2].z - root[2].x * root[2].x - root[2].y * root[2].y, whole.z);
+    root[3].x = rows[3].x / root[0].x;
+    root[3].y = (rows[3].y - root[3].x * root[1].x) / root[1].y;
+    root[3].z = (rows[3].z - root[3].x * root[2].x - root[3].y * root[2].y) / root[2].z;
+    root[3].w = pivot(
+        rows[3].w - root[3].x * root[3].x - root[3].y * root[3].y - root[3].z * root[3].z,
+        whole.w,
+    );
+    return root;
+}
+
+// What the root turns into `right`.
+fn forwards(root: array<vec4<f32>, 4>, right: vec4<f32>) -> vec4<f32> {
+    let x = right.x / root[0].x;
+    let y = (right.y - root[1].x * x) / root[1].y;
+    let z = (right.z - root[2].x * x - root[2].y * y) / root[2].z;
+    let w = (right.w - root[3].x * x - root[3].y * y - root[3].z * z) / root[3].w;
+    return vec4(x, y, z, w);
+}
+
+// What the root's transpose turns into `right`.
+fn backwards(root: array<vec4<f32>, 4>, right: vec4<f32>) -> vec4<f32> {
+    let w = right.w / root[3].w;
+    let z = (right.z - root[3].z * w) / root[2].z;
+    let y = (right.y - root[2].y * z - root[3].y * w) / root[1].y;
+    let x = (right.x - root[1].x * y - root[2].x * z - root[3].x * w) / root[0].x;
+    return vec4(x, y, z, w);
+}
+
+fn dot4(one: vec4<f32>, other: vec4<f32>) -> f32 {
+    return one.x * other.x + one.y * other.y + one.z * other.z + one.w * other.w;
+}
+
+// How both threads of a crossing lie, or step.
+struct Pair {
+    warp: vec4<f32>,
+    weft: vec4<f32>,
+}
+
+// The step down to the least of the equations.
+fn step_of(block: Block) -> Pair {
+    let own = block.own_own;
+    let warp = root_of(own, vec4(own[0].x, own[1].y, own[2].z, own[3].w));
+    let between = turned(block).own_crossed;
+    let a = forwards(warp, between[0]);
+    let b = forwards(warp, between[1]);
+    let c = forwards(warp, between[2]);
+    let d = forwards(warp, between[3]);
+    var rows = block.crossed_crossed;
+    let whole = vec4(rows[0].x, rows[1].y, rows[2].z, rows[3].w);
+    rows[0].x -= dot4(a, a);
+    rows[1].x -= dot4(b, a);
+    rows[1].y -= dot4(b, b);
+    rows[2].x -= dot4(c, a);
+    rows[2].y -= dot4(c, b);
+    rows[2].z -= dot4(c, c);
+    rows[3].x -= dot4(d, a);
+    rows[3].y -= dot4(d, b);
+    rows[3].z -= dot4(d, c);
+    rows[3].w -= dot4(d, d);
+    let weft = root_of(rows, whole);
+    let right = forwards(warp, -block.own);
+    let left = -block.crossed - vec4(dot4(a, right), dot4(b, right), dot4(c, right), dot4(d, right));
+    let step = backwards(weft, forwards(weft, left));
+    return Pair(backwards(warp, right - a * step.x - b * step.y - c * step.z - d * step.w), step);
+}
+
+// ---- Pass ----
+
+// As far as what is unknown of a thread may go.
+fn bounded(lie: vec4<f32>, thread: ThreadRow) -> vec4<f32> {
+    let most = vec4(
+        thread.freedom,
+        CROSSINGS_HEIGHT,
+        CROSSINGS_HALF_WIDTH_MOST * thread.radius,
+        CROSSINGS_HALF_HEIGHT_MOST * thread.radius,
+    );
+    let least = vec4(
+        -thread.freedom,
+        -CROSSINGS_HEIGHT,
+        CROSSINGS_HALF_WIDTH_LEAST * thread.radius,
+        CROSSINGS_HALF_HEIGHT_LEAST * thread.radius,
+    );
+    return min(max(lie, least), most);
+}
+
+fn largest(one: vec4<f32>) -> f32 {
+    let all = abs(one);
+    return max(max(all.x, all.y), max(all.z, all.w));
+}
+
+// Moves one thread of a crossing, and gives back by how much that differs from where it was.
+fn move_thread(number: u32, site: vec2<u32>, of_set: u32, step: vec4<f32>) -> f32 {
+    let thread = thread_of(site, of_set);
+    let lie = 2u * number + of_set;
+    let was = crossings[lie];
+    let moved = bounded(found[lie] + step, thread);
+    // Momentum carries it on: there others find it.
+    next[lie] = bounded(moved + CROSSINGS_MOMENTUM * (moved - was), thread);
+    crossings[lie] = moved;
+    return largest(moved - was);
+}
+
+// Moves a crossing. Gives back the longest step and the least clearance.
+fn move_crossing(number: u32) -> vec2<f32> {
+    let site = vec2(number % cloth.ends, number / cloth.ends);
+    let block = gathered(site);
+    let step = step_of(block);
+    let longest = max(largest(step.warp), largest(step.weft));
+    var share = 1.0;
+    if longest > CROSSINGS_STEP {
+        share = CROSSINGS_STEP / longest;
+    }
+    let warp = move_thread(number, site, WARP, share * step.warp);
+    let weft = move_thread(number, site, WEFT, share * step.weft);
+    return vec2(max(warp, weft), block.clearance);
+}
+
+// The longest step and the least clearance of both.
+fn seen_by_both(one: vec2<f32>, other: vec2<f32>) -> vec2<f32> {
+    return vec2(max(one.x, other.x), min(one.y, other.y));
+}
+
+const CROSSINGS_MOVE_GROUP = 64u;
+
+var<workgroup> lane_seen: array<vec2<f32>, CROSSINGS_MOVE_GROUP>;
+
+// A lane a crossing. A row of what it has seen from each group, by a fixed tree.
+@compute @workgroup_size(CROSSINGS_MOVE_GROUP)
+fn crossings_move(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+                  @builtin(local_invocation_index) lane: u32) {
+    let row = group.y * grid.x + group.x;
+    let number = row * CROSSINGS_MOVE_GROUP + lane;
+    var seen = vec2(0.0, UNSEEN);
+    if number < cloth.crossings {
+        seen = move_crossing(number);
+    }
+    lane_seen[lane] = seen;
+    for (var reach = CROSSINGS_MOVE_GROUP / 2u; reach > 0u; reach /= 2u) {
+        workgroupBarrier();
+        if lane < reach {
+            lane_seen[lane] = seen_by_both(lane_seen[lane], lane_seen[lane + reach]);
+        }
+    }
+    if lane == 0u && row * CROSSINGS_MOVE_GROUP < cloth.crossings {
+        group_rows[row] = lane_seen[0];
+    }
+}
+
+const CROSSINGS_SEEN_GROUP = 256u;
+
+var<workgroup> lane_rows: array<vec2<f32>, CROSSINGS_SEEN_GROUP>;
+
+// One group: what all rows have seen, into the row of this pass.
+@compute @workgroup_size(CROSSINGS_SEEN_GROUP)
+fn crossings_seen(@builtin(local_invocation_index) lane: u32) {
+    let count = (cloth.crossings + CROSSINGS_MOVE_GROUP - 1u) / CROSSINGS_MOVE_GROUP;
+    var seen = vec2(0.0, UNSEEN);
+    for (var row = lane; row < count; row += CROSSINGS_SEEN_GROUP) {
+        seen = seen_by_both(seen, group_rows[row]);
+    }
+    lane_rows[lane] = seen;
+    for (var reach = CROSSINGS_SEEN_GROUP / 2u; reach > 0u; reach /= 2u) {
+        workgroupBarrier();
+        if lane < reach {
+            lane_rows[lane] = seen_by_both(lane_rows[lane], lane_rows[lane + reach]);
+        }
+    }
+    if lane == 0u {
+        pass_rows[cloth.pass_number] = lane_rows[0];
+    }
+}

@@ -1,0 +1,116 @@
+//! Broken settlers of crossings: each does one thing wrong, and the comparison with `cpu-serial` has to notice.
+
+use std::sync::Arc;
+
+use texere_core::BackendError;
+use texere_core::crossings::{
+    Crossing, Crossings, CrossingsError, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler, Set,
+};
+
+/// The fault of a broken settler of crossings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CrossingsSabotage {
+    /// Nothing.
+    None,
+    /// The first crossing finds itself in place of its next end.
+    LostNeighbour,
+    /// Crossings are found where they were a pass before.
+    StaleStep,
+    /// Beyond the last end and the last pick there is nothing.
+    LostRepeat,
+    /// Momentum carries no crossing on.
+    LostMomentum,
+}
+
+impl CrossingsSabotage {
+    /// All faults.
+    pub const ALL: [Self; 4] = [Self::LostNeighbour, Self::StaleStep, Self::LostRepeat, Self::LostMomentum];
+}
+
+/// A settler of its own that is broken as its [`CrossingsSabotage`] says.
+#[derive(Debug)]
+pub struct SabotagedCrossings {
+    sabotage: CrossingsSabotage,
+    plan: Arc<CrossingsPlan>,
+    /// What it works by: the same, or one without the repeat.
+    by: CrossingsPlan,
+    crossings: Vec<Crossing>,
+    /// As others find them, and as they found them a pass before.
+    found: Vec<Crossing>,
+    before: Vec<Crossing>,
+}
+
+impl SabotagedCrossings {
+    /// A settler for a problem.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`CrossingsPlan::new`].
+    pub fn new(sabotage: CrossingsSabotage, problem: &Crossings) -> Result<Self, CrossingsError> {
+        let plan = CrossingsPlan::new(problem)?;
+        let by = match sabotage {
+            CrossingsSabotage::LostRepeat => CrossingsPlan::new(&problem.clone().repeats(false, false))?,
+            _ => plan.clone(),
+        };
+        let crossings = vec![Crossing::default(); plan.crossings()];
+        let (found, before) = (crossings.clone(), crossings.clone());
+        Ok(Self { sabotage, plan: Arc::new(plan), by, crossings, found, before })
+    }
+
+    /// All crossings as crossing `number` finds them.
+    fn found_by(&self, number: usize) -> Vec<Crossing> {
+        let mut found = match self.sabotage {
+            CrossingsSabotage::StaleStep => {
+                let mut found = self.before.clone();
+                found[number] = self.found[number];
+                found
+            }
+            _ => self.found.clone(),
+        };
+        if self.sabotage == CrossingsSabotage::LostNeighbour
+            && number == 0
+            && let Some(next) = self.by.beside(self.by.site(0), Set::Warp, 0, 1)
+        {
+            found[self.by.number(next)] = found[number];
+        }
+        found
+    }
+}
+
+impl CrossingsSettler for SabotagedCrossings {
+    fn plan(&self) -> &Arc<CrossingsPlan> {
+        &self.plan
+    }
+
+    fn upload(&mut self, crossings: &[Crossing]) -> Result<(), BackendError> {
+        for own in [&mut self.crossings, &mut self.found, &mut self.before] {
+            own.copy_from_slice(crossings);
+        }
+        Ok(())
+    }
+
+    fn pass(&mut self, pass: &CrossingsPass) -> Result<CrossingsSeen, BackendError> {
+        let (by, mut seen) = (&self.by, CrossingsSeen::NOTHING);
+        let (mut next, mut crossings) = (self.found.clone(), self.crossings.clone());
+        for (number, (crossing, next)) in crossings.iter_mut().zip(&mut next).enumerate() {
+            let (site, found) = (by.site(number), self.found_by(number));
+            let block = by.block(pass, &found, site);
+            let moved = by.moved(&found[number], &block, site);
+            *next = match self.sabotage {
+                CrossingsSabotage::LostMomentum => moved,
+                _ => by.ahead(crossing, &moved, site),
+            };
+            seen = seen.and(CrossingsSeen { step: moved.difference(crossing), clearance: block.clearance });
+            *crossing = moved;
+        }
+        self.crossings = crossings;
+        self.before = std::mem::replace(&mut self.found, next);
+        Ok(seen)
+    }
+
+    fn read(&mut self, crossings: &mut [Crossing]) -> Result<(), BackendError> {
+        crossings.copy_from_slice(&self.crossings);
+        Ok(())
+    }
+}

@@ -1,0 +1,358 @@
+//! Crossings on every device of the registry, against `cpu-serial`: where threads lie, what passes see, and whole courses.
+
+use std::ops::ControlFlow;
+use std::sync::{Arc, OnceLock};
+
+use texere_conformance::{CrossingsSabotage, REGISTRY, SabotagedCrossings};
+use texere_core::crossings::{
+    Crossing, Crossings, CrossingsPass, CrossingsPlan, CrossingsRest, CrossingsSeen, CrossingsSettler, Set,
+    Thread, settle,
+};
+use texere_core::{Backend, BackendError, Limits, Schedule};
+use texere_cpu::SerialBackend;
+use texere_opencl::OpenClBackend;
+use texere_wgpu::WgpuBackend;
+
+/// All devices that are not held to the bits of `cpu-serial`, opened once; the schedule of a mesh makes no difference.
+fn devices() -> &'static [Arc<dyn Backend>] {
+    static DEVICES: OnceLock<Vec<Arc<dyn Backend>>> = OnceLock::new();
+    DEVICES.get_or_init(|| {
+        let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
+        let near = REGISTRY.iter().filter(|entry| !entry.exact);
+        let devices = near.flat_map(|entry| {
+            let (devices, missing) = entry.devices();
+            let wanted = required.split(',').any(|name| name.trim() == entry.name);
+            assert!(!wanted || missing.is_empty(), "{}: {missing:?}", entry.name);
+            devices
+        });
+        devices.filter(|device| device.info().schedule == Schedule::PerRing).collect()
+    })
+}
+
+/// Threads of a diameter every so many of it.
+fn even(
+    pitch: [f32; 2],
+    diameter: [f32; 2],
+    [ends, picks]: [usize; 2],
+    up: fn(usize, usize) -> bool,
+) -> Crossings {
+    let [warp, weft] =
+        [0, 1].map(|set| Thread { pitch: pitch[set], diameter: diameter[set], stiffness: 1.0 });
+    let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
+    Crossings::new(ups, vec![warp; ends], vec![weft; picks])
+}
+
+/// Uneven threads in a drawdown without any order.
+fn uneven(ends: usize, picks: usize) -> Crossings {
+    let mut bits = 7_u32;
+    let mut chance = || {
+        bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (bits >> 8) as f32 / (1 << 23) as f32 - 1.0
+    };
+    let mut threads = |count: usize, pitch: f32| -> Vec<Thread> {
+        let thread = |_| Thread {
+            pitch: pitch * (1.0 + 0.2 * chance()),
+            diameter: 0.3 * (1.0 + 0.3 * chance()),
+            stiffness: 1.0 + 0.5 * chance(),
+        };
+        (0..count).map(thread).collect()
+    };
+    let (warp, weft) = (threads(ends, 0.45), threads(picks, 0.5));
+    let ups = (0..ends * picks).map(|_| chance() > 0.0).collect();
+    Crossings::new(ups, warp, weft).tension(0.7, 1.4).press(2.0)
+}
+
+/// Cloths that between them have everything that passes distinguish.
+fn cloths() -> Vec<(&'static str, Crossings)> {
+    let plain = |end: usize, pick: usize| (end + pick).is_multiple_of(2);
+    let twill = |end: usize, pick: usize| !(end + 4 - pick % 4).is_multiple_of(4);
+    let satin = |end: usize, pick: usize| !(end + 64 - 3 * (pick % 8)).is_multiple_of(8);
+    let half = |end: usize, pick: usize| (end + 4 - pick % 4) % 4 < 2;
+    let jacquard = |end: usize, pick: usize| match end < 16 || pick < 16 {
+        true => !(end + 64 - 3 * (pick % 8)).is_multiple_of(8),
+        false => (end + pick).is_multiple_of(2),
+    };
+    vec![
+        ("plain", even([0.4; 2], [0.2; 2], [2, 2], plain)),
+        ("poplin", even([0.191, 0.353], [0.143; 2], [2, 2], plain)),
+        ("denim", even([0.353, 0.454], [0.343, 0.287], [4, 4], twill)),
+        ("satin of 8", even([0.25; 2], [0.2; 2], [8, 8], satin)),
+        ("twill 2/2", even([0.3; 2], [0.2; 2], [4, 4], half)),
+        ("Jacquard", even([0.355; 2], [0.203; 2], [32, 32], jacquard)),
+        ("a piece of plain", even([0.2, 0.3], [0.15; 2], [24, 20], plain).repeats(false, false)),
+        ("uneven", uneven(37, 29)),
+        ("uneven, ends repeat", uneven(12, 9).repeats(true, false)),
+        ("uneven, picks repeat", uneven(11, 14).repeats(false, true)),
+    ]
+}
+
+fn plan(problem: &Crossings) -> Arc<CrossingsPlan> {
+    Arc::new(CrossingsPlan::new(problem).expect("a plan"))
+}
+
+fn read(settler: &mut dyn CrossingsSettler) -> Result<Vec<Crossing>, BackendError> {
+    let mut crossings = vec![Crossing::default(); settler.plan().crossings()];
+    settler.read(&mut crossings)?;
+    Ok(crossings)
+}
+
+/// What eight passes came to.
+#[derive(Debug, Clone, PartialEq)]
+struct Course {
+    seen: Vec<CrossingsSeen>,
+    crossings: Vec<Crossing>,
+}
+
+/// By how much that unknown differs which differs most, in mean diameters.
+fn apart(one: &[Crossing], other: &[Crossing]) -> f32 {
+    one.iter().zip(other).map(|(one, other)| one.difference(other)).fold(0.0, f32::max)
+}
+
+/// Eight passes from number `first` of the course on: some at once, some alone.
+fn eight_passes(
+    settler: &mut dyn CrossingsSettler,
+    begin: &[Crossing],
+    first: u32,
+) -> Result<Course, BackendError> {
+    settler.upload(begin)?;
+    let passes: Vec<CrossingsPass> = (first..first + 8).map(CrossingsPass::of).collect();
+    let mut seen = Vec::new();
+    let mut note = |_: &CrossingsPass, found: CrossingsSeen| {
+        seen.push(found);
+        ControlFlow::Continue(())
+    };
+    for passes in [&passes[..3], &passes[3..4], &passes[4..]] {
+        assert!(settler.passes(passes, &mut note)?.is_continue());
+    }
+    Ok(Course { seen, crossings: read(settler)? })
+}
+
+/// How far an unknown may be off, in mean diameters.
+const OFF: f32 = 1e-4;
+
+/// A rounding of an unknown, likewise.
+const ROUNDING: f32 = 5e-7;
+
+/// Where eight passes begin: with the course, where threads are thin, and where they have almost grown.
+fn beginnings(plan: &Arc<CrossingsPlan>) -> [(u32, Vec<Crossing>); 2] {
+    let thin = plan.start().expect("crossings");
+    let mut serial = SerialBackend::new().crossings_settler(Arc::clone(plan)).expect("a settler");
+    serial.upload(&thin).expect("an upload");
+    for number in 0..46 {
+        serial.pass(&CrossingsPass::of(number)).expect("a pass");
+    }
+    [(0, thin), (46, read(serial.as_mut()).expect("crossings"))]
+}
+
+fn reference(plan: &Arc<CrossingsPlan>, begin: &[Crossing], first: u32) -> Course {
+    let mut serial = SerialBackend::new().crossings_settler(Arc::clone(plan)).expect("a settler");
+    eight_passes(serial.as_mut(), begin, first).expect("a course")
+}
+
+/// By how much two passes differ in what they saw.
+fn seen_apart(one: &CrossingsSeen, other: &CrossingsSeen) -> f32 {
+    (one.step - other.step).abs().max((one.clearance - other.clearance).abs())
+}
+
+/// How far a course may be off: threads that only just touch, or have two slopes to choose from, make much of a rounding. So ten times
+/// what the reference's own course is off when it begins a rounding beside, and [`OFF`] at least.
+fn certain(plan: &Arc<CrossingsPlan>, begin: &[Crossing], first: u32, expected: &Course) -> f32 {
+    let mut beside = begin.to_vec();
+    for (number, value) in bytemuck::cast_slice_mut::<_, f32>(&mut beside).iter_mut().enumerate() {
+        *value += ROUNDING * ((number * 7 % 5) as f32 - 2.0);
+    }
+    let other = reference(plan, &beside, first);
+    let seen = expected.seen.iter().zip(&other.seen).map(|(one, other)| seen_apart(one, other));
+    OFF.max(10.0 * seen.fold(apart(&expected.crossings, &other.crossings), f32::max))
+}
+
+/// What is wrong with a course, by the reference's: what is off by more than `most`.
+fn faults(found: &Course, expected: &Course, most: f32) -> Vec<String> {
+    let mut faults = Vec::new();
+    for (pass, (found, expected)) in found.seen.iter().zip(&expected.seen).enumerate() {
+        let off = seen_apart(found, expected);
+        if off > most || off.is_nan() {
+            faults.push(format!("seen by pass {pass}: {found:?}, not {expected:?}"));
+        }
+    }
+    let furthest = apart(&found.crossings, &expected.crossings);
+    if furthest > most || found.seen.len() != expected.seen.len() {
+        faults.push(format!("a thread is {furthest} diameters off after {} passes", found.seen.len()));
+    }
+    faults
+}
+
+#[test]
+fn devices_move_crossings_as_the_reference_does() {
+    let mut failed = Vec::new();
+    for (name, problem) in cloths() {
+        let plan = plan(&problem);
+        for (first, begin) in beginnings(&plan) {
+            let expected = reference(&plan, &begin, first);
+            assert!(apart(&expected.crossings, &begin) > OFF, "{name}: nothing moved");
+            let most = certain(&plan, &begin, first, &expected);
+            for device in devices() {
+                let mut settler = device.crossings_settler(Arc::clone(&plan)).expect("a settler");
+                let found = eight_passes(settler.as_mut(), &begin, first).expect("a course");
+                let here = format!("{}: {name}, from pass {first}", device.info().name);
+                println!("{here}: {:.1e} of {most:.1e}", apart(&found.crossings, &expected.crossings));
+                failed.extend(faults(&found, &expected, most).iter().map(|fault| format!("{here}: {fault}")));
+                // The same settler, after other passes.
+                let again = eight_passes(settler.as_mut(), &begin, first).expect("a course");
+                if bytemuck::cast_slice::<_, u8>(&again.crossings)
+                    != bytemuck::cast_slice::<_, u8>(&found.crossings)
+                    || again.seen != found.seen
+                {
+                    failed.push(format!("{here}: another end the second time"));
+                }
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+/// The proof that the comparison can fail: each broken settler is caught, and an honest one is not.
+#[test]
+fn broken_settlers_are_caught() {
+    let problem = uneven(7, 6);
+    let plan = plan(&problem);
+    for (first, begin) in beginnings(&plan) {
+        let expected = reference(&plan, &begin, first);
+        let found = |sabotage| {
+            let mut settler = SabotagedCrossings::new(sabotage, &problem).expect("a settler");
+            faults(&eight_passes(&mut settler, &begin, first).expect("a course"), &expected, OFF)
+        };
+        assert_eq!(found(CrossingsSabotage::None), [""; 0]);
+        for sabotage in CrossingsSabotage::ALL {
+            let found = found(sabotage);
+            assert!(found.iter().any(|fault| fault.starts_with("a thread is ")), "{sabotage:?}: {found:?}");
+        }
+    }
+}
+
+/// The mean of half widths, half heights and areas of each set.
+fn means(plan: &CrossingsPlan, crossings: &[Crossing]) -> Vec<f32> {
+    let mean = |of: &dyn Fn(usize) -> f32| (0..crossings.len()).map(of).sum::<f32>() / crossings.len() as f32;
+    let each = Set::BOTH.into_iter().flat_map(|set| {
+        let lie = move |number: usize| crossings[number].lie(set);
+        let radius = move |number: usize| plan.rows(set)[plan.site(number).thread(set)].radius;
+        [
+            mean(&move |number| lie(number).half_width),
+            mean(&move |number| lie(number).half_height),
+            mean(&move |number| lie(number).half_width * lie(number).half_height / radius(number).powi(2)),
+            mean(&move |number| lie(number).height.abs()),
+        ]
+    });
+    each.collect()
+}
+
+/// Crossings with each set's mean shift taken off: a repeat lies as well a little further on.
+fn centred(crossings: &[Crossing]) -> Vec<Crossing> {
+    let mean = |set: Set| {
+        crossings.iter().map(|crossing| crossing.lie(set).shift).sum::<f32>() / crossings.len() as f32
+    };
+    let [warp, weft] = Set::BOTH.map(mean);
+    let centre = |mut crossing: Crossing| {
+        crossing.warp.shift -= warp;
+        crossing.weft.shift -= weft;
+        crossing
+    };
+    crossings.iter().copied().map(centre).collect()
+}
+
+fn rest(device: &dyn Backend, plan: &Arc<CrossingsPlan>) -> (CrossingsRest, Vec<Crossing>) {
+    let mut settler = device.crossings_settler(Arc::clone(plan)).expect("a settler");
+    let rest = settle(plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("rest");
+    (rest, read(settler.as_mut()).expect("crossings"))
+}
+
+/// Whole courses: at rest, cloth measures the same.
+#[test]
+fn cloths_come_to_the_same_rest_on_every_device() {
+    let (mut failed, mut at_rest) = (Vec::new(), 0);
+    for (name, problem) in cloths() {
+        let plan = plan(&problem);
+        let (expected, crossings) = rest(&SerialBackend::new(), &plan);
+        at_rest += usize::from(expected.at_rest);
+        for device in devices() {
+            let (found, read) = rest(device.as_ref(), &plan);
+            let measures = [means(&plan, &read), means(&plan, &crossings)];
+            let both = measures[0].iter().zip(&measures[1]);
+            let off = both.map(|(one, other)| (one - other).abs()).fold(0.0, f32::max);
+            let furthest = apart(&centred(&read), &centred(&crossings));
+            let device = &device.info().name;
+            println!("{device}: {name}: {off:.1e}, {furthest:.1e}, {found:?}, {expected:?}");
+            // What still moves by a ten-thousandth a pass after 400 of them is not at one place on all devices.
+            let most = if expected.at_rest { 1e-3 } else { 1e-2 };
+            if found.at_rest != expected.at_rest
+                || found.passes.abs_diff(expected.passes) > 10
+                || (found.seen.clearance - expected.seen.clearance).abs() > 1e-3
+                || off > most
+                || expected.at_rest && furthest > 1e-3
+            {
+                failed.push(format!("{device}: {name}: {off} off, {found:?}, not {expected:?}"));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+    assert!(at_rest >= 4, "{at_rest} come to rest");
+}
+
+/// A device does no more passes than rest takes, and as many as the problem allows.
+#[test]
+fn passes_end_where_they_should() {
+    let problem = even([0.4; 2], [0.2; 2], [2, 2], |end, pick| (end + pick).is_multiple_of(2));
+    for passes in [1, 7, 23] {
+        let plan = plan(&problem.clone().passes(passes));
+        for device in devices() {
+            let mut settler = device.crossings_settler(Arc::clone(&plan)).expect("a settler");
+            let mut watched = 0;
+            let rest = settle(&plan, settler.as_mut(), |_, _| {
+                watched += 1;
+                ControlFlow::Continue(())
+            });
+            assert_eq!((watched, rest.expect("rest").passes), (passes, passes), "{}", device.info().name);
+            let broken_off = settle(&plan, settler.as_mut(), |_, _| ControlFlow::Break(()));
+            assert_eq!(broken_off.expect("rest").passes, 1, "{}", device.info().name);
+        }
+    }
+}
+
+/// A device with little memory, in each buffer or in all, does the same or says what is too large.
+#[test]
+fn small_memories_do_the_same_or_are_refused_by_name() {
+    type Held = fn(Limits) -> Option<Box<dyn Backend>>;
+    let opencl: Held = |limits| {
+        let device = OpenClBackend::open(0, Schedule::PerRing).ok()?;
+        Some(Box::new(device.with_limits(limits)))
+    };
+    let wgpu: Held = |limits| {
+        let device = WgpuBackend::open(0, Schedule::PerRing).ok()?;
+        Some(Box::new(device.with_limits(limits)))
+    };
+    let plan = plan(&uneven(37, 29));
+    let begin = plan.start().expect("crossings");
+    for held in [opencl, wgpu] {
+        let Some(device) = held(Limits::NONE) else { continue };
+        let course = |device: &dyn Backend| {
+            let mut settler = device.crossings_settler(Arc::clone(&plan))?;
+            eight_passes(settler.as_mut(), &begin, 0)
+        };
+        let whole = course(device.as_ref()).expect("a course");
+        let refused = |limits: Limits| match course(held(limits).expect("opened before").as_ref()) {
+            Ok(found) => {
+                assert!(found == whole, "another end");
+                None
+            }
+            Err(BackendError::OutOfMemory { what, .. }) => Some(what),
+            Err(error) => panic!("{error}"),
+        };
+        let each: Vec<_> = (7..17)
+            .filter_map(|power| refused(Limits { binding_bytes: 1 << power, ..Limits::NONE }))
+            .collect();
+        assert_eq!((each.first(), each.last()), (Some(&"the thread table"), Some(&"crossings")), "{each:?}");
+        let all = |memory_bytes| refused(Limits { memory_bytes, ..Limits::NONE });
+        assert_eq!(all(plan.settler_bytes()), Some("crossings as others will find them"));
+        assert_eq!(all(plan.settler_bytes() + 4096), None);
+    }
+}

@@ -44,7 +44,7 @@ pub enum FabricError {
         limit: u64,
     },
     /// A knitting program that is too large in some way.
-    #[error("{count} {what} in a knitting program, at operation {operation}; {limit} are taken at most")]
+    #[error("{count} {what} in a knitting program; {limit} are taken at most")]
     KnitSize {
         /// Of what.
         what: &'static str,
@@ -52,7 +52,7 @@ pub enum FabricError {
         count: u64,
         /// Most taken.
         limit: u64,
-        /// The operation where that is so, from 1.
+        /// The operation where that is so, from 1; 0 where it is so of the whole program.
         operation: u64,
     },
     /// A knit whose yarns run on, between its loops, further than any cloth's.
@@ -68,7 +68,7 @@ pub enum FabricError {
         limit: u64,
     },
     /// A needle further out than any machine's, or outside what the machine's beds are racked to.
-    #[error("needle {needle} at operation {operation}; needles {} to {limit} are taken", -i64::from(*.limit))]
+    #[error("needle {needle}; needles {} to {limit} are taken", -i64::from(*.limit))]
     KnitNeedle {
         /// The needle.
         needle: Needle,
@@ -78,7 +78,7 @@ pub enum FabricError {
         operation: u64,
     },
     /// An operation with carriers that the program does not have.
-    #[error("operation {operation} takes carriers that the program does not have")]
+    #[error("carriers that the program does not have")]
     KnitCarriers {
         /// The operation, from 1.
         operation: u64,
@@ -361,7 +361,90 @@ pub enum FabricError {
         /// Most taken.
         limit: u64,
     },
+    /// Guide bars of a warp knit: none, or more than are taken.
+    #[error("{bars} guide bars; a warp knit has 1 to {limit}")]
+    Bars {
+        /// How many.
+        bars: usize,
+        /// Most taken.
+        limit: usize,
+    },
+    /// A guide that holds a yarn which there is not.
+    #[error("a guide of guide bar {bar} holds yarn {yarn}, but there are {yarns}")]
+    GuideYarn {
+        /// The bar, from 1.
+        bar: usize,
+        /// The yarn, from 1.
+        yarn: u64,
+        /// How many there are.
+        yarns: usize,
+    },
+    /// A bar that stands further from the others than any does.
+    #[error("guide bar {bar} is offset by {offset} needles, beyond \u{b1}{limit}")]
+    BarOffset {
+        /// The bar, from 1.
+        bar: usize,
+        /// Its offset, needles.
+        offset: i32,
+        /// Most taken, either way.
+        limit: i32,
+    },
+    /// A run-in that no bar has.
+    #[error("guide bar {bar} has a run-in of {mm} mm, outside {low} to {high} mm a rack of 480 courses")]
+    RunIn {
+        /// The bar, from 1.
+        bar: usize,
+        /// Its run-in, mm.
+        mm: f64,
+        /// Least taken, mm.
+        low: f64,
+        /// Most taken, mm.
+        high: f64,
+    },
+    /// A Jacquard whose colours are not for as many courses as its bar's chain has.
+    #[error("the Jacquard's colours have {courses} courses, but the chain of guide bar {bar} has {chain}")]
+    JacquardCourses {
+        /// The bar, from 1.
+        bar: usize,
+        /// Courses of each colour.
+        courses: usize,
+        /// Courses of the chain.
+        chain: usize,
+    },
+    /// Wales or courses of a warp knit that its bars don't repeat in.
+    #[error("{size} {what}, but bars begin again after {multiple}: take a multiple of that")]
+    WarpRepeat {
+        /// `wales` or `courses`.
+        what: &'static str,
+        /// How many.
+        size: u32,
+        /// What it must be a multiple of.
+        multiple: u64,
+    },
+    /// Bars whose guides make no loop.
+    #[error("no guide makes a loop")]
+    NoLoops,
     /// The yarns can't be taken.
     #[error("the cloth's yarns are not sound")]
     Yarns(#[from] YarnError),
+}
+
+impl FabricError {
+    /// The operation of a knitting program that is refused, counted from 1: readers say where it stands. None of other errors.
+    ///
+    /// ```
+    /// use texere_fabric::FabricError;
+    /// assert_eq!(FabricError::KnitCarriers { operation: 3 }.operation(), Some(3));
+    /// assert_eq!(FabricError::Cancelled.operation(), None);
+    /// ```
+    #[must_use]
+    pub const fn operation(&self) -> Option<u64> {
+        match self {
+            Self::KnitSize { operation: 0, .. } => None,
+            Self::KnitSize { operation, .. }
+            | Self::KnitNeedle { operation, .. }
+            | Self::KnitCarriers { operation } => Some(*operation),
+            _ => None,
+        }
+    }
 }

@@ -3,6 +3,8 @@
 use rayon::prelude::*;
 use texere_core::{ControlPoint, Yarns};
 
+use crate::clearance::neighbours;
+
 /// Distances from the middle and weights of the ten-point Gauss-Legendre rule on \[0, 1\], whose points lie in pairs
 /// (Abramowitz and Stegun, table 25.4).
 ///
@@ -53,11 +55,15 @@ pub(crate) fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension:
     let s = (1.0 - f64::from(tension)) / 2.0;
     let count = points.len() as isize;
     let at = |number: isize| {
-        let [x, y, z] = points[number.rem_euclid(count) as usize].position().to_array().map(f64::from);
+        let [x, y, z] = position(points[number.rem_euclid(count) as usize]);
         let rounds = number.div_euclid(count) as f64;
         [x + rounds * shift[0], y + rounds * shift[1], z]
     };
     (0..count).map(|first| interval_length([-1, 0, 1, 2].map(|step| at(first + step)), s)).sum()
+}
+
+fn position(point: ControlPoint) -> [f64; 3] {
+    point.position().to_array().map(f64::from)
 }
 
 fn yarn_length(points: &[ControlPoint], closed: bool, s: f64) -> f64 {
@@ -66,27 +72,11 @@ fn yarn_length(points: &[ControlPoint], closed: bool, s: f64) -> f64 {
     let sums: Vec<f64> = (0..intervals.div_ceil(TASK))
         .into_par_iter()
         .map(|task| {
-            let interval = |first| interval_length(neighbours(points, closed, first), s);
+            let interval = |first| interval_length(neighbours(points, closed, first).map(position), s);
             (task * TASK..intervals.min((task + 1) * TASK)).map(interval).sum()
         })
         .collect();
     sums.iter().sum()
-}
-
-/// The four points that steer interval `first`, with virtual ends 2 P\[0\] - P\[1\] where an open yarn has none (the
-/// paper's equations 3 and 4).
-fn neighbours(points: &[ControlPoint], closed: bool, first: usize) -> [[f64; 3]; 4] {
-    let position = |point: &ControlPoint| point.position().to_array().map(f64::from);
-    if let Some([before, start, end, after]) = points.get(first.wrapping_sub(1)..first + 3) {
-        return [before, start, end, after].map(position);
-    }
-    let count = points.len();
-    let at = |index: usize| position(&points[index % count]);
-    let reflected = |end: [f64; 3], inner: [f64; 3]| std::array::from_fn(|k| 2.0 * end[k] - inner[k]);
-    let (start, end) = (at(first), at(first + 1));
-    let before = if closed || first > 0 { at(first + count - 1) } else { reflected(start, end) };
-    let after = if closed || first + 2 < count { at(first + 2) } else { reflected(end, start) };
-    [before, start, end, after]
 }
 
 /// Integral of the speed over one interval of the cardinal spline.

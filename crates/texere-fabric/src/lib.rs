@@ -10,7 +10,8 @@
 //! [`Weave`] in its usual notation, or straight from a function. [`Woven`] adds what each thread is like and where it
 //! lies, and turns all into [`texere_core::Yarns`].
 //!
-//! A [`Structure`] is the fabric of any design: a [`WovenDesign`], or a weft knit ([`weft::Knitted`]). It says what is wrong with the
+//! A [`Structure`] is the fabric of any design: a [`WovenDesign`], a weft knit ([`weft::Knitted`]) or a warp knit
+//! ([`warp::WarpKnitted`]). It says what is wrong with the
 //! fabric ([`Structure::diagnose`]) and which single changes would cure it ([`Structure::cures`]).
 //!
 //! Yarns are about where they belong then. [`settle`] lets them come to rest on a device, [`Structure::settle`] those of a
@@ -44,9 +45,11 @@ mod settling;
 mod structure;
 mod under;
 mod warning;
+pub mod warp;
 mod watch;
 pub mod weft;
 mod woven;
+mod yarn_check;
 mod yarn_size;
 
 pub use clearance::{
@@ -70,8 +73,8 @@ pub use under::yarns_under;
 pub use warning::FabricWarning;
 pub use woven::{
     CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, NO_CROSSING, POINTS_MAX,
-    Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, Shape, Shedding, THREADS_MAX, Thread, Tightness,
-    Weave, Woven, WovenDesign,
+    Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, Sett, Shape, Shedding, THREADS_MAX, Thread,
+    Tightness, Weave, Woven, WovenDesign, WovenRest,
 };
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,

@@ -5,6 +5,7 @@ use texere_core::{Material, Segment, Yarns};
 
 use crate::clearance::neighbours;
 use crate::reach::{Reach, mean_reach};
+use crate::yarn_size::INCH_MM;
 use crate::{FabricError, Thread, Woven, lengths_mm, tex_from_cotton_count};
 
 /// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a cubic, whose turning
@@ -15,9 +16,6 @@ const SAMPLES: u32 = 32;
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937.
 const PEIRCE: f64 = 28.0;
-
-/// One inch, mm.
-const INCH_MM: f64 = 25.4;
 
 /// What is known of a cloth once its yarns are laid.
 ///
@@ -88,6 +86,33 @@ pub struct Cover {
 }
 
 impl Measures {
+    /// What is measured of a knit of so many loops, so many wales and courses, and so many mm of width and height.
+    pub(crate) fn of_knit(
+        yarns: &Yarns,
+        tension: f32,
+        loops: u64,
+        size: [u32; 2],
+        size_mm: [f64; 2],
+    ) -> Self {
+        let length_mm = lengths_by_material(yarns, &lengths_mm(yarns, tension));
+        let area = size_mm[0] * size_mm[1];
+        let loop_length_mm = length_mm.iter().sum::<f64>() / loops as f64;
+        Self {
+            crimp: None,
+            cover: None,
+            knit: Some(KnitMeasures {
+                loops,
+                size,
+                loop_length_mm,
+                stitch_density: loops as f64 / (area * 0.01),
+                tightness: tex(&length_mm, yarns.materials()).map(|tex| tex.sqrt() / (loop_length_mm * 0.1)),
+            }),
+            areal_weight: weight_g(&length_mm, yarns.materials()).map(|grams| grams / (area * 1e-6)),
+            length_mm,
+            thickness_mm: thickness_mm(yarns, tension),
+        }
+    }
+
     /// Measures a woven `cloth`, whose yarns are `yarns`, with splines of `tension`.
     ///
     /// **Errors**: [`FabricError::OtherYarns`] where these are not the cloth's yarns.
@@ -223,4 +248,12 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
 /// The Bézier polygon of one component of the spline between the middle two of four points.
 fn bezier([before, start, end, after]: &[f32; 4], s: f32) -> [f32; 4] {
     [*start, start + (end - before) * s / 3.0, end - (after - start) * s / 3.0, *end]
+}
+
+/// The tex of all materials that are used, if it is one.
+fn tex(length_mm: &[f64], materials: &[Material]) -> Option<f64> {
+    let used = materials.iter().zip(length_mm).filter(|(_, length)| **length > 0.0);
+    let mut tex = used.map(|(material, _)| material.tex.map(f64::from));
+    let first = tex.next()??;
+    tex.all(|other| other == Some(first)).then_some(first)
 }

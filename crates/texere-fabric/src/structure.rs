@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use texere_core::{Backend, Section, Settings, Yarns};
 
 use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, ThreadPlace};
+use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
     FabricError, FabricWarning, Finish, FinishError, Measures, Piece, Settled, WovenDesign, YarnPlace,
@@ -32,6 +33,8 @@ pub enum Structure {
     Woven(WovenDesign),
     /// A weft knit.
     Weft(Knitted),
+    /// A warp knit.
+    Warp(WarpKnitted),
 }
 
 impl Structure {
@@ -40,7 +43,7 @@ impl Structure {
     pub const fn woven(&self) -> Option<&WovenDesign> {
         match self {
             Self::Woven(design) => Some(design),
-            Self::Weft(_) => None,
+            Self::Weft(_) | Self::Warp(_) => None,
         }
     }
 
@@ -48,8 +51,17 @@ impl Structure {
     #[must_use]
     pub const fn knitted(&self) -> Option<&Knitted> {
         match self {
-            Self::Woven(_) => None,
+            Self::Woven(_) | Self::Warp(_) => None,
             Self::Weft(knit) => Some(knit),
+        }
+    }
+
+    /// The warp knit, where the fabric is one: for what only warp knits have, such as guide bars.
+    #[must_use]
+    pub const fn warp_knitted(&self) -> Option<&WarpKnitted> {
+        match self {
+            Self::Warp(knit) => Some(knit),
+            Self::Woven(_) | Self::Weft(_) => None,
         }
     }
 
@@ -60,6 +72,7 @@ impl Structure {
         match self {
             Self::Woven(design) => design.cloth().yarns(),
             Self::Weft(knit) => knit.yarns(),
+            Self::Warp(knit) => knit.yarns(),
         }
     }
 
@@ -71,6 +84,7 @@ impl Structure {
         match self {
             Self::Woven(design) => Ok(Piece::cut(design.cloth().yarns()?)),
             Self::Weft(knit) => knit.piece(),
+            Self::Warp(knit) => knit.piece(),
         }
     }
 
@@ -102,6 +116,7 @@ impl Structure {
         match self {
             Self::Woven(_) => settle(&self.piece()?, finish, tension, backend, progress),
             Self::Weft(knit) => knit.settle(finish, tension, backend, progress),
+            Self::Warp(knit) => knit.settle(finish, tension, backend, progress),
         }
     }
 
@@ -111,7 +126,7 @@ impl Structure {
     pub const fn settles(&self) -> bool {
         match self {
             Self::Woven(_) => false,
-            Self::Weft(_) => true,
+            Self::Weft(_) | Self::Warp(_) => true,
         }
     }
 
@@ -122,7 +137,7 @@ impl Structure {
     pub fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
         match self {
             Self::Woven(design) => design.cloth().place(yarns, place),
-            Self::Weft(_) => ThreadPlace::on(yarns, place),
+            Self::Weft(_) | Self::Warp(_) => ThreadPlace::on(yarns, place),
         }
     }
 
@@ -132,6 +147,7 @@ impl Structure {
         match self {
             Self::Woven(design) => design.cloth().size_mm(),
             Self::Weft(knit) => knit.size_mm(),
+            Self::Warp(knit) => knit.size_mm(),
         }
     }
 
@@ -143,6 +159,7 @@ impl Structure {
         match self {
             Self::Woven(design) => design.set_section(section),
             Self::Weft(knit) => knit.set_section(section),
+            Self::Warp(knit) => knit.set_section(section),
         }
     }
 
@@ -151,7 +168,7 @@ impl Structure {
     pub fn warnings(&self) -> Vec<FabricWarning> {
         match self {
             Self::Woven(design) => design.cloth().warnings(),
-            Self::Weft(_) => Vec::new(),
+            Self::Weft(_) | Self::Warp(_) => Vec::new(),
         }
     }
 
@@ -162,6 +179,7 @@ impl Structure {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns, tension),
             Self::Weft(knit) => knit.measures(yarns, tension),
+            Self::Warp(knit) => Ok(knit.measures(yarns, tension)),
         }
     }
 
@@ -177,7 +195,7 @@ impl Structure {
     ) -> Result<ClothClearance, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().clearance(yarns, settings, progress),
-            Self::Weft(_) => {
+            Self::Weft(_) | Self::Warp(_) => {
                 let found = clearance_with_progress(yarns, settings, progress)?;
                 Ok(ClothClearance::named(found, yarns))
             }
@@ -189,7 +207,7 @@ impl Structure {
     pub fn jams(&self) -> Option<Jams> {
         match self {
             Self::Woven(design) => design.cloth().jams(),
-            Self::Weft(_) => None,
+            Self::Weft(_) | Self::Warp(_) => None,
         }
     }
 
@@ -203,8 +221,8 @@ impl Structure {
     ) -> Result<Diagnosis, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().diagnose(touching, progress),
-            Self::Weft(knit) => {
-                let clearance = self.clearance(&knit.yarns()?, &Settings::default(), progress)?;
+            Self::Weft(_) | Self::Warp(_) => {
+                let clearance = self.clearance(&self.yarns()?, &Settings::default(), progress)?;
                 Ok(Diagnosis::new(touching, clearance, None))
             }
         }
@@ -215,7 +233,7 @@ impl Structure {
     pub fn cures(&self, diagnosis: &Diagnosis, progress: impl FnMut(f64) -> ControlFlow<()>) -> Vec<Cure> {
         match self {
             Self::Woven(design) => design.cures(diagnosis, progress),
-            Self::Weft(_) => Vec::new(),
+            Self::Weft(_) | Self::Warp(_) => Vec::new(),
         }
     }
 }

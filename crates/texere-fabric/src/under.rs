@@ -3,6 +3,7 @@
 use texere_core::{ControlPoint, Segment, Yarns};
 
 use crate::YarnPlace;
+use crate::clearance::neighbours;
 
 /// Places at which each control interval is tried: between two of them a yarn that bends round another moves less than half its
 /// radius.
@@ -37,7 +38,7 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlac
         // The passage that goes on from the interval before: its distance and its place.
         let mut passage: Option<(f64, YarnPlace)> = None;
         for interval in 0..intervals {
-            let four = around(points, interval, yarn.closed);
+            let four = neighbours(points, yarn.closed, interval);
             let nearest = if may_hold(&four, point) { nearest(&four, point, s) } else { None };
             match nearest {
                 Some((distance, t, position)) => {
@@ -55,16 +56,6 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlac
     }
     found.sort_by(|one, other| other.position[2].total_cmp(&one.position[2]));
     found
-}
-
-/// The four control points of an interval, virtual ends among them.
-fn around(points: &[ControlPoint], interval: usize, closed: bool) -> [ControlPoint; 4] {
-    let count = points.len();
-    let at = |number: usize| points[number % count];
-    let (start, end) = (at(interval), at(interval + 1));
-    let before = if interval > 0 || closed { at(interval + count - 1) } else { start.reflected(&end) };
-    let after = if interval + 2 < count || closed { at(interval + 2) } else { end.reflected(&start) };
-    [before, start, end, after]
 }
 
 /// Whether the yarn can come to the point between the middle two of the four: a spline leaves their box by less than its size.

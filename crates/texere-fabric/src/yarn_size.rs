@@ -5,6 +5,9 @@
 
 use std::f64::consts::PI;
 
+/// One inch, mm.
+pub(crate) const INCH_MM: f64 = 25.4;
+
 /// Density of a cotton yarn, g/cm³: a specific volume of 1.1 cm³/g.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937.

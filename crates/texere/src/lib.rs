@@ -58,13 +58,13 @@ mod device;
 #[cfg(feature = "render")]
 pub use device::open_renderer;
 pub use device::{Devices, devices, open};
-pub use texere_core::settling;
 pub use texere_core::{
     Backend, BackendError, Boundary, BoundaryError, Chunk, ControlPoint, Counts, DeviceInfo, DeviceKind,
     Ends, Frame, Limits, Material, Mesh, MeshPiece, Origin, Pipeline, PipelineError, Plan, PlanError,
     Progress, Ring, Schedule, Section, SectionError, Settings, SettlingError, Topology, Trajectory, Vertex,
     Yarn, YarnError, Yarns, YarnsBuilder,
 };
+pub use texere_core::{crossings, settling};
 pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
@@ -72,11 +72,12 @@ pub use texere_fabric::{
     Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Settled, Shape, Shedding,
     Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave, Woven,
     WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm, linking,
-    linking_with_progress, settle, weft, yarns_under,
+    linking_with_progress, settle, warp, weft, yarns_under,
 };
 pub use texere_formats::write::{
     Format, Output, Side, Written, abandon, draft as write_draft, file as write_file,
     knit_draft as write_knit_draft, knit_rows, mesh as write, picture as write_picture, stream,
+    warp_draft as write_warp_draft, warp_rows,
 };
 pub use texere_formats::{Design, MachineFault, Place, ReadError, Told, WriteError, read};
 #[cfg(feature = "render")]

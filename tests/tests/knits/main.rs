@@ -4,9 +4,8 @@ mod topology;
 
 use std::ops::ControlFlow;
 
-use glam::DVec3;
-use texere_conformance::rest::{CROSSED, Ends, Length, Report, Start, StartYarn, check, linking};
-use texere_core::{Material, Section, Yarns, settling};
+use texere_conformance::rest::{CROSSED, Report, check, linking, piece_points, piece_start};
+use texere_core::{Material, Section, settling};
 use texere_cpu::ParallelBackend;
 use texere_fabric::weft::{Backing, Beds, Chart, Gauge, KnitYarn, Knitted, Machine, Step, Stitches};
 use texere_fabric::{Finish, Piece, Settled, settle};
@@ -65,35 +64,13 @@ fn gauge(wale: f64) -> Gauge {
     Gauge::new(wale * D, COURSE * wale * D)
 }
 
-fn points(yarns: &Yarns) -> Vec<Vec<DVec3>> {
-    let position = |yarn| yarns.yarn_points(yarn).expect("a yarn").iter().map(|at| at.position().as_dvec3());
-    (0..yarns.layout().yarns().len()).map(|yarn| position(yarn).collect()).collect()
-}
-
-/// A piece as the checks have it.
-fn start(name: &str, piece: &Piece) -> Start {
-    let ends = piece.boundary.ends().iter().map(|ends| match ends {
-        texere_core::Ends::Open => Ends::Open,
-        texere_core::Ends::Closed => Ends::Closed,
-        texere_core::Ends::Repeats(shift) => Ends::Repeats(*shift),
-    });
-    let yarns = points(&piece.yarns).into_iter().zip(ends);
-    Start {
-        name: name.to_owned(),
-        yarns: yarns.map(|(points, ends)| StartYarn { points, radius: D / 2.0, ends }).collect(),
-        repeat: piece.boundary.repeat().map(f64::from),
-        pinned: Vec::new(),
-        length: Length::Free,
-    }
-}
-
 /// Settles a piece, and checks it: clearance, bends, and whether yarns have passed through one another.
 fn settled(name: &str, piece: &Piece, length: settling::Length) -> (Settled, Report, f64) {
     let finish = Finish { length: Some(length), ..Finish::default() };
     let device = ParallelBackend::open().expect("the CPU");
     let settled = settle(piece, &finish, 0.0, &device, |_| ControlFlow::Continue(())).expect("a settling");
-    let start = start(name, piece);
-    let after = points(&settled.yarns);
+    let start = piece_start(name, piece, D / 2.0);
+    let after = piece_points(&settled.yarns);
     let report = check(&start, &after);
     let linked = linking(&start, &start.points(), &after).change;
     println!(

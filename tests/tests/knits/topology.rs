@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use texere_core::{Ends, Yarns};
+use texere_conformance::rest::{Span, piece_curve};
+use texere_core::Yarns;
 use texere_fabric::Piece;
 use texere_fabric::weft::{LoopRef, Step, Stitches};
 
@@ -36,7 +37,7 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
     for (&number, ring) in &loops {
         for repeat in images() {
             let ring: Vec<_> = ring.points.iter().map(|point| *point + shift(repeat)).collect();
-            let span = Span::new(&ring);
+            let span = Span::new(&ring, PARTS);
             for (&other, stretch) in &loops {
                 if other == number && repeat == [0, 0] {
                     continue;
@@ -71,72 +72,15 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
 
 /// A yarn, needle by needle: each has a source of its own.
 fn stretches(piece: &Piece, yarns: &Yarns, yarn: usize) -> Vec<Stretch> {
-    let points: Vec<_> =
-        yarns.yarn_points(yarn).expect("a yarn").iter().map(|point| point.position().as_dvec3()).collect();
     let range = yarns.range(yarn).expect("a yarn");
     let sources = &yarns.sources().expect("sources")[range];
-    let count = points.len() as isize;
-    let Ends::Repeats(_) = piece.boundary.ends()[yarn] else { panic!("a yarn that goes on") };
-    let [x, y] = piece.boundary.onward_mm(yarn);
-    let at = |number: isize| {
-        points[number.rem_euclid(count) as usize] + DVec3::new(x, y, 0.0) * number.div_euclid(count) as f64
-    };
-    let sample = |number: usize| {
-        let (interval, t) = ((number / PARTS) as isize, (number % PARTS) as f64 / PARTS as f64);
-        let [a, b, c, d] = [-1, 0, 1, 2].map(|step| at(interval + step));
-        let [t2, t3] = [t * t, t * t * t];
-        0.5 * (2.0 * b + (c - a) * t + (2.0 * a - 5.0 * b + 4.0 * c - d) * t2 + (3.0 * (b - c) + d - a) * t3)
-    };
-    let mut cells: Vec<_> = (0..points.len()).filter(|&k| k == 0 || sources[k] != sources[k - 1]).collect();
-    cells.push(points.len());
+    let curve = piece_curve(piece, yarns, yarn, PARTS);
+    let mut cells: Vec<_> = (0..sources.len()).filter(|&k| k == 0 || sources[k] != sources[k - 1]).collect();
+    cells.push(sources.len());
     let stretch = |cell: &[usize]| Stretch {
-        points: (cell[0] * PARTS..=cell[1] * PARTS).map(sample).collect(),
+        points: curve[cell[0] * PARTS..=cell[1] * PARTS].to_vec(),
         // The arc before a loop, one leg, the head, the other leg.
         head: (cell[1] - cell[0]) / 2 * PARTS,
     };
     cells.windows(2).map(stretch).collect()
-}
-
-/// A surface over a loop: triangles from a place between its feet, from which all of it is seen.
-struct Span<'a> {
-    ring: &'a [DVec3],
-    middle: DVec3,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl<'a> Span<'a> {
-    fn new(ring: &'a [DVec3]) -> Self {
-        let fold = |fold: fn(DVec3, DVec3) -> DVec3| ring.iter().copied().reduce(fold).expect("points");
-        let last = ring.len() - 1;
-        let feet = [1, 2].map(|point| ring[point * PARTS] + ring[last - point * PARTS]);
-        let middle = (feet[0] + feet[1]) / 4.0;
-        Self { ring, middle, low: fold(DVec3::min), high: fold(DVec3::max) }
-    }
-
-    /// How often a chain goes through, those that come back taken off.
-    fn through(&self, chain: &[DVec3]) -> i32 {
-        let mut count = 0;
-        for chord in chain.windows(2) {
-            let (from, to) = (chord[0], chord[1]);
-            if from.max(to).cmplt(self.low).any() || from.min(to).cmpgt(self.high).any() {
-                continue;
-            }
-            for (k, &one) in self.ring.iter().enumerate() {
-                let other = self.ring[(k + 1) % self.ring.len()];
-                let sides = [from, to].map(|point| volume(self.middle, one, other, point) > 0.0);
-                let corners = [[self.middle, one], [one, other], [other, self.middle]];
-                let inside = corners.map(|[one, other]| volume(from, to, one, other) > 0.0);
-                if sides[0] != sides[1] && inside.iter().all(|side| *side == inside[0]) {
-                    count += if sides[0] { 1 } else { -1 };
-                }
-            }
-        }
-        count
-    }
-}
-
-/// Six times the volume of a tetrahedron, with its sign.
-fn volume(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
-    (b - a).cross(c - a).dot(d - a)
 }

@@ -10,6 +10,8 @@ const BINS: usize = 110;
 
 /// What one task has found.
 pub(super) struct Found {
+    /// The least ratio, listed or not.
+    pub(super) least: f64,
     pub(super) below_one: u64,
     pub(super) histogram: Vec<u64>,
     pub(super) worst: Vec<Contact>,
@@ -18,23 +20,36 @@ pub(super) struct Found {
     pub(super) pairs: u64,
     /// A ratio above which a contact is not among the worst.
     bar: f64,
+    /// How many of the worst are kept.
+    most: usize,
 }
 
-impl Default for Found {
-    fn default() -> Self {
+impl Found {
+    /// The worst contacts, [`CONTACTS_LISTED`] at most.
+    pub(super) fn worst() -> Self {
+        Self::new(f64::INFINITY, CONTACTS_LISTED)
+    }
+
+    /// All contacts up to a ratio.
+    pub(super) fn up_to(ratio: f64) -> Self {
+        Self::new(ratio, usize::MAX)
+    }
+
+    fn new(bar: f64, most: usize) -> Self {
         Self {
+            least: f64::INFINITY,
             below_one: 0,
             histogram: vec![0; BINS],
             worst: Vec::new(),
             crowd: None,
             pairs: 0,
-            bar: f64::INFINITY,
+            bar,
+            most,
         }
     }
-}
 
-impl Found {
     pub(super) fn add(&mut self, ratio: f64, contact: impl FnOnce() -> Contact) {
+        self.least = self.least.min(ratio);
         self.below_one += u64::from(ratio < 1.0 - CLEARANCE_ACCURACY);
         if let Some(bin) = self.histogram.get_mut((ratio / CLEARANCE_BIN) as usize) {
             *bin += 1;
@@ -42,15 +57,15 @@ impl Found {
         if ratio <= self.bar {
             self.worst.push(contact());
         }
-        if self.worst.len() > 2 * CONTACTS_LISTED {
+        if self.worst.len() / 2 > self.most {
             self.keep_worst();
         }
     }
 
     pub(super) fn keep_worst(&mut self) {
         self.worst.sort_by(by_ratio);
-        if self.worst.len() >= CONTACTS_LISTED {
-            self.worst.truncate(CONTACTS_LISTED);
+        if self.worst.len() >= self.most {
+            self.worst.truncate(self.most);
             self.bar = self.worst.last().map_or(f64::INFINITY, |contact| contact.ratio);
         }
     }
@@ -62,6 +77,7 @@ impl Found {
     pub(super) fn joined(mut self, other: Self) -> Self {
         self.add_crowd(other.crowd);
         self.pairs += other.pairs;
+        self.least = self.least.min(other.least);
         self.below_one += other.below_one;
         for (bin, more) in self.histogram.iter_mut().zip(&other.histogram) {
             *bin += more;

@@ -131,6 +131,26 @@ pub fn clearance_with_progress(
     settings: &Settings,
     progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Clearance, FabricError> {
+    measured(yarns, settings, Found::worst, progress)
+}
+
+/// [`clearance()`] with all contacts up to a `ratio`, worst first, instead of the worst [`CONTACTS_LISTED`].
+pub(crate) fn clearance_up_to(
+    yarns: &Yarns,
+    settings: &Settings,
+    ratio: f64,
+    progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+) -> Result<Clearance, FabricError> {
+    measured(yarns, settings, || Found::up_to(ratio), progress)
+}
+
+/// The clearance of `yarns`; `nothing` says which contacts are kept.
+fn measured(
+    yarns: &Yarns,
+    settings: &Settings,
+    nothing: impl Fn() -> Found + Sync + Send,
+    progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+) -> Result<Clearance, FabricError> {
     let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
     let points = yarns.points().len();
     if points > POINTS_LIMIT {
@@ -147,8 +167,10 @@ pub fn clearance_with_progress(
     watch.expect((0..grid.len()).map(|cell| cell_work(grid.count_in(cell))).sum());
     let mut found = (0..grid.len().div_ceil(TASK))
         .into_par_iter()
-        .map(|task| probe.search(&grid, &rolls, task * TASK..grid.len().min((task + 1) * TASK), &watch))
-        .try_reduce(Found::default, |one, other| Ok(one.joined(other)))?;
+        .map(|task| {
+            probe.search(&grid, &rolls, task * TASK..grid.len().min((task + 1) * TASK), nothing(), &watch)
+        })
+        .try_reduce(&nothing, |one, other| Ok(one.joined(other)))?;
     found.keep_worst();
     let bend = spans
         .par_iter()
@@ -158,9 +180,8 @@ pub fn clearance_with_progress(
         })
         .try_reduce(|| (f64::INFINITY, None), |a, b| Ok(if b.0 < a.0 { b } else { a }))?;
     watch.advance(points as u64)?;
-    let measured = found.worst.first().map_or(f64::INFINITY, |contact| contact.ratio);
     Ok(Clearance {
-        min: found.crowd.map_or(measured, |crowd| measured.min(crowd.ratio_max())),
+        min: found.crowd.map_or(found.least, |crowd| found.least.min(crowd.ratio_max())),
         contacts: found.histogram.iter().sum(),
         below_one: found.below_one,
         worst: found.worst,

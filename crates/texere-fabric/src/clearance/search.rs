@@ -128,9 +128,9 @@ impl<'a> Probe<'a> {
         grid: &Grid,
         rolls: &Rolls,
         cells: Range<usize>,
+        mut found: Found,
         watch: &Watch<T>,
     ) -> Result<Found, FabricError> {
-        let mut found = Found::default();
         let mut points = Vec::new();
         let mut parts: Vec<Part<'_>> = Vec::new();
         let mut met: Vec<Met> = Vec::new();

@@ -1,6 +1,6 @@
 //! What can go wrong while yarns settle.
 
-use texere_core::{BackendError, SettlingError};
+use texere_core::{BackendError, CrossingsError, SettlingError};
 use thiserror::Error;
 
 use crate::FabricError;
@@ -16,6 +16,9 @@ pub enum FinishError {
     /// What is asked can't be settled.
     #[error(transparent)]
     Settling(#[from] SettlingError),
+    /// Crossings of woven cloth can't be settled.
+    #[error(transparent)]
+    Crossings(#[from] CrossingsError),
     /// The device failed, or settles nothing.
     #[error(transparent)]
     Backend(#[from] BackendError),

@@ -9,15 +9,16 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_core::settling::{self, Rest, SettlingPlan};
-use texere_core::{Backend, ControlPoint, Settings, YarnError, Yarns};
+use texere_core::{Backend, Layout, Settings, Yarns};
 
 pub use self::error::FinishError;
 pub use self::piece::Piece;
 pub use self::repeat::Repeat;
+pub(crate) use self::repeat::settled_together;
 pub use self::settled::{Finish, Settled};
 
 use self::settled::unchanged;
-use crate::{FabricError, clearance_with_progress, linking_with_progress};
+use crate::{FabricError, YarnPlace, clearance_with_progress, linking_with_progress};
 
 /// The share of the progress at which passes end, and linking is compared.
 const PASSED: f64 = 0.9;
@@ -79,7 +80,7 @@ pub fn settle(
     drop(settler);
 
     let settings = Settings { tension, ..Settings::default() };
-    let moved = moved(&piece.yarns, &points).map_err(FabricError::from)?;
+    let moved = piece.moved(&points).map_err(FabricError::from)?;
     let linking = linking_with_progress(&piece.yarns, &moved, &piece.boundary, &settings, |done| {
         progress(PASSED + (COMPARED - PASSED) * done)
     })?;
@@ -93,11 +94,32 @@ pub fn settle(
     Ok(Settled { yarns, length: finish.length(), rest, linking, clearance, course })
 }
 
-/// `yarns` with all their control points elsewhere.
-fn moved(yarns: &Yarns, points: &[ControlPoint]) -> Result<Yarns, YarnError> {
-    let mut moved = yarns.clone();
-    for (yarn, bounds) in yarns.layout().offsets().windows(2).enumerate() {
-        moved.set_points(yarn, &points[bounds[0] as usize..bounds[1] as usize])?;
+/// The share of the progress at which one repeat has settled, and its copies are measured.
+const SETTLED: f64 = 0.8;
+
+/// Lets one repeat settle, and measures [`Settled::clearance`] on all copies of it, as `laid` lays them.
+pub(crate) fn settle_repeat(
+    repeat: &Repeat,
+    laid: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
+    finish: &Finish,
+    tension: f32,
+    backend: &dyn Backend,
+    mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+) -> Result<Settled, FinishError> {
+    let mut settled = settle(&repeat.piece, finish, tension, backend, |done| progress(SETTLED * done))?;
+    let yarns = laid(&settled.yarns)?;
+    let settings = Settings { tension, ..Settings::default() };
+    settled.clearance =
+        clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;
+    for passage in &mut settled.linking.worst {
+        passage.places = passage.places.map(|place| laid_at(&place, settled.yarns.layout(), yarns.layout()));
     }
-    Ok(moved)
+    Ok(Settled { yarns, ..settled })
+}
+
+/// A place on a yarn of the repeat, on that yarn's first copy.
+fn laid_at(place: &YarnPlace, repeat: &Layout, laid: &Layout) -> YarnPlace {
+    let origin = repeat.yarns()[place.yarn].origin;
+    let yarn = laid.yarns().iter().position(|yarn| yarn.origin == origin);
+    YarnPlace { yarn: yarn.unwrap_or(place.yarn), ..*place }
 }

@@ -1,7 +1,7 @@
 //! A piece of cloth that is to settle.
 
 use texere_core::settling::Settling;
-use texere_core::{Boundary, Ends, Yarns};
+use texere_core::{Boundary, ControlPoint, Ends, YarnError, Yarns};
 
 use super::Finish;
 use crate::length::round_length_mm;
@@ -55,6 +55,21 @@ impl Piece {
             }
         });
         yarns.sum()
+    }
+
+    /// Its yarns with all their control points elsewhere, in the same order.
+    ///
+    /// **Errors**: [`YarnError`] for another number of points, or an invalid one.
+    pub fn moved(&self, points: &[ControlPoint]) -> Result<Yarns, YarnError> {
+        let planned = self.yarns.layout().point_count();
+        if points.len() as u64 != planned {
+            return Err(YarnError::PointCount { points: points.len() as u64, planned });
+        }
+        let mut moved = self.yarns.clone();
+        for (yarn, bounds) in self.yarns.layout().offsets().windows(2).enumerate() {
+            moved.set_points(yarn, &points[bounds[0] as usize..bounds[1] as usize])?;
+        }
+        Ok(moved)
     }
 
     /// The problem that `finish` makes of it, for splines of `tension`: for those who run a settler themselves, and leave what came

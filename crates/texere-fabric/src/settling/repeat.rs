@@ -2,11 +2,15 @@
 
 use std::ops::Range;
 
-use texere_core::{ControlPoint, Ends, Layout, Yarns};
+use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, Yarns};
 
 use super::Piece;
 use crate::FabricError;
 use crate::memory::room_for;
+
+/// A repeat that settles has so many wales and courses at least, if the cloth has as many: what lies over its seam is then another
+/// stitch.
+const SETTLED: u32 = 4;
 
 /// A cloth that is so many copies of one repeat. The repeat settles once, and is then copied.
 ///
@@ -52,6 +56,18 @@ impl Repeat {
     ///
     /// **Errors**: those of [`Repeat::laid`].
     pub fn laid_beyond(&self, yarns: &Yarns, beyond: u32) -> Result<Yarns, FabricError> {
+        self.laid_as(yarns, beyond, |origin, _| origin, |source, _| source)
+    }
+
+    /// As [`Repeat::laid_beyond`], but copies get origins and sources of their own, from those of the repeat and by how many repeats they
+    /// lie along x and y.
+    pub(crate) fn laid_as(
+        &self,
+        yarns: &Yarns,
+        beyond: u32,
+        origin: impl Fn(Origin, [i64; 2]) -> Origin,
+        source: impl Fn(u32, [i64; 2]) -> u32,
+    ) -> Result<Yarns, FabricError> {
         let (layout, boundary) = (yarns.layout(), &self.piece.boundary);
         if layout.offsets() != self.piece.yarns.layout().offsets() {
             let planned = self.piece.yarns.layout().point_count();
@@ -87,7 +103,7 @@ impl Repeat {
                     ControlPoint { x: at(point.x, x), y: at(point.y, y), ..*point }
                 }));
                 if let Some(all) = yarns.sources() {
-                    sources.extend_from_slice(&all[part]);
+                    sources.extend(all[part].iter().map(|own| source(*own, round)));
                 }
             };
             let beyond = (beyond as usize).min(range.len());
@@ -102,7 +118,8 @@ impl Repeat {
             if let Some(after) = next(&last) {
                 lay(after, range.start..range.start + beyond);
             }
-            table.push(layout.yarns()[yarn]);
+            let own = layout.yarns()[yarn];
+            table.push(Yarn { origin: origin(own.origin, cell), ..own });
             offsets.push(points.len() as u64);
         }
         let laid = Layout::new(table, offsets, layout.sections().to_vec())?;
@@ -119,4 +136,15 @@ impl Repeat {
     fn holds(&self, cell: [i64; 2]) -> bool {
         cell.iter().zip(self.copies).all(|(at, copies)| (0..i64::from(copies)).contains(at))
     }
+}
+
+/// How many repeats of a knit settle together along x and along y, where one has `size` wales and courses.
+pub(crate) fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
+    [0, 1].map(|axis| tiles(size[axis], copies[axis]))
+}
+
+/// The fewest repeats that divide `copies` and have enough wales or courses of `size` each; all where none does.
+fn tiles(size: u32, copies: u32) -> u32 {
+    let divides = |tiles: &u32| copies.is_multiple_of(*tiles) && tiles.saturating_mul(size) >= SETTLED;
+    (1..=copies.min(SETTLED * SETTLED)).find(divides).unwrap_or(copies)
 }

@@ -2,6 +2,8 @@
 
 use super::layers::{Layers, STEP};
 use super::{Bed, Direction, Step, Stitches};
+use crate::FabricError;
+use crate::memory::room_for;
 
 /// What a yarn does at a needle.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +31,13 @@ pub(super) struct Cell {
 const SHORT: f32 = 0.75;
 
 /// What a yarn does from its beginning to its end, or in one round; and how many wales and courses further it then goes on.
-pub(super) fn cells(stitches: &Stitches, layers: &Layers, strand: usize) -> (Vec<Cell>, Option<[i64; 2]>) {
+///
+/// **Errors**: [`FabricError::OutOfMemory`].
+pub(super) fn cells(
+    stitches: &Stitches,
+    layers: &Layers,
+    strand: usize,
+) -> Result<(Vec<Cell>, Option<[i64; 2]>), FabricError> {
     let steps = stitches.strands[strand].steps.iter().enumerate();
     let told = steps.map(|(index, step)| told(stitches, layers, [strand, index], step));
     let onward = match (stitches.strands[strand].onward, stitches.repeat) {
@@ -41,15 +49,16 @@ pub(super) fn cells(stitches: &Stitches, layers: &Layers, strand: usize) -> (Vec
     let mut cells: Vec<Cell> = Vec::new();
     for cell in told {
         if let Some(last) = cells.last().copied() {
-            pass(&mut cells, &last, &cell);
+            pass(&mut cells, &last, &cell)?;
         }
+        room_for(&mut cells, 1, "needles that a yarn comes to")?;
         cells.push(cell);
     }
     if let (Some([right, up]), Some(first), Some(last)) =
         (onward, cells.first().copied(), cells.last().copied())
     {
         let next = Cell { at: first.at + right as f32, course: first.course + up, ..first };
-        pass(&mut cells, &last, &next);
+        pass(&mut cells, &last, &next)?;
     }
     for index in 0..cells.len() {
         let near =
@@ -57,30 +66,23 @@ pub(super) fn cells(stitches: &Stitches, layers: &Layers, strand: usize) -> (Vec
         let before = index.checked_sub(1).and_then(|before| cells.get(before));
         cells[index].short = near(before) || near(cells.get(index + 1));
     }
-    (cells, onward)
+    Ok((cells, onward))
 }
 
 /// A step as a cell. `at` are its strand and its number in that.
 fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Cell {
-    let rank = layers.rank(at);
-    let cell = |number, at, course: u32, bed, direction, source| Cell {
-        number,
-        at,
-        course: i64::from(course),
-        bed,
-        direction: if direction == Direction::Right { 1.0 } else { -1.0 },
+    let (rank, visit) = (layers.rank(at), stitches.visit(step));
+    Cell {
+        number: visit.number,
+        at: visit.at,
+        course: i64::from(visit.course),
+        bed: visit.bed,
+        direction: if visit.direction == Direction::Right { 1.0 } else { -1.0 },
         lift: rank.lift,
         sharing: rank.sharing,
         plate: rank.plate,
-        source,
+        source: visit.source,
         short: false,
-    };
-    match *step {
-        Step::Loop { number, direction } => {
-            let stitch = &stitches.loops[number as usize];
-            cell(Some(number), stitch.at, stitch.course, stitch.bed, direction, stitch.source)
-        }
-        Step::Float { at, bed, course, direction, source } => cell(None, at, course, bed, direction, source),
     }
 }
 
@@ -88,12 +90,12 @@ fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Ce
 ///
 /// Where the other lies further out in the direction in which the yarn came, it floats on to there and turns; where it lies
 /// further back, it turns at once and floats back.
-fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) {
+fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), FabricError> {
     let way = f64::from(other.at - one.at) * one.direction;
     let gap = way.abs().round() as u32;
     let turns = one.direction != other.direction;
     if !turns && way.abs() <= f64::from(STEP) || gap == 0 {
-        return;
+        return Ok(());
     }
     let on = way > 0.0;
     let passed = match (turns, on) {
@@ -103,8 +105,10 @@ fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) {
     };
     let direction = if on { one.direction } else { -one.direction };
     let like = if on && turns { one } else { other };
+    room_for(cells, passed.len(), "needles that a yarn comes to")?;
     for step in passed {
         let at = one.at + (f64::from(step) / f64::from(gap) * way * one.direction) as f32;
         cells.push(Cell { number: None, at, direction, bed: one.bed, ..*like });
     }
+    Ok(())
 }

@@ -1,10 +1,10 @@
 //! Whether stitches, gauge and yarns can be a cloth.
 
-use texere_core::{Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, TWIST_LIMIT};
+use texere_core::{Material, Origin, Section, Yarn};
 
 use super::layers::held_until;
 use super::{Fate, Gauge, KnitYarn, LoopRef, Step, Stitches};
-use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
+use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN, yarn_check};
 
 /// The furthest that a needle lies from the first one, in wales.
 const WALES_MAX: f32 = 1e6;
@@ -26,7 +26,7 @@ const PASSED_POINTS: u64 = 3;
 const PASSED_MAX: u64 = 1 << 22;
 const PASSED_BESIDE_A_LOOP: u64 = 64;
 
-pub(super) fn gauge(gauge: &Gauge) -> Result<(), FabricError> {
+pub(crate) fn gauge(gauge: &Gauge) -> Result<(), FabricError> {
     let Gauge { wale_mm, course_mm, loop_length_mm } = *gauge;
     let lengths = [("wales", wale_mm), ("courses", course_mm), ("loops", loop_length_mm.unwrap_or(1.0))];
     match lengths.into_iter().find(|(_, mm)| !(SPACING_MIN..=SPACING_MAX).contains(mm)) {
@@ -35,29 +35,16 @@ pub(super) fn gauge(gauge: &Gauge) -> Result<(), FabricError> {
     }
 }
 
-pub(super) fn yarns(
+pub(crate) fn yarns(
     yarns: &[KnitYarn],
     materials: &[Material],
     sections: &[Section],
 ) -> Result<(), FabricError> {
-    for (section, each) in sections.iter().enumerate() {
-        each.validate().map_err(|source| FabricError::Section { section, source })?;
-    }
+    yarn_check::sections(sections)?;
     for (number, yarn) in (1..).zip(yarns) {
-        let thread = Origin::Carrier(number);
         let KnitYarn { radius_mm, material, section, twist } = *yarn;
-        if !(RADIUS_MIN..=RADIUS_MAX).contains(&radius_mm) {
-            return Err(FabricError::Radius { thread, radius_mm, low: RADIUS_MIN, high: RADIUS_MAX });
-        }
-        if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&twist) {
-            return Err(FabricError::Twist { thread, twist, limit: TWIST_LIMIT });
-        }
-        if material as usize >= materials.len() {
-            return Err(FabricError::UnknownMaterial { thread, material, materials: materials.len() });
-        }
-        if section as usize >= sections.len() {
-            return Err(FabricError::UnknownSection { thread, section, sections: sections.len() });
-        }
+        let yarn = Yarn { material, section, closed: false, twist, origin: Origin::Carrier(number) };
+        yarn_check::yarn(&yarn, radius_mm, materials, sections)?;
     }
     Ok(())
 }
@@ -150,16 +137,9 @@ pub(super) fn tiles(stitches: &Stitches, tiles: [u32; 2]) -> Result<(), FabricEr
 
 /// How many needles a yarn passes from loop to loop, and how many courses.
 fn passed(stitches: &Stitches, strand: &super::Strand) -> u64 {
-    let place = |step: &Step| match *step {
-        Step::Loop { number, .. } => {
-            let stitch = &stitches.loops[number as usize];
-            (stitch.at, stitch.course)
-        }
-        Step::Float { at, course, .. } => (at, course),
-    };
     let pairs = strand.steps.windows(2).map(|pair| {
-        let [(at, course), (next_at, next_course)] = [place(&pair[0]), place(&pair[1])];
-        (at - next_at).abs() as u64 + u64::from(course.abs_diff(next_course))
+        let [one, other] = [&pair[0], &pair[1]].map(|step| stitches.visit(step));
+        (one.at - other.at).abs() as u64 + u64::from(one.course.abs_diff(other.course))
     });
     pairs.sum()
 }

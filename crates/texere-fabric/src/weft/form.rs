@@ -14,6 +14,12 @@ const CROSSING: f64 = 0.7;
 /// How far the legs of a loop that is moved lean where they come out of the loop before, of the way to the next needle.
 const LEANS: f64 = 0.1;
 
+/// What nothing holds falls in front of what it is drawn through, below the feet of the next course; what is drawn through nothing
+/// either is a float.
+const FALLEN_LEG: Node = Node { up: 0.4, ..LEG };
+const FALLEN_SHOULDER: Node = Node { up: 0.5, ..LEG };
+const FALLEN_HEAD: Node = Node { up: 0.54, z: 0.8 };
+
 /// How far the feet of two layers of cloth that lie face to face are from the middle between them, in diameters; and where yarns
 /// float there.
 const APART: f64 = 0.55;
@@ -40,8 +46,11 @@ pub(super) struct Form<'a> {
     lift: f64,
     lower: Half,
     upper: Half,
-    /// How much further back its feet are than behind one loop, because of others that lie between.
+    /// How much further back its feet are than behind one loop, because of others that lie between, mm.
     behind: f64,
+    /// How far its legs come forward, so that those of the hindmost of several yarns still lie in front of the heads that they are
+    /// drawn through, mm.
+    forward: f64,
     /// How far to the right its head is.
     lean: f64,
     /// For how many courses its needle does not knit.
@@ -50,6 +59,8 @@ pub(super) struct Form<'a> {
     over: f64,
     /// Whether it is drawn through nothing: a tuck, or a loop on an empty needle.
     is_arch: bool,
+    /// Whether nothing holds it.
+    is_dropped: bool,
 }
 
 /// What one half of a loop has in common.
@@ -63,6 +74,46 @@ struct Half {
     back: f64,
 }
 
+impl Half {
+    /// The upper half of a loop: it follows the loop that is drawn through it.
+    fn upper(shape: &Shape, stitches: &Stitches, layers: &Layers, number: u32) -> Self {
+        let (next, opposite) = drawn_through(stitches, number);
+        let layer = stitches.loops[number as usize].head.layer;
+        let middle = middle(shape, layers, next, opposite);
+        Self { side: side(next), middle, back: f64::from(layer) * shape.diameter }
+    }
+
+    fn z(self, shape: &Shape, node: Node) -> f64 {
+        self.middle + self.side * (node.z * shape.depth - self.back)
+    }
+}
+
+/// z of the plane about which loops of a bed lie, whose opposite needles hold loops or do not.
+fn middle(shape: &Shape, layers: &Layers, bed: Bed, opposite: bool) -> f64 {
+    let apart = if layers.has_floats() { FLOATS_APART } else { APART };
+    if opposite { side(bed) * (ARC.z.abs() * shape.depth + apart * shape.diameter) } else { 0.0 }
+}
+
+/// The bed to which a loop's head is drawn, and whether needles opposite hold loops then.
+fn drawn_through(stitches: &Stitches, number: u32) -> (Bed, bool) {
+    let stitch = &stitches.loops[number as usize];
+    match stitch.fate {
+        Fate::Held(child) => {
+            let child = &stitches.loops[child.number as usize];
+            (child.bed, child.opposite)
+        }
+        Fate::OnNeedle => (stitch.head.bed, stitch.opposite),
+        Fate::Dropped => (stitch.bed, stitch.opposite),
+    }
+}
+
+/// How many yarns the stitch of a loop has.
+fn plates(stitches: &Stitches, number: u32) -> u16 {
+    let following = stitches.loops[number as usize..].windows(2);
+    let last = following.take_while(|pair| pair[1].plate == pair[0].plate + 1).count();
+    stitches.loops[number as usize].plate + 1 + last as u16
+}
+
 impl<'a> Form<'a> {
     /// The loop `number`, its needle at `x` and its course at height `y`, its feet `lift` above that.
     pub(super) fn new(
@@ -73,43 +124,42 @@ impl<'a> Form<'a> {
         [x, y, lift]: [f64; 3],
     ) -> Self {
         let stitch = &stitches.loops[number as usize];
-        let parents = stitch.parents.len();
-        let (next, opposite) = match stitch.fate {
-            Fate::Held(child) => {
-                let child = &stitches.loops[child.number as usize];
-                (child.bed, child.opposite)
-            }
-            Fate::OnNeedle => (stitch.head.bed, stitch.opposite),
-            Fate::Dropped => (stitch.bed, stitch.opposite),
-        };
         let is_tuck = stitch.kind == LoopKind::Tuck;
-        let apart = if layers.has_floats() { FLOATS_APART } else { APART };
-        let layer = ARC.z.abs() * shape.depth + apart * shape.diameter;
-        let half = |bed, opposite, others: u16| {
-            let side = side(bed);
-            let middle = if opposite { side * layer } else { 0.0 };
-            Half { side, middle, back: f64::from(others) * shape.diameter }
-        };
-        // A tuck lies as the loop that is drawn through it and through what else hangs there.
+        let upper = Half::upper(shape, stitches, layers, number);
+        // A tuck lies as the loop that is drawn through it and through what else hangs there. So does an arch on an empty needle: what
+        // hangs opposite may have come later.
+        let is_arch = is_tuck || stitch.parents.is_empty();
+        let (next, _) = drawn_through(stitches, number);
+        let middle = if is_arch { upper.middle } else { middle(shape, layers, stitch.bed, stitch.opposite) };
         let own = if is_tuck { next } else { stitch.bed };
-        let between = if is_tuck { usize::from(stitch.head.layer) } else { parents };
+        let lower = Half { side: side(own), middle, back: f64::from(stitch.plate) * shape.diameter };
+        let behind = if is_tuck {
+            f64::from(stitch.head.layer.saturating_sub(1)) * shape.diameter
+        } else {
+            // Behind the legs of all that it is drawn through, wherever these go.
+            let leg = lower.middle + lower.side * UPPER.z * shape.depth;
+            let further = stitches.parents_of(number).iter().map(|parent| {
+                let parent = Half::upper(shape, stitches, layers, parent.number);
+                lower.side * (leg - parent.z(shape, UPPER))
+            });
+            further.fold(0.0, f64::max)
+        };
         let held = held_until(stitches, stitch.fate).unwrap_or(0) - i64::from(stitch.course) - 1;
         let over = |crossed| side(next) * (CROSSING - crossed) * shape.diameter;
-        // So does an arch on an empty needle: what hangs opposite may have come later.
-        let is_arch = is_tuck || parents == 0;
-        let own_opposite = if is_arch { opposite } else { stitch.opposite };
         Self {
             shape,
             x,
             y,
             lift,
-            lower: half(own, own_opposite, stitch.plate),
-            upper: half(next, opposite, stitch.head.layer),
-            behind: between.saturating_sub(1) as f64 * shape.diameter,
+            lower,
+            upper,
+            behind,
+            forward: f64::from(plates(stitches, number) - 1) * shape.diameter,
             lean: f64::from(stitch.head.at - stitch.at) * shape.wale,
             held: u32::try_from(held).unwrap_or(0),
             over: layers.crossed(number).map_or(0.0, over),
             is_arch,
+            is_dropped: stitch.fate == Fate::Dropped,
         }
     }
 
@@ -119,7 +169,7 @@ impl<'a> Form<'a> {
     }
 
     fn z(&self, half: Half, node: Node) -> f64 {
-        half.middle + half.side * (node.z * self.shape.depth - half.back)
+        half.z(self.shape, node)
     }
 
     /// Its control points from foot to foot, as the yarn takes them that comes from the left (`direction` 1) or from the right
@@ -127,8 +177,18 @@ impl<'a> Form<'a> {
     pub(super) fn points(&self, direction: f64) -> (Vec<DVec3>, usize) {
         let mut points = self.half(-direction);
         let head = points.len();
-        let top = self.height(HEAD) + f64::from(self.held) * self.shape.course;
-        points.push(DVec3::new(self.x + self.lean, top, self.z(self.upper, HEAD)));
+        let (top, z) = match (self.is_dropped, self.is_arch) {
+            (true, true) => (self.height(FOOT) + self.lift, self.arc_z()),
+            (true, false) => {
+                let z = self.z(self.lower, FALLEN_HEAD) + self.lower.side * self.forward;
+                (self.height(FALLEN_HEAD), z)
+            }
+            (false, _) => {
+                let up = f64::from(self.held) * self.shape.course;
+                (self.height(HEAD) + up, self.z(self.upper, HEAD))
+            }
+        };
+        points.push(DVec3::new(self.x + self.lean, top, z));
         points.extend(self.half(direction).into_iter().rev());
         (points, head)
     }
@@ -139,36 +199,48 @@ impl<'a> Form<'a> {
 
     /// From foot to head, `hand` -1 the left one, 1 the right one.
     fn half(&self, hand: f64) -> Vec<DVec3> {
-        let Shape { wale, course, diameter: _, depth: _ } = *self.shape;
+        let Shape { wale, course, .. } = *self.shape;
         let narrow = self.shape.narrow();
         // How far along the way from the own needle to the one that it is moved to.
         let at = |across: f64, way: f64, y: f64, z: f64| {
             DVec3::new(self.x + hand * across + way * self.lean, y, z)
         };
         let (lower, upper) = (self.lower, self.upper);
+        let forward = lower.side * self.forward;
         let foot_z = self.z(lower, FOOT) - lower.side * self.behind;
         let mut points = Vec::with_capacity(8);
         if self.is_arch {
             points.push(at(SHOULDER_WIDE * wale, 0.0, self.height(FOOT) + self.lift, self.arc_z()));
+            if self.is_dropped {
+                return points;
+            }
             let leg = Node { up: 0.4, ..LEG };
             points.push(at(LEG_WIDE * wale, 0.0, self.height(leg), self.z(upper, leg) + self.over));
         } else {
             points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT) + self.lift, foot_z));
             // It has to come out between the shoulders of what it is drawn through, and in front of them, before it leans.
             let leans = LEANS * self.lean.clamp(-wale, wale);
-            let forward = lower.side * f64::max(lower.side * self.over, 0.0);
-            let z = self.z(lower, LOWER) + 0.6 * forward;
+            let over = lower.side * f64::max(lower.side * self.over, 0.0);
+            let z = self.z(lower, LOWER) + forward + 0.6 * over;
             points.push(DVec3::new(self.x + hand * narrow + leans, self.height(LOWER), z));
+            if self.is_dropped {
+                for (node, across) in [(FALLEN_LEG, LEG_WIDE), (FALLEN_SHOULDER, SHOULDER_WIDE)] {
+                    points.push(at(across * wale, 0.5, self.height(node), self.z(lower, node) + forward));
+                }
+                return points;
+            }
             if lower.side == upper.side {
                 // Of a loop that is moved, the leg on the side that it leaves has nothing in front of it.
                 let leaves = hand * self.lean < 0.0;
-                let z = self.z(if leaves { lower } else { upper }, LEG);
+                let plated = self.forward > 0.0;
+                let z = if leaves || plated { self.z(lower, LEG) + forward } else { self.z(upper, LEG) };
                 points.push(at(LEG_WIDE * wale, 0.5, self.height(LEG), z + self.over));
             } else {
                 // The leg goes through the plane of the cloth between what it came through and what comes through it.
-                for (half, across, up) in [(lower, 0.2, 0.42), (upper, 0.3, 0.58)] {
+                for (half, across, up, forward) in [(lower, 0.2, 0.42, forward), (upper, 0.3, 0.58, 0.0)] {
                     let node = Node { up, z: 0.6 };
-                    points.push(at(across * wale, 0.5, self.height(node), self.z(half, node) + self.over));
+                    let z = self.z(half, node) + forward + self.over;
+                    points.push(at(across * wale, 0.5, self.height(node), z));
                 }
             }
         }

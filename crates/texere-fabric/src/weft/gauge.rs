@@ -1,7 +1,6 @@
 //! How close stitches lie.
 
-/// One inch, mm.
-const INCH_MM: f64 = 25.4;
+use crate::yarn_size::INCH_MM;
 
 /// Munden's constants of plain jersey, dry relaxed: loops a cm along a course and along a wale, times the loop length in cm.
 const MUNDEN: [f64; 2] = [4.2, 5.5];
@@ -39,6 +38,20 @@ impl Gauge {
     #[must_use]
     pub fn per_inch(needles: f64, courses_per_cm: f64) -> Self {
         Self::new(INCH_MM / needles, 10.0 / courses_per_cm)
+    }
+
+    /// A wale for each needle of a machine with so many to the inch, and courses as close as plain jersey has them, by Munden's
+    /// constants ([`Gauge::munden`]): 4.2 / 5.5 of a wale.
+    ///
+    /// ```
+    /// let gauge = texere_fabric::weft::Gauge::plain(14.0);
+    /// assert!((gauge.wale_mm - 1.814).abs() < 1e-3 && (gauge.course_mm / gauge.wale_mm - 0.764).abs() < 1e-3);
+    /// ```
+    #[must_use]
+    pub fn plain(needles: f64) -> Self {
+        let [wales, courses] = MUNDEN;
+        let wale_mm = INCH_MM / needles;
+        Self::new(wale_mm, wales / courses * wale_mm)
     }
 
     /// Plain jersey with loops of `loop_length_mm`, as it lies after dry relaxation: 4.2 / l wales and 5.5 / l courses to the cm,

@@ -7,14 +7,11 @@ use super::layers::Layers;
 use super::path::Cloth;
 use super::pen::Laid;
 use super::shape::Shape;
-use super::{Gauge, Step, Stitches, Strand, check};
+use super::{Gauge, Stitches, Strand, check};
 use crate::memory::room_for;
 use crate::reach::Reach;
+use crate::settling::settled_together;
 use crate::{FabricError, POINTS_MAX, Piece, Repeat};
-
-/// A repeat that settles has so many wales and courses at least, if the cloth has as many: what lies over its seam is then another
-/// stitch.
-const SETTLED: u32 = 4;
 
 /// A yarn of a knitted cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +77,7 @@ impl Knitted {
         check::stitches(&stitches, yarns.len())?;
         check::size(&stitches, copies)?;
         check::tiles(&stitches, stitches.repeat.map_or([1, 1], |size| settled_together(size, copies)))?;
-        let shape = Shape::new(&gauge, thickest(&stitches, &yarns, &sections));
+        let shape = Shape::new(&gauge, thickest(used(&stitches, &yarns), &sections));
         Ok(Self { stitches, gauge, yarns, materials, sections, copies, cells: Cells::Round, shape })
     }
 
@@ -91,7 +88,7 @@ impl Knitted {
         section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
         self.sections = vec![section];
         self.yarns.iter_mut().for_each(|yarn| yarn.section = 0);
-        self.shape = Shape::new(&self.gauge, thickest(&self.stitches, &self.yarns, &self.sections));
+        self.shape = Shape::new(&self.gauge, thickest(used(&self.stitches, &self.yarns), &self.sections));
         Ok(())
     }
 
@@ -164,11 +161,11 @@ impl Knitted {
         self.laid(&repeat, &repeat.piece.yarns)
     }
 
-    /// All copies of a repeat, settled or not. Yarns are cut off two control points beyond the last loop, where that does not spoil their
-    /// count.
+    /// All copies of a repeat, settled or not. Yarns are cut off three control points beyond the last loop, where that does not spoil
+    /// their count: a leg runs straight there, so that what is cut off bends as in the repeat, and touches nothing.
     pub(super) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let beyond = match self.cells {
-            Cells::Round => 2,
+            Cells::Round => 3,
             Cells::Even => 0,
         };
         repeat.laid_beyond(yarns, beyond)
@@ -200,8 +197,10 @@ impl Knitted {
         let layers = Layers::new(stitches);
         let left = if stitches.repeat.is_some() { 0.0 } else { extent(stitches).0 };
         let cloth = Cloth { stitches, layers: &layers, shape: &self.shape, left, kind: self.cells };
-        let laid: Vec<Laid> =
-            (0..stitches.strands.len()).into_par_iter().map(|strand| cloth.lay(strand)).collect();
+        let laid: Vec<Laid> = (0..stitches.strands.len())
+            .into_par_iter()
+            .map(|strand| cloth.lay(strand))
+            .collect::<Result<_, _>>()?;
         let total = laid.iter().map(|laid| laid.points.len()).sum();
         let (mut table, mut offsets, mut ends) = (Vec::new(), vec![0], Vec::new());
         let (mut points, mut sources, mut pinned) = (Vec::new(), Vec::new(), Vec::new());
@@ -238,40 +237,28 @@ impl Knitted {
     }
 }
 
-/// Diameter of the thickest yarn, mm.
-fn thickest(stitches: &Stitches, yarns: &[KnitYarn], sections: &[Section]) -> f64 {
-    let used = stitches.strands.iter().map(|strand| &yarns[strand.carrier as usize]);
-    let half = |yarn: &KnitYarn| {
+/// The yarn of each strand.
+fn used<'a>(stitches: &'a Stitches, yarns: &'a [KnitYarn]) -> impl Iterator<Item = KnitYarn> + 'a {
+    stitches.strands.iter().map(|strand| yarns[strand.carrier as usize])
+}
+
+/// Diameter of the thickest of some yarns, mm.
+pub(crate) fn thickest(yarns: impl Iterator<Item = KnitYarn>, sections: &[Section]) -> f64 {
+    let half = |yarn: KnitYarn| {
         let [width, height] = Reach::new(&sections[yarn.section as usize]).room(yarn.twist);
         yarn.radius_mm * width.max(height)
     };
-    2.0 * f64::from(used.map(half).fold(0.0, f32::max))
-}
-
-/// How many repeats settle together along x and along y.
-fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
-    [0, 1].map(|axis| tiles(size[axis], copies[axis]))
-}
-
-/// The fewest repeats that divide `copies` and have enough wales or courses of `size` each; all where none does.
-fn tiles(size: u32, copies: u32) -> u32 {
-    let divides = |tiles: &u32| copies.is_multiple_of(*tiles) && tiles.saturating_mul(size) >= SETTLED;
-    (1..=copies.min(SETTLED * SETTLED)).find(divides).unwrap_or(copies)
+    2.0 * f64::from(yarns.map(half).fold(0.0, f32::max))
 }
 
 /// The places of the first and of the last needle that any yarn comes to.
 fn extent(stitches: &Stitches) -> (f32, f32) {
-    let floats = stitches.strands.iter().flat_map(|strand| &strand.steps).filter_map(|step| match *step {
-        Step::Float { at, .. } => Some(at),
-        Step::Loop { .. } => None,
-    });
-    let places = stitches.loops.iter().map(|stitch| stitch.at).chain(floats);
+    let steps = stitches.strands.iter().flat_map(|strand| &strand.steps);
+    let places =
+        stitches.loops.iter().map(|stitch| stitch.at).chain(steps.map(|step| stitches.visit(step).at));
     places.fold((f32::INFINITY, f32::NEG_INFINITY), |(left, right), at| (left.min(at), right.max(at)))
 }
 
 fn first_course(stitches: &Stitches, strand: &Strand) -> u32 {
-    strand.steps.first().map_or(0, |step| match *step {
-        Step::Loop { number, .. } => stitches.loops[number as usize].course,
-        Step::Float { course, .. } => course,
-    })
+    strand.steps.first().map_or(0, |step| stitches.visit(step).course)
 }

@@ -2,10 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::{Bed, Direction, Fate, Head, Step, Stitch, Stitches};
-
-/// Half wales to the wale: needles of a bed that is racked by half a pitch lie between those of the other.
-const HALVES: f32 = 2.0;
+use super::stitches::HALVES;
+use super::{Bed, Fate, Head, Step, Stitch, Stitches, Visit};
 
 /// Loops further apart than so many wales have needles between them that are passed.
 pub(super) const STEP: f32 = 1.6;
@@ -117,7 +115,7 @@ impl Layers {
     /// What a yarn passes behind that floats past a needle, laid by `bed`.
     pub(super) fn behind(&self, course: i64, at: f32, bed: Bed) -> Behind {
         // Needles of a bed that is racked by half a pitch lie on either side.
-        let beside = [-1.0, 0.0, 1.0].map(|halves| self.place(course, at + halves / HALVES));
+        let beside = [-1.0, 0.0, 1.0].map(|halves| self.place(course, at + halves / HALVES as f32));
         let hanging = beside.map(|place| self.hanging.get(&place).copied().unwrap_or_default());
         let of = |bed: usize| Hanging {
             any: hanging.iter().any(|beds| beds[bed].any),
@@ -133,10 +131,10 @@ impl Layers {
     }
 
     fn place(&self, course: i64, at: f32) -> Place {
-        let half = (at * HALVES).round() as i64;
+        let half = (at * HALVES as f32).round() as i64;
         match self.repeat {
             Some([wales, courses]) => {
-                [course.rem_euclid(i64::from(courses)), half.rem_euclid(2 * i64::from(wales))]
+                [course.rem_euclid(i64::from(courses)), half.rem_euclid(HALVES * i64::from(wales))]
             }
             None => [course, half],
         }
@@ -228,43 +226,25 @@ fn ranks(stitches: &Stitches) -> Vec<Vec<Rank>> {
     all
 }
 
-/// A step, whatever it is.
-#[derive(Debug, Clone, Copy)]
-struct Laid {
-    at: f32,
-    bed: Bed,
-    course: u32,
-    direction: Direction,
-    /// The loop's number and plate.
-    made: Option<(u32, u16)>,
-}
-
 /// The passes of a strand, in order.
 fn passes_of(stitches: &Stitches, strand: usize) -> Vec<Pass> {
-    let steps = stitches.strands[strand].steps.iter().map(|step| match *step {
-        Step::Loop { number, direction } => {
-            let Stitch { at, bed, course, plate, .. } = stitches.loops[number as usize];
-            Laid { at, bed, course, direction, made: Some((number, plate)) }
-        }
-        Step::Float { at, bed, course, direction, .. } => Laid { at, bed, course, direction, made: None },
-    });
-    let steps: Vec<_> = steps.collect();
+    let steps: Vec<_> = stitches.strands[strand].steps.iter().map(|step| stitches.visit(step)).collect();
     let across = stitches.repeat.filter(|_| stitches.strands[strand].onward.is_some());
     let (mut passes, mut first, mut time) = (Vec::new(), 0, 0);
     for run in steps.chunk_by(|one, other| (one.course, one.direction) == (other.course, other.direction)) {
-        let made = run.iter().find_map(|step| step.made);
-        time = made.map_or(time, |(number, _)| number);
+        let made = run.iter().find_map(|step| step.number);
+        time = made.unwrap_or(time);
         let span = run.last().map_or(0.0, |last| (last.at - run[0].at).abs());
         let seam = across.map_or(0.0, |[wales, _]| wales as f32 - span);
-        let mixed = |pair: &[Laid]| pair[0].bed != pair[1].bed || (pair[0].at - pair[1].at).abs() > STEP;
+        let mixed = |pair: &[Visit]| pair[0].bed != pair[1].bed || (pair[0].at - pair[1].at).abs() > STEP;
         passes.push(Pass {
             strand,
             first,
             last: first + run.len() - 1,
             course: run[0].course,
             time,
-            plate: made.map_or(0, |(_, plate)| plate),
-            mixed: seam > STEP || run.iter().any(|step| step.made.is_none()) || run.windows(2).any(mixed),
+            plate: made.map_or(0, |number| stitches.loops[number as usize].plate),
+            mixed: seam > STEP || run.iter().any(|step| step.number.is_none()) || run.windows(2).any(mixed),
         });
         first += run.len();
     }

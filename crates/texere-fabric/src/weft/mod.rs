@@ -10,10 +10,10 @@
 
 mod cells;
 mod chart;
-mod check;
+pub(crate) mod check;
 mod form;
 mod gauge;
-mod knitted;
+pub(crate) mod knitted;
 mod layers;
 mod machine;
 mod path;
@@ -29,4 +29,4 @@ pub use gauge::Gauge;
 pub use knitted::{Cells, KnitYarn, Knitted};
 pub use machine::{FAULTS_LISTED, Fault, FaultKind, Knit, LOOPS_MAX, Machine, NEEDLE_MAX, STACK_MAX};
 pub use program::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
-pub use stitches::{Fate, Head, LoopKind, LoopRef, Parent, Step, Stitch, Stitches, Strand};
+pub use stitches::{Fate, Head, LoopKind, LoopRef, Parent, Step, Stitch, Stitches, Strand, Visit};

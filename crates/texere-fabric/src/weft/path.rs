@@ -8,6 +8,7 @@ use super::layers::{Behind, Layers};
 use super::pen::{Laid, Pen};
 use super::shape::{ARC, Shape};
 use super::{Cells, Fate, Stitches};
+use crate::FabricError;
 
 /// Yarns that share a course lie so many diameters apart where they cross, if the course has room for it.
 const CROSSING: f64 = 1.0;
@@ -35,32 +36,34 @@ pub(super) struct Cloth<'a> {
 
 impl Cloth<'_> {
     /// Lays a yarn, one round of it where it goes on in the next repeat.
-    pub(super) fn lay(&self, strand: usize) -> Laid {
-        let (cells, onward) = cells(self.stitches, self.layers, strand);
-        let (Some(first), Some(last)) = (cells.first(), cells.last()) else { return Laid::default() };
+    ///
+    /// **Errors**: [`FabricError::OutOfMemory`].
+    pub(super) fn lay(&self, strand: usize) -> Result<Laid, FabricError> {
+        let (cells, onward) = cells(self.stitches, self.layers, strand)?;
+        let (Some(first), Some(last)) = (cells.first(), cells.last()) else { return Ok(Laid::default()) };
         let mut pen = Pen::default();
         match onward {
             Some([right, up]) => {
                 pen.cell(first.source);
                 let before = Cell { at: last.at - right as f32, course: last.course - up, ..*last };
-                self.join(&mut pen, strand, &before, first);
+                self.join(&mut pen, strand, &before, first)?;
             }
-            None => self.begin(&mut pen, first),
+            None => self.begin(&mut pen, first)?,
         }
-        self.cell(&mut pen, first);
+        self.cell(&mut pen, first)?;
         for pair in cells.windows(2) {
             pen.cell(pair[1].source);
-            self.join(&mut pen, strand, &pair[0], &pair[1]);
-            self.cell(&mut pen, &pair[1]);
+            self.join(&mut pen, strand, &pair[0], &pair[1])?;
+            self.cell(&mut pen, &pair[1])?;
         }
         if onward.is_none() {
-            self.end(&mut pen, last);
+            self.end(&mut pen, last)?;
         }
         let onward = onward.map(|[right, up]| {
             DVec3::new(right as f64 * self.shape.wale, up as f64 * self.shape.course, 0.0)
         });
         match self.kind {
-            Cells::Round => pen.laid(),
+            Cells::Round => Ok(pen.laid()),
             Cells::Even => pen.even(onward),
         }
     }
@@ -99,11 +102,12 @@ impl Cloth<'_> {
     }
 
     /// What a yarn does at a needle.
-    fn cell(&self, pen: &mut Pen, cell: &Cell) {
+    fn cell(&self, pen: &mut Pen, cell: &Cell) -> Result<(), FabricError> {
         match cell.number {
             Some(number) => {
                 let (points, head) = self.form(cell, number).points(cell.direction);
                 let on_needle = self.stitches.loops[number as usize].fate == Fate::OnNeedle;
+                pen.room(points.len())?;
                 for (index, point) in points.into_iter().enumerate() {
                     pen.point(point);
                     if on_needle && index == head {
@@ -112,6 +116,7 @@ impl Cloth<'_> {
                 }
             }
             None => {
+                pen.room(2)?;
                 let ways: &[f64] = if cell.short { &[0.0] } else { &[-1.0, 1.0] };
                 for across in ways {
                     let x = self.x(cell.at) + across * cell.direction * self.shape.wale / 6.0;
@@ -119,19 +124,25 @@ impl Cloth<'_> {
                 }
             }
         }
+        Ok(())
     }
 
     /// The yarn between two needles.
-    fn join(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) {
+    fn join(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) -> Result<(), FabricError> {
         if one.direction != other.direction {
             return self.turn(pen, strand, one, other);
         }
         let x = f64::midpoint(self.x(one.at), self.x(other.at));
         let y = f64::midpoint(self.y(one), self.y(other));
-        pen.point(DVec3::new(x, y, between(self.z(one), self.z(other))));
+        let [from, to] = [self.z(one), self.z(other)];
+        // From bed to bed, yarns of one stitch change places: the one in front passes above.
+        let below = if from * to < 0.0 { f64::from(one.plate) * self.shape.diameter } else { 0.0 };
+        pen.room(1)?;
+        pen.point(DVec3::new(x, y - below, between(from, to)));
         if self.is_first(one) && self.is_first(other) {
             pen.pin();
         }
+        Ok(())
     }
 
     /// Whether a loop is of the first course, drawn through nothing.
@@ -143,7 +154,7 @@ impl Cloth<'_> {
     }
 
     /// The yarn turns round beside the outer of two needles.
-    fn turn(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) {
+    fn turn(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) -> Result<(), FabricError> {
         let Shape { wale, course, diameter, .. } = *self.shape;
         let outwards = one.direction;
         let outer = f64::max(outwards * self.x(one.at), outwards * self.x(other.at)) + 0.5 * wale;
@@ -157,17 +168,20 @@ impl Cloth<'_> {
         }
         let [start, end] =
             [(from, one), (to, other)].map(|(y, cell)| DVec3::new(outwards * outer, y, self.z(cell)));
-        pen.point(start);
         let steps = ((to - from).abs() / course).round().max(1.0) as u32;
+        pen.room(steps as usize + 2)?;
+        pen.point(start);
         for step in 0..steps {
             let way = (f64::from(step) + 0.5) / f64::from(steps);
             pen.point(start.lerp(end, way).with_x(out));
         }
         pen.point(end);
+        Ok(())
     }
 
     /// The beginning of a yarn.
-    fn begin(&self, pen: &mut Pen, first: &Cell) {
+    fn begin(&self, pen: &mut Pen, first: &Cell) -> Result<(), FabricError> {
+        pen.room(2)?;
         let [near, far] = self.loose(first, -first.direction);
         pen.source(first.source);
         pen.point(far);
@@ -175,15 +189,18 @@ impl Cloth<'_> {
         pen.cell(first.source);
         pen.point(near);
         pen.pin();
+        Ok(())
     }
 
     /// The end of a yarn.
-    fn end(&self, pen: &mut Pen, last: &Cell) {
+    fn end(&self, pen: &mut Pen, last: &Cell) -> Result<(), FabricError> {
+        pen.room(2)?;
         pen.tail();
         for point in self.loose(last, last.direction) {
             pen.point(point);
             pen.pin();
         }
+        Ok(())
     }
 
     /// Half a wale and a whole one beside a cell: level, or behind what hangs there.

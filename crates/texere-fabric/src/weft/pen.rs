@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use super::shape::cardinal;
+use crate::FabricError;
+use crate::memory::room_for;
 
 /// Control points of a cell where all have as many: those of a plain loop and the arc before it.
 const EVEN: usize = 12;
@@ -29,6 +31,14 @@ pub(super) struct Pen {
 }
 
 impl Pen {
+    /// Makes room for so many points more.
+    ///
+    /// **Errors**: [`FabricError::OutOfMemory`].
+    pub(super) fn room(&mut self, points: usize) -> Result<(), FabricError> {
+        room_for(&mut self.laid.points, points, "points of a yarn")?;
+        room_for(&mut self.laid.sources, points, "sources of a yarn's points")
+    }
+
     /// A cell begins.
     pub(super) fn cell(&mut self, source: u32) {
         self.source = source;
@@ -62,7 +72,9 @@ impl Pen {
 
     /// As many points in each cell, along the curve through those that were written. `onward` is how far the yarn's next round
     /// lies from this one. What comes before the first cell and after the last stays as it is.
-    pub(super) fn even(self, onward: Option<DVec3>) -> Laid {
+    ///
+    /// **Errors**: [`FabricError::OutOfMemory`].
+    pub(super) fn even(self, onward: Option<DVec3>) -> Result<Laid, FabricError> {
         let Laid { points, sources, pinned } = &self.laid;
         let count = points.len() as isize;
         let at = |number: isize| match onward {
@@ -73,6 +85,9 @@ impl Pen {
         };
         let end = self.tail.unwrap_or(points.len());
         let mut even = Laid::default();
+        let total = self.cells.len() * EVEN + points.len();
+        room_for(&mut even.points, total, "points of a yarn")?;
+        room_for(&mut even.sources, total, "sources of a yarn's points")?;
         let keep = |range: std::ops::Range<usize>, even: &mut Laid| {
             for number in range {
                 if pinned.binary_search(&(number as u64)).is_ok() {
@@ -105,6 +120,6 @@ impl Pen {
             }
         }
         keep(end..points.len(), &mut even);
-        even
+        Ok(even)
     }
 }

@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use super::{Bed, Direction};
 
+/// Half wales to the wale: needles of a bed that is racked by half a pitch lie between those of the other.
+pub(super) const HALVES: i64 = 2;
+
 /// A loop, by its number in [`Stitches::loops`], and in which repeat it lies as seen from the one that refers to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct LoopRef {
@@ -105,6 +108,23 @@ pub enum Step {
     },
 }
 
+/// A needle that a yarn comes to, whatever it does there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Visit {
+    /// The loop that it makes; none where it floats.
+    pub number: Option<u32>,
+    /// The needle's place, in wales.
+    pub at: f32,
+    /// Its bed.
+    pub bed: Bed,
+    /// The course.
+    pub course: u32,
+    /// Which way the carriage moves.
+    pub direction: Direction,
+    /// The operation's source.
+    pub source: u32,
+}
+
 /// A yarn from where it is brought in to where it is cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strand {
@@ -138,5 +158,21 @@ impl Stitches {
     pub fn parents_of(&self, number: u32) -> &[Parent] {
         let Range { start, end } = self.loops[number as usize].parents;
         &self.parents[start as usize..end as usize]
+    }
+
+    /// Where a yarn is at a step, and which way it goes.
+    ///
+    /// **Panics** for a loop past the last one.
+    #[must_use]
+    pub fn visit(&self, step: &Step) -> Visit {
+        match *step {
+            Step::Loop { number, direction } => {
+                let Stitch { at, bed, course, source, .. } = self.loops[number as usize];
+                Visit { number: Some(number), at, bed, course, direction, source }
+            }
+            Step::Float { at, bed, course, direction, source } => {
+                Visit { number: None, at, bed, course, direction, source }
+            }
+        }
     }
 }

@@ -1,10 +1,10 @@
 //! A woven cloth: its drawdown and its threads.
 
-use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, TWIST_LIMIT};
+use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, Yarn};
 
 use super::thread::{FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, Thread};
 use super::{Crimp, Drawdown, Shape};
-use crate::FabricError;
+use crate::{FabricError, yarn_check};
 
 /// The most control points of a cloth: 64 GiB of them.
 pub const POINTS_MAX: u64 = 1 << 32;
@@ -51,7 +51,7 @@ impl Woven {
     ///
     /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control points than
     /// [`POINTS_MAX`], spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii outside \[[`RADIUS_MIN`],
-    /// [`RADIUS_MAX`]\], twists beyond [`TWIST_LIMIT`], unknown materials and sections, sections that are not sound, and
+    /// [`RADIUS_MAX`]\], twists beyond [`TWIST_LIMIT`](texere_core::TWIST_LIMIT), unknown materials and sections, sections that are not sound, and
     /// cloth wider or longer than [`COORDINATE_LIMIT`].
     pub fn new(
         drawdown: Drawdown,
@@ -66,9 +66,7 @@ impl Woven {
                 return Err(FabricError::ThreadCount { set, threads, planned });
             }
         }
-        for (section, shape) in sections.iter().enumerate() {
-            shape.validate().map_err(|source| FabricError::Section { section, source })?;
-        }
+        yarn_check::sections(&sections)?;
         let (shape, crimp) = (Shape::default(), Crimp::default());
         let cloth = Self { drawdown, warp, weft, materials, sections, shape, crimp, selvedge: false };
         // The least that any shape has: where the cloth's own has more, its yarns are refused.
@@ -99,14 +97,9 @@ impl Woven {
                     high: SPACING_MAX,
                 });
             }
-            if !(RADIUS_MIN..=RADIUS_MAX).contains(&each.radius_mm) {
-                return Err(FabricError::Radius {
-                    thread,
-                    radius_mm: each.radius_mm,
-                    low: RADIUS_MIN,
-                    high: RADIUS_MAX,
-                });
-            }
+            let Thread { material, section, twist, radius_mm, .. } = *each;
+            let yarn = Yarn { material, section, closed: false, twist, origin: thread };
+            yarn_check::yarn(&yarn, radius_mm, &self.materials, &self.sections)?;
             if !(FLATNESS_MIN..=FLATNESS_MAX).contains(&each.flatness) {
                 return Err(FabricError::Flatness {
                     thread,
@@ -126,17 +119,6 @@ impl Woven {
                         high: RADIUS_MAX,
                     });
                 }
-            }
-            if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&each.twist) {
-                return Err(FabricError::Twist { thread, twist: each.twist, limit: TWIST_LIMIT });
-            }
-            if each.material as usize >= self.materials.len() {
-                let materials = self.materials.len();
-                return Err(FabricError::UnknownMaterial { thread, material: each.material, materials });
-            }
-            if each.section as usize >= self.sections.len() {
-                let sections = self.sections.len();
-                return Err(FabricError::UnknownSection { thread, section: each.section, sections });
             }
         }
         Ok(())

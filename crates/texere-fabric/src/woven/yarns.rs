@@ -19,7 +19,7 @@ const _: () = assert!(POINTS_MAX / 2 < NO_CROSSING as u64);
 
 /// What is woven in one go: an end, or a pick after the turn that leads to it.
 #[derive(Debug, Clone, Copy)]
-enum Pass {
+pub(super) enum Pass {
     End(usize),
     /// A pick, and whether it is cut off at its beginning and at its end.
     Pick(usize, [bool; 2]),
@@ -73,12 +73,7 @@ impl Woven {
 
         let mut points: Vec<ControlPoint> = zeroed("control points", total)?;
         let mut sources: Vec<u32> = zeroed("sources", total)?;
-        let (mut points_left, mut sources_left) = (points.as_mut_slice(), sources.as_mut_slice());
-        let pens = counts.into_iter().map(|count| {
-            let points = points_left.split_off_mut(..count).unwrap_or_default();
-            let sources = sources_left.split_off_mut(..count).unwrap_or_default();
-            Pen { points: points.iter_mut(), sources: sources.iter_mut() }
-        });
+        let pens = Pen::all(&mut points, &mut sources, counts);
         loom.each(&passes, pens, |path, pass, mut pen| {
             loom.lay(path, pass, &mut |point, source| pen.write(point, source));
         });
@@ -103,7 +98,7 @@ impl Woven {
     }
 
     /// All ends, then all picks.
-    fn passes(&self) -> Vec<Pass> {
+    pub(super) fn passes(&self) -> Vec<Pass> {
         let ends = (0..self.warp().len()).map(Pass::End);
         let runs = selvedge::runs(self.weft(), self.selvedge());
         let picks = runs.into_iter().flat_map(|run| {
@@ -113,7 +108,7 @@ impl Woven {
     }
 
     /// What belongs to the yarn that begins with a pass beside its control points; none where none begins.
-    fn yarn(&self, pass: &Pass) -> Option<Yarn> {
+    pub(super) fn yarn(&self, pass: &Pass) -> Option<Yarn> {
         let (thread, origin): (Thread, _) = match *pass {
             Pass::End(end) => (self.warp()[end], Origin::End(end as u32 + 1)),
             Pass::Pick(pick, [true, _]) => (self.weft()[pick], Origin::Pick(pick as u32 + 1)),
@@ -229,7 +224,7 @@ impl Loom<'_> {
 
 impl Pass {
     /// Whether it is cut off at its beginning and at its end.
-    const fn cut(self) -> [bool; 2] {
+    pub(super) const fn cut(self) -> [bool; 2] {
         match self {
             Self::End(_) => [true; 2],
             Self::Pick(_, cut) => cut,
@@ -237,19 +232,33 @@ impl Pass {
     }
 
     /// Whether a turn leads to it.
-    const fn turns(self) -> bool {
+    pub(super) const fn turns(self) -> bool {
         !self.cut()[0]
     }
 }
 
 /// Writes one pass's control points and sources, one after another.
-struct Pen<'a> {
+pub(super) struct Pen<'a> {
     points: std::slice::IterMut<'a, ControlPoint>,
     sources: std::slice::IterMut<'a, u32>,
 }
 
-impl Pen<'_> {
-    fn write(&mut self, point: ControlPoint, source: u32) {
+impl<'a> Pen<'a> {
+    /// A pen for each pass, that writes so many.
+    pub(super) fn all(
+        mut points: &'a mut [ControlPoint],
+        mut sources: &'a mut [u32],
+        counts: Vec<usize>,
+    ) -> Vec<Self> {
+        let pen = |count| {
+            let points = points.split_off_mut(..count).unwrap_or_default();
+            let sources = sources.split_off_mut(..count).unwrap_or_default();
+            Self { points: points.iter_mut(), sources: sources.iter_mut() }
+        };
+        counts.into_iter().map(pen).collect()
+    }
+
+    pub(super) fn write(&mut self, point: ControlPoint, source: u32) {
         if let (Some(to), Some(from)) = (self.points.next(), self.sources.next()) {
             (*to, *from) = (point, source);
         }

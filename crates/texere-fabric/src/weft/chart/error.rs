@@ -80,3 +80,18 @@ pub enum ChartError {
     #[error(transparent)]
     Memory(#[from] FabricError),
 }
+
+impl ChartError {
+    /// The same of a chart of so many rows that are counted from the bottom.
+    #[must_use]
+    pub fn from_below(mut self, rows: usize) -> Self {
+        if let Self::Ragged { row, .. }
+        | Self::Symbol { row, .. }
+        | Self::HalfCable { row, .. }
+        | Self::Beds { row, .. } = &mut self
+        {
+            *row = (rows + 1).saturating_sub(*row);
+        }
+        self
+    }
+}

@@ -1,11 +1,9 @@
 //! Needles and what hangs on them.
 
+use super::super::stitches::HALVES;
 use super::super::{Bed, LoopRef, Needle};
 use crate::FabricError;
 use crate::memory::room_for;
-
-/// Half wales to the wale: needles of a bed that is racked by half a pitch lie between those of the other.
-pub(super) const HALVES: i64 = 2;
 
 /// A loop that hangs on a needle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

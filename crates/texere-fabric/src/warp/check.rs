@@ -1,0 +1,91 @@
+//! Whether bars, gauge and yarns can be a cloth.
+
+use super::laps::laps;
+use super::{Bar, LapKind};
+use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
+
+/// The most guide bars.
+const BARS_MAX: usize = 64;
+
+/// The most needles by which a bar is offset.
+const OFFSET_MAX: i32 = 1 << 16;
+
+/// The most wales or courses of all copies.
+const SIDE_MAX: u64 = 1 << 30;
+
+/// The most laps that are laid before they are copied.
+const LAID_MAX: u64 = 1 << 26;
+
+/// Control points of a lap at least.
+const LAP_POINTS: u64 = 2;
+
+/// Whether bars are sound, and refer only to yarns that there are.
+pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), FabricError> {
+    if !(1..=BARS_MAX).contains(&bars.len()) {
+        return Err(FabricError::Bars { bars: bars.len(), limit: BARS_MAX });
+    }
+    for (bar, each) in (1..).zip(bars) {
+        if let Some(yarn) = each.threading.guides().iter().flatten().find(|yarn| **yarn as usize >= yarns) {
+            return Err(FabricError::GuideYarn { bar, yarn: u64::from(*yarn) + 1, yarns });
+        }
+        if each.offset.unsigned_abs() > OFFSET_MAX.unsigned_abs() {
+            return Err(FabricError::BarOffset { bar, offset: each.offset, limit: OFFSET_MAX });
+        }
+        if let Some(mm) = each.run_in_mm.filter(|mm| !(SPACING_MIN..=SPACING_MAX).contains(mm)) {
+            return Err(FabricError::RunIn { bar, mm, low: SPACING_MIN, high: SPACING_MAX });
+        }
+        let (courses, chain) = (each.jacquard.as_ref().map(|image| image.courses()), each.chain.courses());
+        if let Some(courses) = courses.filter(|courses| *courses != chain) {
+            return Err(FabricError::JacquardCourses { bar, courses, chain });
+        }
+    }
+    Ok(())
+}
+
+/// Wales and courses after which all bars begin again, if `size` are multiples of them.
+pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], FabricError> {
+    let periods = bars.iter().map(|bar| {
+        let [guides, rounds] = bar.jacquard.as_ref().map_or([1, 1], |image| image.size());
+        let threading = [bar.threading.period() as u64, bar.chain.courses() as u64 * u64::from(rounds)];
+        [common(threading[0], u64::from(guides)), threading[1]]
+    });
+    let repeat = periods.fold([1, 1], |all, own| [0, 1].map(|axis| common(all[axis], own[axis])));
+    for (axis, what) in ["wales", "courses"].into_iter().enumerate() {
+        if size[axis] == 0 || !u64::from(size[axis]).is_multiple_of(repeat[axis]) {
+            return Err(FabricError::WarpRepeat { what, size: size[axis], multiple: repeat[axis] });
+        }
+    }
+    Ok(repeat.map(|count| count as u32))
+}
+
+/// The least common multiple, or more than any size.
+fn common(one: u64, other: u64) -> u64 {
+    let (mut greatest, mut rest) = (one, other);
+    while rest > 0 {
+        (greatest, rest) = (rest, greatest % rest);
+    }
+    (one / greatest.max(1)).saturating_mul(other)
+}
+
+/// Whether the cloth has loops, and no more control points than are taken: a low estimate, before any is made.
+pub(super) fn size(
+    bars: &[Bar],
+    repeat: [u32; 2],
+    piece: [u32; 2],
+    copies: [u32; 2],
+) -> Result<(), FabricError> {
+    let count = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);
+    let laid = count(piece).saturating_mul(bars.len() as u64);
+    let points = laid.saturating_mul(LAP_POINTS).saturating_mul(count(copies));
+    let far = (0..2).any(|axis| u64::from(piece[axis]) * u64::from(copies[axis]) > SIDE_MAX);
+    if points > POINTS_MAX || laid > LAID_MAX || far {
+        return Err(FabricError::KnitPoints { points, limit: POINTS_MAX });
+    }
+    if copies.contains(&0) {
+        return Err(FabricError::Stitches { what: "no copy of the repeat" });
+    }
+    if !laps(bars, repeat[0], repeat[1]).any(|laid| laid.kind() != LapKind::Inlay) {
+        return Err(FabricError::NoLoops);
+    }
+    Ok(())
+}

@@ -1,0 +1,234 @@
+//! A warp-knitted cloth: its bars, how close its loops lie, and what its yarns are like.
+
+use glam::DVec3;
+use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns};
+
+use super::path::{Cloth, Thread};
+use super::{Bar, check};
+use crate::memory::room_for;
+use crate::settling::settled_together;
+use crate::weft::{self, Cells, Gauge, KnitYarn};
+use crate::{FabricError, Piece, Repeat};
+
+/// A warp-knitted cloth: its guide bars, with sizes and yarns.
+///
+/// All guides of a bar move alike but for a Jacquard bar's, and begin again after some wales and courses: so one repeat settles, and is
+/// copied.
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::warp::{Bar, Chain, WarpKnitted};
+/// use texere_fabric::weft::{Gauge, KnitYarn};
+/// // Locknit of 12 wales and 10 courses.
+/// let bars = ["1-0/2-3//", "1-2/1-0//"].map(|chain| Chain::parse(chain, 1).map(Bar::new));
+/// let bars = bars.into_iter().collect::<Result<_, _>>()?;
+/// let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+/// let yarns = vec![KnitYarn::new(0.05)];
+/// let cloth = WarpKnitted::new(bars, Gauge::new(1.0, 0.75), 4, 2, yarns, materials, sections, [3, 5])?;
+/// assert_eq!((cloth.size(), cloth.loops()), ([12, 10], 240));
+/// assert_eq!(cloth.yarns()?.layout().yarns().len(), 24);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct WarpKnitted {
+    bars: Vec<Bar>,
+    gauge: Gauge,
+    /// Wales and courses of what `copies` counts.
+    laid: [u32; 2],
+    /// Wales and courses after which all bars begin again.
+    repeat: [u32; 2],
+    yarns: Vec<KnitYarn>,
+    materials: Vec<Material>,
+    sections: Vec<Section>,
+    copies: [u32; 2],
+    cells: Cells,
+}
+
+impl WarpKnitted {
+    /// A cloth of these bars, the front one first, on so many wales and courses. So many copies of that lie side by side along x and y.
+    /// The gauge's loop length counts for nothing: bars have run-ins.
+    ///
+    /// **Errors**: [`FabricError::Bars`], [`FabricError::GuideYarn`], [`FabricError::BarOffset`], [`FabricError::RunIn`] and
+    /// [`FabricError::JacquardCourses`] for bars that none are, [`FabricError::WarpRepeat`] for wales and courses that are no multiples
+    /// of those after which the bars begin again, [`FabricError::NoLoops`], [`FabricError::Gauge`] for distances that no
+    /// cloth has, [`FabricError::KnitPoints`] for more control points than are taken, and errors of the yarns' radius, twist, material
+    /// and section.
+    #[allow(clippy::too_many_arguments, reason = "each is a fact of its own about the cloth")]
+    pub fn new(
+        bars: Vec<Bar>,
+        gauge: Gauge,
+        wales: u32,
+        courses: u32,
+        yarns: Vec<KnitYarn>,
+        materials: Vec<Material>,
+        sections: Vec<Section>,
+        copies: [u32; 2],
+    ) -> Result<Self, FabricError> {
+        weft::check::gauge(&gauge)?;
+        weft::check::yarns(&yarns, &materials, &sections)?;
+        check::bars(&bars, yarns.len())?;
+        let laid = [wales, courses];
+        let repeat = check::repeat(&bars, laid)?;
+        check::size(&bars, repeat, laid, copies)?;
+        Ok(Self { bars, gauge, laid, repeat, yarns, materials, sections, copies, cells: Cells::Round })
+    }
+
+    /// Gives every yarn the same section.
+    ///
+    /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
+        section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
+        self.sections = vec![section];
+        self.yarns.iter_mut().for_each(|yarn| yarn.section = 0);
+        Ok(())
+    }
+
+    /// The same cloth with other numbers of control points: [`Cells::Even`] has 9 for each loop and none for underlaps. Plain repeats
+    /// come to rest so; a Jacquard may not, for its underlaps turn too sharply.
+    #[must_use]
+    pub fn with_cells(mut self, cells: Cells) -> Self {
+        self.cells = cells;
+        self
+    }
+
+    /// The guide bars, the front one first.
+    #[must_use]
+    pub fn bars(&self) -> &[Bar] {
+        &self.bars
+    }
+
+    /// How close loops lie.
+    #[must_use]
+    pub const fn gauge(&self) -> &Gauge {
+        &self.gauge
+    }
+
+    /// The yarns that guides hold.
+    #[must_use]
+    pub fn guide_yarns(&self) -> &[KnitYarn] {
+        &self.yarns
+    }
+
+    /// What the yarns are of.
+    #[must_use]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Copies along x and y.
+    #[must_use]
+    pub const fn copies(&self) -> [u32; 2] {
+        self.copies
+    }
+
+    /// Wales and courses of what [`WarpKnitted::copies`] are copies of: those that [`WarpKnitted::laps`] are on.
+    #[must_use]
+    pub const fn laid_size(&self) -> [u32; 2] {
+        self.laid
+    }
+
+    /// Wales and courses of the whole cloth.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.laid[axis] * self.copies[axis])
+    }
+
+    /// Width and height of the cloth, mm. Guides at its edges may lap beyond them.
+    #[must_use]
+    pub fn size_mm(&self) -> [f64; 2] {
+        self.mm(self.size())
+    }
+
+    /// Loops of the whole cloth; a two-needle lap makes two.
+    #[must_use]
+    pub fn loops(&self) -> u64 {
+        let [across, along] = [0, 1].map(|axis| u64::from(self.size()[axis] / self.repeat[axis]));
+        let loops = |laid: super::Laid| u64::from(laid.lap.overlap().unsigned_abs());
+        super::laps::laps(&self.bars, self.repeat[0], self.repeat[1]).map(loops).sum::<u64>() * across * along
+    }
+
+    /// The yarns, about where they belong: bar by bar, and in each from the left.
+    ///
+    /// Needle 0 lies half a wale from x = 0, the feet of the first course at y = 0. Origins are [`Origin::Guide`], bars and guides
+    /// counted from 1. The source of a control point is the course of its lap, from 1.
+    ///
+    /// **Errors**: [`FabricError::OutOfMemory`], [`FabricError::KnitPoints`] for more control points than are taken, and
+    /// [`FabricError::Yarns`] where they can't be taken.
+    pub fn yarns(&self) -> Result<Yarns, FabricError> {
+        let repeat = self.repeat()?;
+        self.laid(&repeat, &repeat.piece.yarns)
+    }
+
+    /// All copies of a repeat, settled or not, with the names of their own guides and courses.
+    pub(super) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        let [wales, courses] = [0, 1].map(|axis| self.size()[axis] / repeat.copies[axis]);
+        let origin = |origin, [x, _]: [i64; 2]| match origin {
+            Origin::Guide { bar, guide } => Origin::Guide { bar, guide: guide + x as u32 * wales },
+            other => other,
+        };
+        let last = i64::from(self.size()[1]);
+        let source =
+            |own: u32, [_, y]: [i64; 2]| (i64::from(own) + y * i64::from(courses)).clamp(1, last) as u32;
+        repeat.laid_as(yarns, self.beyond(), origin, source)
+    }
+
+    /// How many control points yarns go on beyond the cloth at either end, where that does not spoil their count.
+    pub(super) const fn beyond(&self) -> u32 {
+        match self.cells {
+            Cells::Round => 2,
+            Cells::Even => 0,
+        }
+    }
+
+    /// One repeat of the cloth, and what holds it: see [`WarpKnitted::repeat`].
+    ///
+    /// **Errors**: those of [`WarpKnitted::yarns`].
+    pub fn piece(&self) -> Result<Piece, FabricError> {
+        Ok(self.repeat()?.piece)
+    }
+
+    /// What settles, and how many copies of that the cloth is: the wales and courses after which all bars begin again, or a few
+    /// such repeats that are taken together. A Jacquard begins again where its image does.
+    ///
+    /// **Errors**: those of [`WarpKnitted::yarns`].
+    pub fn repeat(&self) -> Result<Repeat, FabricError> {
+        let repeats = [0, 1].map(|axis| self.size()[axis] / self.repeat[axis]);
+        let tiles = settled_together(self.repeat, repeats);
+        let size = [0, 1].map(|axis| self.repeat[axis] * tiles[axis]);
+        Ok(Repeat { piece: self.piece_of(size)?, copies: [0, 1].map(|axis| repeats[axis] / tiles[axis]) })
+    }
+
+    fn piece_of(&self, size: [u32; 2]) -> Result<Piece, FabricError> {
+        let cloth = Cloth::new(&self.bars, self.gauge, self.thickest(), size, self.cells)?;
+        let threads = cloth.lay();
+        let total = threads.iter().map(|thread| thread.points.len()).sum();
+        let (mut table, mut offsets, mut points, mut sources) = (Vec::new(), vec![0], Vec::new(), Vec::new());
+        room_for(&mut points, total, "control points")?;
+        room_for(&mut sources, total, "sources")?;
+        for Thread { first, points: own, courses } in threads {
+            let KnitYarn { radius_mm, material, section, twist } = self.yarns[first.yarn as usize];
+            let origin = Origin::Guide { bar: first.bar + 1, guide: first.guide + 1 };
+            table.push(Yarn { material, section, closed: false, twist, origin });
+            let point = |at: DVec3| ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, radius_mm);
+            points.extend(own.into_iter().map(point));
+            sources.extend(courses.into_iter().map(|course| course + 1));
+            offsets.push(points.len() as u64);
+        }
+        let ends = vec![Ends::Repeats([0, 1]); table.len()];
+        let layout = Layout::new(table, offsets, self.sections.clone())?;
+        let yarns = Yarns::new(layout, self.materials.clone(), points)?.with_sources(sources)?;
+        let boundary = Boundary::new(yarns.layout(), self.mm(size).map(|mm| mm as f32), ends)?;
+        Ok(Piece::new(yarns, boundary))
+    }
+
+    /// Diameter of the thickest yarn that any guide holds, mm.
+    fn thickest(&self) -> f64 {
+        let held = self.bars.iter().flat_map(|bar| bar.threading.guides()).flatten();
+        let yarns = held.map(|yarn| self.yarns[*yarn as usize]);
+        weft::knitted::thickest(yarns, &self.sections)
+    }
+
+    fn mm(&self, [wales, courses]: [u32; 2]) -> [f64; 2] {
+        [f64::from(wales) * self.gauge.wale_mm, f64::from(courses) * self.gauge.course_mm]
+    }
+}

@@ -1,0 +1,72 @@
+//! Which guide makes which lap on which needle at which course.
+
+use super::chain::is_open;
+use super::{Bar, Lap, LapKind, WarpKnitted};
+
+/// A lap of a cloth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Laid {
+    /// The guide bar, from 0 in front.
+    pub bar: u32,
+    /// The guide within it, from 0.
+    pub guide: u32,
+    /// The course, from 0.
+    pub course: u32,
+    /// The yarn, by its number among the cloth's.
+    pub yarn: u32,
+    /// Its spaces in the cloth: space 0 lies before needle 0. Guides near an edge may lap beyond it.
+    pub lap: Lap,
+    /// By how many needles the guide moves behind them to its next lap; towards higher numbers positive.
+    pub underlap: i32,
+}
+
+impl Laid {
+    /// How many needles it goes round.
+    #[must_use]
+    pub const fn kind(&self) -> LapKind {
+        self.lap.kind()
+    }
+
+    /// Whether it is open: see [`Chain::is_open`](super::Chain::is_open).
+    #[must_use]
+    pub const fn is_open(&self) -> bool {
+        is_open(self.lap, self.underlap)
+    }
+}
+
+impl WarpKnitted {
+    /// The laps of all guides that hold a yarn, bar by bar and guide by guide, in the order of their courses: of [`WarpKnitted::size`] over
+    /// [`WarpKnitted::copies`], which begin again at its edges.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::warp::{Bar, Chain, WarpKnitted};
+    /// use texere_fabric::weft::{Gauge, KnitYarn};
+    /// let bars = vec![Bar::new(Chain::parse("1-0/1-2//", 1)?)];
+    /// let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    /// let yarns = vec![KnitYarn::new(0.05)];
+    /// let cloth = WarpKnitted::new(bars, Gauge::new(1.0, 0.75), 4, 2, yarns, materials, sections, [1, 1])?;
+    /// let laps: Vec<_> = cloth.laps().map(|laid| (laid.guide, laid.course, laid.lap.needle())).collect();
+    /// assert_eq!(laps[..4], [(0, 0, 0), (0, 1, 1), (1, 0, 1), (1, 1, 2)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn laps(&self) -> impl Iterator<Item = Laid> + '_ {
+        let [wales, courses] = self.laid_size();
+        laps(self.bars(), wales, courses)
+    }
+}
+
+/// The laps of so many guides of each bar, at so many courses.
+pub(super) fn laps(bars: &[Bar], wales: u32, courses: u32) -> impl Iterator<Item = Laid> + '_ {
+    (0..).zip(bars).flat_map(move |(number, bar)| {
+        (0..wales).filter_map(move |guide| Some((guide, bar.threading.yarn(guide)?))).flat_map(
+            move |(guide, yarn)| {
+                (0..courses).map(move |course| {
+                    let lap = bar.lap(guide, course);
+                    let next = bar.lap(guide, (course + 1) % courses);
+                    Laid { bar: number, guide, course, yarn, lap, underlap: next.from - lap.to }
+                })
+            },
+        )
+    })
+}

@@ -1,0 +1,247 @@
+//! From crossings at rest to yarns.
+
+use rayon::prelude::*;
+use texere_core::crossings::{Crossing, CrossingsPlan, Set};
+use texere_core::{ControlPoint, Halves, Layout, Yarns};
+
+use super::path::{CHANGE_POINTS, Change, Station, Stop, float};
+use super::problem::{Problem, gaps};
+use crate::memory::zeroed;
+use crate::woven::selvedge::{self, TURN_POINTS};
+use crate::woven::yarns::{Pass, Pen};
+use crate::{FabricError, NO_CROSSING, POINTS_MAX, Woven};
+
+/// Crossings of a repeat at rest, mm.
+pub(super) struct Lies {
+    repeat: [usize; 2],
+    rest: Vec<Crossing>,
+    /// As they are drawn: half width and half height of the end, then of the pick.
+    pub(super) drawn: Vec<[[f32; 2]; 2]>,
+    rooms: [Vec<[f32; 2]>; 2],
+}
+
+impl Lies {
+    /// `rest` is in the plan's unit.
+    pub(super) fn new(problem: Problem, plan: &CrossingsPlan, mut rest: Vec<Crossing>) -> Self {
+        let mm: &mut [f32] = bytemuck::cast_slice_mut(&mut rest);
+        mm.iter_mut().for_each(|value| *value *= plan.unit());
+        let drawn =
+            rest.iter().map(|at| Set::BOTH.map(|set| [at.lie(set).half_width, at.lie(set).half_height]));
+        Self { repeat: problem.repeat, drawn: drawn.collect(), rooms: problem.rooms, rest }
+    }
+
+    /// Ends and picks of the repeat.
+    pub(super) const fn repeat(&self) -> [usize; 2] {
+        self.repeat
+    }
+
+    /// The share of its area that each set keeps, in the mean and at its worst place.
+    pub(super) fn area(&self, cloth: &Woven) -> [[f64; 2]; 2] {
+        [0, 1].map(|set| {
+            let threads = [cloth.warp(), cloth.weft()][set];
+            let keeps = self.drawn.iter().enumerate().map(|(number, drawn)| {
+                let thread = [number % self.repeat[0], number / self.repeat[0]][set] % threads.len();
+                let ([width, height], radius) = (self.rooms[set][thread], threads[thread].radius_mm);
+                f64::from(drawn[set][0] * drawn[set][1] / (width * height * radius * radius))
+            });
+            let add = |[sum, least]: [f64; 2], kept: f64| [sum + kept, least.min(kept)];
+            let [sum, least] = keeps.fold([0.0, f64::INFINITY], add);
+            [sum / self.drawn.len() as f64, least]
+        })
+    }
+
+    /// The number of a crossing of the cloth within the repeat.
+    pub(super) const fn number(&self, end: usize, pick: usize) -> usize {
+        pick % self.repeat[1] * self.repeat[0] + end % self.repeat[0]
+    }
+
+    /// The yarns of a cloth that has these crossings, as [`Woven::yarns`] lays them.
+    pub(super) fn yarns(&self, cloth: &Woven) -> Result<Yarns, FabricError> {
+        let loom = Loom::new(self, cloth);
+        let passes = cloth.passes();
+        let counts: Vec<usize> = passes.par_iter().map(|pass| loom.count(*pass)).collect();
+        let (mut table, mut offsets, mut total) = (Vec::new(), Vec::new(), 0);
+        for (pass, &count) in passes.iter().zip(&counts) {
+            if let Some(yarn) = cloth.yarn(pass) {
+                table.push(yarn);
+                offsets.push(total);
+            }
+            total += count as u64;
+        }
+        offsets.push(total);
+        if total > POINTS_MAX {
+            let (ends, picks) = (cloth.warp().len(), cloth.weft().len());
+            return Err(FabricError::Points { ends, picks, points: total, limit: POINTS_MAX });
+        }
+        let mut points: Vec<ControlPoint> = zeroed("control points", total)?;
+        let mut sources: Vec<u32> = zeroed("sources", total)?;
+        let pens = Pen::all(&mut points, &mut sources, counts);
+        passes.into_par_iter().zip(pens).for_each(|(pass, mut pen)| {
+            loom.lay(pass, &mut |point, source| pen.write(point, source));
+        });
+        let layout = Layout::new(table, offsets, cloth.sections().to_vec())?;
+        Ok(Yarns::new(layout, cloth.materials().to_vec(), points)?.with_sources(sources)?)
+    }
+}
+
+/// One set of threads, measured.
+struct Threads {
+    /// Where they lie, mm, one before the first and one after the last as well.
+    at: Vec<f64>,
+    extent: f64,
+}
+
+/// A cloth's threads and how they lie.
+struct Loom<'a> {
+    lies: &'a Lies,
+    cloth: &'a Woven,
+    sets: [Threads; 2],
+}
+
+/// A thread: its set, 0 or 1, and its number.
+type Of = (usize, usize);
+
+impl<'a> Loom<'a> {
+    fn new(lies: &'a Lies, cloth: &'a Woven) -> Self {
+        let (middles, size) = (cloth.middles_mm(), cloth.size_mm());
+        let sets = [0, 1].map(|set| {
+            let gaps = gaps([cloth.warp(), cloth.weft()][set]);
+            let count = middles[set].len();
+            // Beyond an edge the repeat goes on.
+            let before = gaps[(lies.repeat[set] - 1) % count];
+            let after = gaps[(count - 1) % lies.repeat[set] % count];
+            let first = middles[set].first().map(|first| first - before);
+            let last = middles[set].last().map(|last| last + after);
+            let at = first.into_iter().chain(middles[set].iter().copied()).chain(last).collect();
+            Threads { at, extent: size[set] }
+        });
+        Self { lies, cloth, sets }
+    }
+
+    /// A thread where it crosses another. Crossed threads count from 1: 0 is the one beyond the edge.
+    fn station(&self, (set, thread): Of, crossed: usize) -> Station {
+        let other = 1 - set;
+        let repeat = self.lies.repeat[other];
+        let within = (crossed + repeat - 1) % repeat;
+        let number =
+            if set == 0 { self.lies.number(thread, within) } else { self.lies.number(within, thread) };
+        let (rest, drawn) = (&self.lies.rest[number], &self.lies.drawn[number]);
+        let [own, under] = if set == 0 { [&rest.warp, &rest.weft] } else { [&rest.weft, &rest.warp] };
+        let room = self.lies.rooms[set][thread];
+        Station {
+            number: crossed.wrapping_sub(1),
+            at: self.sets[other].at[crossed] + f64::from(under.shift),
+            crossed: [under.half_width, under.half_height].map(f64::from),
+            crossed_z: f64::from(under.height),
+            side: if self.up(number) == (set == 0) { 1.0 } else { -1.0 },
+            across: self.sets[set].at[thread + 1] + f64::from(own.shift),
+            z: f64::from(own.height),
+            half_height: f64::from(own.half_height),
+            drawn: [0, 1].map(|half| f64::from(drawn[set][half] / room[half])),
+        }
+    }
+
+    /// Whether the end lies on top at a crossing of the repeat.
+    fn up(&self, number: usize) -> bool {
+        let (end, pick) = (number % self.lies.repeat[0], number / self.lies.repeat[0]);
+        self.cloth.drawdown().up(end % self.cloth.warp().len(), pick % self.cloth.weft().len())
+    }
+
+    /// A pass's thread, where it is cut off, whether it runs against the order of the threads that it crosses, and how many these are.
+    fn order(&self, pass: Pass) -> (Of, [bool; 2], bool, usize) {
+        match pass {
+            Pass::End(end) => ((0, end), [true; 2], false, self.cloth.weft().len()),
+            Pass::Pick(pick, cut) => {
+                let back = selvedge::runs_left(pick, self.cloth.selvedge());
+                ((1, pick), cut, back, self.cloth.warp().len())
+            }
+        }
+    }
+
+    fn count(&self, pass: Pass) -> usize {
+        let (of, cut, back, count) = self.order(pass);
+        let mut points = count + if pass.turns() { TURN_POINTS } else { 0 };
+        let sides: Vec<f64> = (0..count + 2).map(|crossed| self.station(of, crossed).side).collect();
+        for near in sides.windows(4) {
+            let [before, changes, after] = [0, 1, 2].map(|at| near[at] != near[at + 1]);
+            points += if changes { CHANGE_POINTS } else { usize::from(before) + usize::from(after) };
+        }
+        for last in [false, true] {
+            if cut[usize::from(last)] {
+                self.leave(of, last != back, count, &mut |_| points += 1);
+            }
+        }
+        points
+    }
+
+    /// Calls `write` with each control point of a pass and its source.
+    fn lay(&self, pass: Pass, write: &mut impl FnMut(ControlPoint, u32)) {
+        let (of, cut, back, count) = self.order(pass);
+        if let (Pass::Pick(pick, _), true) = (pass, pass.turns()) {
+            self.turn(pick).into_iter().for_each(|point| write(point, NO_CROSSING));
+        }
+        let ends = self.cloth.warp().len();
+        let mut stop = |stop: Stop| {
+            let [along, across, z] = [stop.along, stop.across, stop.z].map(|value| value as f32);
+            let [x, y] = if of.0 == 0 { [across, along] } else { [along, across] };
+            let halves = stop.halves.map(|half| half as f32);
+            let source = stop.crossing.map_or(NO_CROSSING, |crossed| {
+                (if of.0 == 0 { crossed * ends + of.1 } else { of.1 * ends + crossed }) as u32
+            });
+            write(ControlPoint { x, y, z, halves: Halves::new(halves[0], halves[1]) }, source);
+        };
+        if cut[0] {
+            let mut lead = Vec::new();
+            self.leave(of, back, count, &mut |point| lead.push(point));
+            lead.into_iter().rev().for_each(&mut stop);
+        }
+        let station = |step: usize| self.station(of, if back { count + 1 - step } else { step });
+        let [mut before, mut here] = [0, 1].map(station);
+        for step in 1..count {
+            stop(here.stop());
+            let next = station(step + 1);
+            if next.side == here.side {
+                let changes = [before.side != here.side, station(step + 2).side != next.side];
+                float(&here, &next, changes).for_each(&mut stop);
+            } else {
+                Change::new(&here, &next).points().for_each(&mut stop);
+            }
+            (before, here) = (here, next);
+        }
+        stop(here.stop());
+        if cut[1] {
+            self.leave(of, !back, count, &mut stop);
+        }
+    }
+
+    /// The points from a thread's outermost crossing, at its upper end or its lower one, to where it is cut off.
+    fn leave(&self, of: Of, upper: bool, count: usize, stop: &mut impl FnMut(Stop)) {
+        let [inner, here, beyond] = if upper { [count - 1, count, count + 1] } else { [2, 1, 0] };
+        let [inner, here, beyond] = [inner, here, beyond].map(|crossed| self.station(of, crossed));
+        let edge = if upper { self.sets[1 - of.0].extent } else { 0.0 };
+        if here.side == beyond.side {
+            float(&here, &beyond, [inner.side != here.side, false]).for_each(&mut *stop);
+            stop(here.stop().towards(&beyond.stop(), edge));
+        } else {
+            Change::new(&here, &beyond).until(edge).for_each(stop);
+        }
+    }
+
+    /// The turn from the pick before to `pick`, as far beyond the edge end as both are wide.
+    fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
+        let right = selvedge::runs_left(pick, self.cloth.selvedge());
+        let ends = self.cloth.warp().len();
+        let (crossed, outwards) = if right { (ends, 1.0) } else { (1, -1.0) };
+        let [from, to] = [pick - 1, pick].map(|pick| self.station((1, pick), crossed));
+        let widest = from.drawn[0].max(to.drawn[0]);
+        let touching = from.crossed[0].max(to.crossed[0]) + widest;
+        let apart = (to.across - from.across).abs();
+        let edge = if right { from.at.max(to.at) } else { from.at.min(to.at) };
+        let x = (edge + outwards * touching.max(apart / 4.0)) as f32;
+        let [from, to] = [from, to].map(|at| {
+            let [width, height] = at.drawn.map(|half| half as f32);
+            ControlPoint { x, y: at.across as f32, z: at.z as f32, halves: Halves::new(width, height) }
+        });
+        selvedge::turn(x, outwards as f32, &from, &to)
+    }
+}

@@ -1,0 +1,106 @@
+//! Woven cloth at rest: its crossings settle on a device, and its yarns are drawn from how they lie.
+
+mod certificate;
+mod lay;
+mod path;
+mod problem;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use texere_core::crossings::{self, Crossing, CrossingsPlan, CrossingsRest};
+use texere_core::{Backend, Crossings, Settings, Yarns, zeroed};
+
+use self::certificate::certify;
+use self::lay::Lies;
+use self::problem::Problem;
+use crate::{FabricError, FinishError, Woven};
+
+/// Woven cloth that has come to rest.
+#[derive(Debug, Clone)]
+pub struct WovenRest {
+    /// Its yarns, as [`Woven::yarns`] orders them.
+    pub yarns: Yarns,
+    /// Ends and picks of what has settled: the smallest repeat of threads and crossings, or all of a cloth that has none.
+    pub repeat: [usize; 2],
+    /// Passes, and what the last one has seen.
+    pub crossings: CrossingsRest,
+    /// The least clearance of surfaces as drawn, before any thread was made thinner for it and after.
+    pub clearance: [f64; 2],
+    /// How many times threads were made thinner where they lacked clearance.
+    pub rounds: u32,
+    /// The share of its area that each set keeps, in the mean and at its worst place: warp, then weft.
+    pub area: [[f64; 2]; 2],
+    /// What of that was lost for the sake of clearance, in the mean.
+    pub area_lost: [f64; 2],
+}
+
+impl Woven {
+    /// The problem that the cloth's crossings are: of its smallest repeat, or of all of it where it has none. The last threads lie beside the
+    /// first ones, so that something holds every edge.
+    #[must_use]
+    pub fn crossings(&self) -> Crossings {
+        Problem::new(self).crossings
+    }
+
+    /// Lets the cloth come to rest on `backend`: threads flatten, shift and share the crimp as the energy of their crossings has it
+    /// ([`texere_core::crossings`]), and are drawn along arcs round one another. Where surfaces as drawn, with splines of `tension`, lack
+    /// clearance, threads are made thinner. What a thread is wide over its height before ([`Thread::flatness`](crate::Thread)) does
+    /// not count, nor [`Woven::crimp`] and [`Woven::shape`]. `progress` gets the share of the work that is done; `Break` ends it.
+    ///
+    /// **Errors**: [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a backend that settles no
+    /// crossings or a device that fails, [`FinishError::Fabric`] as [`Woven::yarns`] and [`clearance()`](crate::clearance()) have it.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use texere_core::{Material, Section};
+    /// use texere_cpu::SerialBackend;
+    /// use texere_fabric::{Thread, Weave, Woven};
+    /// // Plain weave at 1.8 diameters, where round threads would pierce one another.
+    /// let plain = Weave::parse("plain")?.drawdown(6, 6)?;
+    /// let threads = vec![Thread::new(0.36, 0.1); 6];
+    /// let cloth = Woven::new(plain, threads.clone(), threads, vec![Material::default()], vec![Section::Circle])?;
+    /// let rest = cloth.at_rest(0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()))?;
+    /// assert_eq!(rest.repeat, [2, 2]);
+    /// assert!(rest.crossings.at_rest && rest.clearance[1] > 0.98);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn at_rest(
+        &self,
+        tension: f32,
+        backend: &dyn Backend,
+        mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<WovenRest, FinishError> {
+        let problem = Problem::new(self);
+        let repeat = problem.repeat;
+        let plan = Arc::new(CrossingsPlan::new(&problem.crossings)?);
+        let mut settler = backend.crossings_settler(Arc::clone(&plan))?;
+        let (mut made, mut stopped) = (0.0, false);
+        let rest = crossings::settle(&plan, settler.as_mut(), |_, _| {
+            made += 1.0;
+            let answer = progress(0.5 * made / f64::from(plan.passes()));
+            stopped = answer.is_break();
+            answer
+        })?;
+        if stopped {
+            return Err(FabricError::Cancelled.into());
+        }
+        let mut all: Vec<Crossing> = zeroed("crossings", plan.crossings() as u64)?;
+        settler.read(&mut all)?;
+        drop(settler);
+        let mut lies = Lies::new(problem, &plan, all);
+        let at_first = lies.area(self);
+        let settings = Settings { tension, ..Settings::default() };
+        let (clearance, rounds) = certify(self, &mut lies, &settings, |done| progress(0.5 + 0.5 * done))?;
+        let area = lies.area(self);
+        Ok(WovenRest {
+            yarns: lies.yarns(self)?,
+            repeat,
+            crossings: rest,
+            clearance,
+            rounds,
+            area,
+            area_lost: [0, 1].map(|set| at_first[set][0] - area[set][0]),
+        })
+    }
+}

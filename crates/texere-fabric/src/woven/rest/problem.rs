@@ -1,0 +1,130 @@
+//! What is asked of the core: the crossings of a cloth's smallest repeat.
+
+use std::collections::HashMap;
+
+use texere_core::crossings::{self, Crossings};
+
+use crate::reach::Reach;
+use crate::{Thread, Woven};
+
+/// What comes to rest of a cloth: so many ends and picks, from where its threads and their crossings repeat. A cloth that does not repeat is
+/// its own repeat: its last threads lie beside its first ones, so that something holds its edges.
+pub(super) struct Problem {
+    pub(super) repeat: [usize; 2],
+    pub(super) crossings: Crossings,
+    /// Half width and half height of each section's room, in those of the thread that has it, thread by thread.
+    pub(super) rooms: [Vec<[f32; 2]>; 2],
+}
+
+/// A problem has at least so many threads of either set.
+const THREADS_MIN: usize = 2;
+
+impl Problem {
+    pub(super) fn new(cloth: &Woven) -> Self {
+        let rooms = rooms(cloth);
+        let (drawdown, [ends, picks]) = (cloth.drawdown(), [cloth.warp().len(), cloth.weft().len()]);
+        let repeat = cloth.repeat();
+        let [across, along] = repeat;
+        let ups =
+            (0..across * along).map(|number| drawdown.up(number % across % ends, number / across % picks));
+        let [warp, weft] = [cloth.warp(), cloth.weft()].map(gaps);
+        let threads = |threads: &[Thread], gaps: &[f64], rooms: &[[f32; 2]], count: usize| {
+            let thread = |number: usize| {
+                let [width, height] = rooms[number % threads.len()];
+                crossings::Thread {
+                    pitch: gaps[number % threads.len()] as f32,
+                    diameter: 2.0 * threads[number % threads.len()].radius_mm * (width * height).sqrt(),
+                    stiffness: 1.0,
+                }
+            };
+            (0..count).map(thread).collect()
+        };
+        let crossings = Crossings::new(
+            ups.collect(),
+            threads(cloth.warp(), &warp, &rooms[0], across),
+            threads(cloth.weft(), &weft, &rooms[1], along),
+        );
+        Self { repeat, crossings, rooms }
+    }
+}
+
+/// Half width and half height of the room that each thread's section takes, in the thread's own.
+fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
+    let reaches: Vec<Reach> = cloth.sections().iter().map(Reach::new).collect();
+    [cloth.warp(), cloth.weft()].map(|threads| {
+        let room = |thread: &Thread| reaches[thread.section as usize].room(thread.twist);
+        threads.iter().map(room).collect()
+    })
+}
+
+impl Woven {
+    /// After how many ends and picks all threads and crossings are as those before; all of them where nothing repeats, two at least.
+    pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
+        let (rooms, drawdown) = (rooms(self), self.drawdown());
+        let [ends, picks] = [self.warp().len(), self.weft().len()];
+        [
+            period(&kinds(self.warp(), &rooms[0], |end| bits(picks, |pick| drawdown.up(end, pick)))),
+            period(&kinds(self.weft(), &rooms[1], |pick| bits(ends, |end| drawdown.up(end, pick)))),
+        ]
+    }
+}
+
+/// From each thread to the next one, mm; from the last one to the first of a cloth beside this one.
+pub(super) fn gaps(threads: &[Thread]) -> Vec<f64> {
+    let ends = [threads.first(), threads.last()].into_iter().flatten();
+    let seam = ends.map(|thread| thread.spacing_mm / 2.0).sum();
+    threads.iter().skip(1).map(|thread| thread.spacing_mm).chain([seam]).collect()
+}
+
+/// Numbers for threads that are alike, and that cross alike.
+fn kinds(threads: &[Thread], rooms: &[[f32; 2]], sides: impl Fn(usize) -> Vec<u64>) -> Vec<usize> {
+    let mut known = HashMap::new();
+    let gaps = gaps(threads);
+    let kind = |number: usize| {
+        let sizes = [threads[number].radius_mm, rooms[number][0], rooms[number][1]].map(f32::to_bits);
+        (sizes, (gaps[number] as f32).to_bits(), sides(number))
+    };
+    (0..threads.len())
+        .map(|number| {
+            let next = known.len();
+            *known.entry(kind(number)).or_insert(next)
+        })
+        .collect()
+}
+
+fn bits(count: usize, up: impl Fn(usize) -> bool) -> Vec<u64> {
+    let word = |first: usize| {
+        (first..count.min(first + 64)).fold(0, |word, bit| word | u64::from(up(bit)) << (bit - first))
+    };
+    (0..count).step_by(64).map(word).collect()
+}
+
+/// After how many threads all further ones are as those before, by the longest start of the list that is its end as well (Knuth, Morris and
+/// Pratt).
+fn period(kinds: &[usize]) -> usize {
+    let mut borders = vec![0; kinds.len()];
+    for at in 1..kinds.len() {
+        let mut border = borders[at - 1];
+        while border > 0 && kinds[at] != kinds[border] {
+            border = borders[border - 1];
+        }
+        borders[at] = border + usize::from(kinds[at] == kinds[border]);
+    }
+    let period = kinds.len() - borders.last().copied().unwrap_or(0);
+    period.max(THREADS_MIN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::period;
+
+    #[test]
+    fn a_period_is_the_least_shift_that_fits() {
+        assert_eq!(period(&[0, 1, 2, 0, 1, 2, 0]), 3);
+        assert_eq!(period(&[0, 1, 2, 3]), 4);
+        // One thread is its own neighbour on both sides: it is taken twice.
+        assert_eq!(period(&[0, 0, 0]), 2);
+        assert_eq!(period(&[0]), 2);
+        assert_eq!(period(&[0, 0, 1, 0, 0]), 3);
+    }
+}

@@ -1,0 +1,246 @@
+//! Cloths of the mills at rest, drawn, and measured by sections that the test samples itself.
+
+#![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
+
+mod surfaces;
+
+use std::ops::ControlFlow;
+
+use glam::DVec2;
+use texere_core::{Material, Section};
+use texere_cpu::ParallelBackend;
+use texere_fabric::{Drawdown, Thread, Woven, WovenRest, tex_from_cotton_count};
+
+use surfaces::Surfaces;
+
+/// A cloth, its yarns in tex, and what it is held to.
+struct Cloth {
+    name: &'static str,
+    woven: Woven,
+    tex: [f64; 2],
+    /// The least that is left of the area of warp and weft.
+    area: [f64; 2],
+    /// Published crimp of warp and weft, per cent, which has to be met within four points.
+    crimp: [Option<f64>; 2],
+}
+
+/// Peirce's cotton.
+fn diameter(tex: f64) -> f64 {
+    0.0373 * tex.sqrt()
+}
+
+fn cloth(
+    name: &'static str,
+    (tex, pitch): ([f64; 2], [f64; 2]),
+    [ends, picks]: [usize; 2],
+    up: impl FnMut(usize, usize) -> bool,
+    area: [f64; 2],
+    crimp: [Option<f64>; 2],
+) -> Cloth {
+    let threads =
+        |set: usize, count: usize| vec![Thread::new(pitch[set], diameter(tex[set]) as f32 / 2.0); count];
+    let drawdown = Drawdown::from_fn(ends, picks, up).unwrap();
+    let (warp, weft) = (threads(0, ends), threads(1, picks));
+    let woven = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap();
+    Cloth { name, woven, tex, area, crimp }
+}
+
+fn twill(end: usize, pick: usize) -> bool {
+    !(end + 400 - pick).is_multiple_of(4)
+}
+
+fn plain(end: usize, pick: usize) -> bool {
+    (end + pick).is_multiple_of(2)
+}
+
+fn satin(end: usize, pick: usize) -> bool {
+    !(end + 64 - 3 * (pick % 8)).is_multiple_of(8)
+}
+
+/// Counts and threads to the inch as mills sell them.
+///
+/// Crimp of denim: 10 to 14 % of the warp in mills. Of poplin: "the warp crimp could be 14 % and the weft crimp only 2 %"
+/// (<https://www.textilecalculations.com/calculate-crimp-percentage-of-woven-fabric/>). Of sheeting and sateen: J. T. Taylor, "Cotton weaving and
+/// designing", 6th edition: intersections to the inch × 4, in medium cloths × 3, over the weft's count.
+fn cloths() -> Vec<Cloth> {
+    let cotton = |warp: f64, weft: f64, ends: f64, picks: f64| {
+        ([warp, weft].map(tex_from_cotton_count), [25.4 / ends, 25.4 / picks])
+    };
+    let square = |count: f64, pitch: f64| {
+        let tex = tex_from_cotton_count(count);
+        ([tex; 2], [diameter(tex) * pitch; 2])
+    };
+    let five = |end: usize, pick: usize| !(end + 25 - 2 * (pick % 5)).is_multiple_of(5);
+    let two = |end: usize, pick: usize| (end + 400 - pick) % 4 < 2;
+    let damask =
+        |end: usize, pick: usize| if end < 32 || pick < 32 { satin(end, pick) } else { plain(end, pick) };
+    let taylor = |picks: f64, share: f64, times: f64, count: f64| Some(picks * share * times / count);
+    let none = [None; 2];
+    vec![
+        cloth("denim", cotton(7.0, 10.0, 72.0, 56.0), [16, 16], twill, [0.655, 0.77], [Some(12.0), None]),
+        cloth(
+            "poplin",
+            cotton(40.0, 40.0, 133.0, 72.0),
+            [10, 10],
+            plain,
+            [0.92, 0.93],
+            [Some(14.0), Some(2.0)],
+        ),
+        cloth(
+            "sheeting",
+            cotton(20.0, 20.0, 60.0, 60.0),
+            [10, 10],
+            plain,
+            [0.94; 2],
+            [taylor(60.0, 1.0, 3.0, 20.0); 2],
+        ),
+        cloth("drill", cotton(20.0, 16.0, 108.0, 56.0), [16, 16], twill, [0.915, 0.935], none),
+        cloth(
+            "sateen",
+            cotton(60.0, 60.0, 173.0, 120.0),
+            [15, 15],
+            five,
+            [0.95; 2],
+            [taylor(120.0, 0.4, 4.0, 60.0), None],
+        ),
+        cloth("satin of 8", square(30.0, 1.25), [24, 24], satin, [0.93; 2], none),
+        cloth("twill 2/2", square(20.0, 1.5), [16, 16], two, [0.81; 2], none),
+        cloth("plain, jam", square(20.0, 3.0_f64.sqrt()), [10, 10], plain, [0.865; 2], none),
+        cloth("plain, 2 d", square(20.0, 2.0), [10, 10], plain, [0.94; 2], none),
+        cloth("plain, 3 d", square(20.0, 3.0), [10, 10], plain, [0.955; 2], none),
+        cloth("Jacquard", square(20.0, 1.75), [64, 64], damask, [0.945; 2], none),
+    ]
+}
+
+fn at_rest(woven: &Woven) -> WovenRest {
+    woven.at_rest(0.0, &ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// Weight by count, sett and a crimp of 6 %: (ends / count + picks / count) x 1.06 x 23.27
+/// (<https://apparel-analysis.blogspot.com/2013/06/how-to-determine-gsm-of-woven-fabric.html>).
+fn usual_weight(cloth: &Cloth) -> f64 {
+    let sets = [(cloth.woven.warp(), cloth.tex[0]), (cloth.woven.weft(), cloth.tex[1])];
+    let heavy =
+        |(threads, tex): (&[Thread], f64)| 25.4 / threads[0].spacing_mm / (tex_from_cotton_count(1.0) / tex);
+    sets.map(heavy).iter().sum::<f64>() * 1.06 * 23.27
+}
+
+#[test]
+fn cloths_of_the_mills_come_to_rest() {
+    for cloth in cloths() {
+        let Cloth { name, woven, tex, .. } = &cloth;
+        let rest = at_rest(woven);
+        let surfaces = Surfaces::new(&rest.yarns);
+        let (clearance, crimp) = (surfaces.clearance(), surfaces.crimp());
+        let sets = [woven.warp(), woven.weft()];
+        let spacing = [0, 1].map(|set| sets[set][0].spacing_mm);
+        // One repeat in the middle, seen from above.
+        let middle = DVec2::from(woven.size_mm()) / 2.0;
+        let repeat = DVec2::new(spacing[0] * rest.repeat[0] as f64, spacing[1] * rest.repeat[1] as f64);
+        let [ground, weft] = surfaces.seen([middle - repeat / 2.0, middle + repeat / 2.0], 200);
+        let widths = surfaces.widths();
+        let bare = [0, 1].map(|set| (1.0 - widths[set] / spacing[set]).max(0.0));
+        let cover = 1.0 - bare[0] * bare[1];
+        let weight: f64 = [0, 1].map(|set| (1.0 + crimp[set]) * tex[set] / spacing[set]).iter().sum();
+        println!(
+            "{name:10} {:3} passes, clearance {:.3} -> {:.3} (by sections {clearance:.3}) in {}, area {:.3} {:.3} ({:.2} {:.2}), lost {:.3} \
+             {:.3}, crimp {:.1} {:.1} %, cover {:.1} % (by widths {:.1} %), weft {:.0} %, {:.2} mm, {weight:.0} g/m2 (usual {:.0})",
+            rest.crossings.passes,
+            rest.clearance[0],
+            rest.clearance[1],
+            rest.rounds,
+            rest.area[0][0],
+            rest.area[1][0],
+            rest.area[0][1],
+            rest.area[1][1],
+            rest.area_lost[0],
+            rest.area_lost[1],
+            crimp[0] * 100.0,
+            crimp[1] * 100.0,
+            (1.0 - ground) * 100.0,
+            cover * 100.0,
+            weft * 100.0,
+            surfaces.thickness(),
+            usual_weight(&cloth),
+        );
+        assert!(clearance >= 0.98, "{name}: clearance {clearance}");
+        assert!(
+            (rest.clearance[1] - clearance).abs() < 0.008,
+            "{name}: {} and {clearance}",
+            rest.clearance[1]
+        );
+        for set in 0..2 {
+            assert!(rest.area[set][0] >= cloth.area[set], "{name}: area {:?}", rest.area);
+            let off = cloth.crimp[set].map_or(0.0, |published| 100.0 * crimp[set] - published);
+            assert!(off.abs() < 4.0, "{name}: crimp {crimp:?}");
+        }
+        assert!((weight / usual_weight(&cloth) - 1.0).abs() < 0.1, "{name}: {weight} g/m2");
+        // The Jacquard's widths change from one weave to the other.
+        let even = *name != "Jacquard";
+        assert!(!even || (1.0 - ground - cover).abs() < 0.02, "{name}: cover {} and {cover}", 1.0 - ground);
+        assert!(
+            ground < 1e-3 || !["denim", "poplin", "drill", "sateen", "satin of 8"].contains(name),
+            "{ground}"
+        );
+    }
+}
+
+/// What the test measures is able to fail: round yarns at a mill's sett pierce one another.
+#[test]
+fn round_yarns_at_a_mills_sett_pierce() {
+    let denim = cloths().swap_remove(0);
+    let clearance = Surfaces::new(&denim.woven.yarns().unwrap()).clearance();
+    assert!(clearance < 0.85, "{clearance}");
+}
+
+fn chance(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 40) as f64 / (1_u64 << 24) as f64
+}
+
+/// Threads and crossings without any order: nothing repeats, and every thread begins and ends at an edge.
+#[test]
+fn uneven_cloth_comes_to_rest_whole() {
+    let mut seed = 11;
+    let mut threads = |count: usize| -> Vec<Thread> {
+        let thread = |_| {
+            Thread::new(
+                0.42 * (0.95 + 0.1 * chance(&mut seed)),
+                (0.1 * (0.9 + 0.2 * chance(&mut seed))) as f32,
+            )
+        };
+        (0..count).map(thread).collect()
+    };
+    let (warp, weft) = (threads(14), threads(12));
+    let drawdown = Drawdown::from_fn(14, 12, |_, _| chance(&mut seed) > 0.5).unwrap();
+    let woven = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap();
+    let rest = at_rest(&woven);
+    assert_eq!(rest.repeat, [14, 12]);
+    let clearance = Surfaces::new(&rest.yarns).clearance();
+    println!("uneven: {:?} (by sections {clearance:.3}), area {:?}", rest.clearance, rest.area);
+    assert!(clearance >= 0.98, "{clearance}");
+    let [width, height] = woven.size_mm();
+    for yarn in 0..26 {
+        let points = rest.yarns.yarn_points(yarn).unwrap();
+        let [first, last] = [points[0], points[points.len() - 1]];
+        let [from, to, end] =
+            if yarn < 14 { [first.y, last.y, height as f32] } else { [first.x, last.x, width as f32] };
+        assert!(from.abs() < 1e-6 && (to - end).abs() < 1e-5, "yarn {yarn}: {from} to {to}, {end}");
+        let along = |two: &[texere_core::ControlPoint]| {
+            if yarn < 14 { two[1].y - two[0].y } else { two[1].x - two[0].x }
+        };
+        assert!(points.windows(2).all(|two| along(two) > 0.0), "yarn {yarn} turns back");
+    }
+}
+
+/// With a selvedge the weft is one yarn, and its turns stay clear of the edge ends.
+#[test]
+fn a_selvedge_holds() {
+    let mut woven = cloths().swap_remove(2).woven;
+    woven.set_selvedge(true);
+    let rest = at_rest(&woven);
+    assert_eq!(rest.yarns.layout().yarns().len(), 11);
+    let clearance = Surfaces::new(&rest.yarns).clearance();
+    println!("selvedge: {:?} (by sections {clearance:.3})", rest.clearance);
+    assert!(clearance >= 0.98, "{clearance}");
+}

@@ -1,0 +1,64 @@
+//! The greatest sett against worked examples of the textbooks.
+
+#![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
+
+use texere_core::{Material, Section};
+use texere_fabric::{Drawdown, Thread, Woven};
+
+/// A twill of so many up, so many down and so on, each pick one end further.
+fn cloth(floats: &[usize], per_inch: f64, diameters_per_inch: f64) -> Woven {
+    let thread = Thread::new(25.4 / per_inch, (0.5 * 25.4 / diameters_per_inch) as f32);
+    let repeat: Vec<bool> =
+        floats.iter().enumerate().flat_map(|(number, &float)| vec![number % 2 == 0; float]).collect();
+    let up = |end: usize, pick: usize| repeat[(end + 40 - pick) % repeat.len()];
+    let drawdown = Drawdown::from_fn(40, 40, up).unwrap();
+    let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    Woven::new(drawdown, vec![thread; 40], vec![thread; 40], materials, sections).unwrap()
+}
+
+fn greatest_per_inch(cloth: &Woven) -> f64 {
+    2.54 * cloth.setts()[0].greatest_per_cm
+}
+
+/// "Ashenhurst's formula", <http://www.faena.medievaltextiles.org/ash.html>: 8/2 cotton has 52 diameters to the inch, 26 ends in plain weave and
+/// 34 in 2/2 twill.
+#[test]
+fn ashenhursts_example_of_two_ply_cotton() {
+    assert!((greatest_per_inch(&cloth(&[1, 1], 20.0, 52.0)) - 26.0).abs() < 1e-3);
+    let twill = greatest_per_inch(&cloth(&[2, 2], 20.0, 52.0));
+    assert!((twill - 52.0 * 4.0 / 6.0).abs() < 1e-3 && (34.0..35.0).contains(&twill), "{twill}");
+}
+
+/// J. T. Taylor, "Cotton weaving and designing", 6th edition, "The firmness of cloth": from 103 threads of a plain cloth to 137 1/3 of a 2/2
+/// twill, and from 137 of that to a twill of 5 up, 2 down, 1 up, 2 down by 40 + 16 to 40 + 20.
+#[test]
+fn taylors_examples_of_cloths_as_firm() {
+    let plain = greatest_per_inch(&cloth(&[1, 1], 20.0, 206.0));
+    let twill = greatest_per_inch(&cloth(&[2, 2], 20.0, 206.0));
+    let long = greatest_per_inch(&cloth(&[5, 2, 1, 2], 20.0, 206.0));
+    assert!((plain - 103.0).abs() < 1e-2 && (twill - 137.0 - 1.0 / 3.0).abs() < 1e-2, "{plain}, {twill}");
+    assert!((long / twill - 60.0 / 56.0).abs() < 1e-5, "{long}");
+}
+
+#[test]
+fn threads_of_other_sets_take_their_own_room() {
+    let (thin, thick) = (Thread::new(0.5, 0.05), Thread::new(0.5, 0.1));
+    let plain = Drawdown::from_fn(6, 6, |end, pick| (end + pick) % 2 == 0).unwrap();
+    let cloth =
+        Woven::new(plain, vec![thin; 6], vec![thick; 6], vec![Material::default()], vec![Section::Circle])
+            .unwrap();
+    let [ends, picks] = cloth.setts();
+    // A pick of 0.2 mm passes between any two ends of 0.1 mm.
+    assert!(
+        (ends.greatest_per_cm - 10.0 / 0.3).abs() < 1e-4 && (picks.greatest_per_cm - 10.0 / 0.3).abs() < 1e-4
+    );
+    assert!((ends.share() - 20.0 / (10.0 / 0.3)).abs() < 1e-4);
+    // Doubled ends change sides together.
+    let ribs = Drawdown::from_fn(6, 6, |end, pick| (end / 2 + pick) % 2 == 0).unwrap();
+    let doubled = vec![thin; 6];
+    let cloth =
+        Woven::new(ribs, doubled, vec![thick; 6], vec![Material::default()], vec![Section::Circle]).unwrap();
+    // Of six ends the third pair is as the first: over the repeat's seam nothing changes.
+    let [ends, picks] = cloth.setts();
+    assert!((ends.interlacings - 0.5).abs() < 1e-9 && (picks.interlacings - 1.0).abs() < 1e-9, "{ends:?}");
+}

@@ -8,12 +8,12 @@ use texere::{Design, Yarns, yarns_under};
 /// A yarn under the point. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 pub(crate) struct YarnUnder {
-    /// As a designer calls it: `course 3`, `end 12`.
+    /// As a designer calls it: `course 3`, `end 12`, `guide bar 1, guide 5`.
     yarn: String,
     material: String,
     /// The height of its centreline, mm.
     z_mm: f64,
-    /// The line of a knitout file or the cell of a chart that it comes from.
+    /// The line of a knitout file or the cell of a chart that it comes from; the course of a warp knit.
     #[serde(skip_serializing_if = "Option::is_none")]
     place: Option<String>,
     /// The instructions that stand there.
@@ -28,11 +28,14 @@ pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2], tension: f3
         let material = yarns.materials().get(table[place.yarn].material as usize);
         let told = place.source.and_then(|source| design.told(source));
         let (place_of, instructions) = told.map(|told| (told.place, told.instructions)).unzip();
+        // Guides of a warp knit make all courses.
+        let course =
+            || design.structure.warp_knitted().and(place.source).map(|course| format!("course {course}"));
         YarnUnder {
             yarn: design.structure.place(yarns, place).thread.to_string(),
             material: material.map(|material| material.name.clone()).unwrap_or_default(),
             z_mm: place.position[2],
-            place: place_of,
+            place: place_of.or_else(course),
             instructions: instructions.unwrap_or_default(),
         }
     };

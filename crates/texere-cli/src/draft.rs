@@ -15,19 +15,22 @@ pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
     let design = texere::read(&args.design)?;
     let side = if args.back { Side::Back } else { Side::Face };
     let (woven, knit) = (design.structure.woven(), design.structure.knitted());
+    let warp = design.structure.warp_knitted();
     if args.text {
-        match (woven, knit) {
-            (Some(woven), _) => print_rows(woven.cloth().drawdown(), side)?,
-            (None, Some(knit)) => print_stitches(knit, side)?,
-            (None, None) => return Err(Fail::no_draft(&args.design)),
+        match (woven, knit, warp) {
+            (Some(woven), ..) => print_rows(woven.cloth().drawdown(), side)?,
+            (None, Some(knit), _) => print_stitches(knit, side)?,
+            (None, None, Some(warp)) => print::text(&(texere::warp_rows(warp).join("\n") + "\n"))?,
+            (None, None, None) => return Err(Fail::no_draft(&args.design)),
         }
     }
     if let Some(output) = &args.output {
         let sparing = Output::to(output).sparing(design.files());
-        let [width, height] = match (woven, knit) {
-            (Some(woven), _) => texere::write_draft(woven.cloth(), woven.draft(), side, sparing)?,
-            (None, Some(knit)) => texere::write_knit_draft(knit, side, sparing)?,
-            (None, None) => return Err(Fail::no_draft(&args.design)),
+        let [width, height] = match (woven, knit, warp) {
+            (Some(woven), ..) => texere::write_draft(woven.cloth(), woven.draft(), side, sparing)?,
+            (None, Some(knit), _) => texere::write_knit_draft(knit, side, sparing)?,
+            (None, None, Some(warp)) => texere::write_warp_draft(warp, side, sparing)?,
+            (None, None, None) => return Err(Fail::no_draft(&args.design)),
         };
         // With --text, standard output is the drawdown alone.
         if !args.text {

@@ -1,8 +1,9 @@
 //! `texere inspect`
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
 use serde::Serialize;
+use texere::warp::{Bar, WarpKnitted};
 use texere::weft::Knitted;
 use texere::{Counts, Design, Pipeline, Settings, Structure, Yarns};
 
@@ -14,6 +15,9 @@ use crate::measures::{JamsReport, MeasuresReport};
 use crate::settling::SettlingReport;
 use crate::terminal::line;
 use crate::{print, progress, settling};
+
+/// How far the yarn of a guide bar may be off what the design asks for.
+const RUN_IN_MISS: f64 = 0.02;
 
 /// What is said of a design. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -52,6 +56,20 @@ struct KnitReport {
     loops: u64,
     courses: u32,
     wales: u32,
+    /// The guide bars of a warp knit, the front one first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    bars: Vec<BarReport>,
+}
+
+/// A guide bar.
+#[derive(Debug, Serialize)]
+struct BarReport {
+    lapping: String,
+    /// Yarn for a rack of 480 courses, mm: what the design asks for, and what there is. Neither of yarns that have not settled.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    run_in_asked_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    run_in_mm: Option<f64>,
 }
 
 /// What it is as a cloth.
@@ -95,9 +113,15 @@ fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
     let cloth =
         if args.counts { None } else { Some(ClothReport::new(&design.structure, &yarns, &settings)?) };
-    let knit = design.structure.knitted().map(KnitReport::new);
+    let weft = design.structure.knitted().map(KnitReport::new);
+    let warp = || {
+        let measured = (!args.counts).then_some((&yarns, settings.tension));
+        design.structure.warp_knitted().map(|knit| KnitReport::of_warp(knit, measured))
+    };
+    let knit = weft.or_else(warp);
     let at = args.at.map(|point| at::under(&design, &yarns, point, settings.tension));
-    let warnings = settling::warnings(&design, settling.as_ref());
+    let mut warnings = settling::warnings(&design, settling.as_ref());
+    warnings.extend(knit.iter().flat_map(KnitReport::missed));
     Ok(Report { warnings, name: design.name, size: Size::new(&counts), knit, cloth, at, settling })
 }
 
@@ -116,9 +140,47 @@ impl Size {
 
 impl KnitReport {
     fn new(knit: &Knitted) -> Self {
-        let [across, along] = knit.copies().map(u64::from);
         let [wales, courses] = knit.size();
-        Self { loops: knit.stitches().loops.len() as u64 * across * along, courses, wales }
+        Self { loops: knit.loops(), courses, wales, bars: Vec::new() }
+    }
+
+    /// That of a warp knit; with its yarns, and the tension of their splines, what bars take of them.
+    fn of_warp(knit: &WarpKnitted, measured: Option<(&Yarns, f32)>) -> Self {
+        let [wales, courses] = knit.size();
+        let run_ins = measured.map(|(yarns, tension)| knit.run_ins(yarns, tension)).unwrap_or_default();
+        let mut run_ins = run_ins.into_iter();
+        let bar = |bar: &Bar| {
+            let run_in_mm = run_ins.next().map(|run_in| run_in.reached_mm);
+            BarReport { lapping: bar.chain.to_string(), run_in_asked_mm: bar.run_in_mm, run_in_mm }
+        };
+        Self { loops: knit.loops(), courses, wales, bars: knit.bars().iter().map(bar).collect() }
+    }
+
+    /// What is said of bars whose yarn is longer or shorter than the design asks for.
+    fn missed(&self) -> impl Iterator<Item = String> {
+        (1..).zip(&self.bars).filter_map(|(number, bar)| {
+            let (asked, reached) = (bar.run_in_asked_mm?, bar.run_in_mm?);
+            let miss = reached / asked - 1.0;
+            (miss.abs() > RUN_IN_MISS).then(|| {
+                format!(
+                    "bar {number} takes {reached:.0} mm a rack, {:+.1} % off the {asked:.0} mm asked for",
+                    miss * 100.0
+                )
+            })
+        })
+    }
+}
+
+impl fmt::Display for BarReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.lapping)?;
+        if let Some(reached) = self.run_in_mm {
+            write!(f, ", run-in {reached:.0} mm")?;
+        }
+        if let Some(asked) = self.run_in_asked_mm {
+            write!(f, ", asked for {asked:.0} mm")?;
+        }
+        Ok(())
     }
 }
 
@@ -216,8 +278,12 @@ impl Report {
             ("triangles", size.triangles.to_string()),
             ("mesh, bytes", size.bytes.to_string()),
         ];
-        if let Some(KnitReport { loops, courses, wales }) = &self.knit {
+        if let Some(KnitReport { loops, courses, wales, bars }) = &self.knit {
             lines.push(("loops", format!("{loops} in {courses} courses of {wales} wales")));
+            let named = (0..)
+                .zip(bars)
+                .map(|(number, bar)| (if number == 0 { "guide bars" } else { "" }, bar.to_string()));
+            lines.extend(named);
         }
         lines.extend(self.settling.iter().map(|settling| ("settling", settling.to_string())));
         lines.extend(self.cloth.iter().flat_map(ClothReport::lines));

@@ -197,6 +197,21 @@ fn lozenges([width, height]: [usize; 2]) -> Paper {
     paper
 }
 
+/// A thick ring with a mesh in it on thin ground, for a Jacquard bar.
+fn rings([width, height]: [usize; 2]) -> Paper {
+    let mut paper = Paper::new([width, height]);
+    for (place, tone) in paper.pixels.iter_mut().enumerate() {
+        let [across, along] = [(place % width, width), (place / width, height)]
+            .map(|(at, side)| (at as f32 + 0.5) / side as f32 * 2.0 - 1.0);
+        *tone = match across.hypot(along) {
+            away if away < 0.45 => Tone::Shade,
+            away if away < 0.85 => Tone::Figure,
+            _ => Tone::Ground,
+        };
+    }
+    paper
+}
+
 /// The ornament for a knitted Jacquard: in figure and ground alike each fifth wale is of the other colour, shifted from row to row, so
 /// that no yarn floats on for long.
 fn bound_ornament(size: [usize; 2]) -> Paper {
@@ -217,7 +232,7 @@ struct Drawing {
     palette: &'static [[u8; 3]],
 }
 
-const DRAWINGS: [Drawing; 4] = [
+const DRAWINGS: [Drawing; 6] = [
     Drawing {
         file: "damask.png",
         size: [240, 320],
@@ -241,6 +256,18 @@ const DRAWINGS: [Drawing; 4] = [
         size: [20, 24],
         draw: lozenges,
         palette: &[[0xec, 0xe4, 0xd2], [0x8c, 0x2f, 0x39]],
+    },
+    Drawing {
+        file: "warp-jacquard.png",
+        size: [24, 24],
+        draw: rings,
+        palette: &[[0xec, 0xe4, 0xd2], [0x8c, 0x2f, 0x39], [0x26, 0x40, 0x6e]],
+    },
+    Drawing {
+        file: "paper/figure-7c.png",
+        size: [315, 175],
+        draw: ornament,
+        palette: &[[0xec, 0xe4, 0xd2], [0x8c, 0x2f, 0x39], [0x26, 0x40, 0x6e]],
     },
 ];
 

@@ -244,8 +244,60 @@ fn what_is_wrong_is_named_with_its_line() {
         (format!("{chart}{CLOSE}colour = 3"), "did you mean \"colors\"?"),
         (format!("{chart}{CLOSE}[warp]\nyarns = [\"red\"]\nper_cm = 3"), "warp is given without [weave]"),
         (format!("{chart}{CLOSE}[cloth]\njam = \"report\""), "cloth.jam is given without [weave]"),
-        (format!("{chart}{CLOSE}[weave]\nnotation = \"plain\""), "give exactly one of [weave] and [knit]"),
+        (
+            format!("{chart}{CLOSE}[weave]\nnotation = \"plain\""),
+            "give exactly one of [weave], [knit] and [warp_knit]",
+        ),
     ] {
         assert!(refusal(&text).contains(said), "{text}\n{}", refusal(&text));
+    }
+}
+
+/// What can't be knitted is named by its line or its place in the picture, not by a number that nobody sees.
+#[test]
+fn what_no_machine_takes_is_named_by_its_place() {
+    let folder = TempDir::new().unwrap();
+    let tucks = "tuck + f1 1\n".repeat(257);
+    std::fs::write(folder.path().join("a.k"), format!(";!knitout-2\n;;Carriers: 1\nin 1\n{tucks}")).unwrap();
+    let said = chain(&read(folder.path().join("a.k")).unwrap_err());
+    assert!(said.ends_with("a.k, line 260 can't be knitted: 257 loops on a needle in a knitting program; 256 are taken at most"), "{said}");
+
+    // A stitch of the back bed in the picture's top row, which may be the first course.
+    let colors = [[255, 0, 0], [0, 0, 255]].map(Rgb);
+    RgbImage::from_fn(2, 3, |x, y| colors[usize::from(x == 1 && y == 0)])
+        .save(folder.path().join("a.png"))
+        .unwrap();
+    for rows in ["", "rows = \"first-pick-first\"\n"] {
+        let knit = format!(
+            "image = \"a.png\"\nyarns = [\"red\"]\n{rows}{CLOSE}[knit.colors]\n\"#ff0000\" = \"k\"\n\"#0000ff\" = \"b\""
+        );
+        let said = chain(&read_in(folder.path(), &knit).unwrap_err());
+        assert!(said.contains("row 1, column 2 of the chart"), "{rows}: {said}");
+    }
+}
+
+#[test]
+fn stitch_sizes_are_compared_as_numbers() {
+    let folder = TempDir::new().unwrap();
+    let text = ";!knitout-2\n;;Carriers: 1\nin 1\nx-stitch-number 070\nknit + f1 1\nx-stitch-number 71\nknit + f2 1\n";
+    std::fs::write(folder.path().join("a.k"), text).unwrap();
+    let sized = |sizes: &str| {
+        read_in(
+            folder.path(),
+            &format!("knitout = \"a.k\"\nyarns = [\"red\"]\n{CLOSE}[knit.stitch_lengths_mm]\n{sizes}"),
+        )
+    };
+    let design = sized("70 = 5.5\n\"71.0\" = 6\n\"10 20\" = 7\n").unwrap();
+    let lengths: Vec<_> = knitted(&design).stitches().loops.iter().map(|stitch| stitch.length_mm).collect();
+    assert_eq!(lengths, [Some(5.5), Some(6.0)]);
+    let about = |design: &Design, said: &str| design.warnings().iter().any(|warning| warning.contains(said));
+    assert!(about(&design, "a.k does not: 10 20"), "{:?}", design.warnings());
+    let partly = sized("70 = 5.5\n").unwrap();
+    assert!(about(&partly, "line 6: stitch size 71 has no length"), "{:?}", partly.warnings());
+    for (sizes, said) in
+        [("70 = 5\n070 = 6\n", "each stitch size once"), ("big = 5\n", "knit.stitch_lengths_mm.\"big\"")]
+    {
+        let refusal = chain(&sized(sizes).unwrap_err());
+        assert!(refusal.contains(said), "{refusal}");
     }
 }

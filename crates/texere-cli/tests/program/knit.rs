@@ -7,27 +7,10 @@ use crate::{design, inspect, stderr, stdout, texere};
 
 #[test]
 fn our_own_knits_settle_and_are_clean() {
-    for name in ["jersey", "rib", "interlock", "garter", "milano", "cable", "lace", "tuck", "miss"] {
+    let plain = ["jersey", "rib", "interlock", "garter", "milano", "cable", "lace", "tuck", "miss"];
+    for name in plain.into_iter().chain(["jacquard", "double-jacquard"]) {
         let (status, report) = checked(name);
         assert_eq!(status, Some(0), "{name}: {report}");
-    }
-}
-
-/// Of a Jacquard, floats that are cut off may touch at the edges where its copies end; nothing else does.
-#[test]
-fn our_own_jacquards_settle_and_are_clean_but_at_their_cut_edges() {
-    // Both are 40 wales wide, 9 to the cm.
-    let (wale, width) = (10.0 / 9.0, 400.0 / 9.0);
-    for name in ["jacquard", "double-jacquard"] {
-        let (_, report) = checked(name);
-        let settled = |key: &str| report["settling"][key].as_f64().unwrap();
-        assert!(settled("clearance") > 0.985 && settled("radius_diameters") > 0.58, "{name}: {report}");
-        let worst = report["pierces"]["worst"].as_array().unwrap();
-        let folds = Some(&report["folds"]).filter(|folds| !folds.is_null());
-        for place in worst.iter().chain(folds) {
-            let x = place["place_mm"][0].as_f64().unwrap();
-            assert!(x < wale || x > width - wale, "{name}: {place}");
-        }
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use texere_core::SectionError;
 use texere_fabric::FabricError;
+use texere_fabric::warp::ChainError;
 use texere_fabric::weft::ChartError;
 use thiserror::Error;
 
@@ -265,6 +266,22 @@ pub enum ReadError {
         place: Place,
         /// Why.
         source: ChartError,
+    },
+    /// An operation of a knitting program that no machine takes.
+    #[error("{place} can't be knitted")]
+    Operation {
+        /// Where: a line of a file, or a cell of a chart.
+        place: String,
+        /// Why.
+        source: FabricError,
+    },
+    /// A chain of a guide bar that can't be read.
+    #[error("{place} is no chain")]
+    Chain {
+        /// Where.
+        place: Place,
+        /// Why, with the column.
+        source: ChainError,
     },
     /// A file that the design names can't be taken.
     #[error("{place} can't be taken")]

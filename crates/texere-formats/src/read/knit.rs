@@ -7,7 +7,7 @@ use texere_core::{Material, Section};
 use texere_fabric::weft::{
     CarrierSet, Cells, FaultKind, Gauge, Knit as Made, KnitYarn, Knitted, Machine, Operation, Program,
 };
-use texere_fabric::{Structure, Thread};
+use texere_fabric::{FabricError, Structure, Thread};
 
 use super::design::{MachineFault, Told};
 use super::error::named;
@@ -21,9 +21,7 @@ const FAULTS_TOLD: usize = 3;
 /// Needles to the inch where a file says nothing.
 const GAUGE: f64 = 15.0;
 
-/// Courses for each wale where nothing says how close courses lie, and how many times a yarn's diameter a wale is: those of plain
-/// jersey.
-const COURSE_OF_WALE: f64 = 0.76;
+/// How many times a yarn's diameter a wale is where a file says nothing: that of plain jersey.
 const WALE_OF_DIAMETER: f64 = 5.0;
 
 /// Colours of carriers where a file says nothing that can be drawn: easily told apart, none too dark to show its shape.
@@ -134,7 +132,16 @@ impl Knit {
         let fabric = |error| ReadError::fabric(file, error);
         let usual = Machine::default();
         let machine = Machine { float_max: self.float_max.unwrap_or(usual.float_max), ..usual };
-        let knit = machine.knit(&program).map_err(fabric)?;
+        let refused = |error: FabricError| {
+            let number = error.operation().and_then(|number| usize::try_from(number - 1).ok());
+            match number.and_then(|number| program.operations.get(number)) {
+                Some(operation) => {
+                    ReadError::Operation { place: drawn.place(operation.source), source: error }
+                }
+                None => fabric(error),
+            }
+        };
+        let knit = machine.knit(&program).map_err(refused)?;
         let (faults, more) = told(&knit, &drawn);
         warnings.extend(faults.iter().map(|fault| fault.said.clone()));
         if more > 0 {
@@ -171,7 +178,7 @@ fn told(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
 
 /// The design of a knitout file alone: plain jersey's proportions, and yarns of different colours.
 pub(super) fn from_knitout(path: &Path, name: String, read: Knitout) -> Result<Design, ReadError> {
-    let wale_mm = 25.4 / read.gauge.unwrap_or(GAUGE);
+    let gauge = Gauge::plain(read.gauge.unwrap_or(GAUGE));
     let materials: Vec<_> = read
         .program
         .carriers
@@ -184,17 +191,10 @@ pub(super) fn from_knitout(path: &Path, name: String, read: Knitout) -> Result<D
         })
         .collect();
     let thread =
-        |material| Thread { material, ..Thread::new(0.0, (wale_mm / WALE_OF_DIAMETER / 2.0) as f32) };
+        |material| Thread { material, ..Thread::new(0.0, (gauge.wale_mm / WALE_OF_DIAMETER / 2.0) as f32) };
     let threads: Vec<_> = (0..materials.len() as u32).map(thread).collect();
     let (yarns, materials, sections) = Knit::yarns_of(threads, 1.0, &materials, &[Section::Circle]);
-    let knit = Knit {
-        gauge: Gauge::new(wale_mm, COURSE_OF_WALE * wale_mm),
-        yarns,
-        materials,
-        sections,
-        copies: [1, 1],
-        cells: Cells::Round,
-        float_max: None,
-    };
+    let knit =
+        Knit { gauge, yarns, materials, sections, copies: [1, 1], cells: Cells::Round, float_max: None };
     knit.design(path, name, read.program, Drawn::Lines { file: path.into() }, read.warnings)
 }

@@ -29,7 +29,7 @@ mod target;
 mod tests;
 mod unfinished;
 
-pub use draft::{NEEDLES_MAX, SHAFTS_MAX, Side, draft, knit_draft, knit_rows};
+pub use draft::{NEEDLES_MAX, SHAFTS_MAX, Side, draft, knit_draft, knit_rows, warp_draft, warp_rows};
 pub use error::WriteError;
 pub use file::file;
 pub use format::Format;

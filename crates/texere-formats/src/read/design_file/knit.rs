@@ -1,16 +1,15 @@
 //! The `[knit]` table: a weft knit, from a chart, a picture or a knitout file.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
 
 use texere_fabric::Thread;
-use texere_fabric::weft::{Backing, Beds, Cells, Chart, ChartError, Gauge};
+use texere_fabric::weft::{Backing, Beds, Chart, ChartError, Gauge};
 use toml::Spanned;
 
 use super::schema::{DesignFile, KnitTable, Source};
 use super::threads::{Named, YarnTable};
-use crate::read::error::{first_few, named};
+use super::{colors, laid};
+use crate::read::error::{first_few, named, shown};
 use crate::read::file::file_name;
 use crate::read::knit::{Drawn, Knit};
 use crate::read::knitout::{self, LoopLengths};
@@ -18,20 +17,14 @@ use crate::read::point_paper::{PointPaper, RowOrder};
 use crate::read::{Design, ReadError};
 
 /// Wales and courses to the cm, and needles to the inch, that a design may ask for.
-const PER_CM: (f64, f64) = (0.01, 1000.0);
-const PER_INCH: (f64, f64) = (0.1, 100.0);
+pub(super) const PER_CM: (f64, f64) = (0.01, 1000.0);
+pub(super) const PER_INCH: (f64, f64) = (0.1, 100.0);
 
 /// Loop lengths that a design may ask for, mm.
 const LOOP_MM: (f64, f64) = (0.01, 1000.0);
 
-/// How far yarns may be pressed together, as a share of their diameter.
-const COMPRESSION: (f64, f64) = (0.8, 1.0);
-
-/// Most copies of a repeat in either direction, and most needles that a float may be allowed to pass.
-const COPIES_MAX: i64 = 1_000_000;
-
-/// Courses for each wale where nothing says how close courses lie: Munden's, for plain jersey.
-const COURSE_OF_WALE: f64 = 4.2 / 5.5;
+/// Most needles that a float may be allowed to pass.
+const FLOAT_MAX: i64 = 1_000_000;
 
 /// Reads the knit that `table` describes.
 pub(super) fn read(
@@ -55,7 +48,7 @@ pub(super) fn read(
 }
 
 /// Refuses keys that are about weaving.
-fn without_weaving(source: &Source<'_>, file: &DesignFile) -> Result<(), ReadError> {
+pub(super) fn without_weaving(source: &Source<'_>, file: &DesignFile) -> Result<(), ReadError> {
     let cloth = &file.cloth;
     let spans = [
         ("warp", file.warp.as_ref().map(|set| set.yarns.span())),
@@ -105,7 +98,7 @@ impl Reader<'_> {
     fn image(&self, name: String, image: &Spanned<String>) -> Result<Design, ReadError> {
         let (source, table) = (self.source, self.table);
         self.without_stitch_lengths()?;
-        let path = self.beside(image);
+        let path = source.beside(image);
         let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
         let upside_down = rows == RowOrder::FirstPickFirst;
         let refused = |error: ReadError| error.named(source.place("knit.image", image.span()));
@@ -118,10 +111,16 @@ impl Reader<'_> {
             });
         };
         let mut warnings = Vec::new();
-        let meant = self.of_colors(&paper, colors.as_ref(), &mut warnings)?.map_err(refused)?;
+        let meant = colors::of_paper(source, &paper, "knit.colors", colors.as_ref(), &mut warnings)?
+            .map_err(refused)?;
+        let meant: Vec<_> = meant.into_iter().map(|meant| meant.as_ref().clone()).collect();
         let (columns, rows) = (paper.ends, paper.picks);
         let drawn = Drawn::Cells { file: path.clone(), columns, rows, upside_down };
-        let fault = |error| self.refused("knit.image", image.span(), error);
+        let fault = |error: ChartError| {
+            // A chart counts rows from the top, which may be the bottom of the picture.
+            let error = if upside_down { error.from_below(rows) } else { error };
+            self.refused("knit.image", image.span(), error)
+        };
         let is_yarn = |text: &String| self.yarns.thread(text).is_some();
         let design = if meant.iter().all(is_yarn) {
             if let Some(span) =
@@ -183,12 +182,24 @@ impl Reader<'_> {
         )?;
         let mut lengths = LoopLengths::new();
         for (size, length) in &table.stitch_lengths_mm {
-            let field = format!("knit.stitch_lengths_mm.\"{}\"", size.as_ref());
-            lengths.insert(size.as_ref().clone(), source.number(&field, length, LOOP_MM.0, LOOP_MM.1)?);
+            let field = format!("knit.stitch_lengths_mm.\"{}\"", shown(size.as_ref()));
+            let Some(name) = knitout::size(size.as_ref()) else {
+                let expected = "a stitch size: the number behind x-stitch-number, or both behind stitch";
+                return Err(source.unfit(&field, size.span(), expected));
+            };
+            let length = source.number(&field, length, LOOP_MM.0, LOOP_MM.1)?;
+            if lengths.insert(name, length).is_some() {
+                return Err(source.unfit(&field, size.span(), "each stitch size once, as a number"));
+            }
         }
-        let path = self.beside(knitout);
-        let read = knitout::read(&path, &lengths)
+        let path = source.beside(knitout);
+        let mut read = knitout::read(&path, &lengths)
             .map_err(|error| error.named(source.place("knit.knitout", knitout.span())))?;
+        if !read.unused_sizes.is_empty() {
+            let unused = first_few(read.unused_sizes.iter().cloned());
+            let said = format!("knit.stitch_lengths_mm has sizes that {} does not: {unused}", named(&path));
+            read.warnings.push(said);
+        }
         let (turn, yarns) = self.yarns_in_turn()?;
         // Yarns go in turn to the carriers that are used at all; what the others have nobody sees.
         let mut turn = turn.into_iter().cycle();
@@ -221,35 +232,13 @@ impl Reader<'_> {
     /// All but the program, with these yarns for its carriers.
     fn knit(&self, gauge: Gauge, threads: Vec<Thread>) -> Result<Knit, ReadError> {
         let (source, table) = (self.source, self.table);
-        let compression = match &table.compression {
-            Some(share) => source.number("knit.compression", share, COMPRESSION.0, COMPRESSION.1)?,
-            None => 1.0,
-        };
-        let copies = match &table.repeat {
-            None => [1, 1],
-            Some(repeat) => match &repeat.as_ref()[..] {
-                [across, along] => [
-                    source.integer("knit.repeat", across, 1, COPIES_MAX)?,
-                    source.integer("knit.repeat", along, 1, COPIES_MAX)?,
-                ],
-                _ => {
-                    let expected = "two whole numbers, across the wales and along the courses";
-                    return Err(source.unfit("knit.repeat", repeat.span(), expected));
-                }
-            },
-        };
-        let cells = match &table.cells {
-            None => Cells::Round,
-            Some(cells) => match cells.as_ref().as_str() {
-                "round" => Cells::Round,
-                "even" => Cells::Even,
-                _ => return Err(source.bad("knit.cells", cells, "\"round\" or \"even\"")),
-            },
-        };
+        let compression = laid::compression(source, "knit.compression", table.compression.as_ref())?;
+        let copies = laid::copies(source, "knit.repeat", table.repeat.as_ref())?;
+        let cells = laid::cells(source, "knit.cells", table.cells.as_ref())?;
         let float_max = table
             .float_max
             .as_ref()
-            .map(|most| source.integer("knit.float_max", most, 1, COPIES_MAX))
+            .map(|most| source.integer("knit.float_max", most, 1, FLOAT_MAX))
             .transpose()?;
         let (yarns, materials, sections) =
             Knit::yarns_of(threads, compression, &self.yarns.materials, &self.yarns.sections);
@@ -266,31 +255,26 @@ impl Reader<'_> {
         let courses = number("knit.courses_per_cm", &table.courses_per_cm, PER_CM)?;
         let per_inch = number("knit.needles_per_inch", &table.needles_per_inch, PER_INCH)?;
         let loop_mm = number("knit.loop_length_mm", &table.loop_length_mm, LOOP_MM)?;
-        let wale_mm = match (wales, per_inch) {
-            (Some(_), Some(_)) => {
+        let gauge = match (wales, per_inch, courses) {
+            (Some(_), Some(_), _) => {
                 let keys = "knit.wales_per_cm and knit.needles_per_inch";
                 return Err(ReadError::ExactlyOne { file: source.path.into(), keys });
             }
-            (Some(wales), None) => Some(10.0 / wales),
-            (None, Some(needles)) => Some(25.4 / needles),
-            (None, None) => None,
-        };
-        let gauge = match (wale_mm, courses, loop_mm, needles) {
-            (Some(wale_mm), Some(courses), ..) => Gauge::new(wale_mm, 10.0 / courses),
-            (None, None, Some(loop_mm), _) => Gauge::munden(loop_mm),
-            (None, None, None, Some(needles)) => {
-                let wale_mm = 25.4 / needles;
-                Gauge::new(wale_mm, COURSE_OF_WALE * wale_mm)
-            }
-            (None, None, None, None) => {
-                return Err(ReadError::MissingKey {
-                    file: source.path.into(),
-                    field: "knit.wales_per_cm".into(),
-                    needed_for: "with knit.courses_per_cm it says how close stitches lie; so does knit.loop_length_mm",
-                });
-            }
-            (wale_mm, ..) => {
-                let field = if wale_mm.is_some() { "knit.courses_per_cm" } else { "knit.wales_per_cm" };
+            (Some(wales), None, Some(courses)) => Gauge::new(10.0 / wales, 10.0 / courses),
+            (None, Some(needles), Some(courses)) => Gauge::per_inch(needles, courses),
+            (None, None, None) => match (loop_mm, needles) {
+                (Some(loop_mm), _) => Gauge::munden(loop_mm),
+                (None, Some(needles)) => Gauge::plain(needles),
+                (None, None) => {
+                    return Err(ReadError::MissingKey {
+                        file: source.path.into(),
+                        field: "knit.wales_per_cm".into(),
+                        needed_for: "with knit.courses_per_cm it says how close stitches lie; so does knit.loop_length_mm",
+                    });
+                }
+            },
+            (None, None, Some(_)) | (_, _, None) => {
+                let field = if courses.is_none() { "knit.courses_per_cm" } else { "knit.wales_per_cm" };
                 return Err(ReadError::MissingKey {
                     file: source.path.into(),
                     field: field.into(),
@@ -337,42 +321,6 @@ impl Reader<'_> {
         self.yarns.in_turn(self.source, "knit.yarns", list)
     }
 
-    /// What each colour of the paper stands for, or the refusal of one that stands for nothing; a warning of those in the table
-    /// alone.
-    fn of_colors(
-        &self,
-        paper: &PointPaper,
-        colors: &BTreeMap<Spanned<String>, Spanned<String>>,
-        warnings: &mut Vec<String>,
-    ) -> Result<Result<Vec<String>, ReadError>, ReadError> {
-        let mut by_rgb = BTreeMap::new();
-        for (color, meant) in colors {
-            let rgb = self.source.rgb("a colour of [knit.colors]", color)?;
-            if by_rgb.insert(rgb, meant.as_ref()).is_some() {
-                let expected = "each colour once, in either case";
-                return Err(self.source.bad("a colour of [knit.colors]", color, expected));
-            }
-        }
-        let hex = |[red, green, blue]: &[u8; 3]| format!("#{red:02x}{green:02x}{blue:02x}");
-        let known = first_few(by_rgb.keys().map(hex));
-        let mut found = Vec::new();
-        for color in &paper.colors {
-            match color.rgb().and_then(|rgb| by_rgb.remove(&rgb)) {
-                Some(meant) => found.push(meant.clone()),
-                None => return Ok(Err(color.refused(&paper.file, format!("one of [knit.colors]: {known}")))),
-            }
-        }
-        if !by_rgb.is_empty() {
-            let (count, unused) = (by_rgb.len(), first_few(by_rgb.keys().map(hex)));
-            let colors = if count == 1 { "a colour" } else { &format!("{count} colours") };
-            warnings.push(format!(
-                "knit.colors has {colors} that no pixel of {} has: {unused}",
-                named(&paper.file)
-            ));
-        }
-        Ok(Ok(found))
-    }
-
     /// Refuses keys that belong to another one, which is not there.
     fn belongs(&self, needs: &'static str, keys: &[(&str, Option<Range<usize>>)]) -> Result<(), ReadError> {
         match keys.iter().find_map(|(field, span)| Some((field, span.clone()?))) {
@@ -384,11 +332,6 @@ impl Reader<'_> {
     fn without_stitch_lengths(&self) -> Result<(), ReadError> {
         let first = self.table.stitch_lengths_mm.keys().next().map(Spanned::span);
         self.belongs("knit.knitout", &[("knit.stitch_lengths_mm", first)])
-    }
-
-    /// The path of a file that the design names.
-    fn beside(&self, file: &Spanned<String>) -> PathBuf {
-        self.source.path.parent().unwrap_or(Path::new("")).join(file.as_ref())
     }
 
     fn refused(&self, field: &str, span: Range<usize>, error: ChartError) -> ReadError {

@@ -81,6 +81,25 @@
 //! | `cells` | `"round"` or `"even"` ([`Cells`]) |
 //! | `float_max` | how many needles a yarn may float past before it is warned of |
 //!
+//! Or it has `[warp_knit]`, a warp knit:
+//!
+//! | key | value |
+//! |---|---|
+//! | `wales`, `courses`, `repeat` | the size of a piece, multiples of what all bars repeat in, and copies of it: `[4, 2]` |
+//! | `wales_per_cm`, or `needles_per_inch` with `draw_in`; `courses_per_cm` | how close loops lie when finished |
+//! | `compression`, `cells` | as in `[knit]` |
+//! | `[[warp_knit.bars]]` | a guide bar, the front one first |
+//!
+//! Every key of a bar:
+//!
+//! | key | value |
+//! |---|---|
+//! | `lapping`, `step` | chain notation ([`Chain`]) or a name ([`LAPPINGS`]); 2 where only every second number is a space |
+//! | `threading` | yarns of guides in turn, `out` for an empty one: `["2 white", "out"]` |
+//! | `offset` | needles by which the bar stands further to the right |
+//! | `run_in_mm` | yarn for a rack of 480 courses |
+//! | `image`, `rows`, `colors` | a Jacquard bar: a pixel is a guide at one round of the chain, its colour what is displaced: `"0-0/1-1"` |
+//!
 //! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`settle`](texere_fabric::settle)):
 //!
 //! | key | value |
@@ -93,10 +112,13 @@
 //! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.
 
 mod cloth;
+mod colors;
 mod finish;
 mod knit;
+mod laid;
 mod schema;
 mod threads;
+mod warp_knit;
 mod weave;
 
 use std::path::Path;
@@ -104,6 +126,8 @@ use std::path::Path;
 use texere_core::Section;
 #[cfg(doc)]
 use texere_core::settling::Length;
+#[cfg(doc)]
+use texere_fabric::warp::{Chain, LAPPINGS};
 #[cfg(doc)]
 use texere_fabric::weft::{Backing, Beds, Cells, Chart, Gauge};
 #[cfg(doc)]
@@ -127,12 +151,18 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let laid = Cloth::new(&source, &file.cloth)?;
     let (settle, finish) = file.finish.read(&source)?;
     let yarns = YarnTable::new(&source, &file.yarns)?;
-    let weave = match (&file.weave, &file.knit) {
-        (Some(weave), None) => weave,
-        (None, Some(table)) => {
+    let weave = match (&file.weave, &file.knit, &file.warp_knit) {
+        (Some(weave), None, None) => weave,
+        (None, Some(table), None) => {
             return Ok(knit::read(&source, &file, table, &yarns)?.finished(settle, finish));
         }
-        _ => return Err(ReadError::ExactlyOne { file: path.into(), keys: "[weave] and [knit]" }),
+        (None, None, Some(table)) => {
+            return Ok(warp_knit::read(&source, &file, table, &yarns)?.finished(settle, finish));
+        }
+        _ => {
+            let keys = "[weave], [knit] and [warp_knit]";
+            return Err(ReadError::ExactlyOne { file: path.into(), keys });
+        }
     };
     let mut warnings = Vec::new();
     let drawdown = match (&weave.notation, &weave.image, &weave.wif) {
@@ -152,7 +182,7 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
     let design = Design::new(name, Structure::Woven(woven), warnings).finished(settle, finish);
     Ok(match &weave.image {
-        Some(image) => design.noting(&path.parent().unwrap_or(Path::new("")).join(image.as_ref())),
+        Some(image) => design.noting(&source.beside(image)),
         None => design,
     })
 }
@@ -192,7 +222,7 @@ fn from_wif(
             keys: "weave.wif and weave.ends with weave.picks",
         });
     }
-    let path = source.path.parent().unwrap_or(Path::new("")).join(wif.as_ref());
+    let path = source.beside(wif);
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif")) {
         return Err(source.bad("weave.wif", wif, "the path of a .wif file"));
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use texere_fabric::{FabricError, Weave};
@@ -18,6 +18,7 @@ pub(super) struct DesignFile {
     pub(super) name: Option<String>,
     pub(super) weave: Option<WeaveTable>,
     pub(super) knit: Option<KnitTable>,
+    pub(super) warp_knit: Option<WarpKnitTable>,
     #[serde(default)]
     pub(super) cloth: ClothTable,
     #[serde(default)]
@@ -62,6 +63,35 @@ pub(super) struct KnitTable {
     pub(super) compression: Option<Spanned<f64>>,
     pub(super) cells: Option<Spanned<String>>,
     pub(super) float_max: Option<Spanned<i64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WarpKnitTable {
+    pub(super) bars: Vec<BarTable>,
+    pub(super) wales: Spanned<i64>,
+    pub(super) courses: Spanned<i64>,
+    pub(super) repeat: Option<Spanned<Vec<Spanned<i64>>>>,
+    pub(super) wales_per_cm: Option<Spanned<f64>>,
+    pub(super) needles_per_inch: Option<Spanned<f64>>,
+    pub(super) draw_in: Option<Spanned<f64>>,
+    pub(super) courses_per_cm: Spanned<f64>,
+    pub(super) compression: Option<Spanned<f64>>,
+    pub(super) cells: Option<Spanned<String>>,
+}
+
+/// A guide bar.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BarTable {
+    pub(super) lapping: Spanned<String>,
+    pub(super) step: Option<Spanned<i64>>,
+    pub(super) threading: Option<Spanned<Vec<Spanned<String>>>>,
+    pub(super) offset: Option<Spanned<i64>>,
+    pub(super) run_in_mm: Option<Spanned<f64>>,
+    pub(super) image: Option<Spanned<String>>,
+    pub(super) rows: Option<Spanned<RowOrder>>,
+    pub(super) colors: Option<Spanned<BTreeMap<Spanned<String>, Spanned<String>>>>,
 }
 
 /// How threads lie. Values of any kind, so that one of the wrong kind is refused with its key.
@@ -143,6 +173,11 @@ impl<'a> Source<'a> {
             ReadError::Syntax { file: path.into(), line, message: "not UTF-8".into() }
         })?;
         Ok(Self { path, text })
+    }
+
+    /// The path of a file that the design names: it lies beside the design.
+    pub(super) fn beside(&self, file: &Spanned<String>) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(file.as_ref())
     }
 
     pub(super) fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, ReadError> {

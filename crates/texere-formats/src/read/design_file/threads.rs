@@ -178,7 +178,7 @@ impl YarnTable {
     }
 
     /// One item of a repeat: `"indigo"`, or `"3 indigo"` for three in a row.
-    fn item(
+    pub(super) fn item(
         &self,
         source: &Source<'_>,
         field: &str,

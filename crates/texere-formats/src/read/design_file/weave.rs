@@ -1,7 +1,6 @@
 //! From the `[weave]` table of a design file to a drawdown.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use texere_fabric::{Drawdown, Weave};
 use toml::Spanned;
@@ -63,7 +62,7 @@ pub(super) fn from_image(
             }
         },
     };
-    let path = source.path.parent().unwrap_or(Path::new("")).join(image.as_ref());
+    let path = source.beside(image);
     let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
     let refused = |error: ReadError| error.named(source.place("weave.image", image.span()));
     let paper = PointPaper::read(&path, rows).map_err(refused)?;

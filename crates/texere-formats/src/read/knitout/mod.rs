@@ -40,8 +40,22 @@ const CARRIERS_MAX: usize = 256;
 /// The furthest needle from needle 0: machines have up to a thousand or two.
 const NEEDLE_MAX: i32 = 1 << 16;
 
-/// How long a loop is, mm, for each stitch size of a file: the number behind `x-stitch-number`, or both behind `stitch`.
+/// How long a loop is, mm, for each stitch size of a file, as [`size`] writes it.
 pub(super) type LoopLengths = BTreeMap<String, f64>;
+
+/// A stitch size, however its numbers are written: the one behind `x-stitch-number`, or both behind `stitch`.
+pub(super) fn size(text: &str) -> Option<String> {
+    let numbers =
+        text.split_whitespace().map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()));
+    let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
+    (1..=2).contains(&numbers.len()).then(|| size_of_numbers(&numbers))
+}
+
+fn size_of_numbers(numbers: &[f64]) -> String {
+    // Minus zero is zero.
+    let words: Vec<_> = numbers.iter().map(|number| (number + 0.0).to_string()).collect();
+    words.join(" ")
+}
 
 /// A knitout file, read.
 #[derive(Debug)]
@@ -52,6 +66,8 @@ pub(super) struct Knitout {
     /// What the header says of the yarn in each carrier of the program.
     pub(super) yarns: Vec<Option<String>>,
     pub(super) warnings: Vec<String>,
+    /// Stitch sizes that have a length, and that no operation names.
+    pub(super) unused_sizes: Vec<String>,
 }
 
 impl Knitout {
@@ -105,6 +121,7 @@ fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<Knitout, Re
             warnings.once("late header", number, said);
         }
     }
+    let unused_sizes = operations.unused_sizes();
     let (program, undeclared) = operations.finish(&mut warnings);
     if undeclared && !program.carriers.is_empty() {
         let said = "no header \";;Carriers: \", which knitout asks for; carriers are those that occur, in that order";
@@ -112,7 +129,7 @@ fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<Knitout, Re
     }
     let gauge = header.gauge;
     let yarns = header.yarns_of(&program.carriers, &mut warnings);
-    Ok(Knitout { program, gauge, yarns, warnings: warnings.list() })
+    Ok(Knitout { program, gauge, yarns, warnings: warnings.list(), unused_sizes })
 }
 
 /// Whether a line has no operation.

@@ -1,13 +1,13 @@
 //! What each line tells the machine to do.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 use texere_fabric::weft::{CarrierSet, Instruction, Operation, Program};
 
 use super::carriers::Carriers;
 use super::line::{Line, Words};
 use super::warnings::Warnings;
-use super::{LoopLengths, OPERATIONS_MAX};
+use super::{LoopLengths, OPERATIONS_MAX, size_of_numbers};
 use crate::read::ReadError;
 use crate::read::error::shown;
 
@@ -25,9 +25,11 @@ pub(super) struct Operations<'a> {
     /// Fractions of a rack that stand for half a needle.
     all_needle_racks: &'static [f64],
     operations: Vec<Operation>,
-    /// Stitch sizes that have no length, and the first line that has one; no more than two are kept.
-    unsized_stitches: HashSet<String>,
-    first_unsized: usize,
+    /// The first stitch size that has no length, with its line; and whether there are others.
+    unsized_first: Option<(String, usize)>,
+    unsized_others: bool,
+    /// Stitch sizes that have a length and have been named.
+    sized: BTreeSet<String>,
 }
 
 impl<'a> Operations<'a> {
@@ -41,8 +43,9 @@ impl<'a> Operations<'a> {
             lengths,
             all_needle_racks,
             operations: Vec::new(),
-            unsized_stitches: HashSet::new(),
-            first_unsized: 0,
+            unsized_first: None,
+            unsized_others: false,
+            sized: BTreeSet::new(),
         }
     }
 
@@ -100,15 +103,14 @@ impl<'a> Operations<'a> {
             }
             "stitch" => {
                 let expected = "how far needles are drawn back, in units of the machine";
-                let (_, leading) = words.number(expected)?;
-                let (_, stitch) = words.number(expected)?;
+                let sizes = [words.number(expected)?.0, words.number(expected)?.0];
                 words.end()?;
-                Some(self.stitch_size(line, format!("{leading} {stitch}")))
+                Some(self.stitch_size(line, &sizes))
             }
             "x-stitch-number" => {
-                let (_, number) = words.number("a number in the machine's table of stitches")?;
+                let (number, _) = words.number("a number in the machine's table of stitches")?;
                 words.end()?;
-                Some(self.stitch_size(line, number.into()))
+                Some(self.stitch_size(line, &[number]))
             }
             "pause" => {
                 words.end()?;
@@ -167,15 +169,20 @@ impl<'a> Operations<'a> {
     }
 
     /// The length of loops from here on, where there is one for this size.
-    fn stitch_size(&mut self, line: &Line<'_>, size: String) -> (Instruction, CarrierSet) {
+    fn stitch_size(&mut self, line: &Line<'_>, numbers: &[f64]) -> (Instruction, CarrierSet) {
+        let size = size_of_numbers(numbers);
         let length = self.lengths.get(&size).copied();
-        if length.is_none() && self.unsized_stitches.len() < 2 {
-            if self.unsized_stitches.is_empty() {
-                self.first_unsized = line.number;
-            }
-            self.unsized_stitches.insert(size);
+        match &self.unsized_first {
+            _ if length.is_some() => drop(self.sized.insert(size)),
+            None => self.unsized_first = Some((size, line.number)),
+            Some((first, _)) => self.unsized_others |= *first != size,
         }
         (Instruction::LoopLength(length), NO_CARRIERS)
+    }
+
+    /// Stitch sizes that have a length, and that no operation names.
+    pub(super) fn unused_sizes(&self) -> Vec<String> {
+        self.lengths.keys().filter(|size| !self.sized.contains(*size)).cloned().collect()
     }
 
     fn push(
@@ -201,10 +208,19 @@ impl<'a> Operations<'a> {
 
     /// The program, and whether no header lists its carriers.
     pub(super) fn finish(self, warnings: &mut Warnings) -> (Program, bool) {
-        // One size for all loops says no more than none.
-        if self.unsized_stitches.len() > 1 {
-            let said = "stitch sizes, which the machine's own table turns into lengths; loops without a length are all alike";
-            warnings.once("stitch sizes", self.first_unsized, said);
+        match self.unsized_first {
+            Some((size, line)) if !self.sized.is_empty() => {
+                let said = format!(
+                    "stitch size {size} has no length, and others have; its loops take that of all loops"
+                );
+                warnings.once("stitch sizes", line, &said);
+            }
+            // One size for all loops says no more than none.
+            Some((_, line)) if self.unsized_others => {
+                let said = "stitch sizes, which the machine's own table turns into lengths; loops without a length are all alike";
+                warnings.once("stitch sizes", line, said);
+            }
+            _ => {}
         }
         let (carriers, carrier_sets, undeclared) = self.carriers.finish();
         (Program { carriers, carrier_sets, operations: self.operations, repeat: None }, undeclared)

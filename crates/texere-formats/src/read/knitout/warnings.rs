@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::read::error::named;
 
 /// The most warnings of a file.
-const WARNINGS_MAX: usize = 20;
+pub(super) const WARNINGS_MAX: usize = 20;
 
 /// Warnings, each with its line.
 #[derive(Debug)]

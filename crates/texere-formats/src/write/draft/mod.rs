@@ -11,16 +11,18 @@
 //! a shaft draft, or with more shafts or treadles than [`SHAFTS_MAX`], is drawn as point paper: drawdown and yarns alone.
 //! So is the back of any cloth, turned over sideways so that end 1 is on the right: a draft is written for the face.
 
+mod canvas;
 mod font;
 mod knit;
+mod lapping;
 mod sheet;
 
 use texere_fabric::{Draft, Shedding, Thread, Woven};
 
-use super::picture::{encoder_room, png};
-use super::target::Target;
+use super::picture::png;
 use super::{Output, WriteError};
 pub use knit::{NEEDLES_MAX, knit_draft, knit_rows};
+pub use lapping::{warp_draft, warp_rows};
 use sheet::{Block, INK, PAPER, Rgb, Sheet};
 
 /// The most shafts, and the most treadles, that are drawn: more than any loom with treadles or a dobby has.
@@ -80,12 +82,7 @@ pub fn draft(
         let (ends, picks) = (cloth.drawdown().ends(), cloth.drawdown().picks());
         return Err(WriteError::DraftTooLarge { ends, picks, width, height, limit: SIDE_MAX });
     }
-    let mut target = Target::create(output)?;
-    encoder_room().map_err(|source| target.failed(source))?;
-    let written = sheet.write(&mut target);
-    written.map_err(|error| target.failed(error.into()))?;
-    target.commit()?;
-    Ok([width as u32, height as u32])
+    sheet.save(output)
 }
 
 /// A draft, with the number of shafts and treadles that it really uses.

@@ -2,6 +2,9 @@
 
 use std::io::Write;
 
+use super::super::picture::encoder_room;
+use super::super::target::Target;
+use super::super::{Output, WriteError};
 use super::font::{self, GLYPH_HEIGHT, GLYPH_WIDTH};
 
 /// The colour of a pixel.
@@ -93,8 +96,18 @@ impl<'a> Sheet<'a> {
         self.legend = legend;
     }
 
-    /// Writes the sheet as a PNG file.
-    pub(super) fn write(&self, out: impl Write) -> Result<(), png::EncodingError> {
+    /// Writes the sheet to a PNG file. Gives its width and height in pixels.
+    ///
+    /// **Errors**: [`WriteError::Spared`], [`WriteError::Io`].
+    pub(super) fn save(&self, output: Output) -> Result<[u32; 2], WriteError> {
+        let mut target = Target::create(output)?;
+        encoder_room().map_err(|source| target.failed(source))?;
+        self.write(&mut target).map_err(|error| target.failed(error.into()))?;
+        target.commit()?;
+        Ok(self.size.map(|side| side as u32))
+    }
+
+    fn write(&self, out: impl Write) -> Result<(), png::EncodingError> {
         let mut encoder = png::Encoder::new(out, self.size[0] as u32, self.size[1] as u32);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);

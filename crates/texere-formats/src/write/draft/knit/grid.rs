@@ -84,11 +84,9 @@ pub(super) fn extent(stitches: &Stitches) -> ([usize; 2], i64) {
     if let Some(repeat) = stitches.repeat {
         return (repeat.map(|side| side as usize), 0);
     }
-    let floats = stitches.strands.iter().flat_map(|strand| &strand.steps).filter_map(|step| match *step {
-        Step::Float { at, course, .. } => Some((at, course)),
-        Step::Loop { .. } => None,
-    });
-    let all = stitches.loops.iter().map(|stitch| (stitch.at, stitch.course)).chain(floats);
+    let steps = stitches.strands.iter().flat_map(|strand| &strand.steps).map(|step| stitches.visit(step));
+    let all = stitches.loops.iter().map(|stitch| (stitch.at, stitch.course));
+    let all = all.chain(steps.map(|visit| (visit.at, visit.course)));
     let (mut left, mut right, mut top) = (i64::MAX, i64::MIN, 0);
     for (at, course) in all {
         let wale = at.floor() as i64;

@@ -9,8 +9,7 @@ mod symbols;
 
 use texere_fabric::weft::Knitted;
 
-use super::super::picture::{encoder_room, png};
-use super::super::target::Target;
+use super::super::picture::png;
 use super::super::{Output, WriteError};
 use super::sheet::{Block, INK, PAPER, Rgb, Sheet};
 use super::{SIDE_AIM, SIDE_MAX, SQUARE_MAX, Side};
@@ -62,12 +61,7 @@ pub fn knit_draft(cloth: &Knitted, side: Side, output: impl Into<Output>) -> Res
     if width.max(height) > SIDE_MAX {
         return Err(too_large(size));
     }
-    let mut target = Target::create(output)?;
-    encoder_room().map_err(|source| target.failed(source))?;
-    let written = sheet.write(&mut target);
-    written.map_err(|error| target.failed(error.into()))?;
-    target.commit()?;
-    Ok([width as u32, height as u32])
+    sheet.save(output)
 }
 
 /// A row of letters for each course of a knit's stitch chart, the last course first, with those of charts in design files: `.` where
@@ -125,9 +119,9 @@ fn lay_out<'a>(cloth: &'a Knitted, grid: &'a Grid, needles: Option<&'a Needles>,
     if let Some(needles) = needles {
         sheet.put(Block {
             place: [left, below],
-            squares: needles.size,
+            squares: needles.canvas.size,
             square: [1, 1],
-            color: Box::new(|x, y, _| needles.pixel(x, y)),
+            color: Box::new(|x, y, _| needles.canvas.pixel(x, y)),
         });
     }
     let (side, wale) = if back { ("BACK", "RIGHT") } else { ("FACE", "LEFT") };

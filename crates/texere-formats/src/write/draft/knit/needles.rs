@@ -2,7 +2,8 @@
 
 use texere_fabric::weft::{Bed, Direction, Knitted, LoopKind, Step, Stitches, Strand};
 
-use super::super::sheet::{INK, PAPER, Rgb};
+use super::super::canvas::{Canvas, on_paper};
+use super::super::sheet::{INK, Rgb};
 
 /// Pixels from needle to needle of a bed.
 const PITCH: i64 = 24;
@@ -17,21 +18,13 @@ const BED: i64 = 12;
 const LOOP: f64 = 7.0;
 const NEEDLE: f64 = 2.5;
 
-/// Half the width of a line, pixels.
-const STROKE: f64 = 1.0;
-
 /// Transfers.
 const MOVED: Rgb = [30, 90, 200];
-
-/// Yarns brighter than that are drawn darker, so that they show on paper.
-const BRIGHT: u32 = 480;
 
 /// The diagram as pixels.
 #[derive(Debug)]
 pub(super) struct Needles {
-    /// Width and height.
-    pub(super) size: [usize; 2],
-    pixels: Vec<Rgb>,
+    pub(super) canvas: Canvas,
 }
 
 /// The steps that a carrier does in one course and direction, and the number of its first loop.
@@ -42,17 +35,14 @@ struct Pass<'a> {
 }
 
 fn passes(stitches: &Stitches) -> Vec<Pass<'_>> {
-    let course_and_way = |step: &Step| match *step {
-        Step::Loop { number, direction } => (stitches.loops[number as usize].course, direction),
-        Step::Float { course, direction, .. } => (course, direction),
+    let course_and_way = |step: &Step| {
+        let visit = stitches.visit(step);
+        (visit.course, visit.direction)
     };
     let of = |strand: &'_ Strand| -> Vec<(u32, usize, usize)> {
         let (mut found, mut first, mut time) = (Vec::new(), 0, 0);
         for run in strand.steps.chunk_by(|one, other| course_and_way(one) == course_and_way(other)) {
-            let made = run.iter().find_map(|step| match *step {
-                Step::Loop { number, .. } => Some(number),
-                Step::Float { .. } => None,
-            });
+            let made = run.iter().find_map(|step| stitches.visit(step).number);
             time = made.unwrap_or(time);
             found.push((time, first, first + run.len()));
             first += run.len();
@@ -79,7 +69,7 @@ impl Needles {
         }
         let size =
             [(wales as i64 + 1) * PITCH, (passes.len() as i64).max(1) * PASS].map(|side| side as usize);
-        let mut needles = Self { size, pixels: vec![PAPER; size[0] * size[1]] };
+        let mut needles = Self { canvas: Canvas::new(size) };
         for (number, pass) in (1..).zip(&passes) {
             let middle = size[1] as i64 - number * PASS + PASS / 2;
             let wrap = stitches.repeat.map(|_| wales as f32);
@@ -87,16 +77,11 @@ impl Needles {
             for wale in 0..wales as i64 {
                 let x = ((wale + 1) * PITCH - PITCH / 2) as f64;
                 for y in [middle - BED, middle + BED] {
-                    needles.dot([x, y as f64], NEEDLE, INK);
+                    needles.canvas.dot([x, y as f64], NEEDLE, INK);
                 }
             }
         }
         Some(needles)
-    }
-
-    /// A pixel's colour.
-    pub(super) fn pixel(&self, x: usize, y: usize) -> Rgb {
-        self.pixels[y * self.size[0] + x]
     }
 
     /// The middle of a pass is the `middle`th row of pixels; front needles lie below it, as in a machine seen from above.
@@ -111,27 +96,24 @@ impl Needles {
         let yarn = yarn(cloth, pass.carrier);
         let mut before: Option<f64> = None;
         for step in pass.steps {
-            let (at, direction) = match *step {
-                Step::Loop { number, direction } => (stitches.loops[number as usize].at, direction),
-                Step::Float { at, direction, .. } => (at, direction),
-            };
-            let here = x(at);
-            let way = if direction == Direction::Right { 1.0 } else { -1.0 };
+            let visit = stitches.visit(step);
+            let here = x(visit.at);
+            let way = if visit.direction == Direction::Right { 1.0 } else { -1.0 };
             // Where the needle lies in the repeat beside, the yarn leaves on one side and comes in on the other.
             let from =
                 before.filter(|from| (here - from) * way >= 0.0).unwrap_or(here - way * PITCH as f64 / 2.0);
-            self.line([from, middle], [here + way * PITCH as f64 / 4.0, middle], yarn);
+            self.canvas.line([from, middle], [here + way * PITCH as f64 / 4.0, middle], yarn);
             before = Some(here);
-            let Step::Loop { number, .. } = *step else { continue };
+            let Some(number) = visit.number else { continue };
             let stitch = &stitches.loops[number as usize];
             let needle = middle + side(stitch.bed) * BED as f64;
             if stitch.kind == LoopKind::Tuck {
                 let tip = needle + side(stitch.bed) * LOOP;
-                self.line([here - LOOP, middle], [here, tip], yarn);
-                self.line([here, tip], [here + LOOP, middle], yarn);
+                self.canvas.line([here - LOOP, middle], [here, tip], yarn);
+                self.canvas.line([here, tip], [here + LOOP, middle], yarn);
             } else {
-                self.line([here, middle], [here, needle - side(stitch.bed) * LOOP], yarn);
-                self.ring([here, needle], yarn);
+                self.canvas.line([here, middle], [here, needle - side(stitch.bed) * LOOP], yarn);
+                self.canvas.ring([here, needle], LOOP, yarn);
             }
             if stitch.head.at != stitch.at || stitch.head.bed != stitch.bed {
                 let to = here + f64::from(stitch.head.at - stitch.at) * PITCH as f64;
@@ -139,7 +121,7 @@ impl Needles {
                 if stitch.head.bed == stitch.bed {
                     // Round the needles between.
                     let below = [(here + to) / 2.0, needle + side(stitch.bed) * 2.0 * LOOP];
-                    self.line([here, needle], below, MOVED);
+                    self.canvas.line([here, needle], below, MOVED);
                     self.arrow(below, tip);
                 } else {
                     self.arrow([here, needle], tip);
@@ -147,55 +129,22 @@ impl Needles {
             }
         }
         if let (Some(from), Some(wales)) = (before, wrap) {
-            self.line([from, middle], [from.min(f64::from(wales) * PITCH as f64), middle], yarn);
+            self.canvas.line([from, middle], [from.min(f64::from(wales) * PITCH as f64), middle], yarn);
         }
     }
 
     fn arrow(&mut self, from: [f64; 2], to: [f64; 2]) {
-        self.line(from, to, MOVED);
+        self.canvas.line(from, to, MOVED);
         let (x, y) = (to[0] - from[0], to[1] - from[1]);
         let length = x.hypot(y).max(1.0);
         for turn in [-1.0, 1.0] {
             let back = [(-x + turn * 0.5 * y) / length * LOOP, (-y - turn * 0.5 * x) / length * LOOP];
-            self.line(to, [to[0] + back[0], to[1] + back[1]], MOVED);
-        }
-    }
-
-    fn ring(&mut self, center: [f64; 2], color: Rgb) {
-        self.near(center, LOOP + STROKE, color, |distance| (distance - LOOP).abs() < STROKE);
-    }
-
-    fn dot(&mut self, center: [f64; 2], radius: f64, color: Rgb) {
-        self.near(center, radius, color, |distance| distance < radius);
-    }
-
-    fn line(&mut self, from: [f64; 2], to: [f64; 2], color: Rgb) {
-        let steps = (to[0] - from[0]).abs().max((to[1] - from[1]).abs()).ceil().max(1.0);
-        for step in 0..=steps as u32 {
-            let share = f64::from(step) / steps;
-            self.dot([0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis])), STROKE, color);
-        }
-    }
-
-    /// Colours the pixels near a point whose distance from it is `inside`.
-    fn near(&mut self, [x, y]: [f64; 2], reach: f64, color: Rgb, inside: impl Fn(f64) -> bool) {
-        let range = |at: f64, side: usize| {
-            let end = (at + reach + 1.0).clamp(0.0, side as f64) as usize;
-            (at - reach).clamp(0.0, side as f64) as usize..end
-        };
-        for row in range(y, self.size[1]) {
-            for column in range(x, self.size[0]) {
-                if inside((column as f64 + 0.5 - x).hypot(row as f64 + 0.5 - y)) {
-                    self.pixels[row * self.size[0] + column] = color;
-                }
-            }
+            self.canvas.line(to, [to[0] + back[0], to[1] + back[1]], MOVED);
         }
     }
 }
 
 /// The colour of a carrier's yarn, dark enough for paper.
 fn yarn(cloth: &Knitted, carrier: u32) -> Rgb {
-    let color = super::yarn(cloth, carrier);
-    let bright = color.iter().map(|&channel| u32::from(channel)).sum::<u32>();
-    if bright > BRIGHT { color.map(|channel| (u32::from(channel) * 320 / bright) as u8) } else { color }
+    on_paper(super::yarn(cloth, carrier))
 }

@@ -1,0 +1,49 @@
+//! What knits of either kind say about how they are laid: copies, compression, and how many control points they have.
+
+use texere_fabric::weft::Cells;
+use toml::Spanned;
+
+use super::schema::Source;
+use crate::read::ReadError;
+
+/// How far yarns may be pressed together, as a share of their diameter.
+const COMPRESSION: (f64, f64) = (0.8, 1.0);
+
+/// Most copies of a repeat in either direction.
+const COPIES_MAX: i64 = 1_000_000;
+
+/// How much of its diameter a yarn keeps.
+pub(super) fn compression(
+    source: &Source<'_>,
+    field: &str,
+    share: Option<&Spanned<f64>>,
+) -> Result<f64, ReadError> {
+    share.map_or(Ok(1.0), |share| source.number(field, share, COMPRESSION.0, COMPRESSION.1))
+}
+
+/// Copies across the wales and along the courses.
+pub(super) fn copies(
+    source: &Source<'_>,
+    field: &str,
+    repeat: Option<&Spanned<Vec<Spanned<i64>>>>,
+) -> Result<[u32; 2], ReadError> {
+    let Some(repeat) = repeat else { return Ok([1, 1]) };
+    let [across, along] = &repeat.as_ref()[..] else {
+        let expected = "two whole numbers, across the wales and along the courses";
+        return Err(source.unfit(field, repeat.span(), expected));
+    };
+    Ok([source.integer(field, across, 1, COPIES_MAX)?, source.integer(field, along, 1, COPIES_MAX)?])
+}
+
+/// How control points are counted.
+pub(super) fn cells(
+    source: &Source<'_>,
+    field: &str,
+    cells: Option<&Spanned<String>>,
+) -> Result<Cells, ReadError> {
+    match cells.map(|cells| (cells, cells.as_ref().as_str())) {
+        None | Some((_, "round")) => Ok(Cells::Round),
+        Some((_, "even")) => Ok(Cells::Even),
+        Some((cells, _)) => Err(source.bad(field, cells, "\"round\" or \"even\"")),
+    }
+}

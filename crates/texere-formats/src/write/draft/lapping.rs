@@ -1,0 +1,202 @@
+//! Lapping diagrams of warp knits, on point paper: a dot for each needle, courses upward.
+//!
+//! ```text
+//!  .  .  .  .     .  .  .  .     course 2
+//!  .  .  .  .     .  .  .  .     course 1
+//!  front bar      all bars
+//! ```
+//!
+//! A diagram for each bar has one of its guides, or all where the bar is a Jacquard bar; the one on the right has all guides of all bars. A
+//! guide passes behind the needles between two dots, goes round a dot above it, and moves on to the next course.
+
+use texere_fabric::warp::{Lap, LapKind, WarpKnitted};
+
+use super::super::picture::png;
+use super::super::{Output, WriteError};
+use super::canvas::{Canvas, on_paper};
+use super::sheet::{Block, INK, PAPER, Rgb, Sheet};
+use super::{SIDE_MAX, Side};
+
+/// Pixels from needle to needle, and from course to course.
+const PITCH: f64 = 28.0;
+const COURSE: f64 = 36.0;
+
+/// How far from its needle a yarn goes round it, pixels, and the radius of the needle.
+const ROUND: f64 = 8.0;
+const NEEDLE: f64 = 2.5;
+
+/// The most wales and courses that are drawn.
+const WALES_MAX: u32 = 12;
+const COURSES_MAX: u32 = 48;
+
+/// The most diagrams beside one another, that of all bars among them.
+const DIAGRAMS_MAX: usize = 9;
+
+/// Parts of half a turn that is drawn round a needle.
+const PARTS: u32 = 12;
+
+/// Draws a warp knit's lapping diagram to a PNG file: its first wales and courses, at most 12 by 48, and below it the chain of each bar. From the
+/// face, needles are counted from the left, from the back from the right. Gives the picture's width and height in pixels.
+///
+/// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::ChartTooLarge`] for chains too long to be
+/// written below, [`WriteError::Spared`], [`WriteError::Io`].
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::warp::{Bar, Chain, WarpKnitted};
+/// use texere_fabric::weft::{Gauge, KnitYarn};
+/// use texere_formats::write::{Side, warp_draft};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("tricot.png");
+/// let bars = vec![Bar::new(Chain::parse("1-0/1-2//", 1)?)];
+/// let (yarns, materials) = (vec![KnitYarn::new(0.05)], vec![Material::default()]);
+/// let tricot = WarpKnitted::new(bars, Gauge::new(1.0, 0.75), 8, 8, yarns, materials, vec![Section::Circle], [1, 1])?;
+/// warp_draft(&tricot, Side::Face, &path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn warp_draft(
+    cloth: &WarpKnitted,
+    side: Side,
+    output: impl Into<Output>,
+) -> Result<[u32; 2], WriteError> {
+    let output = png(output.into())?;
+    let drawing = Drawing::new(cloth, side);
+    let sheet = drawing.sheet(side);
+    let [width, height] = sheet.size;
+    if width.max(height) > SIDE_MAX {
+        let [wales, courses] = drawing.size.map(|side| side as usize);
+        return Err(WriteError::ChartTooLarge { wales, courses, side: SIDE_MAX, squares: wales * courses });
+    }
+    sheet.save(output)
+}
+
+/// A line for each bar of a warp knit, the front one first: its chain, as chains are written.
+#[must_use]
+pub fn warp_rows(cloth: &WarpKnitted) -> Vec<String> {
+    let line = |(number, bar): (usize, &texere_fabric::warp::Bar)| format!("bar {number}: {}", bar.chain);
+    (1..).zip(cloth.bars()).map(line).collect()
+}
+
+/// All diagrams of a cloth.
+struct Drawing<'a> {
+    cloth: &'a WarpKnitted,
+    /// Wales and courses that are drawn.
+    size: [u32; 2],
+    diagrams: Vec<Canvas>,
+}
+
+impl<'a> Drawing<'a> {
+    fn new(cloth: &'a WarpKnitted, side: Side) -> Self {
+        let [wales, courses] = cloth.size();
+        let size = [wales.clamp(6, WALES_MAX), courses.min(COURSES_MAX)];
+        let mut drawing = Self { cloth, size, diagrams: Vec::new() };
+        let bars = 0..cloth.bars().len();
+        let single = bars.clone().take(DIAGRAMS_MAX - 1);
+        let mut diagrams: Vec<_> =
+            single.map(|bar| drawing.diagram(side, &[(bar, drawing.shown(bar))])).collect();
+        let all: Vec<_> = bars.rev().map(|bar| (bar, (0..size[0]).collect())).collect();
+        diagrams.push(drawing.diagram(side, &all));
+        drawing.diagrams = diagrams;
+        drawing
+    }
+
+    /// The guides of a bar's own diagram: the threaded one whose laps lie in the middle, or all of a Jacquard bar.
+    fn shown(&self, number: usize) -> Vec<u32> {
+        let bar = &self.cloth.bars()[number];
+        if bar.jacquard.is_some() {
+            return (0..self.size[0]).collect();
+        }
+        let spaces = || bar.chain.laps().iter().flat_map(|lap| [lap.from, lap.to]);
+        let middle = (spaces().min().unwrap_or(0) + spaces().max().unwrap_or(0)) / 2 + bar.offset;
+        let off = |guide: &u32| (*guide as i32 + middle - self.size[0] as i32 / 2).unsigned_abs();
+        let threaded = (0..self.size[0]).filter(|guide| bar.threading.yarn(*guide).is_some());
+        threaded.min_by_key(off).into_iter().collect()
+    }
+
+    fn diagram(&self, side: Side, bars: &[(usize, Vec<u32>)]) -> Canvas {
+        let [wales, courses] = self.size.map(f64::from);
+        let mut canvas =
+            Canvas::new([(wales + 1.0) * PITCH, (courses + 1.0) * COURSE].map(|side| side as usize));
+        let place = |at: [f64; 2]| self.place(side, at);
+        for (number, guides) in bars {
+            let bar = &self.cloth.bars()[*number];
+            // Bars lie a little beside one another, so that each shows.
+            let beside = *number as f64 * 3.0 / PITCH;
+            for guide in guides {
+                let Some(yarn) = bar.threading.yarn(*guide) else { continue };
+                let mut way = Vec::new();
+                for course in 0..=self.size[1] {
+                    lay(&mut way, bar.lap(*guide, course), f64::from(course), beside);
+                }
+                for pair in way.windows(2) {
+                    canvas.line(place(pair[0]), place(pair[1]), self.color(yarn));
+                }
+            }
+        }
+        for course in 0..self.size[1] {
+            for wale in 0..self.size[0] {
+                canvas.dot(place([f64::from(wale) + 0.5, f64::from(course)]), NEEDLE, INK);
+            }
+        }
+        canvas
+    }
+
+    /// The pixel of a place, in needle spaces and courses.
+    fn place(&self, side: Side, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [wales, courses] = self.size.map(f64::from);
+        let x = match side {
+            Side::Face => x,
+            Side::Back => wales - x,
+        };
+        [(x + 0.5) * PITCH, (courses - y) * COURSE]
+    }
+
+    fn color(&self, yarn: u32) -> Rgb {
+        let yarn = self.cloth.guide_yarns().get(yarn as usize);
+        let material = yarn.and_then(|yarn| self.cloth.materials().get(yarn.material as usize));
+        on_paper(material.map_or(PAPER, |material| material.srgb))
+    }
+
+    fn sheet(&self, side: Side) -> Sheet<'_> {
+        let mut sheet = Sheet::new(PITCH as usize, false);
+        let [mut left, top] = Sheet::ORIGIN;
+        for canvas in &self.diagrams {
+            let color = Box::new(|x, y, _| canvas.pixel(x, y));
+            let block = Block { place: [left, top], squares: canvas.size, square: [1, 1], color };
+            [left, _] = sheet.put(block);
+        }
+        let (side, first) = match side {
+            Side::Face => ("FACE", "LEFT"),
+            Side::Back => ("BACK", "RIGHT"),
+        };
+        let [wales, courses] = self.size;
+        let mut legend = vec![
+            format!("{side}. DOTS: NEEDLES"),
+            format!("NEEDLE 1 {first}, COURSE 1 BOTTOM"),
+            format!("{wales} WALES, {courses} COURSES"),
+            "FRONT BAR FIRST, ALL BARS LAST".into(),
+        ];
+        legend.extend(warp_rows(self.cloth).into_iter().map(|row| row.to_uppercase()));
+        sheet.close(legend);
+        sheet
+    }
+}
+
+/// Adds the way round the needles of a lap, in needle spaces and courses.
+fn lay(way: &mut Vec<[f64; 2]>, lap: Lap, course: f64, beside: f64) {
+    let (across, along) = (ROUND / PITCH, ROUND / COURSE);
+    if lap.kind() == LapKind::Inlay {
+        way.push([f64::from(lap.from) + beside, course]);
+        return;
+    }
+    let needles: Vec<_> = lap.needles().map(|needle| f64::from(needle) + 0.5 + beside).collect();
+    let (Some(first), Some(last)) = (needles.first(), needles.last()) else { return };
+    let onward = f64::from(lap.overlap().signum());
+    way.push([first - onward * across, course - along]);
+    for part in 0..=PARTS {
+        let turn = std::f64::consts::PI * f64::from(part) / f64::from(PARTS);
+        let needle = if part <= PARTS / 2 { first } else { last };
+        way.push([needle - onward * across * turn.cos(), course + along * turn.sin()]);
+    }
+    way.push([last + onward * across, course - along]);
+}

@@ -1,0 +1,104 @@
+//! Warp knits: every loop is drawn through those below it, and how they settle, by checks that share no code with texere's crates.
+
+mod topology;
+
+use std::ops::ControlFlow;
+
+use texere_conformance::rest::{CROSSED, check, linking, piece_points, piece_start};
+use texere_core::{Material, Section};
+use texere_cpu::ParallelBackend;
+use texere_fabric::warp::{Bar, Chain, WarpKnitted};
+use texere_fabric::weft::{Gauge, KnitYarn};
+use texere_fabric::{Finish, settle};
+
+/// A lapping by its bars, and the diameters for which it settles, in wales.
+struct Design {
+    name: &'static str,
+    bars: &'static [&'static str],
+    diameters: &'static [f64],
+}
+
+const DESIGNS: [Design; 13] = [
+    Design { name: "tricot", bars: &["1-0/1-2"], diameters: &[0.08, 0.1] },
+    Design { name: "open tricot", bars: &["0-1/2-1"], diameters: &[0.08, 0.1] },
+    Design { name: "pillar", bars: &["0-1/1-0"], diameters: &[0.08, 0.1] },
+    Design { name: "cord", bars: &["1-0/2-3"], diameters: &[0.08, 0.1] },
+    Design { name: "open atlas", bars: &["0-1/1-2/3-2/2-1"], diameters: &[0.08, 0.1] },
+    Design { name: "counter tricot", bars: &["1-0/1-2", "1-2/1-0"], diameters: &[0.08, 0.1, 0.13] },
+    Design { name: "locknit", bars: &["1-0/2-3", "1-2/1-0"], diameters: &[0.08, 0.1] },
+    Design { name: "reverse locknit", bars: &["1-0/1-2", "2-3/1-0"], diameters: &[0.08, 0.1] },
+    Design { name: "sharkskin", bars: &["1-0/1-2", "3-4/1-0"], diameters: &[0.08, 0.1] },
+    Design { name: "satin", bars: &["1-0/3-4", "1-2/1-0"], diameters: &[0.08, 0.1] },
+    Design { name: "queenscord", bars: &["1-0/0-1", "3-4/1-0"], diameters: &[0.08, 0.1] },
+    Design { name: "parallel tricot", bars: &["1-0/1-2", "1-0/1-2"], diameters: &[0.08, 0.1] },
+    Design { name: "pillar and inlay", bars: &["0-1/1-0", "0-0/3-3"], diameters: &[0.08, 0.1] },
+];
+
+impl Design {
+    fn bars(&self) -> Vec<Bar> {
+        self.bars.iter().map(|chain| Bar::new(Chain::parse(chain, 1).expect("a chain"))).collect()
+    }
+}
+
+/// Four wales and four courses of yarns of that diameter, wales 1 mm apart.
+fn cloth(bars: Vec<Bar>, diameter: f64) -> WarpKnitted {
+    let yarns = vec![KnitYarn::new(diameter as f32 / 2.0)];
+    let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    WarpKnitted::new(bars, Gauge::new(1.0, 0.75), 4, 4, yarns, materials, sections, [1, 1]).expect("a cloth")
+}
+
+#[test]
+fn loops_of_tricot_are_drawn_through_those_below() {
+    for diameter in [0.05, 0.1] {
+        let cloth = cloth(DESIGNS[0].bars(), diameter);
+        let piece = cloth.piece().expect("a piece");
+        let faults = topology::faults(&cloth, &piece, &piece.yarns);
+        assert!(faults.is_empty(), "{diameter}: {faults:#?}");
+    }
+}
+
+/// The check of topology sees a head that has slipped off the loop which it holds.
+#[test]
+fn a_dropped_stitch_is_seen() {
+    let cloth = cloth(DESIGNS[0].bars(), 0.1);
+    let piece = cloth.piece().expect("a piece");
+    let mut yarns = piece.yarns.clone();
+    let mut moved = yarns.yarn_points(1).expect("a yarn").to_vec();
+    // The first loop's shoulders and head, in front of the legs of the loop above.
+    moved[3..=5].iter_mut().for_each(|point| point.z = 0.4);
+    yarns.set_points(1, &moved).expect("points");
+    assert!(!topology::faults(&cloth, &piece, &yarns).is_empty());
+}
+
+/// Settles a cloth, and says what is wrong with its rest, if anything is.
+fn fault(name: &str, cloth: &WarpKnitted, diameter: f64) -> Option<String> {
+    let device = ParallelBackend::open().expect("the CPU");
+    let repeat = cloth.repeat().expect("a repeat");
+    let finish = cloth.finish_of(&repeat, &Finish::default(), 0.0);
+    let settled = settle(&repeat.piece, &finish, 0.0, &device, |_| ControlFlow::Continue(()));
+    let settled = settled.expect("a settling");
+    let start = piece_start(name, &repeat.piece, diameter / 2.0);
+    let after = piece_points(&settled.yarns);
+    let report = check(&start, &after);
+    let linked = linking(&start, &start.points(), &after).change;
+    println!(
+        "{name} {diameter}: clearance {:.3}, radius {:.3} d, {:.2} d thick, {:+.1} % long, {} passes",
+        report.clearance,
+        report.bend,
+        report.thickness / diameter,
+        100.0 * report.growth,
+        settled.rest.passes
+    );
+    let rests = report.clearance >= 0.98 && report.bend >= 0.58 && report.growth.abs() < 0.02;
+    let sound = rests && linked < CROSSED && settled.is_linked();
+    (!sound).then(|| format!("{name} {diameter}: {report:?}, linking {linked}"))
+}
+
+#[test]
+fn warp_knits_come_to_rest() {
+    let sizes = DESIGNS.iter().flat_map(|design| design.diameters.iter().map(move |size| (design, *size)));
+    let faults: Vec<_> = sizes
+        .filter_map(|(design, diameter)| fault(design.name, &cloth(design.bars(), diameter), diameter))
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}

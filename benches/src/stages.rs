@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, Design, Limits, Plan, Repeat, Settings, Yarns};
+use texere::{Backend, Limits, Plan, Settings, Yarns};
 use texere_core::Session;
-use texere_core::settling::{Rest, Settler, SettlingPlan, settle, settled};
+use texere_core::settling::{Rest, SettlingPlan, settle, settled};
 
 use crate::measure::Bench;
 use crate::one_yarn;
@@ -61,12 +61,11 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<Stages, Box<dyn Error
     let design = texere::read(path)?;
     let mut stages = Stages { name: design.name.clone(), read: clock.lap(), ..Stages::default() };
     let (yarns, mut rest) = if design.settle {
-        let repeat = match design.structure.knitted() {
-            Some(knit) => knit.repeat()?,
-            None => Repeat { piece: design.structure.piece()?, copies: [1, 1] },
-        };
+        let repeat = design.structure.repeat()?;
         stages.generate = clock.lap();
-        let (plan, mut settler) = settler(&design, &repeat, settings.tension, device)?;
+        let finish = design.structure.finish_of(&repeat, &design.finish, settings.tension);
+        let plan = Arc::new(SettlingPlan::new(&repeat.piece.settling(&finish, settings.tension))?);
+        let mut settler = device.settler(plan.clone())?;
         stages.plan = clock.lap();
         stages.rest = Some(settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?);
         stages.settle = Some(clock.lap());
@@ -169,22 +168,6 @@ pub fn print_one_yarn(designs: &[impl AsRef<Path>], device: &str) -> Result<(), 
 
 /// Bytes that the chunks of a mesh may take.
 const CHUNKS: u64 = 32 << 30;
-
-/// What a design's repeat settles by on a device.
-fn settler(
-    design: &Design,
-    repeat: &Repeat,
-    tension: f32,
-    device: &dyn Backend,
-) -> Result<(Arc<SettlingPlan>, Box<dyn Settler>), Box<dyn Error>> {
-    let finish = match design.structure.knitted() {
-        Some(knit) => knit.finish_of(repeat, &design.finish, tension),
-        None => design.finish,
-    };
-    let plan = Arc::new(SettlingPlan::new(&repeat.piece.settling(&finish, tension))?);
-    let settler = device.settler(plan.clone())?;
-    Ok((plan, settler))
-}
 
 /// Laps of one clock.
 #[derive(Debug)]

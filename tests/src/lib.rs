@@ -31,6 +31,6 @@ pub use broken_crossings::{CrossingsSabotage, SabotagedCrossings};
 pub use broken_settler::{SabotagedSettler, SettlingSabotage};
 pub use check::{check, check_within};
 pub use deferred::DeferredBackend;
-pub use registry::{Entry, OpenAll, REGISTRY};
+pub use registry::{Entry, OpenAll, REGISTRY, near_devices};
 pub use sabotage::{Sabotage, SabotagedBackend};
 pub use suite::run;

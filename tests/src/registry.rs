@@ -1,6 +1,6 @@
 //! The backends that the suite runs on: one line each.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use texere_core::{Backend, BackendError, DeviceInfo, Schedule};
 use texere_cpu::{ParallelBackend, SerialBackend};
@@ -84,6 +84,29 @@ pub const REGISTRY: &[Entry] = &[
     Entry::near("opencl", || open_each(OpenClBackend::devices(), OpenClBackend::open)),
     Entry::near("wgpu", || open_each(WgpuBackend::devices(), WgpuBackend::open)),
 ];
+
+/// All devices of [`REGISTRY`] that are not held to the bits of `cpu-serial`, opened once: for stages without a schedule, so each under
+/// one of them.
+///
+/// **Panics** where a backend that `TEXERE_REQUIRE` names has a device that does not open.
+#[must_use]
+pub fn near_devices() -> &'static [Arc<dyn Backend>] {
+    static DEVICES: OnceLock<Vec<Arc<dyn Backend>>> = OnceLock::new();
+    DEVICES.get_or_init(|| {
+        let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
+        let near = REGISTRY.iter().filter(|entry| !entry.exact);
+        let devices = near.flat_map(|entry| {
+            let (devices, missing) = entry.devices();
+            assert!(
+                missing.is_empty() || names(&required).all(|name| name != entry.name),
+                "{}: {missing:?}",
+                entry.name
+            );
+            devices
+        });
+        devices.filter(|device| device.info().schedule == Schedule::PerRing).collect()
+    })
+}
 
 /// Opens each of the devices `listed`, with either schedule.
 fn open_each<B: Backend + 'static>(

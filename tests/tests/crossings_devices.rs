@@ -1,9 +1,9 @@
 //! Crossings on every device of the registry, against `cpu-serial`: where threads lie, what passes see, and whole courses.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
-use texere_conformance::{CrossingsSabotage, REGISTRY, SabotagedCrossings};
+use texere_conformance::{CrossingsSabotage, SabotagedCrossings, near_devices};
 use texere_core::crossings::{
     Crossing, Crossings, CrossingsPass, CrossingsPlan, CrossingsRest, CrossingsSeen, CrossingsSettler, Set,
     Thread, settle,
@@ -12,22 +12,6 @@ use texere_core::{Backend, BackendError, Limits, Schedule};
 use texere_cpu::SerialBackend;
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
-
-/// All devices that are not held to the bits of `cpu-serial`, opened once; the schedule of a mesh makes no difference.
-fn devices() -> &'static [Arc<dyn Backend>] {
-    static DEVICES: OnceLock<Vec<Arc<dyn Backend>>> = OnceLock::new();
-    DEVICES.get_or_init(|| {
-        let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
-        let near = REGISTRY.iter().filter(|entry| !entry.exact);
-        let devices = near.flat_map(|entry| {
-            let (devices, missing) = entry.devices();
-            let wanted = required.split(',').any(|name| name.trim() == entry.name);
-            assert!(!wanted || missing.is_empty(), "{}: {missing:?}", entry.name);
-            devices
-        });
-        devices.filter(|device| device.info().schedule == Schedule::PerRing).collect()
-    })
-}
 
 /// Threads of a diameter every so many of it.
 fn even(
@@ -191,7 +175,7 @@ fn devices_move_crossings_as_the_reference_does() {
             let expected = reference(&plan, &begin, first);
             assert!(apart(&expected.crossings, &begin) > OFF, "{name}: nothing moved");
             let most = certain(&plan, &begin, first, &expected);
-            for device in devices() {
+            for device in near_devices() {
                 let mut settler = device.crossings_settler(Arc::clone(&plan)).expect("a settler");
                 let found = eight_passes(settler.as_mut(), &begin, first).expect("a course");
                 let here = format!("{}: {name}, from pass {first}", device.info().name);
@@ -274,7 +258,7 @@ fn cloths_come_to_the_same_rest_on_every_device() {
         let plan = plan(&problem);
         let (expected, crossings) = rest(&SerialBackend::new(), &plan);
         at_rest += usize::from(expected.at_rest);
-        for device in devices() {
+        for device in near_devices() {
             let (found, read) = rest(device.as_ref(), &plan);
             let measures = [means(&plan, &read), means(&plan, &crossings)];
             let both = measures[0].iter().zip(&measures[1]);
@@ -304,7 +288,7 @@ fn passes_end_where_they_should() {
     let problem = even([0.4; 2], [0.2; 2], [2, 2], |end, pick| (end + pick).is_multiple_of(2));
     for passes in [1, 7, 23] {
         let plan = plan(&problem.clone().passes(passes));
-        for device in devices() {
+        for device in near_devices() {
             let mut settler = device.crossings_settler(Arc::clone(&plan)).expect("a settler");
             let mut watched = 0;
             let rest = settle(&plan, settler.as_mut(), |_, _| {

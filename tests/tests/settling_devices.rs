@@ -1,32 +1,16 @@
 //! Settling on every device of the registry, against `cpu-serial`: places, what was seen, neighbours, and whole courses.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use glam::DVec3;
 use texere_conformance::rest::{
     Ends, Length, Start, StartYarn, Weave, check, settle_start, settling_plan, starts, woven,
 };
-use texere_conformance::{REGISTRY, SabotagedSettler, SettlingSabotage};
+use texere_conformance::{SabotagedSettler, SettlingSabotage, near_devices};
 use texere_core::settling::{Form, Pass, Place, Rest, Seen, Settler, Settling, SettlingPlan, tag};
 use texere_core::{Backend, BackendError, Boundary, ControlPoint, Limits, Schedule, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_opencl::OpenClBackend;
-
-/// All devices that are not held to the bits of `cpu-serial`, opened once; the schedule of a mesh makes no difference.
-fn devices() -> &'static [Arc<dyn Backend>] {
-    static DEVICES: OnceLock<Vec<Arc<dyn Backend>>> = OnceLock::new();
-    DEVICES.get_or_init(|| {
-        let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
-        let near = REGISTRY.iter().filter(|entry| !entry.exact);
-        let devices = near.flat_map(|entry| {
-            let (devices, missing) = entry.devices();
-            let wanted = required.split(',').any(|name| name.trim() == entry.name);
-            assert!(!wanted || missing.is_empty(), "{}: {missing:?}", entry.name);
-            devices
-        });
-        devices.filter(|device| device.info().schedule == Schedule::PerRing).collect()
-    })
-}
 
 /// A repeat of plain weave as it lies, its yarns flattened and pressed by plates.
 fn flattened_plain() -> SettlingPlan {
@@ -204,7 +188,7 @@ fn faults(plan: &SettlingPlan, found: &Course, reference: &Reference) -> Vec<Str
 
 #[test]
 fn devices_settle_as_the_reference_does() {
-    let devices = devices();
+    let devices = near_devices();
     let (mut failed, mut certain) = (Vec::new(), 0);
     for (name, plan) in plans() {
         for form in [Form::Weighted, Form::Block] {
@@ -296,7 +280,7 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
 fn what_was_kept_comes_back() {
     let plan = settling_plan(&start("jersey-3.6"));
     let begin = places(&plan);
-    for device in devices() {
+    for device in near_devices() {
         let name = device.info().name.clone();
         let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
         settler.upload(&begin).expect("an upload");
@@ -339,7 +323,7 @@ fn starts_come_to_rest_on_every_device() {
         let bend = if start.name == "plain-1.8-piece" { 0.5 } else { 0.58 };
         let one_rest = has_one_rest(&start, &at_rest);
         held += usize::from(one_rest);
-        for device in devices() {
+        for device in near_devices() {
             let (rest, points) = settle_start(&start, device.as_ref(), |_, _| {});
             let report = check(&start, &points);
             let near = |(one, other): (&DVec3, &DVec3)| one.distance(*other) < 0.02 * start.yarns[0].radius;
@@ -369,7 +353,7 @@ fn a_lone_yarn_sees_nothing() {
         length: Length::Held,
     };
     let plan = settling_plan(&start);
-    for device in devices() {
+    for device in near_devices() {
         let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
         let course = eight_passes(settler.as_mut(), Form::Block, &places(&plan)).expect("a course");
         let name = &device.info().name;

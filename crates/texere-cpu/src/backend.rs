@@ -7,6 +7,7 @@ use texere_core::{
     Schedule, Settler, SettlingPlan,
 };
 
+use crate::crossings::CrossingsMemory;
 use crate::engine::CpuEngine;
 use crate::parallel::{Parallel, ParallelCrossings, ParallelSettler};
 use crate::serial::{Serial, SerialCrossings, SerialSettler};
@@ -105,7 +106,7 @@ impl Backend for SerialBackend {
     }
 
     fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
-        Ok(Box::new(SerialCrossings::new(plan)?))
+        Ok(Box::new(SerialCrossings(CrossingsMemory::new(plan)?)))
     }
 }
 
@@ -123,6 +124,6 @@ impl Backend for ParallelBackend {
     }
 
     fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
-        Ok(Box::new(ParallelCrossings::new(plan)?))
+        Ok(Box::new(ParallelCrossings(CrossingsMemory::new(plan)?)))
     }
 }

@@ -19,6 +19,7 @@
 mod backend;
 mod caps;
 mod cells;
+mod crossings;
 mod engine;
 mod pages;
 mod parallel;

@@ -8,8 +8,8 @@ use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, ThreadPlace};
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
-    FabricError, FabricWarning, Finish, FinishError, Measures, Piece, Settled, WovenDesign, YarnPlace,
-    clearance_with_progress, settle,
+    FabricError, FabricWarning, Finish, FinishError, Measures, Piece, Repeat, Settled, WovenDesign,
+    YarnPlace, clearance_with_progress, settle,
 };
 
 /// How the yarns of a fabric interlace. There are methods for what can be asked of any kind.
@@ -76,15 +76,26 @@ impl Structure {
         }
     }
 
-    /// The yarns as they are before they settle, and what holds them: woven cloth is cut off at its edges, and held there. Of a knit
-    /// that repeats it is one repeat: see [`Knitted::repeat`].
+    /// What settles, and how often it lies in the fabric: one repeat of a knit that has any (see [`Knitted::repeat`] and
+    /// [`WarpKnitted::repeat`]); else the whole fabric, once. Woven cloth is cut off at its edges, and held there.
     ///
     /// **Errors**: those of [`Structure::yarns`].
-    pub fn piece(&self) -> Result<Piece, FabricError> {
+    pub fn repeat(&self) -> Result<Repeat, FabricError> {
         match self {
-            Self::Woven(design) => Ok(Piece::cut(design.cloth().yarns()?)),
-            Self::Weft(knit) => knit.piece(),
-            Self::Warp(knit) => knit.piece(),
+            Self::Woven(design) => Ok(Repeat { piece: Piece::cut(design.cloth().yarns()?), copies: [1, 1] }),
+            Self::Weft(knit) => knit.repeat(),
+            Self::Warp(knit) => knit.repeat(),
+        }
+    }
+
+    /// `finish` with what becomes of the lengths of [`Structure::repeat`], where it does not say: see [`Knitted::finish_of`] and
+    /// [`WarpKnitted::finish_of`].
+    #[must_use]
+    pub fn finish_of(&self, repeat: &Repeat, finish: &Finish, tension: f32) -> Finish {
+        match self {
+            Self::Woven(_) => *finish,
+            Self::Weft(knit) => knit.finish_of(repeat, finish, tension),
+            Self::Warp(knit) => knit.finish_of(repeat, finish, tension),
         }
     }
 
@@ -114,7 +125,7 @@ impl Structure {
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Settled, FinishError> {
         match self {
-            Self::Woven(_) => settle(&self.piece()?, finish, tension, backend, progress),
+            Self::Woven(_) => settle(&self.repeat()?.piece, finish, tension, backend, progress),
             Self::Weft(knit) => knit.settle(finish, tension, backend, progress),
             Self::Warp(knit) => knit.settle(finish, tension, backend, progress),
         }

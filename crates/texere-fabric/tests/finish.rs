@@ -61,7 +61,7 @@ fn the_yarns_are_the_same_ones_and_held_at_their_ends() {
     let places = |yarns: &Yarns| yarns.points().iter().map(ControlPoint::position).collect::<Vec<_>>();
     let (from, to) = (places(&before), places(after));
     let moved = |point: &u64| from[*point as usize].distance(to[*point as usize]);
-    let pinned = structure.piece().unwrap().pinned;
+    let pinned = structure.repeat().unwrap().piece.pinned;
     assert!(pinned.len() == 32 && pinned.iter().all(|point| moved(point) < 1e-4));
     assert!((0..from.len() as u64).any(|point| moved(&point) > 1e-2));
     // The worst place has a name.

@@ -1,6 +1,9 @@
 //! Tables of crossings. They go to a device as they are, and what passes have seen comes back in them.
 
+use std::ops::ControlFlow;
+
 use bytemuck::{Pod, Zeroable};
+use texere_core::BackendError;
 use texere_core::crossings::{CrossingsPass, CrossingsPlan, CrossingsSeen, Row, Set};
 
 /// The most passes that a device makes between two waits.
@@ -127,6 +130,25 @@ impl CrossingsSeenRow {
     pub const fn seen(self) -> CrossingsSeen {
         CrossingsSeen { step: self.step, clearance: self.clearance }
     }
+}
+
+/// Has a device `run` passes, so many between two waits as it may, and hands over what each has seen until `watch` breaks off: what
+/// [`CrossingsSettler::passes`](texere_core::crossings::CrossingsSettler::passes) is on a GPU.
+///
+/// **Errors**: those of `run`.
+pub fn crossings_batches(
+    passes: &[CrossingsPass],
+    mut run: impl FnMut(&[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError>,
+    watch: &mut dyn FnMut(&CrossingsPass, CrossingsSeen) -> ControlFlow<()>,
+) -> Result<ControlFlow<()>, BackendError> {
+    for passes in passes.chunks(CROSSINGS_PASSES as usize) {
+        for (pass, seen) in passes.iter().zip(run(passes)?) {
+            if watch(pass, seen).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+    }
+    Ok(ControlFlow::Continue(()))
 }
 
 /// Where the warp lies on the face, a bit for each crossing of `plan` from the lowest one on.

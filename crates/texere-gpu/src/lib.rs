@@ -36,7 +36,8 @@ mod tables;
 mod upload;
 
 pub use crossings::{
-    CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_pass_bytes, crossings_ups,
+    CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_batches, crossings_pass_bytes,
+    crossings_ups,
 };
 pub use loaded::LoadedChunk;
 pub use memory::{device_buffers, host_bytes_beside_gpu};

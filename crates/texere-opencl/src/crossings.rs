@@ -6,7 +6,9 @@ use std::sync::Arc;
 use bytemuck::bytes_of;
 use texere_core::crossings::{Crossing, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 use texere_core::{BackendError, Limits};
-use texere_gpu::{CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_ups};
+use texere_gpu::{
+    CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_batches, crossings_ups,
+};
 use texere_kernels::{CROSSINGS_MOVE, CROSSINGS_SEEN};
 
 use crate::buffers::Buffer;
@@ -128,14 +130,7 @@ impl CrossingsSettler for OpenClCrossings {
         passes: &[CrossingsPass],
         watch: &mut dyn FnMut(&CrossingsPass, CrossingsSeen) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        for passes in passes.chunks(CROSSINGS_PASSES as usize) {
-            for (pass, seen) in passes.iter().zip(self.run(passes)?) {
-                if watch(pass, seen).is_break() {
-                    return Ok(ControlFlow::Break(()));
-                }
-            }
-        }
-        Ok(ControlFlow::Continue(()))
+        crossings_batches(passes, |passes| self.run(passes), watch)
     }
 
     fn read(&mut self, crossings: &mut [Crossing]) -> Result<(), BackendError> {

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use texere_core::crossings::{Crossing, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 use texere_core::{BackendError, Limits};
-use texere_gpu::{CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_ups};
+use texere_gpu::{
+    CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_batches, crossings_ups,
+};
 use texere_shaders::{Resource, crossings};
 use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages, CommandEncoder, ComputePassDescriptor};
 
@@ -179,14 +181,7 @@ impl CrossingsSettler for WgpuCrossings {
         passes: &[CrossingsPass],
         watch: &mut dyn FnMut(&CrossingsPass, CrossingsSeen) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, BackendError> {
-        for passes in passes.chunks(CROSSINGS_PASSES as usize) {
-            for (pass, seen) in passes.iter().zip(self.run(passes)?) {
-                if watch(pass, seen).is_break() {
-                    return Ok(ControlFlow::Break(()));
-                }
-            }
-        }
-        Ok(ControlFlow::Continue(()))
+        crossings_batches(passes, |passes| self.run(passes), watch)
     }
 
     fn read(&mut self, crossings: &mut [Crossing]) -> Result<(), BackendError> {

@@ -1,5 +1,6 @@
 //! Warp knits: every loop is drawn through those below it, and how they settle, by checks that share no code with texere's crates.
 
+mod jacquard;
 mod topology;
 
 use std::ops::ControlFlow;

@@ -1,5 +1,7 @@
 //! Which loops share a needle, and in what order.
 
+use std::cmp::Reverse;
+
 use super::{Bar, Laid, Lap, LapKind};
 use crate::FabricError;
 use crate::memory::room_for;
@@ -51,6 +53,9 @@ impl Loops {
         room_for(&mut shares, laid.len(), "loops")?;
         room_for(&mut all, needles, "needles")?;
         room_for(&mut own, needles, "needles")?;
+        let longest = laid.chunk_by(|one, other| one.bar == other.bar).map(<[Laid]>::len).max().unwrap_or(0);
+        let mut order: Vec<(Reverse<i32>, usize, usize, usize)> = Vec::new();
+        room_for(&mut order, 2 * longest, "loops")?;
         shares.resize(laid.len(), [Share::default(); 2]);
         all.resize(needles, 0_u16);
         own.resize(needles, 0_u16);
@@ -61,18 +66,23 @@ impl Loops {
         for bar in laid.chunk_by(|one, other| one.bar == other.bar) {
             let shares = &mut shares[start..start + bar.len()];
             own.fill(0);
-            for (laid, shares) in bar.iter().zip(&mut *shares) {
-                for (needle, share) in laid.lap.needles().zip(shares) {
-                    let at = place(laid, needle);
-                    *share = Share { rank: all[at], own_rank: own[at], ..*share };
-                    all[at] = all[at].saturating_add(1);
-                    own[at] = own[at].saturating_add(1);
-                }
+            order.clear();
+            let parts = |lap: &Laid| lap.lap.needles().enumerate();
+            for (number, laid) in bar.iter().enumerate() {
+                // What goes round the repeat comes from the left of all that lies in it.
+                let round = |needle: i32| Reverse(needle.div_euclid(size[0] as i32));
+                order.extend(
+                    parts(laid).map(|(part, needle)| (round(needle), number, part, place(laid, needle))),
+                );
             }
-            for (laid, shares) in bar.iter().zip(&mut *shares) {
-                for (needle, share) in laid.lap.needles().zip(shares) {
-                    share.own = own[place(laid, needle)];
-                }
+            order.sort_unstable();
+            for &(_, number, part, at) in &order {
+                shares[number][part] = Share { rank: all[at], own_rank: own[at], ..Share::default() };
+                all[at] = all[at].saturating_add(1);
+                own[at] = own[at].saturating_add(1);
+            }
+            for &(_, number, part, at) in &order {
+                shares[number][part].own = own[at];
             }
             start += bar.len();
         }

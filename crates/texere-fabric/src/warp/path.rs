@@ -35,7 +35,7 @@ const HEIGHT_STEPS: u32 = 16;
 const FOOT: f64 = 0.14;
 
 /// How far a loop begins below and ends above its course, in courses.
-const SLANT: f64 = 0.15;
+const SLANT: f64 = 0.25;
 
 /// The same for a bar alone on its needles whose laps are open and that stays on one or two of them.
 const SLANT_STEEP: f64 = 0.05;
@@ -62,6 +62,10 @@ const LAYER: f64 = 0.7;
 const BEHIND: f64 = 2.0;
 const BEHIND_ALONE: f64 = 2.2;
 const BAR: f64 = 1.8;
+
+/// How much further behind all feet lie for each loop that a needle has beyond two, in diameters: narrow loops have their feet close to
+/// their legs, and a spline turns sharply where a short piece meets a long one.
+const CROWDED: f64 = 1.0;
 
 /// The same for guides of one bar that share a needle.
 const BESIDE: f64 = 0.9;
@@ -212,7 +216,9 @@ impl<'a> Cloth<'a> {
     fn behind(&self, bar: usize) -> f64 {
         match self.bars.len() - 1 {
             0 => BEHIND_ALONE,
-            last => BEHIND + BAR * (last - bar) as f64,
+            last => {
+                BEHIND + CROWDED * f64::from(self.loops.most.saturating_sub(2)) + BAR * (last - bar) as f64
+            }
         }
     }
 
@@ -236,6 +242,8 @@ impl<'a> Cloth<'a> {
             (share.own_middle(), ASIDE * diameter)
         };
 
+        // Those of one bar are all as wide: each lies beside the next one all the way but at the head, where they cross once.
+        let wider = front_most + share.own_middle();
         let height = self.heights[laid.bar as usize];
         let side = f64::from(laid.lap.overlap().signum());
         let middle = (f64::from(needle) + 0.5) * wale_mm + beside * diameter;
@@ -245,13 +253,13 @@ impl<'a> Cloth<'a> {
             let at =
                 |wider: f64, y: f64, z: f64| place(middle + hand * (wale_mm / 4.0 + wider), y, z + layer);
             [
-                at(front_most * aside - bulge, (height - 1.0) / 2.0, tilt),
+                at(wider * aside - bulge, (height - 1.0) / 2.0, tilt),
                 at(0.0, height / 2.0, forward),
                 at(bulge, (height + 1.0) / 2.0, -tilt),
             ]
         };
         let foot = |hand: f64, up: f64| {
-            place(middle + hand * (FOOT * wale_mm + front_most * diameter), up * slant, -behind)
+            place(middle + hand * (FOOT * wale_mm + wider * diameter), up * slant, -behind)
         };
         let ([in_low, in_mid, in_high], [out_low, out_mid, out_high]) = (leg(-side), leg(side));
         let head = place(middle - beside * diameter, height, layer - forward);

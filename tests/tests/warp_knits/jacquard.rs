@@ -1,0 +1,52 @@
+//! Jacquards of any figure come to rest: loops of guides that share a needle lie side by side from the start.
+
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
+use texere_core::{Material, Section};
+use texere_fabric::warp::{Bar, Chain, Displacements, WarpKnitted};
+use texere_fabric::weft::{Gauge, KnitYarn};
+
+use super::fault;
+
+/// Diameters, in wales: the paper's, and the most.
+const DIAMETERS: [f64; 2] = [0.08, 0.1];
+
+/// The paper's bars of figure 7c: JB1 with a figure of thin, thick and open places, before GB2.
+fn cloth(size: [u32; 2], diameter: f64, colour: impl FnMut(u32, u32) -> u8) -> WarpKnitted {
+    let palette = vec![vec![[0, 0], [0, 0]], vec![[0, 0], [1, 1]], vec![[1, 1], [0, 0]]];
+    let bar = |chain| Bar::new(Chain::parse(chain, 1).expect("a chain"));
+    let jacquard = Some(Displacements::new(size, palette, colour).expect("an image"));
+    let bars = vec![Bar { jacquard, ..bar("1-0/1-2") }, bar("1-2/1-0")];
+    let yarns = vec![KnitYarn::new(diameter as f32 / 2.0)];
+    let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    let [wales, courses] = [size[0], 2 * size[1]];
+    let gauge = Gauge::new(1.0, 0.75);
+    WarpKnitted::new(bars, gauge, wales, courses, yarns, materials, sections, [1, 1]).expect("a cloth")
+}
+
+/// Every colour beside every two others in one row, then rows alike and unlike: what a figure's edges are made of.
+#[test]
+fn every_colour_rests_between_all_others() {
+    // Every run of three colours is in it once (de Bruijn, 1946), the last going on into the first.
+    let colours = b"000100201101202102211121222";
+    let row = |wale: u32| colours[wale as usize % colours.len()] - b'0';
+    let size = [colours.len() as u32, 3];
+    for diameter in DIAMETERS {
+        let cloth = cloth(size, diameter, |wale, course| row(wale + 7 * course));
+        assert_eq!(fault("every run of three colours", &cloth, diameter), None);
+    }
+}
+
+#[test]
+fn any_figure_rests() {
+    let colours = prop::collection::vec(0_u8..3, 6 * 3);
+    let mut runner = TestRunner::new(Config { cases: 5, ..Config::default() });
+    let rests = |colours: Vec<u8>| {
+        for diameter in DIAMETERS {
+            let cloth = cloth([6, 3], diameter, |wale, course| colours[(wale + 6 * course) as usize]);
+            prop_assert_eq!(fault("any figure", &cloth, diameter), None);
+        }
+        Ok(())
+    };
+    runner.run(&colours, rests).expect("figures that rest");
+}

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::Parser;
 use texere::DeviceKind;
-use texere_bench::{crossings, floor, settling, stages, tables};
+use texere_bench::{crossings, figure_7, floor, settling, stages, tables};
 
 /// Measures devices.
 #[derive(Debug, Parser)]
@@ -87,6 +87,19 @@ enum Args {
         #[arg(short, long, default_value = "target/figure-5.svg")]
         output: PathBuf,
     },
+    /// The paper's figure 7: its three cloths at full size, from the design to the picture, with its own time beside ours
+    #[command(name = "figure-7")]
+    Figure7 {
+        /// The device that settles, meshes and draws, such as wgpu:1
+        #[arg(long, default_value = "wgpu:0")]
+        device: String,
+        /// The folder with the three designs
+        #[arg(long, default_value = "designs/paper")]
+        designs: PathBuf,
+        /// The folder for pictures
+        #[arg(short, long, default_value = "target/figure-7")]
+        output: PathBuf,
+    },
 }
 
 #[derive(Debug, clap::Args)]
@@ -157,6 +170,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let devices = if devices.is_empty() { all_devices() } else { devices };
             tables::write(&devices, &work.sizes(&devices), work.rounds, &heading, &output)
         }
+        Args::Figure7 { device, designs, output } => figure_7::print(&device, &designs, &output),
         Args::Figure5 { designs, device, size: Size(width, height), output } => {
             tables::figure_5(&designs, &device, [width.try_into()?, height.try_into()?], &output)
         }

@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, Limits, Plan, Settings, Yarns};
+use texere::{Backend, Limits, Piece, Plan, Settings, Yarns};
 use texere_core::Session;
-use texere_core::settling::{Rest, SettlingPlan, settle, settled};
+use texere_core::settling::{Rest, Settler, SettlingPlan, settle, settled};
 
 use crate::measure::Bench;
 use crate::one_yarn;
@@ -49,18 +49,18 @@ impl Stages {
     }
 }
 
-/// Takes the design in `path` to a mesh in the memory of `device`. What has settled stays on the device where the design's cloth is
-/// one piece; where it is one repeat, that is read, copied and sent.
+/// Takes the design in `path` to a mesh in the memory of `device`, and gives its yarns as they lie there, too. What has settled stays on the
+/// device where the design's cloth is one piece; where it is one repeat, that is read, copied and sent.
 ///
 /// # Errors
 ///
 /// Whatever the reader, the structure or the device says.
-pub fn stages(path: &Path, device: &dyn Backend) -> Result<Stages, Box<dyn Error>> {
+pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<dyn Error>> {
     let settings = Settings::default();
     let mut clock = Clock(Instant::now());
     let design = texere::read(path)?;
     let mut stages = Stages { name: design.name.clone(), read: clock.lap(), ..Stages::default() };
-    let (yarns, mut rest) = if design.settle {
+    let mut cloth = if design.settle {
         let repeat = design.structure.repeat()?;
         stages.generate = clock.lap();
         let finish = design.structure.finish_of(&repeat, &design.finish, settings.tension);
@@ -70,26 +70,26 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<Stages, Box<dyn Error
         stages.rest = Some(settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?);
         stages.settle = Some(clock.lap());
         if repeat.copies == [1, 1] {
-            (repeat.piece.yarns, Some(settler))
+            Cloth::OnDevice(repeat.piece, plan, settler)
         } else {
             let points = settled(&plan, &mut *settler, repeat.piece.yarns.points())?;
-            (repeat.laid(&repeat.piece.moved(&points)?)?, None)
+            Cloth::Laid(design.structure.laid(&repeat, &repeat.piece.moved(&points)?)?)
         }
     } else {
         let yarns = design.yarns()?;
         stages.generate = clock.lap();
-        (yarns, None)
+        Cloth::Laid(yarns)
     };
     stages.take += clock.lap();
-    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
+    let plan = Arc::new(Plan::new(cloth.yarns().layout().clone(), settings)?);
     // Two chunks of this size fit beside a settler on the devices that are measured.
     let limits = device.info().limits.min(&Limits { memory_bytes: CHUNKS, ..Limits::NONE });
     let chunks: Vec<_> = plan.chunks(&limits)?.collect();
     let mut session = Session::new(device, plan.clone())?;
     stages.plan += clock.lap();
-    match &mut rest {
-        Some(settler) => session.take_settled(&mut **settler)?,
-        None => session.upload(0, yarns.points())?,
+    match &mut cloth {
+        Cloth::OnDevice(_, _, settler) => session.take_settled(&mut **settler)?,
+        Cloth::Laid(yarns) => session.upload(0, yarns.points())?,
     }
     // Times are of work that has ended.
     session.timings();
@@ -100,9 +100,38 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<Stages, Box<dyn Error
     }
     session.timings();
     stages.mesh = clock.lap();
-    stages.yarns = yarns.layout().yarns().len();
-    (stages.points, stages.triangles) = (yarns.layout().point_count(), plan.counts().triangles);
-    Ok(stages)
+    let layout = cloth.yarns().layout();
+    (stages.yarns, stages.points) = (layout.yarns().len(), layout.point_count());
+    stages.triangles = plan.counts().triangles;
+    Ok((stages, cloth.read()?))
+}
+
+/// A cloth whose mesh can be made.
+enum Cloth {
+    /// Its yarns lie on the host.
+    Laid(Yarns),
+    /// It is one piece, and rests where it has settled.
+    OnDevice(Piece, Arc<SettlingPlan>, Box<dyn Settler>),
+}
+
+impl Cloth {
+    /// Its yarns; of one that rests on a device, as they were before.
+    const fn yarns(&self) -> &Yarns {
+        match self {
+            Self::Laid(yarns) => yarns,
+            Self::OnDevice(piece, ..) => &piece.yarns,
+        }
+    }
+
+    /// Its yarns as they lie.
+    fn read(self) -> Result<Yarns, Box<dyn Error>> {
+        match self {
+            Self::Laid(yarns) => Ok(yarns),
+            Self::OnDevice(piece, plan, mut settler) => {
+                Ok(piece.moved(&settled(&plan, &mut *settler, piece.yarns.points())?)?)
+            }
+        }
+    }
 }
 
 /// Prints a row for each design, each of a second run, when the device is warm.
@@ -118,7 +147,7 @@ pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn E
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     for path in designs {
         stages(path.as_ref(), &*backend)?;
-        let row = stages(path.as_ref(), &*backend)?;
+        let (row, _) = stages(path.as_ref(), &*backend)?;
         let ms = |time: Duration| time.as_secs_f64() * 1e3;
         let settle = row.settle.map_or_else(|| "-".into(), |time| format!("{:.0}", ms(time)));
         let rest = row.rest.as_ref().map_or_else(

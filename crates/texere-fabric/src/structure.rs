@@ -88,6 +88,17 @@ impl Structure {
         }
     }
 
+    /// The fabric's yarns from those of its `repeat`, settled or not: copies side by side, cut off as [`Structure::settle`] has them.
+    ///
+    /// **Errors**: those of [`Repeat::laid`].
+    pub fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+        match self {
+            Self::Woven(_) => repeat.laid(yarns),
+            Self::Weft(knit) => knit.laid(repeat, yarns),
+            Self::Warp(knit) => knit.laid(repeat, yarns),
+        }
+    }
+
     /// `finish` with what becomes of the lengths of [`Structure::repeat`], where it does not say: see [`Knitted::finish_of`] and
     /// [`WarpKnitted::finish_of`].
     #[must_use]

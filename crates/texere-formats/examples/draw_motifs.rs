@@ -265,7 +265,7 @@ const DRAWINGS: [Drawing; 6] = [
     },
     Drawing {
         file: "paper/figure-7c.png",
-        size: [315, 175],
+        size: [315, 137],
         draw: ornament,
         palette: &[[0xec, 0xe4, 0xd2], [0x8c, 0x2f, 0x39], [0x26, 0x40, 0x6e]],
     },

@@ -160,7 +160,7 @@ impl WarpKnitted {
     }
 
     /// All copies of a repeat, settled or not, with the names of their own guides and courses.
-    pub(super) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+    pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let [wales, courses] = [0, 1].map(|axis| self.size()[axis] / repeat.copies[axis]);
         let origin = |origin, [x, _]: [i64; 2]| match origin {
             Origin::Guide { bar, guide } => Origin::Guide { bar, guide: guide + x as u32 * wales },

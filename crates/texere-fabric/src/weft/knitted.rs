@@ -163,7 +163,7 @@ impl Knitted {
 
     /// All copies of a repeat, settled or not. Yarns are cut off three control points beyond the last loop, where that does not spoil
     /// their count: a leg runs straight there, so that what is cut off bends as in the repeat, and touches nothing.
-    pub(super) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+    pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let beyond = match self.cells {
             Cells::Round => 3,
             Cells::Even => 0,

@@ -1,0 +1,59 @@
+//! The paper's figure 7: its three cloths at full size, from the design to the picture.
+
+use std::error::Error;
+use std::path::Path;
+use std::time::Instant;
+
+use texere::{Camera, Output, Quality, Settings};
+
+use crate::stages::stages;
+
+/// Designs, the millions of facets that the paper counts, and what it says it takes, s.
+const CLOTHS: [(&str, f64); 3] = [("figure-7a", 254.47), ("figure-7b", 331.71), ("figure-7c", 381.71)];
+const PAPER_S: f64 = 10.0;
+
+/// Width and height of the pictures, pixels, and the width of the close-up as a share of the cloth's.
+const SIZE: [u32; 2] = [1600, 1200];
+const CLOSE: f32 = 0.02;
+
+/// Takes the three designs in the folder `designs` to their meshes on `device`, such as `wgpu:0`, each a second time when the device is warm,
+/// draws each at full size and close up to PNG files in the folder `output`, and prints a table beside the paper's.
+///
+/// # Errors
+///
+/// Whatever the reader, the structure, the device or the file system says.
+pub fn print(device: &str, designs: &Path, output: &Path) -> Result<(), Box<dyn Error>> {
+    let (backend, renderer) = (texere::open(device)?, texere::open_renderer(device)?);
+    std::fs::create_dir_all(output)?;
+    println!(
+        "| design, on {device} | facets, 10⁶ | the paper's | at rest | to the mesh, s | drawn, s | the paper's, s |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for (name, facets) in CLOTHS {
+        let path = designs.join(name).with_extension("toml");
+        stages(&path, &*backend)?;
+        let (row, yarns) = stages(&path, &*backend)?;
+        let start = Instant::now();
+        let mut scene = renderer.scene(&yarns, &Settings::default())?;
+        let extent = *scene.extent();
+        let close = CLOSE * (extent.high[0] - extent.low[0]);
+        let middle = [0, 1].map(|axis| 0.5 * (extent.low[axis] + extent.high[axis]));
+        let face = Camera::face(&extent, SIZE);
+        let picture = scene.picture(&face, Quality::default())?;
+        let drawn = start.elapsed();
+        let near = scene.picture(&Camera::close_up(&extent, middle, close, SIZE)?, Quality::default())?;
+        for (picture, file) in [(picture, format!("{name}.png")), (near, format!("{name}-close-up.png"))] {
+            texere::write_picture(picture.size, &picture.rgb, Output::to(output.join(file)))?;
+        }
+        let rest = row.rest.map_or("as laid", |rest| if rest.at_rest { "yes" } else { "no" });
+        println!(
+            "| {} | {:.2} | {facets:.2} | {rest} | {:.2} | {:.2} | {PAPER_S:.0} |",
+            row.name,
+            row.triangles as f64 * 1e-6,
+            row.whole().as_secs_f64(),
+            drawn.as_secs_f64(),
+        );
+    }
+    println!("\nPictures are in {}.", output.display());
+    Ok(())
+}

@@ -9,7 +9,9 @@ use crate::args::CheckArgs;
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, place};
 use crate::cures::{CureReport, phrase};
 use crate::fail::Fail;
+use crate::measures::Sets;
 use crate::settling::SettlingReport;
+use crate::setts::{SettReport, setts};
 use crate::{print, progress, settling, terminal};
 
 /// What is said of a cloth. The keys of the JSON are these fields.
@@ -21,6 +23,9 @@ struct Report {
     touching: f64,
     #[serde(flatten)]
     faults: FaultsReport,
+    /// Of woven cloth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    setts: Option<Sets<SettReport>>,
     /// Of a knit: what is wrong with its program.
     #[serde(skip_serializing_if = "Option::is_none")]
     machine: Option<MachineReport>,
@@ -110,6 +115,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         clean: faulty.is_none(),
         touching: diagnosis.touching,
         faults: FaultsReport::from(&diagnosis.faults),
+        setts: design.structure.woven().map(|woven| setts(woven.cloth())),
         machine,
         settling,
         cures: cures.iter().filter_map(CureReport::new).collect(),
@@ -178,6 +184,9 @@ impl Report {
         }
         if let Some(folds) = &self.faults.folds {
             line("folds", format!("a bend of {:.3} yarn radii is tighter than the tube is thick", folds.min));
+        }
+        for (sett, said) in self.setts.iter().flat_map(Sets::lines) {
+            line(sett, said);
         }
         if let Some(jams) = &self.faults.jams {
             line("jams", format!("{} ends and {} picks", jams.ends, jams.picks));

@@ -11,8 +11,9 @@ use crate::args::InspectArgs;
 use crate::at::{self, YarnUnder};
 use crate::clearance::{ClearanceReport, CurvatureReport};
 use crate::fail::Fail;
-use crate::measures::{JamsReport, MeasuresReport};
+use crate::measures::{JamsReport, MeasuresReport, Sets};
 use crate::settling::SettlingReport;
+use crate::setts::{SettReport, setts};
 use crate::terminal::line;
 use crate::{print, progress, settling};
 
@@ -89,6 +90,7 @@ struct WovenReport {
     ends: usize,
     picks: usize,
     jam: JamsReport,
+    setts: Sets<SettReport>,
 }
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
@@ -195,6 +197,7 @@ impl ClothReport {
                 ends: woven.cloth().warp().len(),
                 picks: woven.cloth().weft().len(),
                 jam: JamsReport::from(woven.jam_report()),
+                setts: setts(woven.cloth()),
             }),
             size_mm: structure.size_mm(),
             measures: MeasuresReport::new(&measures, yarns.materials()),
@@ -247,6 +250,7 @@ impl ClothReport {
             let [cloth, ends, picks] = [cover.cloth, cover.fraction.warp, cover.fraction.weft].map(percent);
             lines.push(("cover", format!("{cloth}: ends {ends}, picks {picks}")));
         }
+        lines.extend(self.woven.iter().flat_map(|woven| woven.setts.lines()));
         let pitches = self.woven.iter().flat_map(|WovenReport { jam, .. }| {
             [("pitch of ends", &jam.after.warp), ("pitch of picks", &jam.after.weft)]
         });

@@ -21,6 +21,7 @@ mod progress;
 mod render;
 mod settling;
 mod settling_plot;
+mod setts;
 #[cfg(unix)]
 mod signals;
 mod terminal;

@@ -69,9 +69,9 @@ pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
     FabricWarning, FaultKind, Faults, Finish, FinishError, JamReport, Jams, KnitMeasures, LINKING_CHANGE,
-    Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Settled, Shape, Shedding,
-    Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave, Woven,
-    WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm, linking,
+    Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Sett, Settled, Shape,
+    Shedding, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave,
+    Woven, WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm, linking,
     linking_with_progress, settle, warp, weft, yarns_under,
 };
 pub use texere_formats::write::{

@@ -84,6 +84,29 @@ fn jammed_cloth_is_named_with_its_numbers_and_its_cure_cures() {
     );
 }
 
+/// A 3/1 twill of yarns alike takes 1.5 diameters a thread: 0.45 mm. Ends of 0.4 mm are beyond that by an eighth.
+#[test]
+fn a_sett_beyond_the_greatest_is_said_with_what_is_within_it() {
+    let folder = TempDir::new().unwrap();
+    let path = twill(folder.path(), "", 0.4, 0.66);
+    let (_, report) = check(&path, &[]);
+    let [warp, weft] = ["warp", "weft"].map(|set| report["setts"][set]["share"].as_f64().unwrap());
+    assert!((warp - 1.125).abs() < 1e-6 && (weft - 0.45 / 0.66).abs() < 1e-6, "{report}");
+    let beyond = |path: &Path| stdout(&texere(&["check", path.to_str().unwrap()]));
+    let text = beyond(&path);
+    assert!(text.contains("sett  ends 25.00 to the cm, 22.22 is the most"), "{text}");
+    assert!(text.contains("; 12.5 % beyond it they jam or flatten: 0.45"), "{text}");
+    assert!(
+        text.contains(" or yarns 1.13 times as thin") && text.matches("beyond it").count() == 1,
+        "{text}"
+    );
+    // With that spacing it is within.
+    let (_, told) = text.split_once("flatten: ").unwrap();
+    let spacing = told.split(' ').next().unwrap().parse().unwrap();
+    let text = beyond(&twill(folder.path(), "", spacing, 0.66));
+    assert!(!text.contains("beyond it"), "{text}");
+}
+
 #[test]
 fn how_exact_touching_is_can_be_said() {
     let folder = TempDir::new().unwrap();

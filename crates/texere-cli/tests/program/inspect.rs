@@ -91,6 +91,24 @@ fn the_worst_places_have_a_weavers_names() {
     assert!((0.4..0.6).contains(&number(&ends["pitch_min_mm"])), "{ends}");
 }
 
+/// Ashenhurst: in a twill of four, threads of the other set change sides at every second end: an end takes its own diameter and half a pick's.
+#[test]
+fn setts_stand_beside_the_greatest_of_the_weave() {
+    let report = cloth();
+    // Cotton of 40, 50 and 60 tex, 1.1 cm³/g.
+    let root = (4.0 * 1.1e-3 / std::f64::consts::PI).sqrt();
+    let [end, pick] = [(2.0 * 40f64.sqrt() + 50f64.sqrt()) / 3.0, 60f64.sqrt()].map(|roots| roots * root);
+    for (set, per_cm, room_mm) in [("warp", 12.5, end + pick / 2.0), ("weft", 10.0, pick + end / 2.0)] {
+        let sett = &report["setts"][set];
+        let [found, greatest, share] = ["per_cm", "greatest_per_cm", "share"].map(|key| number(&sett[key]));
+        assert!((found - per_cm).abs() < 1e-6 && sett["interlacings"] == 0.5, "{sett}");
+        assert!(
+            (greatest * room_mm / 10.0 - 1.0).abs() < 2e-3 && (share - found / greatest).abs() < 1e-9,
+            "{sett}"
+        );
+    }
+}
+
 #[test]
 fn text_says_the_same() {
     let text = stdout(&texere(&["inspect", &design("plain.toml")]));

@@ -1,9 +1,12 @@
 //! Warp knits: notation, lappings by name, which laps guides make, Jacquards, copies, run-ins, and what is refused.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
+use std::ops::ControlFlow;
+
 use proptest::prelude::*;
 use texere_core::settling::Length;
 use texere_core::{Material, Origin, Section};
+use texere_cpu::SerialBackend;
 use texere_fabric::warp::{
     Bar, CHAIN_COURSES, Chain, Displacements, LAPPINGS, Lap, LapKind, NEEDLES_MOST, SPACE_MAX, Threading,
     WarpKnitted,
@@ -201,6 +204,11 @@ fn run_ins_are_asked_for_and_measured() {
     assert!(made.iter().all(|run_in| run_in.miss().unwrap().abs() < 1e-3), "{made:?}");
     let repeat = higher.repeat().unwrap();
     assert_eq!(higher.finish_of(&repeat, &Finish::default(), 0.0).length, Some(Length::Held));
+    // At rest they still have it.
+    let settled =
+        higher.settle(&Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()));
+    let rested = higher.run_ins(&settled.unwrap().yarns, 0.0);
+    assert!(rested.iter().all(|run_in| run_in.miss().unwrap().abs() < 0.02), "{rested:?}");
     // What they can't take is given to all yarns.
     let longer = asked([1.2, 1.2]);
     let repeat = longer.repeat().unwrap();
@@ -252,6 +260,14 @@ fn what_is_no_cloth_is_refused() {
     let parts = (vec![KnitYarn::new(0.05)], vec![Material::default()], vec![Section::Circle]);
     let made = WarpKnitted::new(vec![bar()], gauge, 4, 2, parts.0, parts.1, parts.2, one);
     assert!(matches!(made.unwrap_err(), FabricError::Gauge { .. }));
+    // Yarn 2, which is as thin as nothing, hangs from guide 2 of the back bar first.
+    let threading = Threading::of(vec![Some(0), Some(1)]);
+    let parts =
+        (vec![KnitYarn::new(0.05), KnitYarn::new(0.0)], vec![Material::default()], vec![Section::Circle]);
+    let bars = vec![bar(), Bar { threading, ..bar() }];
+    let made = WarpKnitted::new(bars, Gauge::new(1.0, 1.0), 4, 2, parts.0, parts.1, parts.2, one);
+    let guide = Origin::Guide { bar: 2, guide: 2 };
+    assert!(matches!(made.unwrap_err(), FabricError::Radius { thread, .. } if thread == guide));
 }
 
 #[test]

@@ -7,6 +7,7 @@ use texere_fabric::warp::{Bar, Chain, Displacements, WarpKnitted};
 use texere_fabric::weft::{Gauge, KnitYarn};
 
 use super::fault;
+use super::topology::faults;
 
 /// Diameters, in wales: the paper's, and the most.
 const DIAMETERS: [f64; 2] = [0.08, 0.1];
@@ -37,6 +38,7 @@ fn every_colour_rests_between_all_others() {
     }
 }
 
+/// And its loops are drawn through those below from the start.
 #[test]
 fn any_figure_rests() {
     let colours = prop::collection::vec(0_u8..3, 6 * 3);
@@ -44,6 +46,8 @@ fn any_figure_rests() {
     let rests = |colours: Vec<u8>| {
         for diameter in DIAMETERS {
             let cloth = cloth([6, 3], diameter, |wale, course| colours[(wale + 6 * course) as usize]);
+            let piece = cloth.piece().expect("a piece");
+            prop_assert_eq!(faults(&cloth, &piece, &piece.yarns), Vec::<String>::new());
             prop_assert_eq!(fault("any figure", &cloth, diameter), None);
         }
         Ok(())

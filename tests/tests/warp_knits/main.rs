@@ -49,12 +49,29 @@ fn cloth(bars: Vec<Bar>, diameter: f64) -> WarpKnitted {
 }
 
 #[test]
-fn loops_of_tricot_are_drawn_through_those_below() {
-    for diameter in [0.05, 0.1] {
-        let cloth = cloth(DESIGNS[0].bars(), diameter);
+fn loops_are_drawn_through_those_below() {
+    for (design, diameter) in all() {
+        let cloth = cloth(design.bars(), diameter);
         let piece = cloth.piece().expect("a piece");
         let faults = topology::faults(&cloth, &piece, &piece.yarns);
-        assert!(faults.is_empty(), "{diameter}: {faults:#?}");
+        assert!(faults.is_empty(), "{} {diameter}: {faults:#?}", design.name);
+    }
+}
+
+/// All designs in all their diameters.
+fn all() -> impl Iterator<Item = (&'static Design, f64)> {
+    DESIGNS.iter().flat_map(|design| design.diameters.iter().map(move |size| (design, *size)))
+}
+
+/// Yarns that are cut off at the upper and lower edge lack what bends them in the repeat.
+#[test]
+fn cut_edges_are_as_clear_as_the_repeat() {
+    let device = ParallelBackend::open().expect("the CPU");
+    for (design, diameter) in all() {
+        let cloth = cloth(design.bars(), diameter);
+        let settled = cloth.settle(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(()));
+        let least = settled.expect("a settling").clearance.min;
+        assert!(least >= 0.98, "{} {diameter}: {least}", design.name);
     }
 }
 
@@ -97,8 +114,7 @@ fn fault(name: &str, cloth: &WarpKnitted, diameter: f64) -> Option<String> {
 
 #[test]
 fn warp_knits_come_to_rest() {
-    let sizes = DESIGNS.iter().flat_map(|design| design.diameters.iter().map(move |size| (design, *size)));
-    let faults: Vec<_> = sizes
+    let faults: Vec<_> = all()
         .filter_map(|(design, diameter)| fault(design.name, &cloth(design.bars(), diameter), diameter))
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));

@@ -48,14 +48,14 @@ impl Repeat {
     /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's, [`FabricError::OutOfMemory`],
     /// and [`FabricError::Yarns`] where there is no copy, or coordinates would lie too far out.
     pub fn laid(&self, yarns: &Yarns) -> Result<Yarns, FabricError> {
-        self.laid_beyond(yarns, 0)
+        self.laid_beyond(yarns, [0, 0])
     }
 
-    /// As [`Repeat::laid`], but a yarn that is cut off where the copies end goes so many control points further at both its ends, so
-    /// that all of it within the copies bends as in the repeat.
+    /// As [`Repeat::laid`], but a yarn that is cut off where the copies end goes so many control points further at its beginning and at
+    /// its end, so that all of it within the copies bends as in the repeat.
     ///
     /// **Errors**: those of [`Repeat::laid`].
-    pub fn laid_beyond(&self, yarns: &Yarns, beyond: u32) -> Result<Yarns, FabricError> {
+    pub fn laid_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
         self.laid_as(yarns, beyond, |origin, _| origin, |source, _| source)
     }
 
@@ -64,7 +64,7 @@ impl Repeat {
     pub(crate) fn laid_as(
         &self,
         yarns: &Yarns,
-        beyond: u32,
+        beyond: [u32; 2],
         origin: impl Fn(Origin, [i64; 2]) -> Origin,
         source: impl Fn(u32, [i64; 2]) -> u32,
     ) -> Result<Yarns, FabricError> {
@@ -74,7 +74,7 @@ impl Repeat {
             return Err(FabricError::OtherYarns { points: layout.point_count(), planned });
         }
         let copies = u64::from(self.copies[0]) * u64::from(self.copies[1]);
-        let ends = 2 * u64::from(beyond) * layout.yarns().len() as u64;
+        let ends = (u64::from(beyond[0]) + u64::from(beyond[1])) * layout.yarns().len() as u64;
         let total = usize::try_from(u128::from(copies) * u128::from(layout.point_count() + ends));
         let total = total.unwrap_or(usize::MAX);
         let (mut table, mut offsets) = (Vec::new(), vec![0]);
@@ -106,9 +106,9 @@ impl Repeat {
                     sources.extend(all[part].iter().map(|own| source(*own, round)));
                 }
             };
-            let beyond = (beyond as usize).min(range.len());
+            let [before, beyond] = beyond.map(|beyond| (beyond as usize).min(range.len()));
             if let Some(onward) = onward {
-                lay([cell[0] - onward[0], cell[1] - onward[1]], range.end - beyond..range.end);
+                lay([cell[0] - onward[0], cell[1] - onward[1]], range.end - before..range.end);
             }
             let mut last = cell;
             for round in std::iter::successors(Some(cell), next).take_while(|cell| self.holds(*cell)) {

@@ -1,5 +1,7 @@
 //! Whether bars, gauge and yarns can be a cloth.
 
+use texere_core::Origin;
+
 use super::laps::laps;
 use super::{Bar, LapKind};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
@@ -40,6 +42,13 @@ pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), FabricError> {
         }
     }
     Ok(())
+}
+
+/// The first guide that is threaded with the yarn of that number, from 0.
+pub(super) fn first_guide(bars: &[Bar], yarn: u32) -> Origin {
+    let guide = |bar: &Bar| bar.threading.guides().iter().position(|threaded| *threaded == Some(yarn));
+    let found = (1..).zip(bars).find_map(|(bar, each)| Some((bar, guide(each)?)));
+    found.map_or(Origin::Unknown, |(bar, guide)| Origin::Guide { bar, guide: guide as u32 + 1 })
 }
 
 /// Wales and courses after which all bars begin again, if `size` are multiples of them.

@@ -65,7 +65,7 @@ impl WarpKnitted {
         copies: [u32; 2],
     ) -> Result<Self, FabricError> {
         weft::check::gauge(&gauge)?;
-        weft::check::yarns(&yarns, &materials, &sections)?;
+        weft::check::yarns(&yarns, |number| check::first_guide(&bars, number), &materials, &sections)?;
         check::bars(&bars, yarns.len())?;
         let laid = [wales, courses];
         let repeat = check::repeat(&bars, laid)?;
@@ -172,11 +172,12 @@ impl WarpKnitted {
         repeat.laid_as(yarns, self.beyond(), origin, source)
     }
 
-    /// How many control points yarns go on beyond the cloth at either end, where that does not spoil their count.
-    pub(super) const fn beyond(&self) -> u32 {
+    /// How many control points yarns go on beyond the cloth at their beginning and at their end, where that does not spoil their count: down
+    /// into the last loop below, and up the leg of the next loop above until beyond the heads that hold it.
+    pub(super) const fn beyond(&self) -> [u32; 2] {
         match self.cells {
-            Cells::Round => 2,
-            Cells::Even => 0,
+            Cells::Round => [3, 4],
+            Cells::Even => [0, 0],
         }
     }
 

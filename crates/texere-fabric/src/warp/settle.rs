@@ -89,12 +89,12 @@ impl WarpKnitted {
     /// yarns of no guide count for nothing.
     #[must_use]
     pub fn run_ins(&self, yarns: &Yarns, tension: f32) -> Vec<RunIn> {
-        let beyond = self.beyond() as usize;
+        let [before, beyond] = self.beyond().map(|points| points as usize);
         // All copies are alike: after the last point comes the first one, the cloth's height further.
         let height = [0.0, self.size_mm()[1]];
         let length = |yarn: usize| {
             let points = yarns.yarn_points(yarn)?;
-            let within = points.get(beyond..points.len().checked_sub(beyond)?)?;
+            let within = points.get(before..points.len().checked_sub(beyond)?)?;
             Some(round_length_mm(within, height, tension))
         };
         let mut sums = vec![(0.0, 0.0); self.bars().len()];

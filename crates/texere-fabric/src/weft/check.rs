@@ -35,15 +35,17 @@ pub(crate) fn gauge(gauge: &Gauge) -> Result<(), FabricError> {
     }
 }
 
+/// Whether yarns are sound; `origin` names the one with a number, from 0.
 pub(crate) fn yarns(
     yarns: &[KnitYarn],
+    origin: impl Fn(u32) -> Origin,
     materials: &[Material],
     sections: &[Section],
 ) -> Result<(), FabricError> {
     yarn_check::sections(sections)?;
-    for (number, yarn) in (1..).zip(yarns) {
+    for (number, yarn) in (0..).zip(yarns) {
         let KnitYarn { radius_mm, material, section, twist } = *yarn;
-        let yarn = Yarn { material, section, closed: false, twist, origin: Origin::Carrier(number) };
+        let yarn = Yarn { material, section, closed: false, twist, origin: origin(number) };
         yarn_check::yarn(&yarn, radius_mm, materials, sections)?;
     }
     Ok(())

@@ -73,7 +73,7 @@ impl Knitted {
         copies: [u32; 2],
     ) -> Result<Self, FabricError> {
         check::gauge(&gauge)?;
-        check::yarns(&yarns, &materials, &sections)?;
+        check::yarns(&yarns, |number| Origin::Carrier(number + 1), &materials, &sections)?;
         check::stitches(&stitches, yarns.len())?;
         check::size(&stitches, copies)?;
         check::tiles(&stitches, stitches.repeat.map_or([1, 1], |size| settled_together(size, copies)))?;
@@ -165,8 +165,8 @@ impl Knitted {
     /// their count: a leg runs straight there, so that what is cut off bends as in the repeat, and touches nothing.
     pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         let beyond = match self.cells {
-            Cells::Round => 3,
-            Cells::Even => 0,
+            Cells::Round => [3, 3],
+            Cells::Even => [0, 0],
         };
         repeat.laid_beyond(yarns, beyond)
     }

@@ -113,7 +113,12 @@ impl SettlingReport {
 impl fmt::Display for SettlingReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { device, passes, block_passes, clearance, radius_diameters, .. } = self;
-        let rest = if self.at_rest { "at rest" } else { "not at rest" };
+        let rest = match self {
+            Self { at_rest: true, .. } => "at rest",
+            // What neither form has brought to rest has no room for its yarns.
+            Self { linked: true, block_passes: 1.., .. } => "jammed, not at rest",
+            _ => "not at rest",
+        };
         let s = if *passes == 1 { "" } else { "es" };
         write!(f, "{rest} after {passes} pass{s} on {device}, {block_passes} of them in the block form; ")?;
         if clearance.is_finite() {

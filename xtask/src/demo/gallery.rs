@@ -10,7 +10,7 @@ type View = (&'static str, &'static [&'static str]);
 const FOLDER: &str = "docs/gallery";
 
 /// The designs, each with the views of it, beside face and back: name and options.
-const DESIGNS: [(&str, &[View]); 17] = [
+const DESIGNS: [(&str, &[View]); 27] = [
     ("plain.toml", &[CLOSE_UP, CUT]),
     ("twill.toml", &[CLOSE_UP, CUT]),
     ("satin.toml", &[CLOSE_UP, CUT]),
@@ -28,6 +28,16 @@ const DESIGNS: [(&str, &[View]); 17] = [
     ("miss.toml", &[]),
     ("jacquard.toml", &[]),
     ("double-jacquard.toml", &[]),
+    ("tricot.toml", &[]),
+    ("locknit.toml", &[]),
+    ("reverse-locknit.toml", &[]),
+    ("warp-satin.toml", &[]),
+    ("sharkskin.toml", &[]),
+    ("queenscord.toml", &[]),
+    ("atlas.toml", &[]),
+    ("net.toml", &[]),
+    ("tulle.toml", &[]),
+    ("warp-jacquard.toml", &[]),
 ];
 
 const CLOSE_UP: View = ("close-up", &["--view", "close-up"]);

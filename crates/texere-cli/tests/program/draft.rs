@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::{design, stderr, stdout, texere};
 
 /// Width and height that a PNG file states.
-fn png_size(path: &Path) -> [u32; 2] {
+pub(crate) fn png_size(path: &Path) -> [u32; 2] {
     let bytes = std::fs::read(path).unwrap();
     assert_eq!(bytes[..8], *b"\x89PNG\r\n\x1a\n");
     [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()))

@@ -9,6 +9,7 @@ mod inspect;
 mod knit;
 mod outputs;
 mod settling;
+mod warp_knit;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

@@ -90,9 +90,16 @@ fn a_dropped_stitch_is_seen() {
 
 /// Settles a cloth, and says what is wrong with its rest, if anything is.
 fn fault(name: &str, cloth: &WarpKnitted, diameter: f64) -> Option<String> {
+    rest(name, cloth, diameter, None).err()
+}
+
+/// Settles a cloth, between plates so many diameters apart where they press, and gives its thickness in diameters; or says what is
+/// wrong with its rest.
+fn rest(name: &str, cloth: &WarpKnitted, diameter: f64, press: Option<f32>) -> Result<f64, String> {
     let device = ParallelBackend::open().expect("the CPU");
     let repeat = cloth.repeat().expect("a repeat");
-    let finish = cloth.finish_of(&repeat, &Finish::default(), 0.0);
+    let press_mm = press.map(|plates| plates * diameter as f32);
+    let finish = cloth.finish_of(&repeat, &Finish { press_mm, ..Finish::default() }, 0.0);
     let settled = settle(&repeat.piece, &finish, 0.0, &device, |_| ControlFlow::Continue(()));
     let settled = settled.expect("a settling");
     let start = piece_start(name, &repeat.piece, diameter / 2.0);
@@ -109,7 +116,11 @@ fn fault(name: &str, cloth: &WarpKnitted, diameter: f64) -> Option<String> {
     );
     let rests = report.clearance >= 0.98 && report.bend >= 0.58 && report.growth.abs() < 0.02;
     let sound = rests && linked < CROSSED && settled.is_linked();
-    (!sound).then(|| format!("{name} {diameter}: {report:?}, linking {linked}"))
+    if sound {
+        Ok(report.thickness / diameter)
+    } else {
+        Err(format!("{name} {diameter}: {report:?}, linking {linked}"))
+    }
 }
 
 #[test]
@@ -118,4 +129,14 @@ fn warp_knits_come_to_rest() {
         .filter_map(|(design, diameter)| fault(design.name, &cloth(design.bars(), diameter), diameter))
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Plates press the underlaps of locknit into the cloth, which then is half as thick.
+#[test]
+fn plates_press_locknit_flat() {
+    let locknit = DESIGNS.iter().find(|design| design.name == "locknit").expect("locknit");
+    let cloth = cloth(locknit.bars(), 0.08);
+    let thickness = |press| rest("locknit", &cloth, 0.08, press).unwrap_or_else(|fault| panic!("{fault}"));
+    let (free, pressed) = (thickness(None), thickness(Some(2.8)));
+    assert!(free > 6.5 && pressed < 3.6, "{free} {pressed}");
 }

@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, Limits, Piece, Plan, Settings, Yarns};
+use texere::{Backend, Finished, Limits, Piece, Plan, Settings, WovenRest, Yarns};
 use texere_core::Session;
-use texere_core::settling::{Rest, Settler, SettlingPlan, settle, settled};
+use texere_core::settling::{self, Settler, SettlingPlan, settle, settled};
 
 use crate::measure::Bench;
 use crate::one_yarn;
@@ -40,6 +40,30 @@ pub struct Stages {
     pub mesh: Duration,
 }
 
+/// How yarns rest.
+#[derive(Debug, Clone, Copy)]
+pub struct Rest {
+    /// Whether they do.
+    pub at_rest: bool,
+    /// The least distance of two yarns over both reaches.
+    pub clearance: f64,
+    /// The least radius of curvature of a knit, in diameters.
+    pub radius: Option<f32>,
+}
+
+impl From<&settling::Rest> for Rest {
+    fn from(rest: &settling::Rest) -> Self {
+        let settling::Seen { clearance, radius, .. } = rest.end;
+        Self { at_rest: rest.at_rest, clearance: f64::from(clearance), radius: Some(radius) }
+    }
+}
+
+impl From<&WovenRest> for Rest {
+    fn from(rest: &WovenRest) -> Self {
+        Self { at_rest: rest.crossings.at_rest, clearance: rest.clearance[1], radius: None }
+    }
+}
+
 impl Stages {
     /// All stages together.
     #[must_use]
@@ -49,8 +73,8 @@ impl Stages {
     }
 }
 
-/// Takes the design in `path` to a mesh in the memory of `device`, and gives its yarns as they lie there, too. What has settled stays on the
-/// device where the design's cloth is one piece; where it is one repeat, that is read, copied and sent.
+/// Takes the design in `path` to a mesh in the memory of `device`, and gives its yarns as they lie there, too. A knit that has settled stays on
+/// the device where it is one piece; where it is one repeat, that is read, copied and sent. Woven cloth is drawn from its crossings on the host.
 ///
 /// # Errors
 ///
@@ -60,14 +84,24 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<
     let mut clock = Clock(Instant::now());
     let design = texere::read(path)?;
     let mut stages = Stages { name: design.name.clone(), read: clock.lap(), ..Stages::default() };
-    let mut cloth = if design.settle {
+    let mut cloth = if design.settle && design.structure.woven().is_some() {
+        let finished = design
+            .structure
+            .settle(&design.finish, settings.tension, device, |_| ControlFlow::Continue(()))?;
+        stages.settle = Some(clock.lap());
+        if let Finished::Woven(rest) = &finished {
+            stages.rest = Some(rest.into());
+        }
+        Cloth::Laid(finished.into_yarns())
+    } else if design.settle {
         let repeat = design.structure.repeat()?;
         stages.generate = clock.lap();
         let finish = design.structure.finish_of(&repeat, &design.finish, settings.tension);
         let plan = Arc::new(SettlingPlan::new(&repeat.piece.settling(&finish, settings.tension))?);
         let mut settler = device.settler(plan.clone())?;
         stages.plan = clock.lap();
-        stages.rest = Some(settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?);
+        let rest = settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?;
+        stages.rest = Some((&rest).into());
         stages.settle = Some(clock.lap());
         if repeat.copies == [1, 1] {
             Cloth::OnDevice(repeat.piece, plan, settler)
@@ -150,9 +184,12 @@ pub fn print(designs: &[impl AsRef<Path>], device: &str) -> Result<(), Box<dyn E
         let (row, _) = stages(path.as_ref(), &*backend)?;
         let ms = |time: Duration| time.as_secs_f64() * 1e3;
         let settle = row.settle.map_or_else(|| "-".into(), |time| format!("{:.0}", ms(time)));
-        let rest = row.rest.as_ref().map_or_else(
+        let rest = row.rest.map_or_else(
             || "-".into(),
-            |rest| format!("{}, {:.3}, {:.3}", rest.at_rest, rest.end.clearance, rest.end.radius),
+            |Rest { at_rest, clearance, radius }| {
+                let radius = radius.map_or_else(|| "-".into(), |radius| format!("{radius:.3}"));
+                format!("{at_rest}, {clearance:.3}, {radius}")
+            },
         );
         println!(
             "| {} | {} | {} | {} | {:.0} | {:.0} | {:.0} | {settle} | {:.1} | {:.2} | {:.0} | {rest} |",

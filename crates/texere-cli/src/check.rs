@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Design, Diagnosis, Faults, Settings};
+use texere::{Cure, Design, Diagnosis, FabricError, Faults, Settings, Structure};
 
 use crate::args::CheckArgs;
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, place};
-use crate::cures::{CureReport, phrase};
+use crate::cures::{CureReport, gives_room, phrase};
 use crate::fail::Fail;
 use crate::measures::Sets;
 use crate::settling::SettlingReport;
@@ -96,7 +96,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         design.structure.clearance(&yarns, &settings, progress::share(bar))
     })?;
     // Whether threads that settled have found room shows in their clearance, not in the pitches at which they started.
-    let jams = if settling.is_some() { None } else { design.structure.jams() };
+    let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
+    let jams = if settled { None } else { design.structure.jams() };
     let diagnosis = Diagnosis::new(1.0 - args.accuracy, clearance, jams);
     let machine = MachineReport::new(&design);
     let pierced = phrase(&diagnosis.faults.kinds());
@@ -104,11 +105,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let said: Vec<_> = pierced.into_iter().chain(unknittable.then(|| "can't be knitted".into())).collect();
     let faulty = (!said.is_empty()).then(|| said.join(", "));
     let cures = match &faulty {
-        // They are tried on cloth as it is before it settles.
-        Some(_) if settling.is_none() => progress::during("looking for cures", |bar| {
-            design.structure.cures(&diagnosis, progress::share(bar))
-        }),
-        _ => Vec::new(),
+        Some(_) => cures(&design.structure, &diagnosis, settled)?,
+        None => Vec::new(),
     };
     let report = Report {
         name: design.name,
@@ -118,7 +116,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         setts: design.structure.woven().map(|woven| setts(woven.cloth())),
         machine,
         settling,
-        cures: cures.iter().filter_map(CureReport::new).collect(),
+        cures,
     };
     if args.json {
         print::json(&report)?;
@@ -130,6 +128,25 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         Some(said) => Err(Fail::cloth(&args.design, &said)),
         None => Ok(()),
     }
+}
+
+/// What would cure the faults of `diagnosis`. They are looked for in cloth as it is woven; of those that are found for cloth that has
+/// `settled` only wider spacings and thinner yarns count.
+fn cures(structure: &Structure, diagnosis: &Diagnosis, settled: bool) -> Result<Vec<CureReport>, Fail> {
+    if settled && structure.woven().is_none() {
+        return Ok(Vec::new());
+    }
+    let cures = progress::during("looking for cures", |bar| {
+        let mut progress = progress::share(bar);
+        if settled {
+            let woven = structure.diagnose(diagnosis.touching, |_| progress(0.0))?;
+            Ok::<_, FabricError>(structure.cures(&woven, progress))
+        } else {
+            Ok(structure.cures(diagnosis, progress))
+        }
+    })?;
+    let counts = |cure: &&Cure| !settled || (cure.leaves.is_empty() && gives_room(&cure.remedy));
+    Ok(cures.iter().filter(counts).filter_map(CureReport::new).collect())
 }
 
 impl From<&Faults> for FaultsReport {
@@ -159,6 +176,10 @@ impl FaultsReport {
 }
 
 impl Report {
+    fn has_settled(&self) -> bool {
+        self.settling.as_ref().is_some_and(SettlingReport::has_moved)
+    }
+
     fn text(&self, clearance: &ClearanceReport, curvature: &CurvatureReport) -> String {
         let mut text = format!("{}\n", terminal::line(&self.name));
         let mut line = |what: &str, said: String| {
@@ -208,11 +229,11 @@ impl Report {
             faults.iter().for_each(|fault| line(what, fault.clone()));
         }
         if self.clean {
-            let jam = if self.settling.is_some() { "" } else { ", no jam" };
+            let jam = if self.has_settled() { "" } else { ", no jam" };
             line("clean", format!("nothing nearer than {} of touching, no fold{jam}", self.touching));
         } else if self.faults.is_none() {
             // No change of the cloth makes a program one that a machine can knit.
-        } else if self.settling.is_some() {
+        } else if self.has_settled() && self.setts.is_none() {
             line(
                 "cure",
                 "none was looked for: that is done for yarns as they are before, with --no-settle".into(),

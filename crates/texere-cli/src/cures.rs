@@ -40,6 +40,11 @@ impl CureReport {
     }
 }
 
+/// Whether a remedy gives threads more room, so that it helps cloth at rest as well.
+pub(crate) const fn gives_room(remedy: &Remedy) -> bool {
+    matches!(remedy, Remedy::Spacing { .. } | Remedy::Diameter { .. })
+}
+
 /// Key, value and effect of a remedy.
 fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
     Some(match remedy {

@@ -58,6 +58,14 @@ impl Fail {
         }
     }
 
+    /// A plot of a settling was asked for of cloth that comes to rest by its crossings.
+    pub(crate) fn no_course() -> Self {
+        Self {
+            code: USAGE,
+            source: "--settling-plot is for knits: woven cloth comes to rest by its crossings".into(),
+        }
+    }
+
     /// A picture of a turntable that is a link to another of them.
     pub(crate) fn written_twice(path: &Path) -> Self {
         Self {
@@ -163,6 +171,8 @@ impl From<WriteError> for Fail {
 impl From<FinishError> for Fail {
     fn from(error: FinishError) -> Self {
         match error {
+            // The tension of splines is the command line's.
+            FinishError::Fabric(FabricError::Settings(error)) => error.into(),
             FinishError::Fabric(error) => error.into(),
             FinishError::Backend(error) => error.into(),
             _ => Self { code: DESIGN, source: error.into() },

@@ -89,7 +89,9 @@ struct ClothReport {
 struct WovenReport {
     ends: usize,
     picks: usize,
-    jam: JamsReport,
+    /// How close threads lie for those that cross; not of cloth at rest, whose threads give way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    jam: Option<JamsReport>,
     setts: Sets<SettReport>,
 }
 
@@ -112,9 +114,13 @@ fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     } else {
         settling::yarns(&design, &args.settling, settings.tension, || texere::open("cpu"))?
     };
+    let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
-    let cloth =
-        if args.counts { None } else { Some(ClothReport::new(&design.structure, &yarns, &settings)?) };
+    let cloth = if args.counts {
+        None
+    } else {
+        Some(ClothReport::new(&design.structure, &yarns, &settings, settled)?)
+    };
     let weft = design.structure.knitted().map(KnitReport::new);
     let warp = || {
         let measured = (!args.counts).then_some((&yarns, settings.tension));
@@ -187,7 +193,7 @@ impl fmt::Display for BarReport {
 }
 
 impl ClothReport {
-    fn new(structure: &Structure, yarns: &Yarns, settings: &Settings) -> Result<Self, Fail> {
+    fn new(structure: &Structure, yarns: &Yarns, settings: &Settings, settled: bool) -> Result<Self, Fail> {
         let clearance = progress::during("measuring how near yarns come", |bar| {
             structure.clearance(yarns, settings, progress::share(bar))
         })?;
@@ -196,7 +202,7 @@ impl ClothReport {
             woven: structure.woven().map(|woven| WovenReport {
                 ends: woven.cloth().warp().len(),
                 picks: woven.cloth().weft().len(),
-                jam: JamsReport::from(woven.jam_report()),
+                jam: (!settled).then(|| JamsReport::from(woven.jam_report())),
                 setts: setts(woven.cloth()),
             }),
             size_mm: structure.size_mm(),
@@ -242,18 +248,18 @@ impl ClothReport {
             lines.push(("loop", said));
         }
         if let (Some(crimp), Some(woven)) = (measures.crimp, &self.woven) {
-            let share = woven.jam.warp_crimp;
+            let share = woven.jam.as_ref().map(|jam| format!("; the warp's share is {:.2}", jam.warp_crimp));
             let [warp, weft] = [crimp.warp, crimp.weft].map(percent);
-            lines.push(("crimp", format!("warp {warp}, weft {weft}; the warp's share is {share:.2}")));
+            lines.push(("crimp", format!("warp {warp}, weft {weft}{}", share.unwrap_or_default())));
         }
         if let Some(cover) = &measures.cover {
             let [cloth, ends, picks] = [cover.cloth, cover.fraction.warp, cover.fraction.weft].map(percent);
             lines.push(("cover", format!("{cloth}: ends {ends}, picks {picks}")));
         }
         lines.extend(self.woven.iter().flat_map(|woven| woven.setts.lines()));
-        let pitches = self.woven.iter().flat_map(|WovenReport { jam, .. }| {
-            [("pitch of ends", &jam.after.warp), ("pitch of picks", &jam.after.weft)]
-        });
+        let jams = self.woven.iter().filter_map(|woven| woven.jam.as_ref());
+        let pitches =
+            jams.flat_map(|jam| [("pitch of ends", &jam.after.warp), ("pitch of picks", &jam.after.weft)]);
         for (pitch, found) in pitches {
             if let Some(tightest) = &found.tightest {
                 let text = format!(

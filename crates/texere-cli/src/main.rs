@@ -20,7 +20,6 @@ mod print;
 mod progress;
 mod render;
 mod settling;
-mod settling_plot;
 mod setts;
 #[cfg(unix)]
 mod signals;

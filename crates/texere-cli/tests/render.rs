@@ -24,7 +24,18 @@ fn a_picture_has_the_size_that_was_asked_for() {
     let path = folder.path().join("plain.png");
     let out = path.to_str().unwrap();
     // Round threads: 64 ends of 191 points and 48 picks of 255, 24 triangles an interval, and 4 for each cap.
-    let output = render(&[PLAIN, "-o", out, "--size", "120x90", "--view", "back", "--supersampling", "1"]);
+    let output = render(&[
+        PLAIN,
+        "-o",
+        out,
+        "--size",
+        "120x90",
+        "--view",
+        "back",
+        "--supersampling",
+        "1",
+        "--no-settle",
+    ]);
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success() && text.contains("585344 triangles"), "{text}");
     assert_eq!(png_size(&path), [120, 90]);

@@ -309,13 +309,19 @@ pub enum FabricError {
     /// The progress callback asked to stop.
     #[error("cancelled")]
     Cancelled,
-    /// Yarns that are not those of the cloth that is measured.
-    #[error("yarns of {points} control points; the cloth's have {planned}")]
+    /// Yarns that are not those that a repeat is laid with.
+    #[error("yarns of {points} control points; the repeat's have {planned}")]
     OtherYarns {
         /// Control points of the yarns.
         points: u64,
-        /// Control points of the cloth's.
+        /// Control points of the repeat's.
         planned: u64,
+    },
+    /// Yarns that are not those of the cloth that is measured.
+    #[error("yarn {yarn} is not one of the cloth's")]
+    OtherCloth {
+        /// The first yarn that differs, from 0; the number of the cloth's where there are more or fewer.
+        yarn: usize,
     },
     /// A cloth further across than coordinates reach.
     #[error("{set} lie over {extent_mm} mm, more than {limit} mm")]

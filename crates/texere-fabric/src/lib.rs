@@ -67,7 +67,7 @@ pub use linking::{
     WINDOW_REACH, linking, linking_with_progress,
 };
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
-pub use settling::{Finish, FinishError, Piece, Repeat, Settled, settle};
+pub use settling::{Finish, FinishError, Finished, Piece, Repeat, Settled, settle};
 pub use structure::Structure;
 pub use under::yarns_under;
 pub use warning::FabricWarning;

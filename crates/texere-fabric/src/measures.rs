@@ -1,7 +1,7 @@
 //! What designers and mills ask of a fabric: yarn consumption, crimp, cover, weight, thickness.
 
 use rayon::prelude::*;
-use texere_core::{Material, Segment, Yarns};
+use texere_core::{ControlPoint, Material, Segment, Yarns};
 
 use crate::clearance::neighbours;
 use crate::reach::{Reach, mean_reach};
@@ -113,14 +113,11 @@ impl Measures {
         }
     }
 
-    /// Measures a woven `cloth`, whose yarns are `yarns`, with splines of `tension`.
+    /// Measures a woven `cloth`, whose yarns are `yarns`, as they are woven or at rest, with splines of `tension`.
     ///
-    /// **Errors**: [`FabricError::OtherYarns`] where these are not the cloth's yarns.
+    /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, FabricError> {
-        let points = cloth.point_count();
-        if yarns.layout().point_count() != points {
-            return Err(FabricError::OtherYarns { points: yarns.layout().point_count(), planned: points });
-        }
+        cloth.owns(yarns)?;
         let lengths = lengths_mm(yarns, tension);
         let length_mm = lengths_by_material(yarns, &lengths);
         let [width, height] = cloth.size_mm();
@@ -131,7 +128,7 @@ impl Measures {
         };
         Ok(Self {
             crimp: Some([crimp(warp, ends, height), crimp(weft, picks, width)]),
-            cover: Some(Cover::new(cloth)),
+            cover: Some(Cover::new(cloth, yarns)?),
             knit: None,
             areal_weight: weight_g(&length_mm, yarns.materials())
                 .map(|grams| grams / (width * height * 1e-6)),
@@ -142,9 +139,11 @@ impl Measures {
 }
 
 impl Cover {
-    /// The cover of `cloth`, from its threads' sizes and spacings alone.
-    #[must_use]
-    pub fn new(cloth: &Woven) -> Self {
+    /// The cover of `cloth` by `yarns`, from their mean widths and its threads' spacings.
+    ///
+    /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
+    pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
+        cloth.owns(yarns)?;
         let size = cloth.size_mm();
         let sets = [(cloth.warp(), size[0]), (cloth.weft(), size[1])];
         let turns = |threads: &[Thread], section: usize| {
@@ -158,13 +157,14 @@ impl Cover {
                 [section.half_width(), if twisted { mean_reach(section) } else { 0.0 }]
             })
             .collect();
-        let fraction = sets.map(|(threads, across)| {
-            let width = |thread: &Thread| {
-                let wide = widths[thread.section as usize][usize::from(thread.twist != 0.0)];
-                2.0 * f64::from(thread.halves_mm()[0] * wide)
-            };
-            (threads.iter().map(width).sum::<f64>() / across).min(1.0)
-        });
+        let mut taken = [0.0; 2];
+        for (set, yarn) in cloth.yarns_of_threads() {
+            let what = &yarns.layout().yarns()[yarn];
+            let wide = widths[what.section as usize][usize::from(what.twist != 0.0)];
+            let points = yarns.yarn_points(yarn).unwrap_or(&[]);
+            taken[set] += 2.0 * f64::from(wide) * mean_half_width(points);
+        }
+        let fraction = [0, 1].map(|set| f64::min(taken[set] / sets[set].1, 1.0));
         // n / √N added up thread by thread: each has its own count.
         let factors = sets.map(|(threads, across)| {
             let root = |thread: &Thread| {
@@ -175,12 +175,27 @@ impl Cover {
             sum.map(|sum| sum / (across / INCH_MM))
         });
         let factor = if let [Some(warp), Some(weft)] = factors { Some([warp, weft]) } else { None };
-        Self {
+        Ok(Self {
             factor,
             cloth_factor: factor.map(|[warp, weft]| warp + weft - warp * weft / PEIRCE),
             fraction,
             cloth: fraction[0] + fraction[1] - fraction[0] * fraction[1],
-        }
+        })
+    }
+}
+
+/// Half the width of a yarn in the mean over its length, mm: chords stand for intervals.
+fn mean_half_width(points: &[ControlPoint]) -> f64 {
+    let add = |[sum, length]: [f64; 2], pair: &[ControlPoint]| {
+        let chord = f64::from(pair[0].position().distance(pair[1].position()));
+        let both = f64::from(pair[0].half_width()) + f64::from(pair[1].half_width());
+        [sum + chord * both / 2.0, length + chord]
+    };
+    let [sum, length] = points.windows(2).fold([0.0; 2], add);
+    if length > 0.0 {
+        sum / length
+    } else {
+        points.first().map_or(0.0, |point| f64::from(point.half_width()))
     }
 }
 

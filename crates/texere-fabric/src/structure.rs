@@ -8,8 +8,8 @@ use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, ThreadPlace};
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
-    FabricError, FabricWarning, Finish, FinishError, Measures, Piece, Repeat, Settled, WovenDesign,
-    YarnPlace, clearance_with_progress, settle,
+    FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, WovenDesign,
+    YarnPlace, clearance_with_progress,
 };
 
 /// How the yarns of a fabric interlace. There are methods for what can be asked of any kind.
@@ -76,8 +76,9 @@ impl Structure {
         }
     }
 
-    /// What settles, and how often it lies in the fabric: one repeat of a knit that has any (see [`Knitted::repeat`] and
-    /// [`WarpKnitted::repeat`]); else the whole fabric, once. Woven cloth is cut off at its edges, and held there.
+    /// What settles by contact, and how often it lies in the fabric: one repeat of a knit that has any (see [`Knitted::repeat`] and
+    /// [`WarpKnitted::repeat`]); else the whole fabric, once. Woven cloth has its crossings, and does not need it: its piece is for
+    /// [`settle`](crate::settle), cut off at its edges and held there.
     ///
     /// **Errors**: those of [`Structure::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {
@@ -110,22 +111,25 @@ impl Structure {
         }
     }
 
-    /// Lets the yarns of the fabric settle: see [`settle`] and [`Knitted::settle`]. `tension` is that of their splines.
+    /// Lets the fabric come to rest: woven cloth by its crossings ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact
+    /// ([`Knitted::settle`], [`WarpKnitted::settle`]). `tension` is that of their splines.
     ///
-    /// **Errors**: those of [`Structure::yarns`] and of [`settle`].
+    /// **Errors**: those of these; [`FinishError::Woven`] where `finish` asks of woven cloth for a length, a press or a course.
     ///
     /// ```
     /// use std::ops::ControlFlow;
     /// use texere_core::{Material, Section};
     /// use texere_cpu::SerialBackend;
     /// use texere_fabric::{Finish, Relief, Structure, Thread, Weave, Woven, WovenDesign};
+    /// // Threads so dense that they flatten.
     /// let plain = Weave::parse("plain")?.drawdown(4, 4)?;
-    /// let (warp, weft) = (vec![Thread::new(0.9, 0.2); 4], vec![Thread::new(0.9, 0.2); 4]);
+    /// let (warp, weft) = (vec![Thread::new(0.7, 0.2); 4], vec![Thread::new(0.7, 0.2); 4]);
     /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
     /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?);
     /// let device = SerialBackend::new();
-    /// let settled = structure.settle(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(()))?;
-    /// assert!(settled.rest.at_rest && settled.is_linked());
+    /// let finished = structure.settle(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(()))?;
+    /// assert!(finished.is_at_rest());
+    /// assert!(structure.clearance(finished.yarns(), &Default::default(), |_| ControlFlow::Continue(()))?.min > 0.98);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn settle(
@@ -134,21 +138,21 @@ impl Structure {
         tension: f32,
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-    ) -> Result<Settled, FinishError> {
+    ) -> Result<Finished, FinishError> {
         match self {
-            Self::Woven(_) => settle(&self.repeat()?.piece, finish, tension, backend, progress),
-            Self::Weft(knit) => knit.settle(finish, tension, backend, progress),
-            Self::Warp(knit) => knit.settle(finish, tension, backend, progress),
-        }
-    }
-
-    /// Whether its yarns settle where a design does not say: those of woven cloth don't, for they lie as
-    /// they are woven. Those of a knit do: loops bend one another.
-    #[must_use]
-    pub const fn settles(&self) -> bool {
-        match self {
-            Self::Woven(_) => false,
-            Self::Weft(_) | Self::Warp(_) => true,
+            Self::Woven(design) => {
+                let asked = [
+                    ("a length", finish.length.is_some()),
+                    ("a press", finish.press_mm.is_some()),
+                    ("a course", finish.record),
+                ];
+                match asked.into_iter().find(|(_, is_asked)| *is_asked) {
+                    Some((asked, _)) => Err(FinishError::Woven { asked }),
+                    None => design.cloth().at_rest(tension, backend, progress).map(Finished::Woven),
+                }
+            }
+            Self::Weft(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
+            Self::Warp(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
         }
     }
 
@@ -196,7 +200,7 @@ impl Structure {
 
     /// Yarn consumption, weight and thickness; of woven cloth crimp and cover, of a knit its loops. `yarns` are the structure's own, their splines of `tension`.
     ///
-    /// **Errors**: [`FabricError::OtherYarns`] where these are not the structure's yarns.
+    /// **Errors**: [`FabricError::OtherCloth`] where these are not the structure's yarns.
     pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns, tension),

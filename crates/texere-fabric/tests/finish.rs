@@ -27,7 +27,11 @@ fn plain(pitch: f64) -> Structure {
 }
 
 fn settled(structure: &Structure, finish: Finish, device: &dyn Backend) -> Result<Settled, FinishError> {
-    structure.settle(&finish, 0.0, device, |_| ControlFlow::Continue(()))
+    settle(&structure.repeat().unwrap().piece, &finish, 0.0, device, |_| ControlFlow::Continue(()))
+}
+
+fn piece(pitch: f64) -> Piece {
+    plain(pitch).repeat().unwrap().piece
 }
 
 fn cpu() -> ParallelBackend {
@@ -153,7 +157,7 @@ fn what_finds_no_rest_says_so_and_is_no_worse() {
 fn a_cancel_is_seen_within_one_pass() {
     for last in [0, 1, 25, 60] {
         let mut calls = 0;
-        let stopped = plain(1.5).settle(&Finish::default(), 0.0, &cpu(), |_| {
+        let stopped = settle(&piece(1.5), &Finish::default(), 0.0, &cpu(), |_| {
             calls += 1;
             if calls > last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -165,7 +169,7 @@ fn a_cancel_is_seen_within_one_pass() {
 #[test]
 fn progress_grows_to_the_end() {
     let mut shares = vec![0.0];
-    let followed = plain(1.7).settle(&Finish::default(), 0.0, &cpu(), |done| {
+    let followed = settle(&piece(1.7), &Finish::default(), 0.0, &cpu(), |done| {
         shares.push(done);
         ControlFlow::Continue(())
     });

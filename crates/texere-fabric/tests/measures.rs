@@ -144,7 +144,7 @@ fn lengths_go_to_their_materials() {
 fn yarns_of_another_cloth_are_refused() {
     let cloth = cloth([None; 2]);
     let mut other = cloth.clone();
-    other.set_shape(Shape::Crossing);
+    other.set_selvedge(true);
     let error = Measures::new(&cloth, &other.yarns().unwrap(), 0.0).unwrap_err();
-    assert!(matches!(error, FabricError::OtherYarns { .. }));
+    assert!(matches!(error, FabricError::OtherCloth { yarn: 101 }), "{error}");
 }

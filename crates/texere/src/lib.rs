@@ -27,21 +27,22 @@
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let folder = std::env::temp_dir().join(format!("texere-doc-settled-{}", std::process::id()));
+//! # let folder = std::env::temp_dir().join(format!("texere-doc-poplin-{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder)?;
-//! # let design_path = folder.join("doubled.toml");
+//! # let design_path = folder.join("poplin.toml");
 //! use std::ops::ControlFlow;
-//! // Doubled ends and picks, too near one another for those that cross them.
+//! // Poplin: as round yarns its ends would pierce one another.
 //! std::fs::write(&design_path, "weave = { notation = \"plain\", ends = 6, picks = 6 }\n\
-//!     finish = { settle = true, length = \"free\" }\nyarns.ecru.diameter_mm = 0.3\n\
-//!     warp = { yarns = [\"ecru\"], spacing_mm = [0.78, 0.48] }\n\
-//!     weft = { yarns = [\"ecru\"], spacing_mm = [0.78, 0.48] }\n")?;
+//!     yarns.white.diameter_mm = 0.143\n\
+//!     warp = { yarns = [\"white\"], spacing_mm = 0.19 }\n\
+//!     weft = { yarns = [\"white\"], spacing_mm = 0.35 }\n")?;
 //! let design = texere::read(&design_path)?;
 //! let device = texere::open("cpu")?;
-//! let settled = design.structure.settle(&design.finish, 0.0, &*device, |_| ControlFlow::Continue(()))?;
-//! assert!(design.settle && settled.rest.at_rest && settled.is_linked());
-//! assert!(settled.rest.start.clearance < 0.95 && settled.clearance.min > 0.98);
-//! let mesh = texere::Pipeline::new(&settled.yarns).mesh(&*device)?;
+//! let finished = design.structure.settle(&design.finish, 0.0, &*device, |_| ControlFlow::Continue(()))?;
+//! assert!(design.settle && finished.is_at_rest());
+//! assert!(texere::clearance(&design.yarns()?, &texere::Settings::default())?.min < 0.9);
+//! assert!(texere::clearance(finished.yarns(), &texere::Settings::default())?.min > 0.98);
+//! let mesh = texere::Pipeline::new(finished.yarns()).mesh(&*device)?;
 //! # assert!(!mesh.vertices.is_empty());
 //! # std::fs::remove_dir_all(&folder)?;
 //! # Ok(())
@@ -68,11 +69,11 @@ pub use texere_core::{crossings, settling};
 pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
-    FabricWarning, FaultKind, Faults, Finish, FinishError, JamReport, Jams, KnitMeasures, LINKING_CHANGE,
-    Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Sett, Settled, Shape,
-    Shedding, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace, Tightness, Weave,
-    Woven, WovenDesign, YarnPlace, clearance, clearance_with_progress, length_mm, lengths_mm, linking,
-    linking_with_progress, settle, warp, weft, yarns_under,
+    FabricWarning, FaultKind, Faults, Finish, FinishError, Finished, JamReport, Jams, KnitMeasures,
+    LINKING_CHANGE, Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Sett,
+    Settled, Shape, Shedding, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
+    Tightness, Weave, Woven, WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress,
+    length_mm, lengths_mm, linking, linking_with_progress, settle, warp, weft, yarns_under,
 };
 pub use texere_formats::write::{
     Format, Output, Side, Written, abandon, draft as write_draft, file as write_file,

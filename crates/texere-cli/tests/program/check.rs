@@ -11,7 +11,7 @@ use crate::{design, stderr, stdout, texere};
 fn twill(folder: &Path, cloth: &str, ends: f64, picks: f64) -> PathBuf {
     let path = folder.join("twill.toml");
     let text = format!(
-        "[weave]\nnotation = \"3/1\"\nends = 20\npicks = 16\n[cloth]\n{cloth}\n[yarns.a]\ndiameter_mm = 0.3\n\
+        "[weave]\nnotation = \"3/1\"\nends = 20\npicks = 16\n[finish]\nsettle = false\n[cloth]\n{cloth}\n[yarns.a]\ndiameter_mm = 0.3\n\
          [warp]\nyarns = [\"a\"]\nspacing_mm = {ends}\n[weft]\nyarns = [\"a\"]\nspacing_mm = {picks}\n"
     );
     std::fs::write(&path, text).unwrap();
@@ -154,7 +154,7 @@ fn yarns_thicker_than_several_pitches_are_named_and_cured_by_numbers() {
         [([24, 24], 1000.0, 0.75), ([7, 9], 25.0, 0.25), ([163, 150], 25.0, 0.25), ([24, 24], 2.0, 0.75)]
     {
         let path = thick(folder.path(), size, diameter, spacing);
-        let (code, report) = check(&path, &[]);
+        let (code, report) = check(&path, &["--no-settle"]);
         assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)), "{report}");
         let crowded = &report["crowded"];
         let number = |key: &str| crowded[key].as_f64().unwrap_or_else(|| panic!("{crowded}"));
@@ -196,6 +196,6 @@ fn faults_of_the_design_are_not_the_cloths() {
     let path = twill(folder.path(), "jam = \"squeeze\"", 0.4, 0.66);
     let output = texere(&["check", path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(3));
-    assert!(stderr(&output).contains("line 6: cloth.jam is \"squeeze\""), "{}", stderr(&output));
+    assert!(stderr(&output).contains("line 8: cloth.jam is \"squeeze\""), "{}", stderr(&output));
     assert_eq!(texere(&["check", "no-such-file.toml"]).status.code(), Some(1));
 }

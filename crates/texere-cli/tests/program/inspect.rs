@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use crate::{design, inspect, stdout, texere};
 
-/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, two colours of three yarns, a weft that turns round.
-const CLOTH: &str = "[weave]\nnotation = \"2/2\"\nends = 30\npicks = 24\n[cloth]\nselvedge = true\n\
+/// 30 ends 0.8 mm apart, 24 picks 1 mm apart, two colours of three yarns, a weft that turns round. As they are woven.
+const CLOTH: &str = "[weave]\nnotation = \"2/2\"\nends = 30\npicks = 24\n[finish]\nsettle = false\n[cloth]\nselvedge = true\n\
     [yarns.red]\ntex = 40.0\ncolor = \"#c81020\"\n[yarns.rust]\ntex = 50.0\ncolor = \"#C81020\"\n\
     [yarns.ecru]\ntex = 60.0\ncolor = \"#e9dfc7\"\n[warp]\nyarns = [\"2 red\", \"rust\"]\nspacing_mm = 0.8\n\
     [weft]\nyarns = [\"ecru\"]\nspacing_mm = 1\n";

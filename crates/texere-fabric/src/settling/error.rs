@@ -16,6 +16,12 @@ pub enum FinishError {
     /// What is asked can't be settled.
     #[error(transparent)]
     Settling(#[from] SettlingError),
+    /// Something was asked of woven cloth that only knits have.
+    #[error("woven cloth comes to rest by its crossings: {asked} is for knits")]
+    Woven {
+        /// `a length`, `a press` or `a course`.
+        asked: &'static str,
+    },
     /// Crossings of woven cloth can't be settled.
     #[error(transparent)]
     Crossings(#[from] CrossingsError),

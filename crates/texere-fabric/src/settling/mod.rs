@@ -1,6 +1,7 @@
 //! Settling: the yarns of a structure come to rest, and a repeat that has settled is laid side by side.
 
 mod error;
+mod finished;
 mod piece;
 mod repeat;
 mod settled;
@@ -12,6 +13,7 @@ use texere_core::settling::{self, Rest, SettlingPlan};
 use texere_core::{Backend, Layout, Settings, Yarns};
 
 pub use self::error::FinishError;
+pub use self::finished::Finished;
 pub use self::piece::Piece;
 pub use self::repeat::Repeat;
 pub(crate) use self::repeat::settled_together;

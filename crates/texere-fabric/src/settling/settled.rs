@@ -14,7 +14,7 @@ pub struct Finish {
     /// The cloth is pressed between two plates so many mm apart while yarns settle. Those that are at rest from the start stay
     /// as they are.
     pub press_mm: Option<f32>,
-    /// The most passes of either form: see [`texere_core::Settling::passes`].
+    /// The most passes of either form, by contact: see [`texere_core::Settling::passes`].
     pub passes: u32,
     /// Whether [`Settled::course`] is kept.
     pub record: bool,

@@ -65,7 +65,7 @@ impl Knitted {
 
     /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own, their splines of `tension`.
     ///
-    /// **Errors**: [`FabricError::OtherYarns`] where these are not the cloth's yarns.
+    /// **Errors**: none so far.
     pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
         Ok(Measures::of_knit(yarns, tension, self.loops(), self.size(), self.size_mm()))
     }

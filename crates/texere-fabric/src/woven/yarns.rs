@@ -107,6 +107,29 @@ impl Woven {
         ends.chain(picks).collect()
     }
 
+    /// The set, 0 for ends and 1 for picks, and the yarn of each end and each pick.
+    pub(crate) fn yarns_of_threads(&self) -> impl Iterator<Item = (usize, usize)> {
+        let mut yarns = 0;
+        self.passes().into_iter().map(move |pass| {
+            yarns += usize::from(!pass.turns());
+            (usize::from(matches!(pass, Pass::Pick(..))), yarns - 1)
+        })
+    }
+
+    /// **Errors**: [`FabricError::OtherCloth`] where `yarns` are not the cloth's.
+    pub(crate) fn owns(&self, yarns: &Yarns) -> Result<(), FabricError> {
+        let own = self.passes().into_iter().filter_map(|pass| self.yarn(&pass));
+        let (mut own, mut theirs) = (own, yarns.layout().yarns().iter());
+        for yarn in 0.. {
+            match (own.next(), theirs.next()) {
+                (None, None) => break,
+                (Some(own), Some(theirs)) if own == *theirs => {}
+                _ => return Err(FabricError::OtherCloth { yarn }),
+            }
+        }
+        Ok(())
+    }
+
     /// What belongs to the yarn that begins with a pass beside its control points; none where none begins.
     pub(super) fn yarn(&self, pass: &Pass) -> Option<Yarn> {
         let (thread, origin): (Thread, _) = match *pass {

@@ -7,9 +7,12 @@ mod surfaces;
 use std::ops::ControlFlow;
 
 use glam::DVec2;
+use texere_core::settling::Length;
 use texere_core::{Material, Section};
 use texere_cpu::ParallelBackend;
-use texere_fabric::{Drawdown, Thread, Woven, WovenRest, tex_from_cotton_count};
+use texere_fabric::{
+    Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, tex_from_cotton_count,
+};
 
 use surfaces::Surfaces;
 
@@ -230,6 +233,54 @@ fn uneven_cloth_comes_to_rest_whole() {
             if yarn < 14 { two[1].y - two[0].y } else { two[1].x - two[0].x }
         };
         assert!(points.windows(2).all(|two| along(two) > 0.0), "yarn {yarn} turns back");
+    }
+}
+
+/// A woven structure comes to rest by its crossings, which its measures follow; what only knits have is refused.
+#[test]
+fn a_woven_structure_comes_to_rest() {
+    let cotton = Material { tex: Some(tex_from_cotton_count(20.0) as f32), ..Material::default() };
+    let sheeting = cloths().swap_remove(2).woven;
+    let threads = |set: &[Thread]| set.to_vec();
+    let sheeting = Woven::new(
+        sheeting.drawdown().clone(),
+        threads(sheeting.warp()),
+        threads(sheeting.weft()),
+        vec![cotton],
+        vec![Section::Circle],
+    )
+    .unwrap();
+    let structure = Structure::Woven(WovenDesign::new(sheeting.clone(), None, Relief::Report).unwrap());
+    let device = ParallelBackend::open().unwrap();
+    let mut shares = vec![0.0];
+    let settle = |finish: &Finish, shares: &mut Vec<f64>| {
+        structure.settle(finish, 0.0, &device, |done| {
+            shares.push(done);
+            ControlFlow::Continue(())
+        })
+    };
+    let finished = settle(&Finish::default(), &mut shares).unwrap();
+    assert!(shares.is_sorted() && shares.last() == Some(&1.0), "{shares:?}");
+    assert!(finished.is_at_rest());
+    assert_eq!(finished.yarns().points(), at_rest(&sheeting).yarns.points());
+    let measures = structure.measures(finished.yarns(), 0.0).unwrap();
+    let surfaces = Surfaces::new(finished.yarns());
+    let (widths, crimp) = (surfaces.widths(), surfaces.crimp());
+    for set in 0..2 {
+        let [fraction, waves] = [measures.cover.unwrap().fraction[set], measures.crimp.unwrap()[set]];
+        assert!((fraction * 25.4 / 60.0 / widths[set] - 1.0).abs() < 0.02, "{fraction} {widths:?}");
+        assert!((waves - crimp[set]).abs() < 0.005, "{waves} {crimp:?}");
+    }
+    // Round threads are narrower, and wave otherwise.
+    let woven = structure.measures(&structure.yarns().unwrap(), 0.0).unwrap();
+    assert!(measures.cover.unwrap().cloth > woven.cover.unwrap().cloth + 0.05);
+    for (finish, asked) in [
+        (Finish { length: Some(Length::Held), ..Finish::default() }, "a length"),
+        (Finish { press_mm: Some(0.2), ..Finish::default() }, "a press"),
+        (Finish { record: true, ..Finish::default() }, "a course"),
+    ] {
+        let refused = settle(&finish, &mut Vec::new()).unwrap_err().to_string();
+        assert!(refused.contains(asked), "{refused}");
     }
 }
 

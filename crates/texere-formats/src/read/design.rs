@@ -49,14 +49,13 @@ pub struct Told {
 }
 
 impl Design {
-    /// A design whose yarns settle as those of its structure do.
+    /// A design whose yarns settle.
     pub(super) fn new(name: String, structure: Structure, remarks: Vec<String>) -> Self {
-        let (settle, finish) = (structure.settles(), Finish::default());
         Self {
             name,
             structure,
-            settle,
-            finish,
+            settle: true,
+            finish: Finish::default(),
             remarks,
             files: Vec::new(),
             knitted_from: None,
@@ -67,6 +66,17 @@ impl Design {
     /// The same design with what it says about how its yarns settle.
     pub(super) fn finished(self, settle: Option<bool>, finish: Finish) -> Self {
         Self { settle: settle.unwrap_or(self.settle), finish, ..self }
+    }
+
+    /// The same design, left as it is woven unless somebody asks for more.
+    pub(super) fn left(self) -> Self {
+        Self { settle: false, ..self }
+    }
+
+    /// The same design with more remarks.
+    pub(super) fn remarking(mut self, remarks: Vec<String>) -> Self {
+        self.remarks.extend(remarks);
+        self
     }
 
     /// The same design with the program that it is knitted from, and what a machine says of it.

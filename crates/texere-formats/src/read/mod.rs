@@ -33,7 +33,8 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
             let wif = wif::read(path)?;
             let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
             let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
-            Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings))
+            // A draft says nothing of a finish.
+            Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings).left())
         }
         Some("toml") => design_file::read(path),
         Some("k" | "knitout") => {

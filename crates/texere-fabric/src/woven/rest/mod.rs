@@ -16,6 +16,10 @@ use self::lay::Lies;
 use self::problem::Problem;
 use crate::{FabricError, FinishError, Woven};
 
+/// The share of the progress at which crossings have settled, and at which surfaces are clear.
+const SETTLED: f64 = 0.5;
+const CERTIFIED: f64 = 0.95;
+
 /// Woven cloth that has come to rest.
 #[derive(Debug, Clone)]
 pub struct WovenRest {
@@ -78,7 +82,7 @@ impl Woven {
         let (mut made, mut stopped) = (0.0, false);
         let rest = crossings::settle(&plan, settler.as_mut(), |_, _| {
             made += 1.0;
-            let answer = progress(0.5 * made / f64::from(plan.passes()));
+            let answer = progress(SETTLED * made / f64::from(plan.passes()));
             stopped = answer.is_break();
             answer
         })?;
@@ -91,10 +95,14 @@ impl Woven {
         let mut lies = Lies::new(problem, &plan, all);
         let at_first = lies.area(self);
         let settings = Settings { tension, ..Settings::default() };
-        let (clearance, rounds) = certify(self, &mut lies, &settings, |done| progress(0.5 + 0.5 * done))?;
-        let area = lies.area(self);
+        let (clearance, rounds) =
+            certify(self, &mut lies, &settings, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
+        let (area, yarns) = (lies.area(self), lies.yarns(self)?);
+        if progress(1.0).is_break() {
+            return Err(FabricError::Cancelled.into());
+        }
         Ok(WovenRest {
-            yarns: lies.yarns(self)?,
+            yarns,
             repeat,
             crossings: rest,
             clearance,

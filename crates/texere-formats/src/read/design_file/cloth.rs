@@ -16,7 +16,8 @@ pub(super) struct Cloth {
 }
 
 impl Cloth {
-    pub(super) fn new(source: &Source<'_>, table: &ClothTable) -> Result<Self, ReadError> {
+    /// `rests` says whether the cloth is to come to rest: then threads flatten as they must, and nothing else makes room for them.
+    pub(super) fn new(source: &Source<'_>, table: &ClothTable, rests: bool) -> Result<Self, ReadError> {
         let mut cloth = Self::default();
         if let Some(shape) = &table.shape {
             let known = [("round", Shape::Round), ("crossing", Shape::Crossing)];
@@ -35,6 +36,10 @@ impl Cloth {
             let known =
                 [("report", Relief::Report), ("flatten", Relief::Flatten), ("shrink", Relief::Shrink)];
             cloth.relief = choice(source, "cloth.jam", jam, &known)?;
+            if rests && cloth.relief != Relief::Report {
+                let expected = "\"report\": in cloth at rest threads give way by themselves; finish.settle = false leaves it as it is woven";
+                return Err(source.odd("cloth.jam", jam, expected));
+            }
         }
         Ok(cloth)
     }

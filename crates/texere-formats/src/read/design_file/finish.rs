@@ -17,8 +17,19 @@ const TENSION_MOST: f64 = 0.1;
 const PRESS_MM: (f64, f64) = (0.001, 1000.0);
 
 impl FinishTable {
-    /// Whether yarns are to settle, where the table says so, and what is asked of them.
-    pub(super) fn read(&self, source: &Source<'_>) -> Result<(Option<bool>, Finish), ReadError> {
+    /// Whether yarns are to settle, where the table says so, and what is asked of them; of woven cloth nothing else can be.
+    pub(super) fn read(&self, source: &Source<'_>, woven: bool) -> Result<(Option<bool>, Finish), ReadError> {
+        let keys = [
+            ("finish.length", &self.length),
+            ("finish.tension", &self.tension),
+            ("finish.press", &self.press),
+        ];
+        if let (true, Some((field, value))) =
+            (woven, keys.iter().find_map(|(field, value)| Some((field, value.as_ref()?))))
+        {
+            let expected = "only in a knit: woven cloth comes to rest by its crossings";
+            return Err(source.odd(field, value, expected));
+        }
         let said = |settle: &Spanned<toml::Value>| {
             settle.as_ref().as_bool().ok_or_else(|| source.odd("finish.settle", settle, "true or false"))
         };

@@ -15,7 +15,6 @@
 //!
 //! [finish]                        # how yarns come to rest; all of it may be left out
 //! settle = true
-//! length = "free"
 //!
 //! [yarns.indigo]
 //! tex = 60.0                      # or diameter_mm
@@ -100,11 +99,11 @@
 //! | `run_in_mm` | yarn for a rack of 480 courses |
 //! | `image`, `rows`, `colors` | a Jacquard bar: a pixel is a guide at one round of the chain, its colour what is displaced: `"0-0/1-1"` |
 //!
-//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`settle`](texere_fabric::settle)):
+//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]); all but the first are for knits:
 //!
 //! | key | value |
 //! |---|---|
-//! | `settle` | whether they settle at all; where not given, as the structure has it ([`Structure::settles`]) |
+//! | `settle` | whether they settle at all; `true` where not given |
 //! | `length` | `"held"`, where not given, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]) |
 //! | `tension` | with `length = "free"`: what draws yarns in, 0 to 0.1; 0 where not given |
 //! | `press` | the distance of two plates that press the cloth while its yarns settle, mm |
@@ -148,8 +147,9 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let bytes = bytes_of(path, FILE_LIMIT)?;
     let source = Source::new(path, &bytes)?;
     let file: DesignFile = source.parse()?;
-    let laid = Cloth::new(&source, &file.cloth)?;
-    let (settle, finish) = file.finish.read(&source)?;
+    let (settle, finish) = file.finish.read(&source, file.weave.is_some())?;
+    let rests = settle != Some(false);
+    let laid = Cloth::new(&source, &file.cloth, rests)?;
     let yarns = YarnTable::new(&source, &file.yarns)?;
     let weave = match (&file.weave, &file.knit, &file.warp_knit) {
         (Some(weave), None, None) => weave,
@@ -169,7 +169,8 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
         (Some(notation), None, None) => weave::from_notation(&source, weave, notation)?,
         (None, Some(image), None) => weave::from_image(&source, weave, image, &mut warnings)?,
         (None, None, Some(wif)) => {
-            return Ok(from_wif(&source, &file, weave, wif, &yarns, laid)?.finished(settle, finish));
+            let design = from_wif(&source, &file, weave, wif, &yarns, laid)?;
+            return Ok(design.remarking(unused(&file, rests)).finished(settle, finish));
         }
         _ => {
             let keys = "weave.notation, weave.image and weave.wif";
@@ -180,11 +181,23 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     laid.lay(&source, &mut woven)?;
     let name = file.name.clone().unwrap_or_else(|| file_name(path));
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
-    let design = Design::new(name, Structure::Woven(woven), warnings).finished(settle, finish);
+    let design = Design::new(name, Structure::Woven(woven), warnings);
+    let design = design.remarking(unused(&file, rests)).finished(settle, finish);
     Ok(match &weave.image {
         Some(image) => design.noting(&source.beside(image)),
         None => design,
     })
+}
+
+/// What is said of the keys of woven cloth that count for nothing where it comes to rest.
+fn unused(file: &DesignFile, rests: bool) -> Vec<String> {
+    let cloth =
+        [("cloth.shape", file.cloth.shape.is_some()), ("cloth.warp_crimp", file.cloth.warp_crimp.is_some())];
+    let flat = file.yarns.iter().filter(|(_, yarn)| yarn.flatness.is_some());
+    let flat = flat.map(|(name, _)| format!("yarns.{name}.flatness"));
+    let given = cloth.into_iter().filter(|(_, given)| *given).map(|(key, _)| key.to_owned());
+    let said = |key| format!("{key} counts for nothing in cloth at rest; with finish.settle = false it does");
+    given.chain(flat).filter(|_| rests).map(said).collect()
 }
 
 /// A drawdown with the file's own threads.

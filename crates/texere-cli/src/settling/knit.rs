@@ -1,23 +1,18 @@
-//! Yarns that settle before they are measured, drawn or written, and what is said of that.
+//! What is said of a knit whose yarns have settled.
 
 use std::fmt;
-use std::ops::Deref;
 
 use serde::Serialize;
 use texere::settling::Length;
-use texere::{Backend, BackendError, Design, Finish, Output, Passage, Settled, Yarns};
+use texere::{Design, Passage, Settled};
 
-use crate::args::SettlingArgs;
 use crate::clearance::place;
-use crate::fail::Fail;
-use crate::settling_plot::plot;
-use crate::{drivers, progress};
 
 /// How yarns have settled. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
-pub(crate) struct SettlingReport {
+pub(crate) struct KnitRestReport {
     device: String,
-    at_rest: bool,
+    pub(super) at_rest: bool,
     /// Passes in all, and those of the block form among them.
     passes: u32,
     block_passes: u32,
@@ -43,46 +38,8 @@ struct PassageReport {
     change: f64,
 }
 
-/// The yarns of a design, and how they have settled where it or the command line asks for that. They settle on the device that
-/// `open` gives, with splines of `tension`.
-pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
-    design: &Design,
-    args: &SettlingArgs,
-    tension: f32,
-    open: impl FnOnce() -> Result<D, BackendError>,
-) -> Result<(Yarns, Option<SettlingReport>), Fail> {
-    if !args.settles(design) {
-        return match args.settling_plot {
-            Some(_) => Err(Fail::nothing_settles()),
-            None => Ok((design.yarns()?, None)),
-        };
-    }
-    let output = args.settling_plot.as_ref().map(|path| Output::to(path).sparing(design.files()));
-    output.iter().try_for_each(Output::check)?;
-    let device = drivers::quietly(open)?;
-    let finish = Finish { record: output.is_some(), ..design.finish };
-    let settled = progress::during("settling", |bar| {
-        design.structure.settle(&finish, tension, &*device, progress::share(bar))
-    })?;
-    if let Some(output) = output {
-        texere::write_file(plot(&settled.course).as_bytes(), output)?;
-    }
-    let report = SettlingReport::new(design, &settled, &device.info().name);
-    Ok((settled.yarns, Some(report)))
-}
-
-/// What a designer should know of yarns that have settled so, if they have: where all are at rest, that the structure gave them
-/// too little room is no longer true.
-pub(crate) fn warnings(design: &Design, settling: Option<&SettlingReport>) -> Vec<String> {
-    if settling.is_some_and(|settling| settling.at_rest) {
-        design.remarks().to_vec()
-    } else {
-        design.warnings()
-    }
-}
-
-impl SettlingReport {
-    fn new(design: &Design, settled: &Settled, device: &str) -> Self {
+impl KnitRestReport {
+    pub(super) fn new(design: &Design, settled: &Settled, device: &str) -> Self {
         let rest = &settled.rest;
         let passage = |passage: &Passage| {
             let [one, other] = passage.places.map(|place| design.structure.place(&settled.yarns, &place));
@@ -110,7 +67,7 @@ impl SettlingReport {
     }
 }
 
-impl fmt::Display for SettlingReport {
+impl fmt::Display for KnitRestReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { device, passes, block_passes, clearance, radius_diameters, .. } = self;
         let rest = match self {

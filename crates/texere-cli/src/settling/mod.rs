@@ -1,0 +1,108 @@
+//! Yarns that settle before they are measured, drawn or written, and what is said of that.
+
+mod knit;
+mod plot;
+mod woven;
+
+use std::fmt;
+use std::ops::Deref;
+
+use serde::Serialize;
+use texere::{Backend, BackendError, Design, Finish, FinishError, Finished, Output, Yarns};
+
+use crate::args::SettlingArgs;
+use crate::fail::Fail;
+use crate::{drivers, progress};
+use knit::KnitRestReport;
+use plot::plot;
+use woven::WovenRestReport;
+
+/// How yarns have come to rest.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(crate) enum SettlingReport {
+    Knit(KnitRestReport),
+    Woven(WovenRestReport),
+    /// Woven cloth that can't come to rest at all, and is as it is woven.
+    Refused {
+        refused: String,
+    },
+}
+
+/// The yarns of a design, and how they have settled where it or the command line asks for that. They settle on the device that
+/// `open` gives, with splines of `tension`.
+pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
+    design: &Design,
+    args: &SettlingArgs,
+    tension: f32,
+    open: impl FnOnce() -> Result<D, BackendError>,
+) -> Result<(Yarns, Option<SettlingReport>), Fail> {
+    if !args.settles(design) {
+        return match args.settling_plot {
+            Some(_) => Err(Fail::nothing_settles()),
+            None => Ok((design.yarns()?, None)),
+        };
+    }
+    if args.settling_plot.is_some() && design.structure.woven().is_some() {
+        return Err(Fail::no_course());
+    }
+    let output = args.settling_plot.as_ref().map(|path| Output::to(path).sparing(design.files()));
+    output.iter().try_for_each(Output::check)?;
+    let device = drivers::quietly(open)?;
+    let finish = Finish { record: output.is_some(), ..design.finish };
+    let finished = progress::during("settling", |bar| {
+        design.structure.settle(&finish, tension, &*device, progress::share(bar))
+    });
+    let finished = match finished {
+        Err(FinishError::Crossings(error)) => {
+            return Ok((design.yarns()?, Some(SettlingReport::Refused { refused: error.to_string() })));
+        }
+        finished => finished?,
+    };
+    if let (Some(output), Finished::Knit(settled)) = (output, &finished) {
+        texere::write_file(plot(&settled.course).as_bytes(), output)?;
+    }
+    let report = SettlingReport::new(design, &finished, &device.info().name);
+    Ok((finished.into_yarns(), report))
+}
+
+/// What a designer should know of yarns that have settled so, if they have: where all have found room, that the structure gave them
+/// too little is no longer true.
+pub(crate) fn warnings(design: &Design, settling: Option<&SettlingReport>) -> Vec<String> {
+    if settling.is_some_and(SettlingReport::has_room) { design.remarks().to_vec() } else { design.warnings() }
+}
+
+impl SettlingReport {
+    /// None of a way to rest that is not known here.
+    fn new(design: &Design, finished: &Finished, device: &str) -> Option<Self> {
+        match finished {
+            Finished::Knit(settled) => Some(Self::Knit(KnitRestReport::new(design, settled, device))),
+            Finished::Woven(rest) => Some(Self::Woven(WovenRestReport::new(rest, device))),
+            _ => None,
+        }
+    }
+
+    /// Whether yarns are no longer as the structure puts them.
+    pub(crate) const fn has_moved(&self) -> bool {
+        !matches!(self, Self::Refused { .. })
+    }
+
+    /// Whether the yarns are clear of one another.
+    const fn has_room(&self) -> bool {
+        match self {
+            Self::Knit(report) => report.at_rest,
+            Self::Woven(report) => report.has_room(),
+            Self::Refused { .. } => false,
+        }
+    }
+}
+
+impl fmt::Display for SettlingReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Knit(report) => report.fmt(f),
+            Self::Woven(report) => report.fmt(f),
+            Self::Refused { refused } => write!(f, "none, the cloth is as it is woven: {refused}"),
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! What is said of woven cloth that has come to rest by its crossings.
+
+use std::fmt;
+
+use serde::Serialize;
+use texere::WovenRest;
+
+use crate::measures::Sets;
+
+/// Surfaces as clear as this do not pierce one another.
+const CLEAR: f64 = 0.98;
+
+/// How woven cloth has come to rest. The keys of the JSON are these fields.
+#[derive(Debug, Serialize)]
+pub(crate) struct WovenRestReport {
+    device: String,
+    at_rest: bool,
+    passes: u32,
+    /// Ends and picks of what has settled.
+    repeat: Sets<usize>,
+    /// The least clearance of surfaces as drawn: before threads were made thinner where they lacked it, and after.
+    clearance_before: f64,
+    clearance: f64,
+    /// How many times threads were made thinner.
+    rounds: u32,
+    /// The share of its area that each set keeps.
+    area: Sets<AreaReport>,
+}
+
+/// The area that the threads of a set keep.
+#[derive(Debug, Serialize)]
+struct AreaReport {
+    mean: f64,
+    least: f64,
+    /// What was lost for the sake of clearance, in the mean.
+    lost: f64,
+}
+
+impl WovenRestReport {
+    pub(super) fn new(rest: &WovenRest, device: &str) -> Self {
+        let area = [0, 1].map(|set| {
+            let [mean, least] = rest.area[set];
+            AreaReport { mean, least, lost: rest.area_lost[set] }
+        });
+        Self {
+            device: device.to_owned(),
+            at_rest: rest.crossings.at_rest,
+            passes: rest.crossings.passes,
+            repeat: rest.repeat.into(),
+            clearance_before: rest.clearance[0],
+            clearance: rest.clearance[1],
+            rounds: rest.rounds,
+            area: area.into(),
+        }
+    }
+
+    /// Whether threads are clear of one another.
+    pub(super) const fn has_room(&self) -> bool {
+        self.clearance >= CLEAR
+    }
+}
+
+impl fmt::Display for WovenRestReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { device, passes, repeat, clearance_before, clearance, rounds, area, .. } = self;
+        let rest = if self.at_rest { "at rest" } else { "not yet at rest" };
+        let Sets { warp, weft } = repeat;
+        write!(
+            f,
+            "{rest} after {passes} passes on {device}, {warp} by {weft} threads; clearance {clearance:.3}"
+        )?;
+        if *rounds > 0 {
+            let s = if *rounds == 1 { "" } else { "s" };
+            write!(f, ", {clearance_before:.3} before threads were made thinner, {rounds} time{s}")?;
+        }
+        let kept =
+            |area: &AreaReport| format!("{:.1} % (least {:.1} %)", area.mean * 100.0, area.least * 100.0);
+        write!(f, "; area left of ends {}, of picks {}", kept(&area.warp), kept(&area.weft))
+    }
+}

@@ -1,0 +1,46 @@
+//! A structure whose yarns have come to rest, by its own way to rest.
+
+use texere_core::Yarns;
+
+use super::Settled;
+use crate::WovenRest;
+
+/// A fabric that has come to rest, or as near to it as it got: see [`Structure::settle`](crate::Structure::settle).
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+#[allow(clippy::large_enum_variant, reason = "a fabric is finished once")]
+pub enum Finished {
+    /// A knit, by whatever touches.
+    Knit(Settled),
+    /// Woven cloth, by its crossings.
+    Woven(WovenRest),
+}
+
+impl Finished {
+    /// The yarns of the fabric.
+    #[must_use]
+    pub const fn yarns(&self) -> &Yarns {
+        match self {
+            Self::Knit(settled) => &settled.yarns,
+            Self::Woven(rest) => &rest.yarns,
+        }
+    }
+
+    /// The yarns of the fabric, without the report.
+    #[must_use]
+    pub fn into_yarns(self) -> Yarns {
+        match self {
+            Self::Knit(settled) => settled.yarns,
+            Self::Woven(rest) => rest.yarns,
+        }
+    }
+
+    /// Whether it is at rest. What is not may still be clear: its report has the figures.
+    #[must_use]
+    pub const fn is_at_rest(&self) -> bool {
+        match self {
+            Self::Knit(settled) => settled.rest.at_rest,
+            Self::Woven(rest) => rest.crossings.at_rest,
+        }
+    }
+}

@@ -141,15 +141,7 @@ impl Structure {
     ) -> Result<Finished, FinishError> {
         match self {
             Self::Woven(design) => {
-                let asked = [
-                    ("a length", finish.length.is_some()),
-                    ("a press", finish.press_mm.is_some()),
-                    ("a course", finish.record),
-                ];
-                match asked.into_iter().find(|(_, is_asked)| *is_asked) {
-                    Some((asked, _)) => Err(FinishError::Woven { asked }),
-                    None => design.cloth().at_rest(tension, backend, progress).map(Finished::Woven),
-                }
+                design.cloth().at_rest(finish, tension, backend, progress).map(Finished::Woven)
             }
             Self::Weft(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
             Self::Warp(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),

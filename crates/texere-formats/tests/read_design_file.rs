@@ -102,42 +102,113 @@ fn threads_lie_as_the_cloth_table_says() {
     assert_eq!((yarns(DENIM), yarns(&format!("{DENIM}{table}"))), (7 + 5, 7 + 1));
 }
 
+/// A jersey, to which tables are added.
+const JERSEY: &str = "[knit]\nchart = \"k\"\nloop_length_mm = 3.2\n[yarns.ecru]\ntex = 20.0\n";
+
 #[test]
 fn yarns_settle_as_the_finish_table_says() {
-    let plain = read_text(DENIM).unwrap();
-    assert_eq!((plain.settle, plain.finish), (false, Finish::default()));
-    let finished = |table: &str| {
-        let design = read_text(&format!("{DENIM}[finish]\n{table}")).unwrap();
+    for text in [DENIM, JERSEY] {
+        let plain = read_text(text).unwrap();
+        assert_eq!((plain.settle, plain.finish), (true, Finish::default()));
+    }
+    let finished = |text: &str, table: &str| {
+        let design = read_text(&format!("{text}[finish]\n{table}")).unwrap();
         (design.settle, design.finish)
     };
     // How they settle says nothing of whether they do.
-    assert_eq!(finished("press = 0.4\n"), (false, Finish { press_mm: Some(0.4), ..Finish::default() }));
+    let pressed = Finish { press_mm: Some(0.4), ..Finish::default() };
+    assert_eq!(finished(JERSEY, "settle = false\npress = 0.4\n"), (false, pressed));
     let of = |length| Finish { length: Some(length), ..Finish::default() };
-    assert_eq!(finished("settle = true\nlength = \"held\"\n"), (true, of(Length::Held)));
-    let free = "settle = false\nlength = \"free\"\n";
-    assert_eq!(finished(free), (false, of(Length::Free { tension: 0.0 })));
-    assert_eq!(finished(&format!("{free}tension = 0.05\n")).1, of(Length::Free { tension: 0.05 }));
-    assert_eq!(finished("length = 1.25\n").1, of(Length::Given(1.25)));
-    assert_eq!(finished("length = 2\n").1, of(Length::Given(2.0)));
+    assert_eq!(finished(JERSEY, "settle = true\nlength = \"held\"\n"), (true, of(Length::Held)));
+    let free = "length = \"free\"\n";
+    assert_eq!(finished(JERSEY, free), (true, of(Length::Free { tension: 0.0 })));
+    let tension = of(Length::Free { tension: 0.05 });
+    assert_eq!(finished(JERSEY, &format!("{free}tension = 0.05\n")).1, tension);
+    assert_eq!(finished(JERSEY, "length = 1.25\n").1, of(Length::Given(1.25)));
+    assert_eq!(finished(JERSEY, "length = 2\n").1, of(Length::Given(2.0)));
+    let woven = Finish { taut: [3.0, 0.5], calender: 2.0, ..Finish::default() };
+    assert_eq!(finished(DENIM, "warp_tension = 3\nweft_tension = 0.5\ncalender = 2\n"), (true, woven));
+    assert!(!finished(DENIM, "settle = false\n").0);
 }
 
 #[test]
 fn a_finish_that_can_not_be_is_refused_with_its_line() {
-    let refused = |table: &str, parts: &[&str]| {
-        let error = read_text(&format!("{DENIM}[finish]\n{table}")).expect_err(table).to_string();
+    let refused = |text: &str, table: &str, parts: &[&str]| {
+        let error = read_text(&format!("{text}[finish]\n{table}")).expect_err(table).to_string();
         for part in parts {
             assert!(error.contains(part), "\"{error}\" lacks \"{part}\"");
         }
     };
-    refused("settle = 1\n", &["design.toml, line 20", "finish.settle", "\"1\"", "true or false"]);
-    refused("press = 0.0\n", &["line 20", "finish.press", "0", "0.001", "1000"]);
-    refused("press = \"hard\"\n", &["line 20", "finish.press", "hard", "number of mm"]);
-    refused("length = 2.5\n", &["line 20", "finish.length", "2.5", "0.5", "2"]);
-    refused("length = \"long\"\n", &["finish.length", "long", "\"held\", \"free\" or how many times"]);
+    let settle = &["design.toml, line 20", "finish.settle", "\"1\"", "true or false"];
+    refused(DENIM, "settle = 1\n", settle);
+    refused(JERSEY, "press = 0.0\n", &["line 7", "finish.press", "0", "0.001", "1000"]);
+    refused(JERSEY, "press = \"hard\"\n", &["line 7", "finish.press", "hard", "number of mm"]);
+    refused(JERSEY, "length = 2.5\n", &["line 7", "finish.length", "2.5", "0.5", "2"]);
+    refused(
+        JERSEY,
+        "length = \"long\"\n",
+        &["finish.length", "long", "\"held\", \"free\" or how many times"],
+    );
     let free = "length = \"free\"\n";
-    refused(&format!("{free}tension = 0.2\n"), &["line 21", "finish.tension", "0.2", "0.1"]);
-    refused("tension = 0.05\n", &["line 20", "finish.tension", "without finish.length = \"free\""]);
-    refused("presses = 1.0\n", &["line 20", "presses", "press"]);
+    refused(JERSEY, &format!("{free}tension = 0.2\n"), &["line 8", "finish.tension", "0.2", "0.1"]);
+    refused(JERSEY, "tension = 0.05\n", &["line 7", "finish.tension", "without finish.length = \"free\""]);
+    refused(DENIM, "presses = 1.0\n", &["line 20", "presses", "press"]);
+    refused(DENIM, "calender = 11\n", &["line 20", "finish.calender", "11", "0", "10"]);
+    refused(DENIM, "warp_tension = \"high\"\n", &["line 20", "finish.warp_tension", "high", "a number"]);
+    // What only the other kind of cloth has.
+    for table in ["length = 1.2\n", "tension = 0.01\n", "press = 1.0\n"] {
+        refused(DENIM, table, &["line 20", "finish.", "only in a knit", "calender"]);
+    }
+    for table in ["warp_tension = 2\n", "weft_tension = 2\n", "calender = 2\n"] {
+        refused(JERSEY, table, &["line 7", "finish.", "only in woven cloth", "press"]);
+    }
+}
+
+/// What makes room in cloth as it is woven is refused in cloth at rest, and what counts for nothing there is said.
+#[test]
+fn cloth_at_rest_gives_way_by_itself() {
+    for jam in ["flatten", "shrink"] {
+        let table = format!("{DENIM}[cloth]\njam = \"{jam}\"\n");
+        let error = read_text(&table).unwrap_err().to_string();
+        assert!(error.contains("line 20: cloth.jam") && error.contains("finish.settle = false"), "{error}");
+        assert!(read_text(&format!("{table}[finish]\nsettle = false\n")).is_ok());
+    }
+    let table = format!("{DENIM}[cloth]\nshape = \"crossing\"\nwarp_crimp = 0.5\n");
+    let remarks = read_text(&table).unwrap().remarks().join("\n");
+    for key in ["cloth.shape", "cloth.warp_crimp"] {
+        assert!(remarks.contains(&format!("{key} counts for nothing in cloth at rest")), "{remarks}");
+    }
+    assert!(read_text(&format!("{table}[finish]\nsettle = false\n")).unwrap().remarks().is_empty());
+}
+
+/// Mills give counts and threads to the inch.
+#[test]
+fn yarns_and_setts_are_told_as_mills_do() {
+    let text = |yarn: &str, sett: &str| {
+        format!(
+            "[weave]\nnotation = \"plain\"\nends = 4\npicks = 4\n[yarns.a]\n{yarn}\n[warp]\nyarns = [\"a\"]\n{sett}\n[weft]\nyarns = [\"a\"]\nper_cm = 8.0\n"
+        )
+    };
+    let design = read_text(&text("cotton_count = 10", "per_inch = 20.0")).unwrap();
+    let woven = design.structure.woven().unwrap().cloth();
+    assert!((woven.materials()[0].tex.unwrap() - 59.05).abs() < 0.01);
+    // Peirce: 1/28 inch over the root of the count.
+    assert!((f64::from(woven.warp()[0].radius_mm) * 2.0 - 25.4 / 28.0 / 10f64.sqrt()).abs() < 1e-3);
+    assert!((woven.warp()[0].spacing_mm - 1.27).abs() < 1e-9);
+    // A quarter of the density is twice the diameter.
+    let fluffy = read_text(&text("tex = 59.05\ndensity = 0.2272727", "per_inch = 20.0")).unwrap();
+    let ratio = fluffy.structure.woven().unwrap().cloth().warp()[0].radius_mm / woven.warp()[0].radius_mm;
+    assert!((ratio - 2.0).abs() < 1e-3, "{ratio}");
+    for (yarn, sett, parts) in [
+        ("cotton_count = 10\ntex = 59", "per_cm = 8.0", &["cotton_count", "not both"][..]),
+        ("cotton_count = 0", "per_cm = 8.0", &["cotton_count", "0.01"]),
+        ("tex = 20\ndensity = 0.0", "per_cm = 8.0", &["density", "0.05"]),
+        ("tex = 20", "per_cm = 8.0\nper_inch = 20.0", &["exactly one", "warp.per_inch"]),
+        ("color = \"#ffffff\"", "per_cm = 8.0", &["yarns.a.diameter_mm", "cotton_count"]),
+    ] {
+        let error = read_text(&text(yarn, sett)).unwrap_err().to_string();
+        assert!(parts.iter().all(|part| error.contains(part)), "{error}");
+    }
 }
 
 fn jams(design: &Design) -> JamReport {
@@ -148,7 +219,7 @@ fn jams(design: &Design) -> JamReport {
 fn jammed_threads_are_relieved_as_the_design_says() {
     // Ends of 0.3 mm at 0.4 mm: those of 0.25 mm that cross them need more.
     let dense = DENIM.replace("tex = 84.0", "diameter_mm = 0.3").replace("per_cm = 12.5", "spacing_mm = 0.4");
-    let read = |jam: &str| read_text(&format!("{dense}[cloth]\n{jam}")).unwrap();
+    let read = |jam: &str| read_text(&format!("{dense}[finish]\nsettle = false\n[cloth]\n{jam}")).unwrap();
     let report = read("");
     assert!(jams(&report).before[0].jammed > 0 && jams(&report).after == jams(&report).before);
     let told = report.warnings().join("\n");
@@ -173,7 +244,7 @@ fn jammed_threads_are_relieved_as_the_design_says() {
 #[test]
 fn another_section_is_relieved_anew() {
     let dense = DENIM.replace("tex = 84.0", "diameter_mm = 0.3").replace("per_cm = 12.5", "spacing_mm = 0.4");
-    let text = format!("{dense}[cloth]\njam = \"shrink\"\nwarp_crimp = 0.5\n");
+    let text = format!("{dense}[finish]\nsettle = false\n[cloth]\njam = \"shrink\"\nwarp_crimp = 0.5\n");
     let round = |sections: &[Section]| {
         let mut design = read_text(&text).unwrap();
         for section in sections {
@@ -250,7 +321,8 @@ fn threads_too_thin_to_shrink_are_refused() {
         .replace("tex = 84.0", "diameter_mm = 1000")
         .replace("diameter_mm = 0.25", "diameter_mm = 0.001");
     let dense = thin.replace("per_cm = 12.5", "spacing_mm = 0.001");
-    let error = read_text(&format!("{dense}[cloth]\njam = \"shrink\"\n")).unwrap_err();
+    let error =
+        read_text(&format!("{dense}[finish]\nsettle = false\n[cloth]\njam = \"shrink\"\n")).unwrap_err();
     let cause = std::error::Error::source(&error).unwrap().to_string();
     assert!(
         error.to_string().contains("design.toml") && cause.contains("radius of end 3"),
@@ -275,7 +347,7 @@ fn a_draft_from_a_wif_file_beside_it() {
 #[test]
 fn faults_are_named_with_their_line() {
     refused("ends = 7", "end = 7", &["line 4", "\"end\"", "did you mean \"ends\"?"]);
-    refused("per_cm = 12.5", "per_inch = 30.0", &["line 15", "\"per_inch\""]);
+    refused("per_cm = 12.5", "per_metre = 30.0", &["line 15", "\"per_metre\""]);
     refused("color", "colour", &["line 8", "\"colour\"", "\"color\""]);
     refused("ends = 7", "ends = 0", &["line 4", "weave.ends is 0", "1 to"]);
     refused("ends = 7", "ends = 4000000000", &["weave.ends", "1 to"]);

@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     written?;
     println!("{} by {}: {} triangles", design.name, device.info().name, mesh.plan.counts().triangles);
 
-    for file in ["twill.toml", "damask.toml"] {
+    for file in ["denim.toml", "satin.toml"] {
         let mut design = texere::read(format!("{designs}/{file}"))?;
         design.structure.set_section(Section::Lobed { plies: 2 })?;
         let yarns = design.yarns()?;

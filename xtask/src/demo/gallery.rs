@@ -12,7 +12,7 @@ const FOLDER: &str = "docs/gallery";
 /// The designs, each with the views of it, beside face and back: name and options.
 const DESIGNS: [(&str, &[View]); 27] = [
     ("plain.toml", &[CLOSE_UP, CUT]),
-    ("twill.toml", &[CLOSE_UP, CUT]),
+    ("denim.toml", &[CLOSE_UP, CUT]),
     ("satin.toml", &[CLOSE_UP, CUT]),
     ("herringbone.wif", &[CLOSE_UP, ("oblique", &["--view", "oblique"])]),
     ("damask.toml", &[CLOSE_UP]),

@@ -5,7 +5,7 @@ use texere_core::{Origin, Yarns};
 
 use crate::{Clearance, Linking, YarnPlace};
 
-/// What is asked of yarns that settle.
+/// What is asked of yarns that settle: lengths, a press and passes of knits, tensions and a calender of woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Finish {
     /// What becomes of lengths, and the tension that draws yarns in where these are free. Where none is said, a knit's loops reach
@@ -18,6 +18,11 @@ pub struct Finish {
     pub passes: u32,
     /// Whether [`Settled::course`] is kept.
     pub record: bool,
+    /// How taut woven cloth's warp and weft are, 1 where it is relaxed, 0 to 10: the tauter set straightens, and the other one takes
+    /// its crimp.
+    pub taut: [f32; 2],
+    /// How strongly woven cloth is pressed flat, 1 where it is relaxed, 0 to 10.
+    pub calender: f32,
 }
 
 impl Finish {
@@ -28,9 +33,9 @@ impl Finish {
 }
 
 impl Default for Finish {
-    /// Lengths as the structure has them, nothing presses, 250 passes of either form at most, no record.
+    /// Lengths as the structure has them, nothing presses, 250 passes of either form at most, no record; relaxed woven cloth.
     fn default() -> Self {
-        Self { length: None, press_mm: None, passes: 250, record: false }
+        Self { length: None, press_mm: None, passes: 250, record: false, taut: [1.0; 2], calender: 1.0 }
     }
 }
 

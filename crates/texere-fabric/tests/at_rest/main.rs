@@ -116,7 +116,11 @@ fn cloths() -> Vec<Cloth> {
 }
 
 fn at_rest(woven: &Woven) -> WovenRest {
-    woven.at_rest(0.0, &ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(())).unwrap()
+    finished(woven, &Finish::default())
+}
+
+fn finished(woven: &Woven, finish: &Finish) -> WovenRest {
+    woven.at_rest(finish, 0.0, &ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(())).unwrap()
 }
 
 /// Weight by count, sett and a crimp of 6 %: (ends / count + picks / count) x 1.06 x 23.27
@@ -282,6 +286,34 @@ fn a_woven_structure_comes_to_rest() {
         let refused = settle(&finish, &mut Vec::new()).unwrap_err().to_string();
         assert!(refused.contains(asked), "{refused}");
     }
+}
+
+/// A taut set straightens, and the other one takes its crimp; a calender makes the cloth thinner.
+#[test]
+fn a_finish_is_felt() {
+    let sheeting = cloths().swap_remove(2).woven;
+    let of = |finish: Finish| {
+        let rest = finished(&sheeting, &finish);
+        let surfaces = Surfaces::new(&rest.yarns);
+        assert!(surfaces.clearance() >= 0.98);
+        (surfaces.crimp(), surfaces.thickness())
+    };
+    let (relaxed, thick) = of(Finish::default());
+    let (taut, _) = of(Finish { taut: [8.0, 1.0], ..Finish::default() });
+    let (slack, _) = of(Finish { taut: [1.0, 8.0], ..Finish::default() });
+    assert!((relaxed[0] / relaxed[1] - 1.0).abs() < 0.05, "{relaxed:?}");
+    assert!(taut[0] < 0.7 * relaxed[0] && taut[1] > 1.2 * relaxed[1], "{taut:?} {relaxed:?}");
+    assert!((taut[0] / slack[1] - 1.0).abs() < 0.05, "{taut:?} {slack:?}");
+    let (_, thin) = of(Finish { calender: 10.0, ..Finish::default() });
+    println!("relaxed {relaxed:?}, taut warp {taut:?}, {thick:.3} mm, calendered {thin:.3} mm");
+    assert!(thin < 0.95 * thick, "{thin} {thick}");
+    let refused = sheeting.at_rest(
+        &Finish { calender: 11.0, ..Finish::default() },
+        0.0,
+        &ParallelBackend::open().unwrap(),
+        |_| ControlFlow::Continue(()),
+    );
+    assert!(refused.unwrap_err().to_string().contains("press is 11"));
 }
 
 /// With a selvedge the weft is one yarn, and its turns stay clear of the edge ends.

@@ -14,7 +14,7 @@ use texere_core::{Backend, Crossings, Settings, Yarns, zeroed};
 use self::certificate::certify;
 use self::lay::Lies;
 use self::problem::Problem;
-use crate::{FabricError, FinishError, Woven};
+use crate::{FabricError, Finish, FinishError, Woven};
 
 /// The share of the progress at which crossings have settled, and at which surfaces are clear.
 const SETTLED: f64 = 0.5;
@@ -47,35 +47,47 @@ impl Woven {
         Problem::new(self).crossings
     }
 
-    /// Lets the cloth come to rest on `backend`: threads flatten, shift and share the crimp as the energy of their crossings has it
+    /// Lets the cloth come to rest on `backend` as `finish` has it: threads flatten, shift and share the crimp as the energy of their crossings has it
     /// ([`texere_core::crossings`]), and are drawn along arcs round one another. Where surfaces as drawn, with splines of `tension`, lack
     /// clearance, threads are made thinner. What a thread is wide over its height before ([`Thread::flatness`](crate::Thread)) does
     /// not count, nor [`Woven::crimp`] and [`Woven::shape`]. `progress` gets the share of the work that is done; `Break` ends it.
     ///
-    /// **Errors**: [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a backend that settles no
+    /// **Errors**: [`FinishError::Woven`] where `finish` asks for a length, a press or a course, [`FinishError::Crossings`] for threads that
+    /// can't be settled, [`FinishError::Backend`] for a backend that settles no
     /// crossings or a device that fails, [`FinishError::Fabric`] as [`Woven::yarns`] and [`clearance()`](crate::clearance()) have it.
     ///
     /// ```
     /// use std::ops::ControlFlow;
     /// use texere_core::{Material, Section};
     /// use texere_cpu::SerialBackend;
-    /// use texere_fabric::{Thread, Weave, Woven};
+    /// use texere_fabric::{Finish, Thread, Weave, Woven};
     /// // Plain weave at 1.8 diameters, where round threads would pierce one another.
     /// let plain = Weave::parse("plain")?.drawdown(6, 6)?;
     /// let threads = vec![Thread::new(0.36, 0.1); 6];
     /// let cloth = Woven::new(plain, threads.clone(), threads, vec![Material::default()], vec![Section::Circle])?;
-    /// let rest = cloth.at_rest(0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()))?;
+    /// let rest = cloth.at_rest(&Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()))?;
     /// assert_eq!(rest.repeat, [2, 2]);
     /// assert!(rest.crossings.at_rest && rest.clearance[1] > 0.98);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn at_rest(
         &self,
+        finish: &Finish,
         tension: f32,
         backend: &dyn Backend,
         mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<WovenRest, FinishError> {
-        let problem = Problem::new(self);
+        let asked = [
+            ("a length", finish.length.is_some()),
+            ("a press", finish.press_mm.is_some()),
+            ("a course", finish.record),
+        ];
+        if let Some((asked, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) {
+            return Err(FinishError::Woven { asked });
+        }
+        let mut problem = Problem::new(self);
+        let [warp, weft] = finish.taut;
+        problem.crossings = problem.crossings.tension(warp, weft).press(finish.calender);
         let repeat = problem.repeat;
         let plan = Arc::new(CrossingsPlan::new(&problem.crossings)?);
         let mut settler = backend.crossings_settler(Arc::clone(&plan))?;

@@ -13,28 +13,51 @@ const LENGTHS: (f64, f64) = (0.5, 2.0);
 /// The most tension that draws yarns in.
 const TENSION_MOST: f64 = 0.1;
 
+/// The most times relaxed cloth's that woven cloth is taut or pressed.
+const TIMES_MOST: f64 = 10.0;
+
 /// Distances of plates that are taken, mm.
 const PRESS_MM: (f64, f64) = (0.001, 1000.0);
 
 impl FinishTable {
-    /// Whether yarns are to settle, where the table says so, and what is asked of them; of woven cloth nothing else can be.
+    /// Whether yarns are to settle, where the table says so, and what is asked of them: of woven cloth other things than of knits.
     pub(super) fn read(&self, source: &Source<'_>, woven: bool) -> Result<(Option<bool>, Finish), ReadError> {
-        let keys = [
+        let knits = [
             ("finish.length", &self.length),
             ("finish.tension", &self.tension),
             ("finish.press", &self.press),
         ];
-        if let (true, Some((field, value))) =
-            (woven, keys.iter().find_map(|(field, value)| Some((field, value.as_ref()?))))
+        let wovens = [
+            ("finish.warp_tension", &self.warp_tension),
+            ("finish.weft_tension", &self.weft_tension),
+            ("finish.calender", &self.calender),
+        ];
+        let (others, expected) = if woven {
+            (knits, "only in a knit: woven cloth has warp_tension, weft_tension and calender")
+        } else {
+            (wovens, "only in woven cloth: a knit has length, tension and press")
+        };
+        if let Some((field, value)) = others.iter().find_map(|(field, value)| Some((field, value.as_ref()?)))
         {
-            let expected = "only in a knit: woven cloth comes to rest by its crossings";
             return Err(source.odd(field, value, expected));
         }
+        let times = |(field, value): (&str, &Option<Spanned<toml::Value>>)| {
+            let Some(value) = value else { return Ok(1.0) };
+            let expected = "a number, 1 where the cloth is relaxed";
+            let number = source.float(field, value, expected)?;
+            Ok::<_, ReadError>(source.number(field, &number, 0.0, TIMES_MOST)? as f32)
+        };
         let said = |settle: &Spanned<toml::Value>| {
             settle.as_ref().as_bool().ok_or_else(|| source.odd("finish.settle", settle, "true or false"))
         };
         let settle = self.settle.as_ref().map(said).transpose()?;
-        let mut finish = Finish { length: self.length(source)?, ..Finish::default() };
+        let [warp, weft, calender] = wovens;
+        let mut finish = Finish {
+            length: self.length(source)?,
+            taut: [times(warp)?, times(weft)?],
+            calender: times(calender)?,
+            ..Finish::default()
+        };
         if let Some(press) = &self.press {
             let field = "finish.press";
             let gap = source.float(field, press, "the distance of two plates, a number of mm")?;

@@ -9,18 +9,15 @@
 //! picks = 80
 //!
 //! [cloth]                         # how threads lie; all of it may be left out
-//! shape = "round"
-//! warp_crimp = 0.6
-//! jam = "flatten"
+//! selvedge = true
 //!
 //! [finish]                        # how yarns come to rest; all of it may be left out
-//! settle = true
+//! calender = 2.0
 //!
 //! [yarns.indigo]
-//! tex = 60.0                      # or diameter_mm
+//! tex = 60.0                      # or cotton_count = 10, or diameter_mm
 //! color = "#26406e"
 //! section = { shape = "ellipse", aspect = 1.4 }
-//! flatness = 1.8                  # width over height in the cloth
 //! twist_per_m = 550.0             # turns per metre; Z is positive, S negative
 //!
 //! [yarns.ecru]
@@ -29,7 +26,7 @@
 //!
 //! [warp]
 //! yarns = ["3 indigo", "ecru"]    # repeated over all ends
-//! per_cm = 12.0                   # or spacing_mm, one number or a list: [0.9, 0.3] for doubled ends
+//! per_cm = 12.0                   # or per_inch, or spacing_mm, one number or a list: [0.9, 0.3] for doubled ends
 //!
 //! [weft]
 //! yarns = ["ecru"]
@@ -99,7 +96,7 @@
 //! | `run_in_mm` | yarn for a rack of 480 courses |
 //! | `image`, `rows`, `colors` | a Jacquard bar: a pixel is a guide at one round of the chain, its colour what is displaced: `"0-0/1-1"` |
 //!
-//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]); all but the first are for knits:
+//! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]); `length`, `tension` and `press` are for knits, the last three for woven cloth:
 //!
 //! | key | value |
 //! |---|---|
@@ -107,6 +104,8 @@
 //! | `length` | `"held"`, where not given, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]) |
 //! | `tension` | with `length = "free"`: what draws yarns in, 0 to 0.1; 0 where not given |
 //! | `press` | the distance of two plates that press the cloth while its yarns settle, mm |
+//! | `warp_tension`, `weft_tension` | how taut the cloth is held, 1 where it is relaxed, 0 to 10 |
+//! | `calender` | how strongly it is pressed flat, likewise |
 //!
 //! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.
 

@@ -112,6 +112,9 @@ pub(super) struct FinishTable {
     pub(super) press: Option<Spanned<toml::Value>>,
     pub(super) tension: Option<Spanned<toml::Value>>,
     pub(super) length: Option<Spanned<toml::Value>>,
+    pub(super) warp_tension: Option<Spanned<toml::Value>>,
+    pub(super) weft_tension: Option<Spanned<toml::Value>>,
+    pub(super) calender: Option<Spanned<toml::Value>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -119,6 +122,8 @@ pub(super) struct FinishTable {
 pub(super) struct YarnSpec {
     pub(super) diameter_mm: Option<Spanned<f64>>,
     pub(super) tex: Option<Spanned<f64>>,
+    pub(super) cotton_count: Option<Spanned<f64>>,
+    pub(super) density: Option<Spanned<f64>>,
     pub(super) color: Option<Spanned<String>>,
     pub(super) section: Option<Spanned<SectionSpec>>,
     pub(super) plies: Option<Spanned<i64>>,
@@ -152,6 +157,7 @@ pub(super) enum SectionSpec {
 pub(super) struct ThreadSet {
     pub(super) yarns: Spanned<Vec<Spanned<String>>>,
     pub(super) per_cm: Option<Spanned<f64>>,
+    pub(super) per_inch: Option<Spanned<f64>>,
     /// A number, or a list of numbers that is repeated over the threads.
     pub(super) spacing_mm: Option<Spanned<toml::Value>>,
 }

@@ -17,6 +17,12 @@ const LENGTH_MM: (f64, f64) = (1e-3, 1e3);
 /// Finest and coarsest yarn, tex: a single filament, and a rope.
 const TEX: (f64, f64) = (1e-3, 1e7);
 
+/// Coarsest and finest yarn by the English cotton count, hanks of 840 yards to the pound.
+const COTTON_COUNT: (f64, f64) = (0.01, 10_000.0);
+
+/// Fluffiest and densest yarn, the air in it counted, g/cm³.
+const DENSITY: (f64, f64) = (0.05, 20.0);
+
 /// Hardest twist, turns per metre either way.
 const TWIST_PER_M: f64 = 1e5;
 
@@ -39,16 +45,31 @@ impl YarnTable {
         let mut table = Self { names: BTreeMap::new(), materials: Vec::new(), sections: Vec::new() };
         for (number, (name, spec)) in (0..).zip(specs) {
             let field = |key: &str| format!("yarns.{name}.{key}");
-            let tex =
-                spec.tex.as_ref().map(|tex| source.number(&field("tex"), tex, TEX.0, TEX.1)).transpose()?;
+            let tex = match (&spec.tex, &spec.cotton_count) {
+                (Some(_), Some(count)) => {
+                    return Err(source.bad(&field("cotton_count"), count, "it or tex, not both"));
+                }
+                (Some(tex), None) => Some(source.number(&field("tex"), tex, TEX.0, TEX.1)?),
+                (None, Some(count)) => {
+                    let count =
+                        source.number(&field("cotton_count"), count, COTTON_COUNT.0, COTTON_COUNT.1)?;
+                    Some(texere_fabric::tex_from_cotton_count(count))
+                }
+                (None, None) => None,
+            };
+            let density = spec
+                .density
+                .as_ref()
+                .map(|density| source.number(&field("density"), density, DENSITY.0, DENSITY.1));
+            let density = density.transpose()?.unwrap_or(COTTON_DENSITY);
             let diameter_mm = match (&spec.diameter_mm, tex) {
                 (Some(diameter), _) => {
                     source.number(&field("diameter_mm"), diameter, LENGTH_MM.0, LENGTH_MM.1)?
                 }
-                (None, Some(tex)) => texere_fabric::diameter_mm(tex, COTTON_DENSITY),
+                (None, Some(tex)) => texere_fabric::diameter_mm(tex, density),
                 (None, None) => {
                     let file = source.path.into();
-                    let needed_for = "a yarn needs a diameter, or tex to work it out from";
+                    let needed_for = "a yarn needs a diameter, or tex or cotton_count to work it out from";
                     return Err(ReadError::MissingKey {
                         file,
                         field: shown(&field("diameter_mm")),
@@ -104,16 +125,19 @@ impl YarnTable {
         count: usize,
     ) -> Result<Vec<Thread>, ReadError> {
         let (low, high) = LENGTH_MM;
-        let spacings_mm = match (&spec.per_cm, &spec.spacing_mm) {
-            (Some(per_cm), None) => {
-                vec![10.0 / source.number(&format!("{set}.per_cm"), per_cm, 10.0 / high, 10.0 / low)?]
-            }
-            (None, Some(spacing)) => spacings(source, &format!("{set}.spacing_mm"), spacing)?,
+        let spacing = |key: &str, per: &Spanned<f64>, mm: f64| {
+            let per = source.number(&format!("{set}.{key}"), per, mm / high, mm / low)?;
+            Ok::<_, ReadError>(vec![mm / per])
+        };
+        let spacings_mm = match (&spec.per_cm, &spec.per_inch, &spec.spacing_mm) {
+            (Some(per_cm), None, None) => spacing("per_cm", per_cm, 10.0)?,
+            (None, Some(per_inch), None) => spacing("per_inch", per_inch, 25.4)?,
+            (None, None, Some(spacing)) => spacings(source, &format!("{set}.spacing_mm"), spacing)?,
             _ => {
                 let keys = if set == "warp" {
-                    "warp.per_cm and warp.spacing_mm"
+                    "warp.per_cm, warp.per_inch and warp.spacing_mm"
                 } else {
-                    "weft.per_cm and weft.spacing_mm"
+                    "weft.per_cm, weft.per_inch and weft.spacing_mm"
                 };
                 return Err(ReadError::ExactlyOne { file: source.path.into(), keys });
             }

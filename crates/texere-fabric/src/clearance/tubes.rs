@@ -5,7 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3};
 
-use super::approach::{MARGIN, SHORT, STEPS, STRIDE, Side};
+use super::approach::{MARGIN, SHORT, STEPS, STRIDE, Side, refine};
+use super::interval::At;
 use super::support::upright;
 
 /// The sine of the angle below which two tangents count as parallel: a crossing so flat is found by its neighbours.
@@ -44,7 +45,7 @@ struct Touch {
 /// two places: the places go towards it until it does.
 pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let mut place = DVec2::new(one.held(start.x), other.held(start.y));
-    let mut last = touch(one, other, place)?;
+    let (mut last, mut ended) = (Meeting::new(one, other, place)?.touch(), false);
     for _ in 0..STEPS {
         if one.is_gone(place.x, last.offset.x) || other.is_gone(place.y, last.offset.y) {
             return None;
@@ -54,10 +55,17 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
         let next = DVec2::new(one.held(place.x + step.x), other.held(place.y + step.y));
         let moved = (next - place).abs().max_element();
         place = next;
-        last = touch(one, other, place)?;
+        last = Meeting::new(one, other, place)?.touch();
         if moved < SHORT {
+            ended = true;
             break;
         }
+    }
+    if !ended {
+        // Of two that run nearly side by side the touching point may leap from one end to the other: they are nearest where their
+        // centrelines are.
+        (place, _) = refine(one, other, start)?;
+        last = Meeting::new(one, other, place)?.beside();
     }
     // At a yarn's cut end the touching point may lie beyond it: then nothing touches there.
     let beyond = |t: f64, offset: f64| (t <= 0.0 && offset < -MARGIN) || (t >= 1.0 && offset > MARGIN);
@@ -65,61 +73,90 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
     (!outside).then_some(Nearest { place, ratio: last.ratio, normal: last.normal })
 }
 
-fn touch(one: Side<'_>, other: Side<'_>, place: DVec2) -> Option<Touch> {
-    let (a, b) = (one.cubic.at(place.x), other.cubic.at(place.y));
-    let apart = b.position - a.position;
-    let (tangent_a, tangent_b) = (a.velocity.try_normalize()?, b.velocity.try_normalize()?);
-    let speeds = DVec2::new(a.velocity.length(), b.velocity.length());
-    let frames = [upright(tangent_a), upright(tangent_b)];
-    let meet = |normal: DVec3| {
-        let on_a = one.support.furthest(frames[0], a.sizes(), normal);
-        let on_b = other.support.furthest(frames[1], b.sizes(), -normal);
-        let reach = normal.dot(on_a) - normal.dot(on_b);
-        (normal.dot(apart) / reach, on_a, on_b)
-    };
-    let cross = tangent_a.cross(tangent_b);
-    let sine = cross.length();
-    if sine > PARALLEL {
+/// Two yarns at two places.
+struct Meeting<'a> {
+    sides: [Side<'a>; 2],
+    at: [At; 2],
+    tangents: [DVec3; 2],
+    frames: [[DVec3; 2]; 2],
+}
+
+impl<'a> Meeting<'a> {
+    fn new(one: Side<'a>, other: Side<'a>, place: DVec2) -> Option<Self> {
+        let at = [one.cubic.at(place.x), other.cubic.at(place.y)];
+        let tangents = [at[0].velocity.try_normalize()?, at[1].velocity.try_normalize()?];
+        Some(Self { sides: [one, other], at, tangents, frames: tangents.map(upright) })
+    }
+
+    fn apart(&self) -> DVec3 {
+        self.at[1].position - self.at[0].position
+    }
+
+    fn speeds(&self) -> DVec2 {
+        DVec2::new(self.at[0].velocity.length(), self.at[1].velocity.length())
+    }
+
+    /// How far both surfaces reach along a normal towards the other one, and their points that do.
+    fn reach(&self, normal: DVec3) -> (f64, [DVec3; 2]) {
+        let furthest = |yarn: usize, normal: DVec3| {
+            self.sides[yarn].support.furthest(self.frames[yarn], self.at[yarn].sizes(), normal)
+        };
+        let on = [furthest(0, normal), furthest(1, -normal)];
+        (normal.dot(on[0]) - normal.dot(on[1]), on)
+    }
+
+    /// Where the tubes touch.
+    fn touch(&self) -> Touch {
+        let ([tangent_a, tangent_b], apart) = (self.tangents, self.apart());
+        let cross = tangent_a.cross(tangent_b);
+        let sine = cross.length();
+        if sine <= PARALLEL {
+            return self.beside();
+        }
         let normal = if cross.dot(apart) < 0.0 { -cross / sine } else { cross / sine };
-        let (ratio, on_a, on_b) = meet(normal);
+        let (reach, [on_a, on_b]) = self.reach(normal);
+        let ratio = normal.dot(apart) / reach;
         // The way from one surface's point to the other's, as α t₁ - β t₂.
         let left = apart + ratio * (on_b - on_a);
         let cosine = tangent_a.dot(tangent_b);
         let (along_a, along_b) = (left.dot(tangent_a), left.dot(tangent_b));
         let alpha = (along_a - cosine * along_b) / (sine * sine);
         let beta = (cosine * along_a - along_b) / (sine * sine);
-        return Some(Touch { ratio, offset: DVec2::new(alpha, beta) / speeds, normal });
+        Touch { ratio, offset: DVec2::new(alpha, beta) / self.speeds(), normal }
     }
-    // Side by side: the direction that separates best, level with one another. The ratio, a linear function of the
-    // direction over a convex one, has one maximum.
-    let tangent = tangent_a;
-    let along = apart.dot(tangent);
-    let level = apart - along * tangent;
-    let towards = level.try_normalize()?;
-    let aside = tangent.cross(towards);
-    let turned = |angle: f64| towards * angle.cos() + aside * angle.sin();
-    let separated = |angle: f64| {
-        let normal = turned(angle);
-        let (_, on_a, on_b) = meet(normal);
-        normal.dot(level) / (normal.dot(on_a) - normal.dot(on_b))
-    };
-    let (mut low, mut high) = (-FRAC_PI_2, FRAC_PI_2);
-    let mut tried = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-    let mut ratios = tried.map(separated);
-    for _ in 0..AROUND {
-        if ratios[0] > ratios[1] {
-            high = tried[1];
-            tried = [high - GOLDEN * (high - low), tried[0]];
-            ratios = [separated(tried[0]), ratios[0]];
-        } else {
-            low = tried[0];
-            tried = [tried[1], low + GOLDEN * (high - low)];
-            ratios = [ratios[1], separated(tried[1])];
+
+    /// Side by side: the direction that separates best, level with one another. The ratio, a linear function of the
+    /// direction over a convex one, has one maximum.
+    fn beside(&self) -> Touch {
+        let ([tangent, tangent_b], apart) = (self.tangents, self.apart());
+        let along = apart.dot(tangent);
+        let level = apart - along * tangent;
+        let towards = level.try_normalize().unwrap_or(self.frames[0][0]);
+        let aside = tangent.cross(towards);
+        let turned = |angle: f64| towards * angle.cos() + aside * angle.sin();
+        let separated = |angle: f64| {
+            let normal = turned(angle);
+            normal.dot(level) / self.reach(normal).0
+        };
+        let (mut low, mut high) = (-FRAC_PI_2, FRAC_PI_2);
+        let mut tried = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let mut ratios = tried.map(separated);
+        for _ in 0..AROUND {
+            if ratios[0] > ratios[1] {
+                high = tried[1];
+                tried = [high - GOLDEN * (high - low), tried[0]];
+                ratios = [separated(tried[0]), ratios[0]];
+            } else {
+                low = tried[0];
+                tried = [tried[1], low + GOLDEN * (high - low)];
+                ratios = [ratios[1], separated(tried[1])];
+            }
         }
+        let (best, angle) =
+            if ratios[0] > ratios[1] { (ratios[0], tried[0]) } else { (ratios[1], tried[1]) };
+        // Half of the way each; of two that run against one another both go forward or back.
+        let forward = tangent.dot(tangent_b).signum();
+        let offset = 0.5 * along * DVec2::new(1.0, -forward) / self.speeds();
+        Touch { ratio: best, offset, normal: turned(angle) }
     }
-    let (best, angle) = if ratios[0] > ratios[1] { (ratios[0], tried[0]) } else { (ratios[1], tried[1]) };
-    // Half of the way each; of two that run against one another both go forward or back.
-    let forward = tangent_a.dot(tangent_b).signum();
-    let offset = 0.5 * along * DVec2::new(1.0, -forward) / speeds;
-    Some(Touch { ratio: best, offset, normal: turned(angle) })
 }

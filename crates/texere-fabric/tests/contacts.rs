@@ -415,3 +415,38 @@ fn yarns_of_one_place_and_of_all_sizes_are_measured() {
         assert!(matches!(refused, Err(FabricError::Settings(PlanError::Tension { .. }))));
     }
 }
+
+/// Two neighbouring ends that are drawn up and down round other picks: their tangent tubes have no one place to touch in, and the yarns
+/// are far apart.
+#[test]
+fn neighbours_that_wave_otherwise_do_not_touch() {
+    let ends: [&[[f32; 5]]; 2] = [
+        &[
+            [12.3897, 0.0039, -0.0342, 0.1011, 0.0619],
+            [12.3924, 0.0569, -0.0069, 0.0991, 0.0614],
+            [12.3933, 0.1017, 0.0052, 0.097, 0.0609],
+            [12.3953, 0.1599, 0.0065, 0.0948, 0.0604],
+            [12.3941, 0.2244, 0.0185, 0.0974, 0.0605],
+            [12.3939, 0.2745, -0.0188, 0.0999, 0.0606],
+        ],
+        &[
+            [12.6192, 0.0041, -0.0063, 0.0995, 0.0651],
+            [12.6178, 0.0537, 0.0038, 0.0972, 0.0651],
+            [12.6171, 0.1182, 0.0071, 0.0949, 0.065],
+            [12.6158, 0.1628, 0.0548, 0.093, 0.0649],
+            [12.6161, 0.2543, 0.0646, 0.0974, 0.0638],
+            [12.6176, 0.3731, 0.0849, 0.1034, 0.0624],
+        ],
+    ];
+    let mut yarns = Yarns::builder();
+    for end in ends {
+        let points: Vec<_> = end
+            .iter()
+            .map(|[x, y, z, width, height]| ControlPoint::new(*x, *y, *z, *width).flattened(*width, *height))
+            .collect();
+        yarns.yarn(Yarn::default(), &points);
+    }
+    // 0.22 mm from middle to middle, and half widths of 0.10 mm at most.
+    let found = clearance(&yarns.build().unwrap(), &Settings::default()).unwrap();
+    assert!(found.min > 1.05, "{:?}", found.worst);
+}

@@ -10,8 +10,14 @@ type View = (&'static str, &'static [&'static str]);
 const FOLDER: &str = "docs/gallery";
 
 /// The designs, each with the views of it, beside face and back: name and options.
-const DESIGNS: [(&str, &[View]); 27] = [
+const DESIGNS: [(&str, &[View]); 33] = [
     ("plain.toml", &[CLOSE_UP, CUT]),
+    ("poplin.toml", &[CLOSE_UP]),
+    ("sheeting.toml", &[CLOSE_UP]),
+    ("drill.toml", &[CLOSE_UP]),
+    ("sateen.toml", &[CLOSE_UP]),
+    ("tartan.toml", &[CLOSE_UP]),
+    ("honeycomb.toml", &[CLOSE_UP]),
     ("denim.toml", &[CLOSE_UP, CUT]),
     ("satin.toml", &[CLOSE_UP, CUT]),
     ("herringbone.wif", &[CLOSE_UP, ("oblique", &["--view", "oblique"])]),

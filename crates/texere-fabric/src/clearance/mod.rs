@@ -131,24 +131,27 @@ pub fn clearance_with_progress(
     settings: &Settings,
     progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Clearance, FabricError> {
-    measured(yarns, settings, Found::worst, progress)
+    measured(yarns, settings, [CLEARANCE_NEAR, f64::INFINITY], |_| true, progress)
 }
 
-/// [`clearance()`] with all contacts up to a `ratio`, worst first, instead of the worst [`CONTACTS_LISTED`].
+/// [`clearance()`] of those intervals alone for which `fresh` holds, by the number of their first control point, and of others with them: with
+/// all contacts up to a `ratio`, worst first, instead of the worst [`CONTACTS_LISTED`], and none beyond `near`.
 pub(crate) fn clearance_up_to(
     yarns: &Yarns,
     settings: &Settings,
-    ratio: f64,
+    [near, ratio]: [f64; 2],
+    fresh: impl Fn(usize) -> bool + Sync,
     progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Clearance, FabricError> {
-    measured(yarns, settings, || Found::up_to(ratio), progress)
+    measured(yarns, settings, [near, ratio], fresh, progress)
 }
 
-/// The clearance of `yarns`; `nothing` says which contacts are kept.
+/// The clearance of `yarns` where `fresh` holds, of contacts within `near`; all up to a ratio are kept, or else the worst.
 fn measured(
     yarns: &Yarns,
     settings: &Settings,
-    nothing: impl Fn() -> Found + Sync + Send,
+    [near, ratio]: [f64; 2],
+    fresh: impl Fn(usize) -> bool + Sync,
     progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Clearance, FabricError> {
     let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
@@ -158,17 +161,19 @@ fn measured(
     }
     let watch = Watch::new(points as u64, progress);
     let rolls = Rolls::new(yarns, sampling, settings.frame, &watch)?;
-    let probe = Probe::new(yarns, sampling);
+    let nothing = || if ratio.is_finite() { Found::up_to(ratio) } else { Found::worst() };
+    let probe = Probe::new(yarns, sampling, near);
     let spans = probe.spans(TASK);
     let grid = Grid::new(spans.len(), |span| {
         let line = &spans[span].line;
-        spans[span].points.clone().map(|point| (point, line.bounds(point, CLEARANCE_NEAR)))
+        spans[span].points.clone().map(|point| (point, line.bounds(point, near)))
     })?;
     watch.expect((0..grid.len()).map(|cell| cell_work(grid.count_in(cell))).sum());
     let mut found = (0..grid.len().div_ceil(TASK))
         .into_par_iter()
         .map(|task| {
-            probe.search(&grid, &rolls, task * TASK..grid.len().min((task + 1) * TASK), nothing(), &watch)
+            let cells = task * TASK..grid.len().min((task + 1) * TASK);
+            probe.search(&grid, &rolls, cells, &fresh, nothing(), &watch)
         })
         .try_reduce(&nothing, |one, other| Ok(one.joined(other)))?;
     found.keep_worst();

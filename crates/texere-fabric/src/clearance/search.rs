@@ -8,7 +8,7 @@ use glam::{DVec2, Vec3A};
 use texere_core::{Sampling, Yarns};
 
 use super::approach::{Side, refine};
-use super::contact::{CLEARANCE_BESIDE, CLEARANCE_NEAR, Contact, YarnPlace};
+use super::contact::{CLEARANCE_BESIDE, Contact, YarnPlace};
 use super::crowd::Crowd;
 use super::curvature;
 use super::found::Found;
@@ -89,17 +89,20 @@ pub(super) struct Probe<'a> {
     yarns: &'a Yarns,
     supports: Vec<Support>,
     ways: Vec<f64>,
+    /// Contacts beyond this are not looked for: [`CLEARANCE_NEAR`](super::CLEARANCE_NEAR) at most.
+    near: f64,
     /// The factor of the spline's tangents.
     s: f64,
 }
 
 impl<'a> Probe<'a> {
-    pub(super) fn new(yarns: &'a Yarns, sampling: Sampling) -> Self {
+    pub(super) fn new(yarns: &'a Yarns, sampling: Sampling, near: f64) -> Self {
         let supports = yarns.layout().sections().iter().map(Support::new).collect();
         Self {
             yarns,
             supports,
             ways: line::ways(yarns.points()),
+            near,
             s: (1.0 - f64::from(sampling.tension())) / 2.0,
         }
     }
@@ -120,7 +123,7 @@ impl<'a> Probe<'a> {
         (0..self.yarns.layout().yarns().len()).flat_map(|yarn| self.line(yarn).spans(most)).collect()
     }
 
-    /// All contacts of intervals that meet in `cells`.
+    /// All contacts of intervals that meet in `cells`, one of them at least `fresh`.
     ///
     /// **Errors**: [`FabricError::OutOfMemory`]; [`FabricError::Cancelled`] where `watch` says so.
     pub(super) fn search<T: FnMut(f64) -> ControlFlow<()> + Send>(
@@ -128,6 +131,7 @@ impl<'a> Probe<'a> {
         grid: &Grid,
         rolls: &Rolls,
         cells: Range<usize>,
+        fresh: impl Fn(usize) -> bool,
         mut found: Found,
         watch: &Watch<T>,
     ) -> Result<Found, FabricError> {
@@ -147,12 +151,14 @@ impl<'a> Probe<'a> {
                     Some(before) if before.line.holds(point) => before.line,
                     _ => self.line_of(point),
                 };
-                let bounds = line.bounds(point, CLEARANCE_NEAR);
+                let bounds = line.bounds(point, self.near);
                 parts.push(Part { point, line, bounds, cell: grid.cell(bounds.low) });
             }
             // Two may meet in several cells: where what they share begins they count.
             let counts = |one: &Part<'_>, other: &Part<'_>| {
-                one.bounds.meets(&other.bounds) && grid.number(one.cell.max(other.cell)) == cell
+                (fresh(one.point) || fresh(other.point))
+                    && one.bounds.meets(&other.bounds)
+                    && grid.number(one.cell.max(other.cell)) == cell
             };
             if parts.len() > FULL {
                 self.sweep(&mut parts, rolls, counts, &mut found, watch)?;
@@ -237,7 +243,7 @@ impl<'a> Probe<'a> {
     ) -> Result<(), FabricError> {
         let (a, b) = (first.curve(one, rolls), second.curve(other, rolls));
         let reach = a.reach + b.reach;
-        let within = CLEARANCE_NEAR * reach;
+        let within = self.near * reach;
         let cuts = [one, other].map(|part| part.line.cut(part.point));
         let same = one.line.yarn == other.line.yarn;
         let passes_by = if a.even && b.even {
@@ -307,7 +313,7 @@ impl<'a> Probe<'a> {
             });
             let Some((place, ratio)) = refined else { return };
             let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
-            if ratio <= CLEARANCE_NEAR && !again && apart(place) {
+            if ratio <= self.near && !again && apart(place) {
                 seen.push(place);
                 add(place, ratio, found);
             }

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3, Vec2Swizzles};
 use super::approach::Side;
 use super::contact::CLEARANCE_NEAR;
 use super::surface::{Stand, Surface};
-use super::tubes::Nearest;
+use super::tubes::{self, FAR, Nearest};
 
 /// Points of an outline that are tried: of one without and of one with lobes or corners.
 const POINTS: usize = 48;
@@ -84,19 +84,31 @@ pub(super) fn touch(
 
 /// The same of surfaces that neither turn nor have lobes, close to where their tubes touch.
 pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], tubes: Nearest) -> Option<Touch> {
-    let Nearest { place, ratio, normal } = tubes;
-    if ratio > CLEARANCE_NEAR + OFF {
+    if tubes.ratio > FAR {
         return None;
     }
+    if let Some(found) = near(surfaces, &tubes) {
+        return own(surfaces, found);
+    }
+    if tubes.ended {
+        // The point that the tubes touch in is clear of the true surface: the tubes have to do.
+        return own(surfaces, (tubes.place, tubes.ratio));
+    }
     let [one, other] = surfaces;
-    let near = if exchanged(surfaces) {
+    let beside = tubes::nearest_beside(one.side, other.side, tubes.place)?;
+    own(surfaces, near(surfaces, &beside).unwrap_or((beside.place, beside.ratio)))
+}
+
+/// Where the surfaces touch, downhill from where their tubes do; none where that point is clear of the true surface.
+fn near(surfaces: [&Surface<'_>; 2], tubes: &Nearest) -> Option<Touch> {
+    let Nearest { place, ratio, normal, .. } = *tubes;
+    let [one, other] = surfaces;
+    if exchanged(surfaces) {
         let found = Search { surfaces: [other, one], counts: |_| true }.near(place.yx(), ratio, -normal);
         found.map(|(place, growth)| (place.yx(), growth))
     } else {
         Search { surfaces, counts: |_| true }.near(place, ratio, normal)
-    };
-    // Where the point that the tubes touch in is clear of the true surface, the tubes have to do.
-    own(surfaces, near.unwrap_or((place, ratio)))
+    }
 }
 
 /// Whether the second is the thinner one, whose points are tried: so none of its shape falls between two points of the other.

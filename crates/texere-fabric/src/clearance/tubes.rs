@@ -6,11 +6,18 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DVec2, DVec3};
 
 use super::approach::{MARGIN, SHORT, STEPS, STRIDE, Side, refine};
+use super::contact::CLEARANCE_NEAR;
 use super::interval::At;
 use super::support::upright;
 
 /// The sine of the angle below which two tangents count as parallel: a crossing so flat is found by its neighbours.
 const PARALLEL: f64 = 0.02;
+
+/// Tubes so far apart say that the surfaces are, too.
+pub(super) const FAR: f64 = CLEARANCE_NEAR + 0.1;
+
+/// The cosine of the angle up to which two yarns run beside one another.
+const BESIDE: f64 = 0.9;
 
 /// Steps of the golden section to the direction that separates two parallel yarns best, out of half a turn: they leave
 /// 5e-3 rad, and a ratio off by the square of that.
@@ -26,6 +33,8 @@ pub(super) struct Nearest {
     pub(super) place: DVec2,
     pub(super) ratio: f64,
     pub(super) normal: DVec3,
+    /// Whether the way to there has an end. Of two that run nearly side by side the touching point may leap to and fro.
+    pub(super) ended: bool,
 }
 
 /// Both yarns' tangent tubes at two places: the factor at which they touch, and how far along each the touching point
@@ -45,7 +54,11 @@ struct Touch {
 /// two places: the places go towards it until it does.
 pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let mut place = DVec2::new(one.held(start.x), other.held(start.y));
-    let (mut last, mut ended) = (Meeting::new(one, other, place)?.touch(), false);
+    let meeting = Meeting::new(one, other, place)?;
+    if meeting.passes_far_beside() {
+        return None;
+    }
+    let (mut last, mut ended) = (meeting.touch(), false);
     for _ in 0..STEPS {
         if one.is_gone(place.x, last.offset.x) || other.is_gone(place.y, last.offset.y) {
             return None;
@@ -61,16 +74,17 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
             break;
         }
     }
-    if !ended {
-        // Of two that run nearly side by side the touching point may leap from one end to the other: they are nearest where their
-        // centrelines are.
-        (place, _) = refine(one, other, start)?;
-        last = Meeting::new(one, other, place)?.beside();
-    }
     // At a yarn's cut end the touching point may lie beyond it: then nothing touches there.
     let beyond = |t: f64, offset: f64| (t <= 0.0 && offset < -MARGIN) || (t >= 1.0 && offset > MARGIN);
     let outside = beyond(place.x, last.offset.x) || beyond(place.y, last.offset.y);
-    (!outside).then_some(Nearest { place, ratio: last.ratio, normal: last.normal })
+    (!outside).then_some(Nearest { place, ratio: last.ratio, normal: last.normal, ended })
+}
+
+/// Where two tubes that run nearly side by side are nearest to one another: where their centrelines are.
+pub(super) fn nearest_beside(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
+    let (place, _) = refine(one, other, start)?;
+    let Touch { ratio, normal, .. } = Meeting::new(one, other, place)?.beside();
+    Some(Nearest { place, ratio, normal, ended: true })
 }
 
 /// Two yarns at two places.
@@ -82,6 +96,7 @@ struct Meeting<'a> {
 }
 
 impl<'a> Meeting<'a> {
+    #[inline]
     fn new(one: Side<'a>, other: Side<'a>, place: DVec2) -> Option<Self> {
         let at = [one.cubic.at(place.x), other.cubic.at(place.y)];
         let tangents = [at[0].velocity.try_normalize()?, at[1].velocity.try_normalize()?];
@@ -103,6 +118,15 @@ impl<'a> Meeting<'a> {
         };
         let on = [furthest(0, normal), furthest(1, -normal)];
         (normal.dot(on[0]) - normal.dot(on[1]), on)
+    }
+
+    /// Whether both run beside one another, clear of one another by the way from one centreline to the other: no direction separates them
+    /// better than the best one does.
+    fn passes_far_beside(&self) -> bool {
+        let ([tangent, other], apart) = (self.tangents, self.apart());
+        let level = apart - apart.dot(tangent) * tangent;
+        tangent.dot(other).abs() > BESIDE
+            && level.try_normalize().is_some_and(|towards| level.length() > FAR * self.reach(towards).0)
     }
 
     /// Where the tubes touch.
@@ -152,8 +176,7 @@ impl<'a> Meeting<'a> {
                 ratios = [ratios[1], separated(tried[1])];
             }
         }
-        let (best, angle) =
-            if ratios[0] > ratios[1] { (ratios[0], tried[0]) } else { (ratios[1], tried[1]) };
+        let (best, angle) = if ratios[0] > ratios[1] { (ratios[0], tried[0]) } else { (ratios[1], tried[1]) };
         // Half of the way each; of two that run against one another both go forward or back.
         let forward = tangent.dot(tangent_b).signum();
         let offset = 0.5 * along * DVec2::new(1.0, -forward) / self.speeds();

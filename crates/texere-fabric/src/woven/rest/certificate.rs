@@ -6,10 +6,13 @@ use texere_core::{Origin, Settings, Yarns};
 
 use super::lay::Lies;
 use crate::clearance::clearance_up_to;
-use crate::{Contact, Drawdown, FabricError, NO_CROSSING, Woven};
+use crate::{Contact, Drawdown, FabricError, NO_CROSSING, Woven, YarnPlace};
 
 /// What every pair of surfaces is brought to.
 const WANTED: f64 = 0.988;
+
+/// Contacts beyond are not looked for.
+const NEAR: f64 = 1.02;
 
 /// Good enough to end with.
 const ENOUGH: f64 = 0.985;
@@ -23,6 +26,9 @@ const LOST_MOST: f64 = 0.06;
 /// At least so many threads beyond a repeat are measured with it, where the cloth has them.
 const BEYOND: usize = 4;
 
+/// A repeat of so many threads is large.
+const LARGE: usize = 64;
+
 /// Measures and thins. Gives the clearance before and after, and how often threads were thinned.
 pub(super) fn certify(
     cloth: &Woven,
@@ -31,24 +37,54 @@ pub(super) fn certify(
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<([f64; 2], u32), FabricError> {
     let piece = crop(cloth, lies.repeat())?;
-    let (mut round, mut before) = (0, None);
+    let mut yarns = lies.yarns(&piece)?;
+    let (mut round, mut fresh) = (0, vec![true; yarns.points().len()]);
+    let (mut known, mut least) = (Vec::new(), [f64::INFINITY; 2]);
     loop {
-        let yarns = lies.yarns(&piece)?;
         let share = f64::from(round) / f64::from(ROUNDS + 1);
-        let found =
-            clearance_up_to(&yarns, settings, WANTED, |done| progress(share + done / f64::from(ROUNDS + 1)))?;
-        let before = *before.get_or_insert(found.min);
-        if found.min >= ENOUGH || round == ROUNDS {
-            return Ok(([before, found.min], round));
+        let measured = |done| progress(share + done / f64::from(ROUNDS + 1));
+        let found = clearance_up_to(&yarns, settings, [NEAR, WANTED], |point| fresh[point], measured)?;
+        // What has not changed has the contacts that it had.
+        known.retain(|contact: &Contact| !contact.places.iter().any(|place| fresh[first(&yarns, place)]));
+        known.extend(found.worst);
+        let now = known.iter().map(|contact| contact.ratio).fold(found.min.min(NEAR), f64::min);
+        // Of contacts that are clear enough only the first round has measured all.
+        least = if round == 0 { [now; 2] } else { [least[0], now.min(WANTED)] };
+        if now >= ENOUGH || round == ROUNDS {
+            return Ok((least, round));
         }
-        thin(lies, &piece, &yarns, &found.worst);
+        thin(lies, &piece, &yarns, &known);
+        let thinner = lies.yarns(&piece)?;
+        fresh = changed(&yarns, &thinner);
+        yarns = thinner;
         round += 1;
     }
 }
 
-/// A cloth with whole repeats left out: one of them and some more threads are left, with both edges as they are.
+/// The number of the first control point of the interval that a place lies in.
+fn first(yarns: &Yarns, place: &YarnPlace) -> usize {
+    yarns.layout().offsets()[place.yarn] as usize + place.interval
+}
+
+/// Whether the interval from each control point on is another one than before: it is what four points make of it.
+fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
+    let differs: Vec<bool> =
+        before.points().iter().zip(after.points()).map(|(one, two)| one != two).collect();
+    let near = |point: usize| differs[point.saturating_sub(1)..differs.len().min(point + 3)].contains(&true);
+    (0..differs.len()).map(near).collect()
+}
+
+/// A cloth with whole repeats left out: one of them and some more threads are left, with both edges as they are. Of a large repeat the other
+/// edge is left out, where no selvedge turns: its threads are cut off like any, and would take a second repeat.
 fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
-    let left = |count: usize, repeat: usize| count - count.saturating_sub(repeat + BEYOND) / repeat * repeat;
+    let left = |count: usize, repeat: usize| {
+        let one = repeat + BEYOND;
+        if repeat >= LARGE && !cloth.selvedge() {
+            count.min(one)
+        } else {
+            count - count.saturating_sub(one) / repeat * repeat
+        }
+    };
     let [ends, picks] = [left(cloth.warp().len(), repeat[0]), left(cloth.weft().len(), repeat[1])];
     let drawdown = Drawdown::from_fn(ends, picks, |end, pick| cloth.drawdown().up(end, pick))?;
     let (warp, weft) = (cloth.warp()[..ends].to_vec(), cloth.weft()[..picks].to_vec());

@@ -450,3 +450,45 @@ fn neighbours_that_wave_otherwise_do_not_touch() {
     let found = clearance(&yarns.build().unwrap(), &Settings::default()).unwrap();
     assert!(found.min > 1.05, "{:?}", found.worst);
 }
+
+/// A pick that touches an end beside one of its control points: the tubes touch on one side of the point, the surfaces on the other.
+#[test]
+fn a_touch_beside_a_control_point_is_found() {
+    let threads: [&[[f32; 5]]; 2] = [
+        &[
+            [0.005222, 0.379208, -0.099220, 0.095337, 0.055542],
+            [0.002369, 0.465515, -0.105892, 0.095886, 0.054016],
+            [0.000904, 0.527977, -0.096839, 0.095581, 0.054230],
+            [-0.000404, 0.583800, -0.068083, 0.095276, 0.054413],
+            [-0.001232, 0.619090, -0.016716, 0.095154, 0.054535],
+            [-0.002052, 0.653908, 0.035028, 0.094971, 0.054657],
+            [-0.003349, 0.709255, 0.064744, 0.094666, 0.054840],
+            [-0.004814, 0.771645, 0.074250, 0.094360, 0.055054],
+        ],
+        &[
+            [-0.193501, 0.465626, -0.043467, 0.099731, 0.060211],
+            [-0.159607, 0.465607, -0.039945, 0.100037, 0.059784],
+            [-0.126751, 0.465588, -0.030959, 0.100342, 0.059418],
+            [-0.095928, 0.465572, -0.016422, 0.100586, 0.059052],
+            [-0.064751, 0.465553, -0.002705, 0.100891, 0.058685],
+            [-0.031612, 0.465534, 0.005179, 0.101196, 0.058289],
+            [0.002369, 0.465515, 0.007750, 0.101501, 0.057892],
+            [0.047852, 0.465960, 0.002493, 0.101807, 0.057800],
+            [0.092133, 0.466400, -0.009483, 0.102051, 0.057739],
+            [0.136391, 0.466835, -0.021565, 0.102356, 0.057648],
+            [0.180675, 0.467270, -0.033539, 0.102661, 0.057587],
+            [0.225063, 0.467705, -0.045097, 0.102966, 0.057526],
+        ],
+    ];
+    let mut yarns = Yarns::builder();
+    for thread in threads {
+        let points: Vec<_> = thread
+            .iter()
+            .map(|[x, y, z, width, height]| ControlPoint::new(*x, *y, *z, *width).flattened(*width, *height))
+            .collect();
+        yarns.yarn(Yarn::default(), &points);
+    }
+    // Tried densely point by point the surfaces touch at 0.9846.
+    let found = clearance(&yarns.build().unwrap(), &Settings::default()).unwrap();
+    assert!((found.min - 0.9846).abs() < 2e-3, "{:?}", found.worst);
+}

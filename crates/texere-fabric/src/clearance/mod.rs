@@ -146,6 +146,23 @@ pub(crate) fn clearance_up_to(
     measured(yarns, settings, [near, ratio], fresh, progress)
 }
 
+/// The intervals for which `fresh` holds and that bend more tightly than `ratio`, as [`Clearance::curvature_min`] has it, with where they do most.
+///
+/// **Errors**: [`FabricError::Settings`], [`FabricError::OutOfMemory`].
+pub(crate) fn bends_up_to(
+    yarns: &Yarns,
+    settings: &Settings,
+    ratio: f64,
+    fresh: impl Fn(usize) -> bool + Sync,
+) -> Result<Vec<(f64, YarnPlace)>, FabricError> {
+    let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
+    let watch = Watch::new(0, |_| ControlFlow::Continue(()));
+    let rolls = Rolls::new(yarns, sampling, settings.frame, &watch)?;
+    let probe = Probe::new(yarns, sampling, CLEARANCE_NEAR);
+    let spans = probe.spans(TASK);
+    Ok(spans.par_iter().flat_map_iter(|span| probe.bends(span, &rolls, ratio, &fresh)).collect())
+}
+
 /// The clearance of `yarns` where `fresh` holds, of contacts within `near`; all up to a ratio are kept, or else the worst.
 fn measured(
     yarns: &Yarns,

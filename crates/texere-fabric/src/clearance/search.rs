@@ -333,4 +333,20 @@ impl<'a> Probe<'a> {
         }
         best
     }
+
+    /// The tightest bend of each interval of `span` for which `fresh` holds, where it is tighter than `ratio`.
+    pub(super) fn bends(
+        &self,
+        span: &Span<'a>,
+        rolls: &Rolls,
+        ratio: f64,
+        fresh: impl Fn(usize) -> bool,
+    ) -> impl Iterator<Item = (f64, YarnPlace)> {
+        let line = span.line;
+        let turning = rolls.matter(line.yarn);
+        span.points.clone().filter(move |point| fresh(*point)).filter_map(move |point| {
+            let (bend, t) = curvature::tightest(&line.cubic(point), line.support, turning, ratio)?;
+            Some((bend, line.place(point, t, self.yarns.sources())))
+        })
+    }
 }

@@ -88,7 +88,7 @@ pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], tubes: Nearest) -> Option<
         return None;
     }
     if let Some(found) = near(surfaces, &tubes) {
-        return own(surfaces, found);
+        return within(surfaces, &tubes, found);
     }
     if tubes.ended {
         // The point that the tubes touch in is clear of the true surface: the tubes have to do.
@@ -96,7 +96,14 @@ pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], tubes: Nearest) -> Option<
     }
     let [one, other] = surfaces;
     let beside = tubes::nearest_beside(one.side, other.side, tubes.place)?;
-    own(surfaces, near(surfaces, &beside).unwrap_or((beside.place, beside.ratio)))
+    within(surfaces, &beside, near(surfaces, &beside).unwrap_or((beside.place, beside.ratio)))
+}
+
+/// What the way downhill from where tubes touch has found, if their touch is these intervals': the way may lead on into a neighbour, whose own tubes
+/// may touch elsewhere or nowhere.
+fn within(surfaces: [&Surface<'_>; 2], tubes: &Nearest, (place, growth): Touch) -> Option<Touch> {
+    own(surfaces, (tubes.place, growth))?;
+    Some((place.clamp(DVec2::ZERO, DVec2::ONE), growth))
 }
 
 /// Where the surfaces touch, downhill from where their tubes do; none where that point is clear of the true surface.

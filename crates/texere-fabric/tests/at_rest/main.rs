@@ -8,10 +8,11 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 use texere_core::settling::Length;
-use texere_core::{Material, Section};
+use texere_core::{Material, Section, Settings, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{
-    Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, tex_from_cotton_count,
+    Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, clearance,
+    tex_from_cotton_count,
 };
 
 use surfaces::Surfaces;
@@ -123,6 +124,11 @@ fn finished(woven: &Woven, finish: &Finish) -> WovenRest {
     woven.at_rest(finish, 0.0, &ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(())).unwrap()
 }
 
+/// The radius of the tightest bend over how far the thread reaches into it.
+fn tightest(yarns: &Yarns) -> f64 {
+    clearance(yarns, &Settings::default()).unwrap().curvature_min
+}
+
 /// Weight by count, sett and a crimp of 6 %: (ends / count + picks / count) x 1.06 x 23.27
 /// (<https://apparel-analysis.blogspot.com/2013/06/how-to-determine-gsm-of-woven-fabric.html>).
 fn usual_weight(cloth: &Cloth) -> f64 {
@@ -171,6 +177,7 @@ fn cloths_of_the_mills_come_to_rest() {
             usual_weight(&cloth),
         );
         assert!(clearance >= 0.98, "{name}: clearance {clearance}");
+        assert!(tightest(&rest.yarns) >= 1.0, "{name} folds: {}", tightest(&rest.yarns));
         assert!(
             (rest.clearance[1] - clearance).abs() < 0.008,
             "{name}: {} and {clearance}",
@@ -224,6 +231,7 @@ fn uneven_cloth_comes_to_rest_whole() {
     let rest = at_rest(&woven);
     assert_eq!(rest.repeat, [14, 12]);
     let clearance = Surfaces::new(&rest.yarns).clearance();
+    assert!(tightest(&rest.yarns) >= 1.0);
     println!("uneven: {:?} (by sections {clearance:.3}), area {:?}", rest.clearance, rest.area);
     assert!(clearance >= 0.98, "{clearance}");
     let [width, height] = woven.size_mm();

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use texere_core::{Origin, Settings, Yarns};
 
 use super::lay::Lies;
-use crate::clearance::clearance_up_to;
+use crate::clearance::{bends_up_to, clearance_up_to};
 use crate::{Contact, Drawdown, FabricError, NO_CROSSING, Woven, YarnPlace};
 
 /// What every pair of surfaces is brought to.
@@ -15,7 +15,10 @@ const WANTED: f64 = 0.988;
 const NEAR: f64 = 1.02;
 
 /// Good enough to end with.
-const ENOUGH: f64 = 0.985;
+const ENOUGH: f64 = 0.986;
+
+/// What the radius of every bend is brought to, over how far the thread reaches into it.
+const BENDS_WANTED: f64 = 1.003;
 
 /// The most rounds.
 const ROUNDS: u32 = 6;
@@ -26,9 +29,6 @@ const LOST_MOST: f64 = 0.06;
 /// At least so many threads beyond a repeat are measured with it, where the cloth has them.
 const BEYOND: usize = 4;
 
-/// A repeat of so many threads is large.
-const LARGE: usize = 64;
-
 /// Measures and thins. Gives the clearance before and after, and how often threads were thinned.
 pub(super) fn certify(
     cloth: &Woven,
@@ -38,8 +38,10 @@ pub(super) fn certify(
 ) -> Result<([f64; 2], u32), FabricError> {
     let piece = crop(cloth, lies.repeat())?;
     let mut yarns = lies.yarns(&piece)?;
-    let (mut round, mut fresh) = (0, vec![true; yarns.points().len()]);
+    let (mut round, once) = (0, once(&piece, &yarns, lies.repeat()));
+    let mut fresh = once.clone();
     let (mut known, mut least) = (Vec::new(), [f64::INFINITY; 2]);
+    let mut tight: Vec<(f64, YarnPlace)> = Vec::new();
     loop {
         let share = f64::from(round) / f64::from(ROUNDS + 1);
         let measured = |done| progress(share + done / f64::from(ROUNDS + 1));
@@ -50,12 +52,16 @@ pub(super) fn certify(
         let now = known.iter().map(|contact| contact.ratio).fold(found.min.min(NEAR), f64::min);
         // Of contacts that are clear enough only the first round has measured all.
         least = if round == 0 { [now; 2] } else { [least[0], now.min(WANTED)] };
-        if now >= ENOUGH || round == ROUNDS {
+        tight.retain(|(_, place)| !fresh[first(&yarns, place)]);
+        tight.extend(bends_up_to(&yarns, settings, BENDS_WANTED, |point| fresh[point])?);
+        let folds = tight.iter().any(|(bend, _)| *bend < 1.0);
+        if (now >= ENOUGH && !folds) || round == ROUNDS {
             return Ok((least, round));
         }
-        thin(lies, &piece, &yarns, &known);
+        thin(lies, &piece, &yarns, &known, &tight);
         let thinner = lies.yarns(&piece)?;
         fresh = changed(&yarns, &thinner);
+        fresh.iter_mut().zip(&once).for_each(|(fresh, once)| *fresh &= once);
         yarns = thinner;
         round += 1;
     }
@@ -74,17 +80,23 @@ fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
     (0..differs.len()).map(near).collect()
 }
 
-/// A cloth with whole repeats left out: one of them and some more threads are left, with both edges as they are. Of a large repeat the other
-/// edge is left out, where no selvedge turns: its threads are cut off like any, and would take a second repeat.
-fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
-    let left = |count: usize, repeat: usize| {
-        let one = repeat + BEYOND;
-        if repeat >= LARGE && !cloth.selvedge() {
-            count.min(one)
-        } else {
-            count - count.saturating_sub(one) / repeat * repeat
-        }
+/// The intervals that are not a repeat of others, by the number of their first control point: those at crossings of the first repeat and some threads
+/// more, and of the last threads.
+fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
+    let [ends, picks] = [piece.warp().len(), piece.weft().len()];
+    let counts =
+        |thread: usize, count: usize, repeat: usize| thread < repeat + BEYOND || thread + BEYOND >= count;
+    let at = |source: &u32| {
+        let source = *source as usize;
+        counts(source % ends, ends, repeat[0]) && counts(source / ends, picks, repeat[1])
     };
+    let sources = yarns.sources().unwrap_or(&[]);
+    sources.iter().map(|source| *source == NO_CROSSING || at(source)).collect()
+}
+
+/// A cloth with whole repeats left out: one of them and some more threads are left, with both edges as they are.
+fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
+    let left = |count: usize, repeat: usize| count - count.saturating_sub(repeat + BEYOND) / repeat * repeat;
     let [ends, picks] = [left(cloth.warp().len(), repeat[0]), left(cloth.weft().len(), repeat[1])];
     let drawdown = Drawdown::from_fn(ends, picks, |end, pick| cloth.drawdown().up(end, pick))?;
     let (warp, weft) = (cloth.warp()[..ends].to_vec(), cloth.weft()[..picks].to_vec());
@@ -94,25 +106,26 @@ fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
     Ok(piece)
 }
 
-/// Makes threads thinner where contacts are nearer than wanted, each by the worst of its contacts at a crossing.
-fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact]) {
-    let ends = piece.warp().len();
+/// Makes threads thinner where contacts are nearer than wanted, each by the worst of its contacts at a crossing, and less high where they bend
+/// more tightly than they reach.
+fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tight: &[(f64, YarnPlace)]) {
     let mut shares = vec![[[1.0_f64; 2]; 2]; lies.drawn.len()];
+    let mut keep = |place: &YarnPlace, kept: [f64; 2]| {
+        let set = usize::from(!is_end(yarns, place));
+        for crossing in crossings(yarns, place, piece.warp().len()) {
+            let share = &mut shares[lies.number(crossing[0], crossing[1])][set];
+            *share = [share[0].min(kept[0]), share[1].min(kept[1])];
+        }
+    };
     for contact in contacts {
         let lacking = (1.0 - contact.ratio / WANTED).min(LOST_MOST);
         let [one, two] = &contact.places;
         let [dx, dy, dz] = [0, 1, 2].map(|axis| two.position[axis] - one.position[axis]);
         for place in &contact.places {
-            let (set, across) = match yarns.layout().yarns()[place.yarn].origin {
-                Origin::End(_) => (0, dx),
-                _ => (1, dy),
-            };
-            let (Some(points), Some(range), Some(sources)) =
-                (yarns.yarn_points(place.yarn), yarns.range(place.yarn), yarns.sources())
-            else {
+            let across = if is_end(yarns, place) { dx } else { dy };
+            let Some(point) = yarns.yarn_points(place.yarn).map(|points| points[place.interval]) else {
                 continue;
             };
-            let point = points[place.interval];
             let (wide, high) = (
                 (across / f64::from(point.half_width())).powi(2),
                 (dz / f64::from(point.half_height())).powi(2),
@@ -120,18 +133,29 @@ fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact]) {
             let (wide, high) = (wide / (wide + high), high / (wide + high));
             // The least that both lose together, where the one counts so much and the other so much.
             let both = wide * wide + high * high;
-            let kept = [1.0 - lacking * wide / both, 1.0 - lacking * high / both];
-            for source in [0, 1].map(|next| sources[range.start + place.interval + next]) {
-                if source != NO_CROSSING {
-                    let share = &mut shares[lies.number(source as usize % ends, source as usize / ends)][set];
-                    *share = [share[0].min(kept[0]), share[1].min(kept[1])];
-                }
-            }
+            keep(place, [1.0 - lacking * wide / both, 1.0 - lacking * high / both]);
         }
+    }
+    for (bend, place) in tight {
+        keep(place, [1.0, bend / BENDS_WANTED]);
     }
     for (drawn, shares) in lies.drawn.iter_mut().zip(shares) {
         for (halves, share) in drawn.iter_mut().zip(shares) {
             *halves = [0, 1].map(|half| halves[half] * share[half] as f32);
         }
     }
+}
+
+/// Whether a place is on an end.
+fn is_end(yarns: &Yarns, place: &YarnPlace) -> bool {
+    matches!(yarns.layout().yarns()[place.yarn].origin, Origin::End(_))
+}
+
+/// End and pick of the crossings between which a place lies.
+fn crossings(yarns: &Yarns, place: &YarnPlace, ends: usize) -> impl Iterator<Item = [usize; 2]> {
+    let first = first(yarns, place);
+    let near = yarns.sources().and_then(|sources| sources.get(first..first + 2)).unwrap_or(&[]);
+    near.iter()
+        .filter(|source| **source != NO_CROSSING)
+        .map(move |source| [*source as usize % ends, *source as usize / ends])
 }

@@ -200,11 +200,11 @@ impl<'a> Loom<'a> {
         for step in 1..count {
             stop(here.stop());
             let next = station(step + 1);
+            let changes = [before.side != here.side, station(step + 2).side != next.side];
             if next.side == here.side {
-                let changes = [before.side != here.side, station(step + 2).side != next.side];
                 float(&here, &next, changes).for_each(&mut stop);
             } else {
-                Change::new(&here, &next).points().for_each(&mut stop);
+                Change::new(&here, &next, changes).points().for_each(&mut stop);
             }
             (before, here) = (here, next);
         }
@@ -223,7 +223,7 @@ impl<'a> Loom<'a> {
             float(&here, &beyond, [inner.side != here.side, false]).for_each(&mut *stop);
             stop(here.stop().towards(&beyond.stop(), edge));
         } else {
-            Change::new(&here, &beyond).until(edge).for_each(stop);
+            Change::new(&here, &beyond, [inner.side != here.side, false]).until(edge).for_each(stop);
         }
     }
 

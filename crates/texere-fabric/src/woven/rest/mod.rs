@@ -1,6 +1,7 @@
 //! Woven cloth at rest: its crossings settle on a device, and its yarns are drawn from how they lie.
 
 mod certificate;
+mod ease;
 mod lay;
 mod path;
 mod problem;

@@ -2,6 +2,8 @@
 
 use texere_core::crossings::Passage;
 
+use super::ease::ease;
+
 /// Control points between two crossings where a thread changes sides.
 ///
 /// Three leave the cloths of the mills at 0.945 to 0.99 of touching, five at 0.955 to 0.994. Those of three lose up to 6 % of their area in the
@@ -12,7 +14,7 @@ pub(super) const CHANGE_POINTS: usize = 5;
 /// so that it does not swing out.
 const FLOAT_STEP: f64 = 0.3;
 
-/// Parts of each arc whose lengths are added up.
+/// Parts of each arc, and of the straight line between them, whose lengths are added up.
 const PARTS: usize = 8;
 
 /// Halvings until a slope is found.
@@ -81,34 +83,38 @@ impl Stop {
 pub(super) struct Change<'a> {
     way: Way<'a>,
     line: [[f64; 2]; LINE],
+    /// Whether the thread changes sides before the first crossing, and after the second one.
+    turns: [bool; 2],
     /// From the first crossing to each point of the line.
     lengths: [f64; LINE],
 }
 
-/// Points of the line along which lengths are added up.
-const LINE: usize = 2 * (PARTS + 1);
+/// Points of the line along which lengths are added up: of two arcs and what lies between them.
+const LINE: usize = 3 * PARTS + 1;
 
 /// Steps from one control point to the next.
 const STEPS: f64 = (CHANGE_POINTS + 1) as f64;
 
 impl<'a> Change<'a> {
-    pub(super) fn new(one: &'a Station, two: &'a Station) -> Self {
+    pub(super) fn new(one: &'a Station, two: &'a Station, turns: [bool; 2]) -> Self {
         let way = Way::new(one, two);
         let line = way.line();
         let mut lengths = [0.0; LINE];
         for (at, pair) in line.windows(2).enumerate() {
             lengths[at + 1] = lengths[at] + (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
         }
-        Self { way, line, lengths }
+        Self { way, line, turns, lengths }
     }
 
     fn whole(&self) -> f64 {
         self.lengths[LINE - 1]
     }
 
-    /// All points between the two crossings, evenly spaced.
+    /// All points between the two crossings, evenly spaced, but where they would bend too tightly.
     pub(super) fn points(&self) -> impl Iterator<Item = Stop> {
-        (1..=CHANGE_POINTS).map(|point| self.at(self.whole() * point as f64 / STEPS))
+        let mut stops = std::array::from_fn(|point| self.at(self.whole() * point as f64 / STEPS));
+        ease(&mut stops, self.turns);
+        stops.into_iter().skip(1).take(CHANGE_POINTS)
     }
 
     /// The points from the first crossing to where the thread is cut off at `edge`, about as far apart.
@@ -203,16 +209,32 @@ impl<'a> Way<'a> {
         high
     }
 
-    /// The arc round the first thread, then that round the second one.
+    /// The arc round the first thread, the straight line, the arc round the second one.
     fn line(&self) -> [[f64; 2]; LINE] {
+        let first = |part: usize| self.arc(self.stations[0], 1.0, part as f64 / PARTS as f64);
+        // As the first one, turned by half a turn.
+        let second = |part: usize| {
+            let [x, y] = self.arc(self.stations[1], -1.0, (PARTS - part) as f64 / PARTS as f64);
+            [self.across - x, self.rise - y]
+        };
+        let [from, to] = [first(PARTS), second(0)];
+        let half = self.across / 2.0;
+        let ends = [from[0], self.across - to[0]].map(|end| (end / half).clamp(0.0, 1.0));
+        let lifts = self.lifts();
         std::array::from_fn(|at| {
-            if at <= PARTS {
-                self.arc(self.stations[0], 1.0, at as f64 / PARTS as f64)
-            } else {
-                // As the first one, turned by half a turn.
-                let [x, y] = self.arc(self.stations[1], -1.0, (LINE - 1 - at) as f64 / PARTS as f64);
-                [self.across - x, self.rise - y]
-            }
+            let (part, share) = (at % PARTS, (at % PARTS) as f64 / PARTS as f64);
+            let ([x, y], angles) = match at / PARTS {
+                0 => (first(part), [share, 1.0]),
+                1 => ([0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis])), [1.0; 2]),
+                _ => (second(at - 2 * PARTS), [1.0, (3 * PARTS - at) as f64 / PARTS as f64]),
+            };
+            let lift = |end: usize| {
+                let gone = [x, self.across - x][end] / half;
+                lifts[end] * (ends[end] * (1.0 - angles[end]) + (1.0 - ends[end]) * fading(gone))
+            };
+            let (s, c) = (self.slope * angles[0].min(angles[1])).sin_cos();
+            let away = lift(0) - lift(1);
+            [x + away * s, y + away * c]
         })
     }
 
@@ -226,9 +248,17 @@ impl<'a> Way<'a> {
         let gone = ((x + at.half_height * s) / self.across).clamp(0.0, 1.0);
         let [one, two] = self.stations.map(|at| at.half_height);
         let half_height = if sign > 0.0 { one + gone * (two - one) } else { two + gone * (one - two) };
-        // At the crossing itself it may lie above what it crosses.
-        let side = sign * self.stations[0].side;
-        let lift = (side * (at.z - at.crossed_z) - at.crossed[1] - at.half_height) * (1.0 - share);
-        [x + (half_height + lift) * s, b * b * c / reach + (half_height + lift) * c]
+        [x + half_height * s, b * b * c / reach + half_height * c]
     }
+
+    /// How far the thread lies off each thread that it crosses: at the crossing itself it may be held away from it.
+    fn lifts(&self) -> [f64; 2] {
+        self.stations.map(|at| at.side * (at.z - at.crossed_z) - at.crossed[1] - at.half_height)
+    }
+}
+
+/// What is left of a lift at a share of half the way to the other crossing.
+fn fading(share: f64) -> f64 {
+    let left = (1.0 - share).clamp(0.0, 1.0);
+    left * left * (3.0 - 2.0 * left)
 }

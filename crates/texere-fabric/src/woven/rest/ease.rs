@@ -1,0 +1,58 @@
+//! Bends that would be tighter than a thread is thick.
+
+use glam::DVec2;
+
+use super::path::{CHANGE_POINTS, Stop};
+
+/// How often points are moved at most.
+const EASINGS: usize = 40;
+
+/// The share of the way to the straight line between its neighbours that a point is moved by.
+const MOVED: f64 = 0.1;
+
+/// How wide a bend is to be over how far the thread reaches into it.
+const WIDE: f64 = 1.02;
+
+/// The last stop of a change of sides, at the second crossing.
+const LAST: usize = CHANGE_POINTS + 1;
+
+/// Moves the stops between two crossings up or down where the spline through them would bend more tightly than the thread is thick. `turns` says
+/// whether the thread changes sides before the first crossing, and after the second one, too: it is then taken to bend there as if mirrored.
+pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
+    let place = |stop: &Stop| DVec2::new(stop.along, stop.z);
+    for _ in 0..EASINGS {
+        let at = stops.each_ref().map(place);
+        // The second differences.
+        let second: [DVec2; LAST + 1] = std::array::from_fn(|stop| match stop {
+            0 | LAST => DVec2::ZERO,
+            stop => at[stop - 1] - 2.0 * at[stop] + at[stop + 1],
+        });
+        let mut eased = false;
+        let mut is_tight = |stop: usize, sharpest: f64, speed: f64| {
+            let tight = sharpest * stops[stop].halves[1] * WIDE > speed.powi(3);
+            eased |= tight;
+            tight
+        };
+        let mut moves = [0.0; LAST + 1];
+        for stop in 1..LAST {
+            let tangent = (at[stop + 1] - at[stop - 1]) / 2.0;
+            // By the spline's second derivatives on both sides.
+            let turning = [stop - 1, stop + 1]
+                .map(|beside| tangent.perp_dot(2.0 * second[stop] - second[beside]).abs());
+            if is_tight(stop, turning[0].max(turning[1]), tangent.length()) {
+                moves[stop] += MOVED * second[stop].y;
+            }
+        }
+        for (crossing, beside) in [(0, 1), (LAST, LAST - 1)] {
+            let away = at[beside] - at[crossing];
+            let turning = (away.x * (4.0 * away.y - second[beside].y)).abs();
+            if turns[usize::from(crossing > 0)] && is_tight(crossing, turning, away.x.abs()) {
+                moves[beside] -= MOVED * away.y;
+            }
+        }
+        if !eased {
+            return;
+        }
+        stops.iter_mut().zip(moves).for_each(|(stop, by)| stop.z += by);
+    }
+}

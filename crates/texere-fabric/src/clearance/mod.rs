@@ -4,6 +4,7 @@ mod approach;
 mod contact;
 mod crowd;
 mod curvature;
+mod extent;
 mod found;
 mod interval;
 mod line;

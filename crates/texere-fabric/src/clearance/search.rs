@@ -11,6 +11,7 @@ use super::approach::{Side, refine};
 use super::contact::{CLEARANCE_BESIDE, Contact, YarnPlace};
 use super::crowd::Crowd;
 use super::curvature;
+use super::extent::Extent;
 use super::found::Found;
 use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{self, Line, Span};
@@ -41,6 +42,7 @@ const DISC: f64 = 64.0;
 struct Met {
     curve: OnceCell<Curve>,
     chords: OnceCell<Chords>,
+    extent: OnceCell<Extent>,
 }
 
 impl Met {
@@ -50,6 +52,10 @@ impl Met {
 
     fn chords(&self, curve: &Curve) -> &Chords {
         self.chords.get_or_init(|| curve.cubic.chords())
+    }
+
+    fn extent(&self, curve: &Curve, support: &Support) -> &Extent {
+        self.extent.get_or_init(|| Extent::new(&curve.cubic, support))
     }
 }
 
@@ -300,6 +306,12 @@ impl<'a> Probe<'a> {
             return watch.advance(0);
         }
         let round = a.round && b.round;
+        if !round && !discs {
+            let extents = [first.extent(a, one.line.support), second.extent(b, other.line.support)];
+            if extents[0].is_clear_of(extents[1], self.near) {
+                return Ok(());
+            }
+        }
         let mut seen: Vec<DVec2> = Vec::new();
         chords[0].approaches(chords[1], within, |starts| {
             // The first may lead out of the interval to an approach beside this one's own.
@@ -309,7 +321,7 @@ impl<'a> Probe<'a> {
                     let near = tubes::nearest(sides[0], sides[1], start)?;
                     Some((DVec2::new(sides[0].own(near.place.x)?, sides[1].own(near.place.y)?), near.ratio))
                 }
-                false => touch_near(surfaces, tubes::nearest(sides[0], sides[1], start)?),
+                false => touch_near(surfaces, self.near, tubes::nearest(sides[0], sides[1], start)?),
             });
             let Some((place, ratio)) = refined else { return };
             let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);

@@ -67,7 +67,11 @@ impl Surface<'_> {
         let [centre, velocity, _] = self.side.cubic.path(t);
         let tangent = velocity.try_normalize()?;
         let (frame, sizes) = (upright(tangent), self.side.cubic.sizes(t));
-        let roll = DVec2::from_angle(self.rolls.at(self.side.cubic, t) * TAU);
+        let roll = if self.rolls.is_empty() {
+            DVec2::X
+        } else {
+            DVec2::from_angle(self.rolls.at(self.side.cubic, t) * TAU)
+        };
         Some(Stand { centre, tangent, frame, sizes, roll })
     }
 

@@ -4,12 +4,14 @@
 //! outside and are done with. From those that lie inside, or nearly so, the way leads downhill to where the surfaces touch at
 //! the least growth close by.
 
+use std::f64::consts::TAU;
+
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
 use super::approach::Side;
 use super::contact::CLEARANCE_NEAR;
 use super::surface::{Stand, Surface};
-use super::tubes::{self, FAR, Nearest};
+use super::tubes::{self, Nearest};
 
 /// Points of an outline that are tried: of one without and of one with lobes or corners.
 const POINTS: usize = 48;
@@ -54,8 +56,9 @@ const SAME: f64 = 1e-3;
 /// The way downhill ends with steps this much shorter than those between places that are tried.
 const FINEST: f64 = 1.0 / 32.0;
 
-/// By how much tubes may be wrong.
+/// By how much tubes may be wrong, and where the way to there has an end.
 const OFF: f64 = 0.1;
+const OFF_ENDED: f64 = 0.01;
 
 /// How exact a growth is worked out.
 const EXACT: f64 = 2e-5;
@@ -82,9 +85,9 @@ pub(super) fn touch(
     }
 }
 
-/// The same of surfaces that neither turn nor have lobes, close to where their tubes touch.
-pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], tubes: Nearest) -> Option<Touch> {
-    if tubes.ratio > FAR {
+/// The same of surfaces that neither turn nor have lobes, close to where their tubes touch: none where that is seen to be beyond `most`.
+pub(super) fn touch_near(surfaces: [&Surface<'_>; 2], most: f64, tubes: Nearest) -> Option<Touch> {
+    if tubes.ratio > most + if tubes.ended { OFF_ENDED } else { OFF } {
         return None;
     }
     if let Some(found) = near(surfaces, &tubes) {
@@ -186,7 +189,12 @@ impl Found {
 impl<F: Fn(DVec2) -> bool> Search<'_, F> {
     /// Downhill from the point of a section that reaches furthest along `normal`.
     fn near(&self, start: DVec2, growth: f64, normal: DVec3) -> Option<Touch> {
-        let round = self.facing(start.x, normal, &shares(POINTS))?;
+        let thin = self.surfaces[0];
+        let round = if thin.side.support.is_circle() {
+            thin.stand(start.x)?.seen(normal).to_angle() / TAU
+        } else {
+            self.facing(start.x, normal, &shares(POINTS))?
+        };
         let found = self.solve(start.x, round, growth + OFF, start.y)?;
         let steps = DVec2::new(1.0 / self.sections() as f64, 1.0 / POINTS as f64);
         Some(self.downhill(found, steps / 2.0).touch())

@@ -14,7 +14,7 @@ use super::support::upright;
 const PARALLEL: f64 = 0.02;
 
 /// Tubes so far apart say that the surfaces are, too.
-pub(super) const FAR: f64 = CLEARANCE_NEAR + 0.1;
+const FAR: f64 = CLEARANCE_NEAR + 0.1;
 
 /// The cosine of the angle up to which two yarns run beside one another.
 const BESIDE: f64 = 0.9;

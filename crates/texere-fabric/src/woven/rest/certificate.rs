@@ -12,7 +12,7 @@ use crate::{Contact, Drawdown, FabricError, NO_CROSSING, Woven, YarnPlace};
 const WANTED: f64 = 0.988;
 
 /// Contacts beyond are not looked for.
-const NEAR: f64 = 1.02;
+const NEAR: f64 = 0.99;
 
 /// Good enough to end with.
 const ENOUGH: f64 = 0.986;
@@ -25,6 +25,9 @@ const ROUNDS: u32 = 6;
 
 /// The most that a half width or a half height loses in a round.
 const LOST_MOST: f64 = 0.06;
+
+/// The most that a half height loses in a round for the sake of a bend.
+const BENT_MOST: f64 = 0.25;
 
 /// At least so many threads beyond a repeat are measured with it, where the cloth has them.
 const BEYOND: usize = 4;
@@ -137,7 +140,7 @@ fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tig
         }
     }
     for (bend, place) in tight {
-        keep(place, [1.0, bend / BENDS_WANTED]);
+        keep(place, [1.0, (bend / BENDS_WANTED).max(1.0 - BENT_MOST)]);
     }
     for (drawn, shares) in lies.drawn.iter_mut().zip(shares) {
         for (halves, share) in drawn.iter_mut().zip(shares) {

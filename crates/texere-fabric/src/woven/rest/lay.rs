@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use texere_core::crossings::{Crossing, CrossingsPlan, Set};
-use texere_core::{ControlPoint, Halves, Layout, Yarns};
+use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
 
 use super::path::{CHANGE_POINTS, Change, Station, Stop, float};
 use super::problem::{Problem, gaps};
@@ -137,7 +137,7 @@ impl<'a> Loom<'a> {
             across: self.sets[set].at[thread + 1] + f64::from(own.shift),
             z: f64::from(own.height),
             half_height: f64::from(own.half_height),
-            drawn: [0, 1].map(|half| f64::from(drawn[set][half] / room[half])),
+            drawn: [0, 1].map(|half| f64::from((drawn[set][half] / room[half]).max(RADIUS_MIN))),
         }
     }
 

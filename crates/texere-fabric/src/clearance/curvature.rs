@@ -188,12 +188,15 @@ impl Search<'_> {
         if self.support.is_circle() && sizes.x == sizes.y {
             return sizes.x;
         }
-        if self.turning {
-            return sizes.max_element() * self.support.extent();
-        }
         let velocity = place.velocity;
         let inwards = velocity.cross(place.acceleration).cross(velocity).normalize_or_zero();
-        self.support.furthest(upright(velocity.normalize_or_zero()), sizes, inwards).dot(inwards)
+        let [side, up] = upright(velocity.normalize_or_zero());
+        if self.turning {
+            // It turns within the circle round it, and then it is flattened.
+            let across = DVec2::new(inwards.dot(side), inwards.dot(up)) * sizes;
+            return across.length() * self.support.extent();
+        }
+        self.support.furthest([side, up], sizes, inwards).dot(inwards)
     }
 }
 

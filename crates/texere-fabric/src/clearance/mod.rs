@@ -60,7 +60,7 @@ pub struct Clearance {
     /// How many contacts have a ratio in \[0, 0.01), \[0.01, 0.02) and so on to [`CLEARANCE_NEAR`] (steps of [`CLEARANCE_BIN`]).
     pub histogram: Vec<u64>,
     /// The least radius of curvature over how far the section reaches into the bend: its radius, of round yarns; of those whose
-    /// section turns, as far as it reaches at all.
+    /// section turns, as far as it may reach whichever way it is turned.
     /// Below 1 the tube folds into itself. Infinite where all yarns are straight. It is exact to a thousandth.
     pub curvature_min: f64,
     /// Where that is.

@@ -199,6 +199,29 @@ fn cloths_of_the_mills_come_to_rest() {
     }
 }
 
+/// Where there is no room at all, threads are not thinned away, and what comes back is no worse than what came to rest.
+#[test]
+fn cloth_without_room_is_no_worse() {
+    let thread = |pitch: f64| vec![Thread::new(pitch, 0.0837); 8];
+    for pitch in [0.042, 0.1] {
+        let drawdown = Drawdown::from_fn(8, 8, plain).unwrap();
+        let woven = Woven::new(
+            drawdown,
+            thread(pitch),
+            thread(pitch),
+            vec![Material::default()],
+            vec![Section::Circle],
+        );
+        let rest = at_rest(&woven.unwrap());
+        let [before, after] = rest.clearance;
+        assert!(before < 0.98 && after >= before, "{:?}", rest.clearance);
+        for set in 0..2 {
+            let [kept, lost] = [rest.area[set][0], rest.area_lost[set]];
+            assert!(kept >= 0.35 * (kept + lost), "{:?} {:?}", rest.area, rest.area_lost);
+        }
+    }
+}
+
 /// What the test measures is able to fail: round yarns at a mill's sett pierce one another.
 #[test]
 fn round_yarns_at_a_mills_sett_pierce() {

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use texere_core::crossings::Set;
 use texere_core::{Origin, Settings, Yarns};
 
 use super::lay::Lies;
@@ -29,10 +30,21 @@ const LOST_MOST: f64 = 0.06;
 /// The most that a half height loses in a round for the sake of a bend.
 const BENT_MOST: f64 = 0.25;
 
+/// The least share of a half width or a half height at rest that is left: threads so thin are no cloth.
+const KEPT_LEAST: f32 = 0.6;
+
 /// At least so many threads beyond a repeat are measured with it, where the cloth has them.
 const BEYOND: usize = 4;
 
-/// Measures and thins. Gives the clearance before and after, and how often threads were thinned.
+/// A round: how clear surfaces are, up to what is enough, and how wide bends, up to what is no fold; which round it is, and what was drawn.
+struct Round {
+    measured: [f64; 2],
+    number: u32,
+    drawn: Vec<[[f32; 2]; 2]>,
+}
+
+/// Measures and thins. Gives the clearance before and after, and how often threads were thinned. Where no round makes surfaces clear, threads stay as
+/// in the best one.
 pub(super) fn certify(
     cloth: &Woven,
     lies: &mut Lies,
@@ -45,6 +57,7 @@ pub(super) fn certify(
     let mut fresh = once.clone();
     let (mut known, mut least) = (Vec::new(), [f64::INFINITY; 2]);
     let mut tight: Vec<(f64, YarnPlace)> = Vec::new();
+    let mut best: Option<Round> = None;
     loop {
         let share = f64::from(round) / f64::from(ROUNDS + 1);
         let measured = |done| progress(share + done / f64::from(ROUNDS + 1));
@@ -57,9 +70,17 @@ pub(super) fn certify(
         least = if round == 0 { [now; 2] } else { [least[0], now.min(WANTED)] };
         tight.retain(|(_, place)| !fresh[first(&yarns, place)]);
         tight.extend(bends_up_to(&yarns, settings, BENDS_WANTED, |point| fresh[point])?);
-        let folds = tight.iter().any(|(bend, _)| *bend < 1.0);
-        if (now >= ENOUGH && !folds) || round == ROUNDS {
+        let bends = tight.iter().map(|(bend, _)| *bend).fold(1.0, f64::min);
+        if now >= ENOUGH && bends >= 1.0 {
             return Ok((least, round));
+        }
+        let measured = [now.min(ENOUGH), bends];
+        if best.as_ref().is_none_or(|best| best.measured < measured) {
+            best = Some(Round { measured, number: round, drawn: lies.drawn.clone() });
+        }
+        if let Some(best) = best.take_if(|_| round == ROUNDS) {
+            lies.drawn = best.drawn;
+            return Ok(([least[0], best.measured[0]], best.number));
         }
         thin(lies, &piece, &yarns, &known, &tight);
         let thinner = lies.yarns(&piece)?;
@@ -142,9 +163,11 @@ fn thin(lies: &mut Lies, piece: &Woven, yarns: &Yarns, contacts: &[Contact], tig
     for (bend, place) in tight {
         keep(place, [1.0, (bend / BENDS_WANTED).max(1.0 - BENT_MOST)]);
     }
-    for (drawn, shares) in lies.drawn.iter_mut().zip(shares) {
-        for (halves, share) in drawn.iter_mut().zip(shares) {
-            *halves = [0, 1].map(|half| halves[half] * share[half] as f32);
+    for ((drawn, rest), shares) in lies.drawn.iter_mut().zip(&lies.rest).zip(shares) {
+        for (set, share) in Set::BOTH.into_iter().zip(shares) {
+            let (halves, lie) = (&mut drawn[set as usize], rest.lie(set));
+            let least = [lie.half_width, lie.half_height].map(|half| KEPT_LEAST * half);
+            *halves = [0, 1].map(|half| (halves[half] * share[half] as f32).max(least[half]));
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::{FabricError, NO_CROSSING, POINTS_MAX, Woven};
 /// Crossings of a repeat at rest, mm.
 pub(super) struct Lies {
     repeat: [usize; 2],
-    rest: Vec<Crossing>,
+    pub(super) rest: Vec<Crossing>,
     /// As they are drawn: half width and half height of the end, then of the pick.
     pub(super) drawn: Vec<[[f32; 2]; 2]>,
     rooms: [Vec<[f32; 2]>; 2],

@@ -22,6 +22,7 @@ pub(crate) struct SettReport {
     greatest_per_cm: f64,
     interlacings: f64,
     share: f64,
+    jammed_per_cm: Option<f64>,
 }
 
 impl From<Sett> for SettReport {
@@ -31,6 +32,7 @@ impl From<Sett> for SettReport {
             greatest_per_cm: sett.greatest_per_cm,
             interlacings: sett.interlacings,
             share: sett.share(),
+            jammed_per_cm: sett.jammed_per_cm,
         }
     }
 }
@@ -44,8 +46,11 @@ impl Sets<SettReport> {
 
 impl fmt::Display for SettReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { per_cm, greatest_per_cm, share, .. } = self;
+        let Self { per_cm, greatest_per_cm, share, jammed_per_cm, .. } = self;
         write!(f, "{per_cm:.2} to the cm, {greatest_per_cm:.2} is the most for round yarns in this weave")?;
+        if let Some(jammed) = jammed_per_cm {
+            write!(f, ", which jams at {jammed:.2}")?;
+        }
         if *share <= 1.0 + ROUNDING {
             return Ok(());
         }

@@ -40,6 +40,55 @@ fn taylors_examples_of_cloths_as_firm() {
     assert!((long / twill - 60.0 / 56.0).abs() < 1e-5, "{long}");
 }
 
+fn square(weave: fn(usize, usize) -> bool, warp: Thread, weft: Thread) -> [Option<f64>; 2] {
+    let drawdown = Drawdown::from_fn(8, 8, weave).unwrap();
+    let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    let cloth = Woven::new(drawdown, vec![warp; 8], vec![weft; 8], materials, sections).unwrap();
+    cloth.setts().map(|sett| sett.jammed_per_cm)
+}
+
+fn plain(end: usize, pick: usize) -> bool {
+    (end + pick).is_multiple_of(2)
+}
+
+/// "Fabric geometry", "Square cloth - jammed structure", <http://business.vsnl.com/balasubramanian/YarnCloth.html>: θ = 60°, p/D = 0.866 with D the sum
+/// of both diameters.
+#[test]
+fn peirces_square_cloth_jams_where_the_textbook_has_it() {
+    let thread = Thread::new(0.866 * 0.4, 0.1);
+    for jammed in square(plain, thread, thread) {
+        assert!((10.0 / jammed.unwrap() / 0.4 - 0.866).abs() < 1e-4, "{jammed:?}");
+    }
+    // Twills do not jam so.
+    assert_eq!(square(|end, pick| (end + 8 - pick) % 4 < 2, thread, thread), [None; 2]);
+}
+
+/// Peirce's two angles, of threads of unequal thickness and then of flat ones: cos θ₁ + cos θ₂ = 1.
+#[test]
+fn each_set_jams_by_the_other_ones_sett() {
+    for flatness in [1.0_f32, 1.6] {
+        for degrees in [40.0_f64, 60.0, 75.0] {
+            let angles = [degrees.to_radians(), (1.0 - degrees.to_radians().cos()).acos()];
+            let radii = [0.12, 0.09];
+            let halves = radii.map(|radius: f64| {
+                [radius * f64::from(flatness).sqrt(), radius / f64::from(flatness).sqrt()]
+            });
+            let both = 2.0 * (halves[0][1] + halves[1][1]);
+            // A jammed set's pitch is D sin θ of the other set's angle.
+            let pitches =
+                [0, 1].map(|set: usize| both * angles[set].sin() + 2.0 * (halves[set][0] - halves[set][1]));
+            let threads =
+                [0, 1].map(|set: usize| Thread { flatness, ..Thread::new(pitches[set], radii[set] as f32) });
+            for (set, jammed) in square(plain, threads[0], threads[1]).into_iter().enumerate() {
+                assert!((10.0 / jammed.unwrap() / pitches[set] - 1.0).abs() < 1e-5, "{degrees} {flatness}");
+            }
+        }
+    }
+    // Between picks far apart ends may lie side by side.
+    let [ends, _] = square(plain, Thread::new(0.3, 0.1), Thread::new(2.0, 0.1));
+    assert!((ends.unwrap() - 50.0).abs() < 1e-3, "{ends:?}");
+}
+
 #[test]
 fn threads_of_other_sets_take_their_own_room() {
     let (thin, thick) = (Thread::new(0.5, 0.05), Thread::new(0.5, 0.1));

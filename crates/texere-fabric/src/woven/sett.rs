@@ -1,6 +1,6 @@
 //! The greatest sett of a weave and its yarns.
 
-use super::Woven;
+use super::{Thread, Woven};
 
 /// How close the threads of a set lie, and how close they may lie in their weave, threads to the cm.
 ///
@@ -28,6 +28,12 @@ pub struct Sett {
     /// **Source**: T. R. Ashenhurst, "A treatise on textile calculations and the structure of fabrics", 1884: diameters to the inch × ends
     /// of a repeat / (ends + intersections). J. T. Taylor, "Cotton weaving and designing", 6th edition 1909, counts "firmness" so.
     pub greatest_per_cm: f64,
+    /// The sett at which the threads of plain weave jam as they lie between those of the other set at its own sett; none in other weaves.
+    ///
+    /// **Source**: F. T. Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937, of round threads; A. Kemp, "An extension
+    /// of Peirce's cloth geometry to the treatment of non-circular threads", the same 49, 1958, of flat ones ([`Thread::flatness`](crate::Thread)): as
+    /// round ones that are as thick as they are high, further apart by what is left of their width.
+    pub jammed_per_cm: Option<f64>,
 }
 
 impl Sett {
@@ -49,10 +55,13 @@ impl Woven {
             sum / threads.len() as f64
         });
         let interlacings = self.interlacings();
+        let is_plain = interlacings.iter().all(|share| *share == 1.0);
+        let pitches = [0, 1].map(|set| size[set] / sets[set].len() as f64);
         [0, 1].map(|set| Sett {
-            per_cm: 10.0 * sets[set].len() as f64 / size[set],
+            per_cm: 10.0 / pitches[set],
             interlacings: interlacings[set],
             greatest_per_cm: 10.0 / (diameters[set] + interlacings[set] * diameters[1 - set]),
+            jammed_per_cm: is_plain.then(|| 10.0 / jammed(sets[set], sets[1 - set], pitches[1 - set])),
         })
     }
 
@@ -70,4 +79,19 @@ impl Woven {
         }
         changes.map(|changes| changes as f64 / (ends * picks) as f64)
     }
+}
+
+/// The pitch at which threads of plain weave jam between those of the other set, mm: cos θ₁ + cos θ₂ = 1, where each set's pitch is the sum of both
+/// heights times sin θ, and what it is wider than high.
+fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
+    let [[wide, high], [other_wide, other_high]] = [threads, others].map(|threads| {
+        let halves = threads.iter().map(|thread| thread.halves_mm().map(f64::from));
+        let sum = halves.fold([0.0; 2], |sum, halves| [0, 1].map(|half| sum[half] + 2.0 * halves[half]));
+        sum.map(|sum| sum / threads.len() as f64)
+    });
+    let both = high + other_high;
+    // The other set's threads lie so far apart that these may lie side by side.
+    let other = ((pitch - other_wide + other_high) / both).clamp(0.0, 1.0);
+    let left = 1.0 - (1.0 - other * other).sqrt();
+    (wide - high + both * (1.0 - left * left).sqrt()).max(wide)
 }

@@ -194,6 +194,8 @@ fn what_is_no_notation_is_refused_where_it_goes_wrong() {
     refuses("", 1, start);
     refuses("twill", 6, number);
     refuses("tweed", 1, start);
+    refuses("Velvet", 1, "a weave whose threads all lie in the cloth (pile is not made)");
+    refuses(" leno 2", 2, "a weave whose ends do not cross one another (leno is not made)");
     refuses("matt", 5, number);
     refuses("matt 2/", 8, number);
     refuses("hopsack 2(2)", 10, "the end");

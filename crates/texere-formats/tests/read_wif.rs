@@ -61,6 +61,18 @@ fn tie_up_with_treadling_and_lift_plan_give_one_drawdown() {
 }
 
 #[test]
+fn cloth_that_falls_apart_is_told() {
+    assert!(read_text(TWILL).unwrap().remarks().is_empty());
+    // Shafts 1 and 3 have the face's ends; each back pick lifts them all.
+    let lifted = TWILL.split("[TIEUP]").next().unwrap().to_owned();
+    let double = read_text(lifted + "[LIFTPLAN]\n1=1\n2=1,3,2\n3=3\n4=1,3,4\n").unwrap();
+    let told = "there are 2 layers (3 ends with 2 picks, 2 ends with 2 picks)";
+    assert!(double.remarks().iter().any(|remark| remark.contains(told)), "{:?}", double.remarks());
+    // A pick without a lift lies on the face, loose.
+    let loose = read_text(TWILL.replace("[TREADLING]\n1=1\n2=2\n", "[TREADLING]\n1=1\n")).unwrap();
+    assert!(loose.remarks().iter().any(|remark| remark.contains("a loose pick")), "{:?}", loose.remarks());
+}
+#[test]
 fn a_sinking_shed_is_the_other_face() {
     let sinking = drawdown(&TWILL.replace("Rising Shed=true", "Rising Shed=0"));
     let flipped: String = TWILL_DRAWDOWN
@@ -235,7 +247,8 @@ fn a_loom_has_what_is_set_up_on_it() {
     refused(&pressed, &["[TREADLING] 1 is 5, outside 0 to 4"]);
     // Without a count there is none to go beyond.
     for (text, count) in [(lifted, "Shafts=4\n"), (pressed, "Treadles=4\n")] {
-        assert!(read_text(text.replace(count, "")).unwrap().warnings().is_empty());
+        let warnings = read_text(text.replace(count, "")).unwrap().warnings();
+        assert!(warnings.iter().all(|warning| warning.contains("nothing binds")), "{warnings:?}");
     }
 }
 

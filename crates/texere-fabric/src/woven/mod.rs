@@ -8,6 +8,7 @@ mod design;
 mod draft;
 mod drawdown;
 mod jam;
+mod layers;
 mod library;
 mod notation;
 mod path;

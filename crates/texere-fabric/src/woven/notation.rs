@@ -57,8 +57,22 @@ const _: () = assert!(REPEAT_MAX == 4096);
 /// What is expected where a weave may start.
 const WEAVE: &str = "the name of a weave or a number from 1 to 4096";
 
+/// Cloths that no drawdown says, by name, and what is expected instead.
+const NOT_DRAWN: [(&[&str], &str); 2] = [
+    (
+        &["velvet", "velveteen", "corduroy", "plush", "terry"],
+        "a weave whose threads all lie in the cloth (pile is not made)",
+    ),
+    (&["leno", "gauze"], "a weave whose ends do not cross one another (leno is not made)"),
+];
+
 pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
     let mut cursor = Cursor { text, rest: text };
+    let name = text.split_whitespace().next().unwrap_or_default();
+    let named = |(names, _): &&(&[&str], _)| names.iter().any(|known| known.eq_ignore_ascii_case(name));
+    if let Some((_, expected)) = NOT_DRAWN.iter().find(named) {
+        return Err(cursor.fail(expected));
+    }
     let notation = if cursor.word("plain") {
         Notation::Shifted { base: vec![true, false], step: 1, picks: 2 }
     } else if cursor.word("satin") {

@@ -1,0 +1,67 @@
+//! Whether a cloth hangs together.
+
+use std::cmp::Reverse;
+
+use super::Drawdown;
+
+impl Drawdown {
+    /// The layers that the cloth falls apart into, the one on the face first: how many ends and picks each has. One that hangs together is a
+    /// single layer; a double cloth whose layers nothing stitches together is two; threads that lie loose on the face or the back are
+    /// layers, too. Which threads they are: those that lie on top most often are in the first.
+    ///
+    /// **Source**: C. R. J. Clapham, "When a fabric hangs together", Bulletin of the London Mathematical Society 12, 1980: some ends and picks can be
+    /// lifted off the others where they lie on top as often as they cross these and one another.
+    ///
+    /// ```
+    /// use texere_fabric::{Drawdown, Weave};
+    /// assert_eq!(Weave::parse("2/2")?.drawdown(8, 8)?.layers(), [[8, 8]]);
+    /// // Every other end and pick makes a plain cloth over another one of the rest.
+    /// let double = Drawdown::from_fn(8, 8, |end, pick| match (end % 2, pick % 2) {
+    ///     (0, 0) | (1, 1) => (end / 2 + pick / 2) % 2 == 0,
+    ///     (face, _) => face == 0,
+    /// })?;
+    /// assert_eq!(double.layers(), [[4, 4], [4, 4]]);
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    #[must_use]
+    pub fn layers(&self) -> Vec<[usize; 2]> {
+        let [ends, picks] = [self.ends(), self.picks()];
+        let (mut over, mut under) = (vec![0_u64; ends], vec![0_u64; picks]);
+        for (end, pick) in (0..picks).flat_map(|pick| (0..ends).map(move |end| (end, pick))) {
+            if self.up(end, pick) {
+                over[end] += 1;
+            } else {
+                under[pick] += 1;
+            }
+        }
+        // How often the first so many of each set lie on top, taken from the face.
+        let [over, under] = [over, under].map(|mut counts| {
+            counts.sort_unstable_by_key(|count| Reverse(*count));
+            let mut sum = 0;
+            let add = |count: &u64| {
+                sum += count;
+                sum
+            };
+            [0].into_iter().chain(counts.iter().map(add)).collect::<Vec<u64>>()
+        });
+        let (mut layers, mut last) = (Vec::<[usize; 2]>::new(), [0, 0]);
+        for (first, over) in over.iter().enumerate() {
+            for (second, under) in under.iter().enumerate() {
+                let crossings = first as u64 * picks as u64 + second as u64 * (ends - first) as u64;
+                if over + under != crossings || [first, second] == last {
+                    continue;
+                }
+                let layer = [first - last[0], second - last[1]];
+                match layers.last_mut() {
+                    // Threads of one set alone do not lie on one another.
+                    Some(before) if [0, 1].iter().any(|&set| before[set] == 0 && layer[set] == 0) => {
+                        *before = [before[0] + layer[0], before[1] + layer[1]];
+                    }
+                    _ => layers.push(layer),
+                }
+                last = [first, second];
+            }
+        }
+        layers
+    }
+}

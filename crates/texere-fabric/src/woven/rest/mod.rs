@@ -30,7 +30,7 @@ pub struct WovenRest {
     pub repeat: [usize; 2],
     /// Passes, and what the last one has seen.
     pub crossings: CrossingsRest,
-    /// The least clearance of surfaces as drawn, before any thread was made thinner for it and after.
+    /// The least clearance of surfaces as drawn, before any thread was made thinner for it and after: 0.99 at most, contacts beyond are not looked for.
     pub clearance: [f64; 2],
     /// How many times threads were made thinner where they lacked clearance.
     pub rounds: u32,

@@ -10,7 +10,7 @@ typedef struct {
     uint crossings;
     uint ends;
     uint picks;
-    uint repeats;
+    uint flags;
     float tension_warp;
     float tension_weft;
     float press;
@@ -20,12 +20,16 @@ typedef struct {
     uint padding[2];
 } CrossingsParams;
 
-// Rust: texere_gpu::ThreadRow, 16 bytes.
+// Rust: texere_gpu::ThreadRow, 32 bytes.
 typedef struct {
     float gap;
     float radius;
     float stiffness;
     float freedom;
+    float height;
+    int level;
+    int before;
+    int after;
 } ThreadRow;
 
 // A lie (Rust: Lie) is a float4: shift, height, half width, half height. A crossing is two of them, its end's and its pick's.
@@ -60,8 +64,8 @@ uint further(uint at, int by, uint count, bool repeats) {
 uint2 beside(const Cloth *cloth, uint2 site, uint of_set, int along, int across) {
     int ends = of_set == WARP ? across : along;
     int picks = of_set == WARP ? along : across;
-    return (uint2)(further(site.x, ends, cloth->params->ends, (cloth->params->repeats & REPEATS_ENDS) != 0u),
-                   further(site.y, picks, cloth->params->picks, (cloth->params->repeats & REPEATS_PICKS) != 0u));
+    return (uint2)(further(site.x, ends, cloth->params->ends, (cloth->params->flags & REPEATS_ENDS) != 0u),
+                   further(site.y, picks, cloth->params->picks, (cloth->params->flags & REPEATS_PICKS) != 0u));
 }
 
 bool is_there(uint2 site) {
@@ -80,6 +84,16 @@ float4 lie_of(const Cloth *cloth, uint2 site, uint of_set) {
 // The thread of a set at a site. Ends come first in the table.
 ThreadRow thread_of(const Cloth *cloth, uint2 site, uint of_set) {
     return cloth->threads[of_set == WARP ? site.x : cloth->params->ends + site.y];
+}
+
+// From the thread of a set at a site to the one so many after it.
+float way_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
+    float way = thread_of(cloth, site, of_set).gap;
+    for (int step = 1; step < steps; step++) {
+        uint2 next = beside(cloth, site, of_set, 0, step);
+        way += is_there(next) ? thread_of(cloth, next, of_set).gap : 0.0f;
+    }
+    return way;
 }
 
 // The side on which a set's thread lies: 1 on the face, -1 on the back.
@@ -158,6 +172,21 @@ void add_between(Block *block, float weight, float share, float residual, float2
     block->own_own[3].w += weight * share * thickness * thickness;
     block->own_crossed[1] += weighted * height;
     block->own_crossed[3] += weighted * thickness;
+    block->crossed_crossed[0] += weighted.x * crossed;
+    block->crossed_crossed[1] += weighted.y * crossed;
+    block->crossed_crossed[2] += weighted.z * crossed;
+    block->crossed_crossed[3] += weighted.w * crossed;
+}
+
+// Adds one with these slopes in all that is unknown here.
+void add_both(Block *block, float weight, float residual, float4 own, float4 crossed) {
+    add_own(block, weight, 1.0f, residual, own);
+    float4 weighted = weight * crossed;
+    block->crossed += residual * weighted;
+    block->own_crossed[0] += weighted * own.x;
+    block->own_crossed[1] += weighted * own.y;
+    block->own_crossed[2] += weighted * own.z;
+    block->own_crossed[3] += weighted * own.w;
     block->crossed_crossed[0] += weighted.x * crossed;
     block->crossed_crossed[1] += weighted.y * crossed;
     block->crossed_crossed[2] += weighted.z * crossed;

@@ -103,9 +103,9 @@ Pair step_of(const Block *block) {
 
 // As far as what is unknown of a thread may go.
 float4 bounded(float4 lie, const ThreadRow *thread) {
-    float4 most = (float4)(thread->freedom, CROSSINGS_HEIGHT, CROSSINGS_HALF_WIDTH_MOST * thread->radius,
+    float4 most = (float4)(thread->freedom, thread->height, CROSSINGS_HALF_WIDTH_MOST * thread->radius,
                            CROSSINGS_HALF_HEIGHT_MOST * thread->radius);
-    float4 least = (float4)(-thread->freedom, -CROSSINGS_HEIGHT, CROSSINGS_HALF_WIDTH_LEAST * thread->radius,
+    float4 least = (float4)(-thread->freedom, -thread->height, CROSSINGS_HALF_WIDTH_LEAST * thread->radius,
                             CROSSINGS_HALF_HEIGHT_LEAST * thread->radius);
     return fmin(fmax(lie, least), most);
 }

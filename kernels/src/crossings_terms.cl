@@ -130,51 +130,95 @@ void add_meeting(const Cloth *cloth, Block *block, uint of_set, const Along *fir
     }
 }
 
-// Neighbours of one set half way between two crossings, as ellipses.
-void add_half_way(const Cloth *cloth, Block *block, float4 own, const Along *next, float4 neighbour, float4 opposite,
-                  float gap, float sign) {
-    float apart = gap + sign * 0.5f * (neighbour.x + opposite.x - own.x - next->lie.x);
-    float rise = 0.5f * (neighbour.y + opposite.y - own.y - next->lie.y);
-    float wide = 0.5f * (own.z + next->lie.z + neighbour.z + opposite.z);
-    float thick = 0.5f * (own.w + next->lie.w + neighbour.w + opposite.w);
+// What the thread has to clear between this crossing and the one so many further along it, past threads of other levels.
+void add_meeting_past(const Cloth *cloth, Block *block, uint of_set, const Along *here, int steps) {
+    Along other = along_of(cloth, here->site, of_set, steps);
+    if (!other.there) {
+        return;
+    }
+    bool second = steps < 0;
+    Along first = second ? other : *here;
+    Along last = second ? *here : other;
+    first.gap = way_of(cloth, first.site, 1u - of_set, abs(steps));
+    add_meeting(cloth, block, of_set, &first, &last, second);
+}
+
+// Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
+void keep_clear(const Cloth *cloth, Block *block, float apart, float rise, float wide, float thick, float sign,
+                float part) {
     float x = apart / wide;
     float z = rise / thick;
     float clearance = sqrt(x * x + z * z);
     see(block, clearance);
     float room = (clearance - 1.0f) * wide - CROSSINGS_MARGIN;
     if (room < CROSSINGS_NEAR) {
-        float4 slopes = (float4)(-sign * 0.5f * x / clearance, -0.5f * z * wide / (thick * clearance),
-                                 0.5f * (clearance - 1.0f - x * x / clearance),
-                                 -0.5f * z * z * wide / (thick * clearance));
-        add_own(block, cloth->params->penalty, 4.0f, fmin(room, 0.0f), slopes);
+        float4 slopes = (float4)(-sign * part * x / clearance, -part * z * wide / (thick * clearance),
+                                 part * (clearance - 1.0f - x * x / clearance),
+                                 -part * z * z * wide / (thick * clearance));
+        add_own(block, cloth->params->penalty, 2.0f / part, fmin(room, 0.0f), slopes);
     }
 }
 
-// Neighbours of one set keep to their own places at a crossing, whatever their heights, and are clear of one another beside it.
+// Neighbours of one set `gap` apart half way from this crossing to the `next` one, as ellipses.
+void add_half_way(const Cloth *cloth, Block *block, uint of_set, float4 own, const Along *next, float4 neighbour, int across,
+                  float gap) {
+    if (!next->there) {
+        return;
+    }
+    float4 opposite = lie_of(cloth, beside(cloth, next->site, of_set, 0, across), of_set);
+    float sign = across < 0 ? -1.0f : 1.0f;
+    float apart = gap + sign * 0.5f * (neighbour.x + opposite.x - own.x - next->lie.x);
+    float rise = 0.5f * (neighbour.y + opposite.y - own.y - next->lie.y);
+    float wide = 0.5f * (own.z + next->lie.z + neighbour.z + opposite.z);
+    float thick = 0.5f * (own.w + next->lie.w + neighbour.w + opposite.w);
+    keep_clear(cloth, block, apart, rise, wide, thick, sign, 0.5f);
+}
+
+// Neighbours of one level keep to their own places at a crossing, whatever their heights; those of two lie side by side or one above the
+// other, as ellipses. All are clear of one another beside it.
 void add_neighbour(const Cloth *cloth, Block *block, uint of_set, const Along *before, const Along *here,
-                   const Along *after, int across) {
+                   const Along *after, int across, bool of_level) {
     uint2 site = beside(cloth, here->site, of_set, 0, across);
     if (!is_there(site)) {
         return;
     }
-    float sign = (float)across;
+    float sign = across < 0 ? -1.0f : 1.0f;
     float4 other = lie_of(cloth, site, of_set);
-    float gap = thread_of(cloth, across < 0 ? site : here->site, of_set).gap;
+    float gap = way_of(cloth, across < 0 ? site : here->site, of_set, abs(across));
     float apart = gap + sign * (other.x - here->lie.x);
     float need = here->lie.z + other.z;
-    see(block, apart / need);
-    float room = apart - need - CROSSINGS_MARGIN;
-    if (room < CROSSINGS_NEAR) {
-        add_own(block, cloth->params->penalty, 2.0f, fmin(room, 0.0f), (float4)(-sign, 0.0f, -1.0f, 0.0f));
+    if (of_level) {
+        see(block, apart / need);
+        float room = apart - need - CROSSINGS_MARGIN;
+        if (room < CROSSINGS_NEAR) {
+            add_own(block, cloth->params->penalty, 2.0f, fmin(room, 0.0f), (float4)(-sign, 0.0f, -1.0f, 0.0f));
+        }
+    } else {
+        keep_clear(cloth, block, apart, other.y - here->lie.y, need, here->lie.w + other.w, sign, 1.0f);
     }
-    if (before->there) {
-        float4 opposite = lie_of(cloth, beside(cloth, before->site, of_set, 0, across), of_set);
-        add_half_way(cloth, block, here->lie, before, other, opposite, gap, sign);
+    add_half_way(cloth, block, of_set, here->lie, before, other, across, gap);
+    add_half_way(cloth, block, of_set, here->lie, after, other, across, gap);
+}
+
+// The neighbours of a thread to one side: `steps` is how many threads away the next one of its level lies.
+void add_neighbours(const Cloth *cloth, Block *block, uint of_set, const Along *before, const Along *here,
+                    const Along *after, int sign, int steps) {
+    if (steps != 0) {
+        add_neighbour(cloth, block, of_set, before, here, after, sign * steps, true);
     }
-    if (after->there) {
-        float4 opposite = lie_of(cloth, beside(cloth, after->site, of_set, 0, across), of_set);
-        add_half_way(cloth, block, here->lie, after, other, opposite, gap, sign);
+    if (steps != 1) {
+        add_neighbour(cloth, block, of_set, before, here, after, sign, false);
     }
+}
+
+// How steeply a thread rises or falls next to a crossing, on the steeper side.
+float slope_of(const Cloth *cloth, uint2 site, uint of_set) {
+    Along before = along_of(cloth, site, of_set, -1);
+    Along here = along_of(cloth, site, of_set, 0);
+    Along after = along_of(cloth, site, of_set, 1);
+    float falls = before.there ? fabs((before.lie.y - here.lie.y) / before.gap) : 0.0f;
+    float rises = after.there ? fabs((after.lie.y - here.lie.y) / here.gap) : 0.0f;
+    return fmax(falls, rises);
 }
 
 // Both threads of a crossing lie one on top of the other. The block is seen from the warp.
@@ -182,13 +226,24 @@ void add_contact(const Cloth *cloth, Block *block, uint2 site) {
     float4 warp = lie_of(cloth, site, WARP);
     float4 weft = lie_of(cloth, site, WEFT);
     float side = side_of(cloth, site, WARP);
+    // Threads of two layers slope where they cross: along the slope of the other one an ellipse reaches further.
+    float2 slope = (float2)(0.0f, 0.0f);
+    bool layered = (cloth->params->flags & LAYERED) != 0u;
+    if (layered && thread_of(cloth, site, WARP).level != thread_of(cloth, site, WEFT).level) {
+        slope = CROSSINGS_STEEPER * (float2)(slope_of(cloth, site, WEFT), slope_of(cloth, site, WARP));
+    }
+    float2 x = (float2)(warp.z, weft.z) * slope;
+    float2 z = (float2)(warp.w, weft.w);
+    float2 reach = sqrt(x * x + z * z);
     float apart = side * (warp.y - weft.y);
-    float need = warp.w + weft.w;
+    float need = reach.x + reach.y;
     see(block, apart / need);
     float room = apart - need - CROSSINGS_MARGIN;
     if (room < CROSSINGS_NEAR) {
-        add_between(block, cloth->params->penalty, 1.0f, fmin(room, 0.0f), (float2)(side, -1.0f),
-                    (float4)(0.0f, -side, 0.0f, -1.0f));
+        float2 wider = -x * slope / reach;
+        float2 thicker = -z / reach;
+        add_both(block, cloth->params->penalty, fmin(room, 0.0f), (float4)(0.0f, side, wider.x, thicker.x),
+                 (float4)(0.0f, -side, wider.y, thicker.y));
     }
 }
 
@@ -213,8 +268,15 @@ void add_set(const Cloth *cloth, Block *block, uint2 site, uint of_set) {
     add_difference(block, here.lie, &after, here.gap, tension, evenness);
     add_meeting(cloth, block, of_set, &before, &here, true);
     add_meeting(cloth, block, of_set, &here, &after, false);
-    add_neighbour(cloth, block, of_set, &before, &here, &after, -1);
-    add_neighbour(cloth, block, of_set, &before, &here, &after, 1);
+    add_neighbours(cloth, block, of_set, &before, &here, &after, -1, thread.before);
+    add_neighbours(cloth, block, of_set, &before, &here, &after, 1, thread.after);
+    ThreadRow crossed = thread_of(cloth, site, 1u - of_set);
+    if (crossed.before > 1) {
+        add_meeting_past(cloth, block, of_set, &here, -crossed.before);
+    }
+    if (crossed.after > 1) {
+        add_meeting_past(cloth, block, of_set, &here, crossed.after);
+    }
 }
 
 // All terms that a crossing is part of, seen from the warp.

@@ -8,7 +8,7 @@ struct CrossingsParams {
     crossings: u32,
     ends: u32,
     picks: u32,
-    repeats: u32,
+    flags: u32,
     tension_warp: f32,
     tension_weft: f32,
     press: f32,
@@ -18,12 +18,16 @@ struct CrossingsParams {
     padding: vec2<u32>,
 }
 
-// Rust: texere_gpu::ThreadRow, 16 bytes.
+// Rust: texere_gpu::ThreadRow, 32 bytes.
 struct ThreadRow {
     gap: f32,
     radius: f32,
     stiffness: f32,
     freedom: f32,
+    height: f32,
+    level: i32,
+    before: i32,
+    after: i32,
 }
 
 // A lie (Rust: Lie) is a vec4<f32>: shift, height, half width, half height. A crossing is two of them, its end's and its pick's.
@@ -56,8 +60,8 @@ fn beside(site: vec2<u32>, of_set: u32, along: i32, across: i32) -> vec2<u32> {
     let ends = select(along, across, of_set == WARP);
     let picks = select(across, along, of_set == WARP);
     return vec2(
-        further(site.x, ends, cloth.ends, (cloth.repeats & REPEATS_ENDS) != 0u),
-        further(site.y, picks, cloth.picks, (cloth.repeats & REPEATS_PICKS) != 0u),
+        further(site.x, ends, cloth.ends, (cloth.flags & REPEATS_ENDS) != 0u),
+        further(site.y, picks, cloth.picks, (cloth.flags & REPEATS_PICKS) != 0u),
     );
 }
 
@@ -77,6 +81,18 @@ fn lie_of(site: vec2<u32>, of_set: u32) -> vec4<f32> {
 // The thread of a set at a site. Ends come first in the table.
 fn thread_of(site: vec2<u32>, of_set: u32) -> ThreadRow {
     return threads[select(cloth.ends + site.y, site.x, of_set == WARP)];
+}
+
+// From the thread of a set at a site to the one so many after it.
+fn way_of(site: vec2<u32>, of_set: u32, steps: i32) -> f32 {
+    var way = thread_of(site, of_set).gap;
+    for (var step = 1; step < steps; step++) {
+        let next = beside(site, of_set, 0, step);
+        if is_there(next) {
+            way += thread_of(next, of_set).gap;
+        }
+    }
+    return way;
 }
 
 // The side on which a set's thread lies: 1 on the face, -1 on the back.
@@ -155,6 +171,21 @@ fn add_between(block: ptr<function, Block>, weight: f32, share: f32, residual: f
     (*block).own_own[3].w += weight * share * thickness * thickness;
     (*block).own_crossed[1] += weighted * height;
     (*block).own_crossed[3] += weighted * thickness;
+    (*block).crossed_crossed[0] += weighted.x * crossed;
+    (*block).crossed_crossed[1] += weighted.y * crossed;
+    (*block).crossed_crossed[2] += weighted.z * crossed;
+    (*block).crossed_crossed[3] += weighted.w * crossed;
+}
+
+// Adds one with these slopes in all that is unknown here.
+fn add_both(block: ptr<function, Block>, weight: f32, residual: f32, own: vec4<f32>, crossed: vec4<f32>) {
+    add_own(block, weight, 1.0, residual, own);
+    let weighted = weight * crossed;
+    (*block).crossed += residual * weighted;
+    (*block).own_crossed[0] += weighted * own.x;
+    (*block).own_crossed[1] += weighted * own.y;
+    (*block).own_crossed[2] += weighted * own.z;
+    (*block).own_crossed[3] += weighted * own.w;
     (*block).crossed_crossed[0] += weighted.x * crossed;
     (*block).crossed_crossed[1] += weighted.y * crossed;
     (*block).crossed_crossed[2] += weighted.z * crossed;

@@ -98,13 +98,13 @@ fn step_of(block: Block) -> Pair {
 fn bounded(lie: vec4<f32>, thread: ThreadRow) -> vec4<f32> {
     let most = vec4(
         thread.freedom,
-        CROSSINGS_HEIGHT,
+        thread.height,
         CROSSINGS_HALF_WIDTH_MOST * thread.radius,
         CROSSINGS_HALF_HEIGHT_MOST * thread.radius,
     );
     let least = vec4(
         -thread.freedom,
-        -CROSSINGS_HEIGHT,
+        -thread.height,
         CROSSINGS_HALF_WIDTH_LEAST * thread.radius,
         CROSSINGS_HALF_HEIGHT_LEAST * thread.radius,
     );

@@ -127,12 +127,25 @@ fn add_meeting(block: ptr<function, Block>, of_set: u32, first: Along, last: Alo
     }
 }
 
-// Neighbours of one set half way between two crossings, as ellipses.
-fn add_half_way(block: ptr<function, Block>, own: vec4<f32>, next: Along, neighbour: vec4<f32>, opposite: vec4<f32>, gap: f32, sign: f32) {
-    let apart = gap + sign * 0.5 * (neighbour.x + opposite.x - own.x - next.lie.x);
-    let rise = 0.5 * (neighbour.y + opposite.y - own.y - next.lie.y);
-    let wide = 0.5 * (own.z + next.lie.z + neighbour.z + opposite.z);
-    let thick = 0.5 * (own.w + next.lie.w + neighbour.w + opposite.w);
+// What the thread has to clear between this crossing and the one so many further along it, past threads of other levels.
+fn add_meeting_past(block: ptr<function, Block>, of_set: u32, here: Along, steps: i32) {
+    let other = along_of(here.site, of_set, steps);
+    if !other.there {
+        return;
+    }
+    let second = steps < 0;
+    var first = here;
+    var last = other;
+    if second {
+        first = other;
+        last = here;
+    }
+    first.gap = way_of(first.site, 1u - of_set, abs(steps));
+    add_meeting(block, of_set, first, last, second);
+}
+
+// Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
+fn keep_clear(block: ptr<function, Block>, apart: f32, rise: f32, wide: f32, thick: f32, sign: f32, part: f32) {
     let x = apart / wide;
     let z = rise / thick;
     let clearance = sqrt(x * x + z * z);
@@ -140,41 +153,81 @@ fn add_half_way(block: ptr<function, Block>, own: vec4<f32>, next: Along, neighb
     let room = (clearance - 1.0) * wide - CROSSINGS_MARGIN;
     if room < CROSSINGS_NEAR {
         let slopes = vec4(
-            -sign * 0.5 * x / clearance,
-            -0.5 * z * wide / (thick * clearance),
-            0.5 * (clearance - 1.0 - x * x / clearance),
-            -0.5 * z * z * wide / (thick * clearance),
+            -sign * part * x / clearance,
+            -part * z * wide / (thick * clearance),
+            part * (clearance - 1.0 - x * x / clearance),
+            -part * z * z * wide / (thick * clearance),
         );
-        add_own(block, cloth.penalty, 4.0, min(room, 0.0), slopes);
+        add_own(block, cloth.penalty, 2.0 / part, min(room, 0.0), slopes);
     }
 }
 
-// Neighbours of one set keep to their own places at a crossing, whatever their heights, and are clear of one another beside it.
-fn add_neighbour(block: ptr<function, Block>, of_set: u32, before: Along, here: Along, after: Along, across: i32) {
+// Neighbours of one set `gap` apart half way from this crossing to the `next` one, as ellipses.
+fn add_half_way(block: ptr<function, Block>, of_set: u32, own: vec4<f32>, next: Along, neighbour: vec4<f32>, across: i32, gap: f32) {
+    if !next.there {
+        return;
+    }
+    let opposite = lie_of(beside(next.site, of_set, 0, across), of_set);
+    let sign = f32(sign(across));
+    let apart = gap + sign * 0.5 * (neighbour.x + opposite.x - own.x - next.lie.x);
+    let rise = 0.5 * (neighbour.y + opposite.y - own.y - next.lie.y);
+    let wide = 0.5 * (own.z + next.lie.z + neighbour.z + opposite.z);
+    let thick = 0.5 * (own.w + next.lie.w + neighbour.w + opposite.w);
+    keep_clear(block, apart, rise, wide, thick, sign, 0.5);
+}
+
+// Neighbours of one level keep to their own places at a crossing, whatever their heights; those of two lie side by side or one above the
+// other, as ellipses. All are clear of one another beside it.
+fn add_neighbour(block: ptr<function, Block>, of_set: u32, before: Along, here: Along, after: Along, across: i32, of_level: bool) {
     let site = beside(here.site, of_set, 0, across);
     if !is_there(site) {
         return;
     }
-    let sign = f32(across);
+    let sign = f32(sign(across));
     let other = lie_of(site, of_set);
     var lower = here.site;
     if across < 0 {
         lower = site;
     }
-    let gap = thread_of(lower, of_set).gap;
+    let gap = way_of(lower, of_set, abs(across));
     let apart = gap + sign * (other.x - here.lie.x);
     let need = here.lie.z + other.z;
-    see(block, apart / need);
-    let room = apart - need - CROSSINGS_MARGIN;
-    if room < CROSSINGS_NEAR {
-        add_own(block, cloth.penalty, 2.0, min(room, 0.0), vec4(-sign, 0.0, -1.0, 0.0));
+    if of_level {
+        see(block, apart / need);
+        let room = apart - need - CROSSINGS_MARGIN;
+        if room < CROSSINGS_NEAR {
+            add_own(block, cloth.penalty, 2.0, min(room, 0.0), vec4(-sign, 0.0, -1.0, 0.0));
+        }
+    } else {
+        keep_clear(block, apart, other.y - here.lie.y, need, here.lie.w + other.w, sign, 1.0);
     }
+    add_half_way(block, of_set, here.lie, before, other, across, gap);
+    add_half_way(block, of_set, here.lie, after, other, across, gap);
+}
+
+// The neighbours of a thread to one side: `steps` is how many threads away the next one of its level lies.
+fn add_neighbours(block: ptr<function, Block>, of_set: u32, before: Along, here: Along, after: Along, side: i32, steps: i32) {
+    if steps != 0 {
+        add_neighbour(block, of_set, before, here, after, side * steps, true);
+    }
+    if steps != 1 {
+        add_neighbour(block, of_set, before, here, after, side, false);
+    }
+}
+
+// How steeply a thread rises or falls next to a crossing, on the steeper side.
+fn slope_of(site: vec2<u32>, of_set: u32) -> f32 {
+    let before = along_of(site, of_set, -1);
+    let here = along_of(site, of_set, 0);
+    let after = along_of(site, of_set, 1);
+    var steepest = 0.0;
     if before.there {
-        add_half_way(block, here.lie, before, other, lie_of(beside(before.site, of_set, 0, across), of_set), gap, sign);
+        steepest = abs((before.lie.y - here.lie.y) / before.gap);
     }
     if after.there {
-        add_half_way(block, here.lie, after, other, lie_of(beside(after.site, of_set, 0, across), of_set), gap, sign);
+        steepest = max(steepest, abs((after.lie.y - here.lie.y) / here.gap));
     }
+    return steepest;
 }
 
 // Both threads of a crossing lie one on top of the other. The block is seen from the warp.
@@ -182,12 +235,23 @@ fn add_contact(block: ptr<function, Block>, site: vec2<u32>) {
     let warp = lie_of(site, WARP);
     let weft = lie_of(site, WEFT);
     let side = side_of(site, WARP);
+    // Threads of two layers slope where they cross: along the slope of the other one an ellipse reaches further.
+    var slope = vec2(0.0);
+    if (cloth.flags & LAYERED) != 0u && thread_of(site, WARP).level != thread_of(site, WEFT).level {
+        slope = CROSSINGS_STEEPER * vec2(slope_of(site, WEFT), slope_of(site, WARP));
+    }
+    let x = vec2(warp.z, weft.z) * slope;
+    let z = vec2(warp.w, weft.w);
+    let reach = sqrt(x * x + z * z);
     let apart = side * (warp.y - weft.y);
-    let need = warp.w + weft.w;
+    let need = reach.x + reach.y;
     see(block, apart / need);
     let room = apart - need - CROSSINGS_MARGIN;
     if room < CROSSINGS_NEAR {
-        add_between(block, cloth.penalty, 1.0, min(room, 0.0), vec2(side, -1.0), vec4(0.0, -side, 0.0, -1.0));
+        let wider = -x * slope / reach;
+        let thicker = -z / reach;
+        let own = vec4(0.0, side, wider.x, thicker.x);
+        add_both(block, cloth.penalty, min(room, 0.0), own, vec4(0.0, -side, wider.y, thicker.y));
     }
 }
 
@@ -211,8 +275,15 @@ fn add_set(block: ptr<function, Block>, site: vec2<u32>, of_set: u32) {
     add_difference(block, here.lie, after, here.gap, tension, evenness);
     add_meeting(block, of_set, before, here, true);
     add_meeting(block, of_set, here, after, false);
-    add_neighbour(block, of_set, before, here, after, -1);
-    add_neighbour(block, of_set, before, here, after, 1);
+    add_neighbours(block, of_set, before, here, after, -1, thread.before);
+    add_neighbours(block, of_set, before, here, after, 1, thread.after);
+    let crossed = thread_of(site, 1u - of_set);
+    if crossed.before > 1 {
+        add_meeting_past(block, of_set, here, -crossed.before);
+    }
+    if crossed.after > 1 {
+        add_meeting_past(block, of_set, here, crossed.after);
+    }
 }
 
 // All terms that a crossing is part of, seen from the warp.

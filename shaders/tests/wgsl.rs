@@ -140,14 +140,14 @@ fn tables_of_settling_lie_as_in_rust() {
 #[test]
 fn tables_of_crossings_lie_as_in_rust() {
     let (module, _) = parse(&crossings::MOVE);
-    same_layout!(&module, ThreadRow { gap, radius, stiffness, freedom });
+    same_layout!(&module, ThreadRow { gap, radius, stiffness, freedom, height, level, before, after });
     same_layout!(
         &module,
         CrossingsParams {
             crossings,
             ends,
             picks,
-            repeats,
+            flags,
             tension_warp,
             tension_weft,
             press,

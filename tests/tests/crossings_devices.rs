@@ -21,7 +21,7 @@ fn even(
     up: fn(usize, usize) -> bool,
 ) -> Crossings {
     let [warp, weft] =
-        [0, 1].map(|set| Thread { pitch: pitch[set], diameter: diameter[set], stiffness: 1.0 });
+        [0, 1].map(|set| Thread { pitch: pitch[set], diameter: diameter[set], stiffness: 1.0, level: 0 });
     let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
     Crossings::new(ups, vec![warp; ends], vec![weft; picks])
 }
@@ -38,12 +38,37 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
             pitch: pitch * (1.0 + 0.2 * chance()),
             diameter: 0.3 * (1.0 + 0.3 * chance()),
             stiffness: 1.0 + 0.5 * chance(),
+            level: 0,
         };
         (0..count).map(thread).collect()
     };
     let (warp, weft) = (threads(ends, 0.45), threads(picks, 0.5));
     let ups = (0..ends * picks).map(|_| chance() > 0.0).collect();
     Crossings::new(ups, warp, weft).tension(0.7, 1.4).press(2.0)
+}
+
+/// Threads by turns on so many levels of each set, in plain weave within a layer where there are as many of both; else in a twill for each level.
+fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2]) -> Crossings {
+    let threads = |count: usize, levels: u32, spacing: f32| -> Vec<Thread> {
+        let thread = |number: usize| Thread {
+            pitch: spacing / levels as f32,
+            diameter: 0.2,
+            stiffness: 1.0,
+            level: levels - 1 - number as u32 % levels,
+        };
+        (0..count).map(thread).collect()
+    };
+    let (warp, weft) = (threads(ends, across, 0.4), threads(picks, along, 0.44));
+    let up = |end: usize, pick: usize| {
+        let [one, two] = [end as u32 % across, pick as u32 % along];
+        match across == along {
+            true if one == two => (end / across as usize + pick / along as usize).is_multiple_of(2),
+            true => one < two,
+            false => (end + 4 - pick / 2 % 4).is_multiple_of(4) != (two == 1),
+        }
+    };
+    let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
+    Crossings::new(ups, warp, weft)
 }
 
 /// Cloths that between them have everything that passes distinguish.
@@ -63,6 +88,10 @@ fn cloths() -> Vec<(&'static str, Crossings)> {
         ("satin of 8", even([0.25; 2], [0.2; 2], [8, 8], satin)),
         ("twill 2/2", even([0.3; 2], [0.2; 2], [4, 4], half)),
         ("Jacquard", even([0.355; 2], [0.203; 2], [32, 32], jacquard)),
+        ("double cloth", layers([2, 2], [4, 4])),
+        ("treble cloth", layers([3, 3], [6, 6])),
+        ("weft-backed cloth", layers([1, 2], [4, 8])),
+        ("a piece of double cloth", layers([2, 2], [13, 11]).repeats(false, false)),
         ("a piece of plain", even([0.2, 0.3], [0.15; 2], [24, 20], plain).repeats(false, false)),
         ("uneven", uneven(37, 29)),
         ("uneven, ends repeat", uneven(12, 9).repeats(true, false)),

@@ -93,6 +93,8 @@ struct WovenReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     jam: Option<JamsReport>,
     setts: Sets<SettReport>,
+    /// How many levels ends lie on, and picks.
+    levels: Sets<u32>,
 }
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
@@ -204,6 +206,12 @@ impl ClothReport {
                 picks: woven.cloth().weft().len(),
                 jam: (!settled).then(|| JamsReport::from(woven.jam_report())),
                 setts: setts(woven.cloth()),
+                levels: woven
+                    .cloth()
+                    .drawdown()
+                    .levels()
+                    .map(|levels| 1 + levels.into_iter().max().unwrap_or(0))
+                    .into(),
             }),
             size_mm: structure.size_mm(),
             measures: MeasuresReport::new(&measures, yarns.materials()),
@@ -257,6 +265,16 @@ impl ClothReport {
             lines.push(("cover", format!("{cloth}: ends {ends}, picks {picks}")));
         }
         lines.extend(self.woven.iter().flat_map(|woven| woven.setts.lines()));
+        for Sets { warp, weft } in self.woven.iter().map(|woven| &woven.levels) {
+            if warp.max(weft) > &1 {
+                let drawn = if self.woven.iter().any(|woven| woven.jam.is_some()) {
+                    "; as woven all are drawn side by side"
+                } else {
+                    ""
+                };
+                lines.push(("levels", format!("of ends {warp}, of picks {weft}{drawn}")));
+            }
+        }
         let jams = self.woven.iter().filter_map(|woven| woven.jam.as_ref());
         let pitches =
             jams.flat_map(|jam| [("pitch of ends", &jam.after.warp), ("pitch of picks", &jam.after.weft)]);

@@ -1,4 +1,4 @@
-//! Draws the point papers in `designs/`: an ogee lattice with a pomegranate in each of its fields, and lozenges for a knit.
+//! Draws the point papers in `designs/`: an ogee lattice with a pomegranate in each of its fields, lozenges for a knit, a stitched double cloth.
 //!
 //! `cargo run -p texere-formats --example draw_motifs` writes them where they belong. Nothing but sums, products and
 //! square roots goes into them, so that every machine draws the same.
@@ -223,6 +223,25 @@ fn bound_ornament(size: [usize; 2]) -> Paper {
     paper
 }
 
+/// Every crossing of a double cloth: a 2/2 twill over another one, their ends and picks by turns, the face's first. An end of the back is lifted
+/// over a pick of the face where the ends beside it float over that, and it lies over the picks beside it: so stitches show little.
+fn double_twill([width, height]: [usize; 2]) -> Paper {
+    let mut paper = Paper::new([width, height]);
+    for (place, tone) in paper.pixels.iter_mut().enumerate() {
+        let [end, pick] = [place % width, height - 1 - place / width];
+        let step = (end / 2 + height - pick / 2) % 8;
+        let up = match [end % 2, pick % 2] {
+            [0, 0] | [1, 1] => step % 4 < 2,
+            [0, _] => true,
+            _ => step == 0 && (end / 2).is_multiple_of(4),
+        };
+        if up {
+            *tone = Tone::Figure;
+        }
+    }
+    paper
+}
+
 /// A point paper of the repository.
 struct Drawing {
     file: &'static str,
@@ -232,7 +251,7 @@ struct Drawing {
     palette: &'static [[u8; 3]],
 }
 
-const DRAWINGS: [Drawing; 6] = [
+const DRAWINGS: [Drawing; 7] = [
     Drawing {
         file: "damask.png",
         size: [240, 320],
@@ -250,6 +269,12 @@ const DRAWINGS: [Drawing; 6] = [
         size: [400, 720],
         draw: bound_ornament,
         palette: &[[0xec, 0xe4, 0xd2], [0x8c, 0x2f, 0x39]],
+    },
+    Drawing {
+        file: "double-cloth.png",
+        size: [16, 16],
+        draw: double_twill,
+        palette: &[[0xff, 0xff, 0xff], [0x00, 0x00, 0x00]],
     },
     Drawing {
         file: "jacquard.png",

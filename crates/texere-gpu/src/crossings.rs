@@ -11,7 +11,7 @@ pub const CROSSINGS_PASSES: u32 = 16;
 
 /// A thread, in units.
 ///
-/// **Shape**: four `f32`, 16 bytes. A table has all ends, then all picks.
+/// **Shape**: five `f32` and three `i32`, 32 bytes. A table has all ends, then all picks.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ThreadRow {
@@ -23,9 +23,17 @@ pub struct ThreadRow {
     pub stiffness: f32,
     /// How far it may shift.
     pub freedom: f32,
+    /// How far it may go up and down.
+    pub height: f32,
+    /// Its level.
+    pub level: i32,
+    /// How many threads before it the next one of its level lies, 0 for none.
+    pub before: i32,
+    /// And after it.
+    pub after: i32,
 }
 
-const _: () = assert!(size_of::<ThreadRow>() == 16 && std::mem::offset_of!(ThreadRow, freedom) == 12);
+const _: () = assert!(size_of::<ThreadRow>() == 32 && std::mem::offset_of!(ThreadRow, after) == 28);
 
 /// What is the same for all lanes of a pass.
 ///
@@ -39,8 +47,8 @@ pub struct CrossingsParams {
     pub ends: u32,
     /// Picks.
     pub picks: u32,
-    /// Bits: [`CrossingsParams::ENDS`], [`CrossingsParams::PICKS`].
-    pub repeats: u32,
+    /// Bits: [`CrossingsParams::ENDS`], [`CrossingsParams::PICKS`], [`CrossingsParams::LAYERED`].
+    pub flags: u32,
     /// How taut the warp is.
     pub tension_warp: f32,
     /// And the weft.
@@ -78,27 +86,31 @@ impl ThreadRow {
     /// All threads of `plan`.
     #[must_use]
     pub fn all(plan: &CrossingsPlan) -> Vec<Self> {
-        let row = |&Row { gap, radius, stiffness, freedom }: &Row| Self { gap, radius, stiffness, freedom };
+        let row = |&Row { gap, radius, stiffness, freedom, height, level, beside: [before, after] }: &Row| {
+            Self { gap, radius, stiffness, freedom, height, level, before, after }
+        };
         Set::BOTH.into_iter().flat_map(|set| plan.rows(set)).map(row).collect()
     }
 }
 
 impl CrossingsParams {
-    /// Bit of [`CrossingsParams::repeats`]: after the last end the first one comes again.
+    /// Bit of [`CrossingsParams::flags`]: after the last end the first one comes again.
     pub const ENDS: u32 = 1;
-    /// Bit of [`CrossingsParams::repeats`]: after the last pick the first one comes again.
+    /// Bit of [`CrossingsParams::flags`]: after the last pick the first one comes again.
     pub const PICKS: u32 = 2;
+    /// Bit of [`CrossingsParams::flags`]: a level of both sets is a layer of the cloth.
+    pub const LAYERED: u32 = 4;
 
     /// What `plan` says. The pass is still to come.
     ///
     /// ```
     /// use texere_core::crossings::{Crossings, CrossingsPass, CrossingsPlan, Thread};
     /// use texere_gpu::{CrossingsParams, ThreadRow, crossings_ups};
-    /// let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0 };
+    /// let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
     /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     /// let plan = CrossingsPlan::new(&plain.repeats(true, false))?;
     /// let params = CrossingsParams::new(&plan).with_pass(&CrossingsPass::of(50), 3);
-    /// assert_eq!((params.crossings, params.repeats, params.penalty), (4, CrossingsParams::ENDS, 1000.0));
+    /// assert_eq!((params.crossings, params.flags, params.penalty), (4, CrossingsParams::ENDS, 1000.0));
     /// assert_eq!((ThreadRow::all(&plan).len(), crossings_ups(&plan)), (4, vec![0b1001]));
     /// # Ok::<(), texere_core::crossings::CrossingsError>(())
     /// ```
@@ -109,7 +121,10 @@ impl CrossingsParams {
             crossings: plan.crossings() as u32,
             ends: plan.rows(Set::Warp).len() as u32,
             picks: plan.rows(Set::Weft).len() as u32,
-            repeats: if ends { Self::ENDS } else { 0 } | if picks { Self::PICKS } else { 0 },
+            flags: [(ends, Self::ENDS), (picks, Self::PICKS), (plan.is_layered(), Self::LAYERED)]
+                .into_iter()
+                .filter_map(|(is_set, flag)| is_set.then_some(flag))
+                .sum(),
             tension_warp: plan.tension(Set::Warp),
             tension_weft: plan.tension(Set::Weft),
             press: plan.press(),

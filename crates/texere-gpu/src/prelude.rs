@@ -117,8 +117,8 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
     integer("PLATES", SettlingParams::PLATES),
 ];
 
-/// Those of crossings, which stand before all sources, too. The two flags are [`CrossingsParams`]' own, all others the core's.
-pub const CROSSINGS_CONSTANTS: [Constant; 26] = [
+/// Those of crossings, which stand before all sources, too. The three flags are [`CrossingsParams`]' own, all others the core's.
+pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
     float("CROSSINGS_ASPECT", crossings::ASPECT),
     float("CROSSINGS_SHAPE", crossings::SHAPE),
     float("CROSSINGS_AREA_LOSS", crossings::AREA_LOSS),
@@ -133,7 +133,7 @@ pub const CROSSINGS_CONSTANTS: [Constant; 26] = [
     float("CROSSINGS_NEAR", crossings::NEAR),
     float("CROSSINGS_DAMPING", crossings::DAMPING),
     float("CROSSINGS_PIVOT", crossings::PIVOT),
-    float("CROSSINGS_HEIGHT", crossings::HEIGHT),
+    float("CROSSINGS_STEEPER", crossings::STEEPER),
     float("CROSSINGS_MOMENTUM", crossings::MOMENTUM),
     float("CROSSINGS_STEP", crossings::STEP),
     float("CROSSINGS_HALF_WIDTH_LEAST", crossings::HALF_WIDTH[0]),
@@ -145,6 +145,7 @@ pub const CROSSINGS_CONSTANTS: [Constant; 26] = [
     float("PASSAGE_TURN", crossings::TURN),
     integer("REPEATS_ENDS", CrossingsParams::ENDS),
     integer("REPEATS_PICKS", CrossingsParams::PICKS),
+    integer("LAYERED", CrossingsParams::LAYERED),
 ];
 
 /// The text that stands before the sources of a program: the definitions of all [`CONSTANTS`], [`SETTLING_CONSTANTS`] and [`CROSSINGS_CONSTANTS`], and of `FLATTENED`. Decimals are
@@ -252,7 +253,7 @@ mod tests {
         ("CROSSINGS_NEAR", &[crossings::NEAR]),
         ("CROSSINGS_DAMPING", &[crossings::DAMPING]),
         ("CROSSINGS_PIVOT", &[crossings::PIVOT]),
-        ("CROSSINGS_HEIGHT", &[crossings::HEIGHT]),
+        ("CROSSINGS_STEEPER", &[crossings::STEEPER]),
         ("CROSSINGS_MOMENTUM", &[crossings::MOMENTUM]),
         ("CROSSINGS_STEP", &[crossings::STEP]),
         ("CROSSINGS_HALF_WIDTH_LEAST", &[crossings::HALF_WIDTH[0]]),

@@ -10,7 +10,7 @@ type View = (&'static str, &'static [&'static str]);
 const FOLDER: &str = "docs/gallery";
 
 /// The designs, each with the views of it, beside face and back: name and options.
-const DESIGNS: [(&str, &[View]); 33] = [
+const DESIGNS: [(&str, &[View]); 34] = [
     ("plain.toml", &[CLOSE_UP, CUT]),
     ("poplin.toml", &[CLOSE_UP]),
     ("sheeting.toml", &[CLOSE_UP]),
@@ -20,6 +20,7 @@ const DESIGNS: [(&str, &[View]); 33] = [
     ("honeycomb.toml", &[CLOSE_UP]),
     ("denim.toml", &[CLOSE_UP, CUT]),
     ("satin.toml", &[CLOSE_UP, CUT]),
+    ("double-cloth.toml", &[CLOSE_UP, CUT]),
     ("herringbone.wif", &[CLOSE_UP, ("oblique", &["--view", "oblique"])]),
     ("damask.toml", &[CLOSE_UP]),
     ("two-ply.toml", &[FINE]),

@@ -19,11 +19,11 @@ pub use block::{Block, DAMPING, PIVOT};
 pub use crossing::{Crossing, Lie, Set};
 pub use error::CrossingsError;
 pub use passage::{CURVED, Passage, STEPS, TURN};
-pub use plan::{CrossingsPlan, HALF_HEIGHT, HALF_WIDTH, HEIGHT, MOMENTUM, Row, STEP, Site};
+pub use plan::{CrossingsPlan, HALF_HEIGHT, HALF_WIDTH, MOMENTUM, Row, STEP, Site};
 pub use problem::{Crossings, Thread};
 pub use run::{CrossingsPass, CrossingsRest, settle};
 pub use settler::{CrossingsSeen, CrossingsSettler};
 pub use terms::{
     AREA_GAIN, AREA_LOSS, ASPECT, BEND, MARGIN, NEAR, PRESS, SHAPE, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH,
-    TENSION,
+    STEEPER, TENSION,
 };

@@ -14,6 +14,12 @@ const PITCH: [f32; 2] = [0.2, 1000.0];
 const DIAMETER: [f32; 2] = [0.1, 10.0];
 const STIFFNESS: [f32; 2] = [0.01, 100.0];
 
+/// Levels that a set may have.
+const LEVELS_MAX: u32 = 8;
+
+/// Threads of one level are neighbours up to so many threads apart.
+const BESIDE_MAX: i32 = 16;
+
 /// The longest step of an unknown, in units.
 pub const STEP: f32 = 0.1;
 
@@ -23,8 +29,11 @@ pub const MOMENTUM: f32 = 0.8;
 /// How far threads go sideways: a quarter of a unit, and two fifths of the way to a neighbour.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
-/// How far up and down, in units.
-pub const HEIGHT: f32 = 1.5;
+/// How far up and down, in units, for each level of the set that has most.
+const HEIGHT: f32 = 1.5;
+
+/// From one level to the next where threads start, in units.
+const RISE: f32 = 1.5;
 
 /// The least and the most of a half width, in radii.
 pub const HALF_WIDTH: [f32; 2] = [0.4, 3.3];
@@ -46,6 +55,12 @@ pub struct Row {
     pub stiffness: f32,
     /// How far it may shift.
     pub freedom: f32,
+    /// How far it may go up and down.
+    pub height: f32,
+    /// Its level.
+    pub level: i32,
+    /// How many threads before it, and after it, the next one of its level lies; 0 where there is none near enough to touch it.
+    pub beside: [i32; 2],
 }
 
 /// A crossing by its end and its pick, from 0.
@@ -72,7 +87,7 @@ impl Site {
 ///
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, Set, Site, Thread};
-/// let thread = Thread { pitch: 0.5, diameter: 0.25, stiffness: 1.0 };
+/// let thread = Thread { pitch: 0.5, diameter: 0.25, stiffness: 1.0, level: 0 };
 /// let plan = CrossingsPlan::new(&Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]))?;
 /// assert_eq!((plan.unit(), plan.rows(Set::Warp)[0].gap), (0.25, 2.0));
 /// // Beyond the last end the first one comes again.
@@ -89,6 +104,7 @@ pub struct CrossingsPlan {
     tension: [f32; 2],
     press: f32,
     passes: u32,
+    is_layered: bool,
 }
 
 impl CrossingsPlan {
@@ -117,6 +133,7 @@ impl CrossingsPlan {
         for (set, threads) in ["warp", "weft"].into_iter().zip(&problem.threads) {
             each(set, "diameter", threads, |thread| thread.diameter, [2.0 * RADIUS_MIN, 2.0 * RADIUS_MAX])?;
             each(set, "stiffness", threads, |thread| thread.stiffness, STIFFNESS)?;
+            each(set, "level", threads, |thread| thread.level as f32, [0.0, (LEVELS_MAX - 1) as f32])?;
         }
         let mean = |threads: &[Thread]| {
             threads.iter().map(|thread| f64::from(thread.diameter)).sum::<f64>() / threads.len() as f64
@@ -126,14 +143,18 @@ impl CrossingsPlan {
             each(set, "diameter", threads, |thread| thread.diameter, DIAMETER.map(|limit| limit * unit))?;
             each(set, "pitch", threads, |thread| thread.pitch, PITCH.map(|limit| limit * unit))?;
         }
+        let levels = [0, 1].map(|set| levels(&problem.threads[set]));
+        let height = HEIGHT * levels[0].max(levels[1]) as f32;
+        let row = |set: usize| rows(&problem.threads[set], unit, height, problem.repeats[set]);
         Ok(Self {
             unit,
             ups: copied("the drawdown", &problem.ups)?,
-            rows: [rows(&problem.threads[0], unit)?, rows(&problem.threads[1], unit)?],
+            rows: [row(0)?, row(1)?],
             repeats: problem.repeats,
             tension: problem.tension,
             press: problem.press,
             passes: problem.passes,
+            is_layered: levels[0] == levels[1] && levels[0] > 1,
         })
     }
 
@@ -168,6 +189,20 @@ impl CrossingsPlan {
     #[must_use]
     pub const fn repeats(&self) -> [bool; 2] {
         self.repeats
+    }
+
+    /// Whether a level of both sets is a layer of the cloth: they have as many, and more than one.
+    #[must_use]
+    pub const fn is_layered(&self) -> bool {
+        self.is_layered
+    }
+
+    /// Whether both threads of a crossing belong to different layers.
+    ///
+    /// **Panics** past the last crossing.
+    #[must_use]
+    pub fn are_apart(&self, site: Site) -> bool {
+        self.is_layered && self.rows[0][site.end].level != self.rows[1][site.pick].level
     }
 
     /// How taut a set is.
@@ -212,7 +247,7 @@ impl CrossingsPlan {
         if self.ups[self.number(site)] == (set == Set::Warp) { 1.0 } else { -1.0 }
     }
 
-    /// The crossing so many further along a thread of `set`, and so many threads of that set across, -2 to 2. None beyond an edge.
+    /// The crossing so many further along a thread of `set`, and so many threads of that set across, as far as there are threads. None beyond an edge.
     #[must_use]
     pub fn beside(&self, site: Site, set: Set, along: i32, across: i32) -> Option<Site> {
         let [ends, picks] = match set {
@@ -224,17 +259,32 @@ impl CrossingsPlan {
         Some(Site { end, pick })
     }
 
-    /// All crossings before the first pass: thin round threads, one on top of the other.
+    /// All crossings before the first pass: thin round threads at the heights of their levels; where these do not part them, one on top of
+    /// the other.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn start(&self) -> Result<Vec<Crossing>, BackendError> {
         let mut all = zeroed("crossings", self.ups.len() as u64)?;
+        let middles = Set::BOTH.map(|set| {
+            let highest = self.rows(set).iter().map(|row| row.level).max().unwrap_or(0);
+            0.5 * highest as f32
+        });
         for (number, crossing) in all.iter_mut().enumerate() {
             let site = self.site(number);
-            let radii = Set::BOTH.map(|set| THIN * self.rows(set)[site.thread(set)].radius);
+            let rows = Set::BOTH.map(|set| self.rows(set)[site.thread(set)]);
+            let radii = rows.map(|row| THIN * row.radius);
+            let [warp, weft] = [0, 1].map(|set| RISE * (rows[set].level as f32 - middles[set]));
+            let touching = self.side(site, Set::Warp) * (radii[0] + radii[1]);
+            let is_parted = (warp - weft) * touching >= touching * touching;
+            let heights = if is_parted {
+                [warp, weft]
+            } else {
+                let middle = 0.5 * (warp + weft);
+                [middle + 0.5 * touching, middle - 0.5 * touching]
+            };
             let lie = |set: Set, radius: f32| Lie {
                 shift: 0.0,
-                height: 0.5 * self.side(site, set) * (radii[0] + radii[1]),
+                height: heights[set as usize],
                 half_width: radius,
                 half_height: radius,
             };
@@ -276,7 +326,7 @@ impl CrossingsPlan {
             let by = |unknown: usize| step[set.first() + unknown];
             let lie = moved.lie_mut(set);
             lie.shift = (lie.shift + by(0)).clamp(-row.freedom, row.freedom);
-            lie.height = (lie.height + by(1)).clamp(-HEIGHT, HEIGHT);
+            lie.height = (lie.height + by(1)).clamp(-row.height, row.height);
             let within = |value: f32, [low, high]: [f32; 2]| value.clamp(low * row.radius, high * row.radius);
             lie.half_width = within(lie.half_width + by(2), HALF_WIDTH);
             lie.half_height = within(lie.half_height + by(3), HALF_HEIGHT);
@@ -296,10 +346,17 @@ fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
 }
 
 /// A set's threads in units.
-fn rows(threads: &[Thread], unit: f32) -> Result<Vec<Row>, CrossingsError> {
+fn rows(threads: &[Thread], unit: f32, height: f32, repeat: bool) -> Result<Vec<Row>, CrossingsError> {
     let mut rows = room("threads", threads.len())?;
     let mut before = threads.last().map_or(unit, |thread| thread.pitch) / unit;
-    for thread in threads {
+    for (number, thread) in threads.iter().enumerate() {
+        let beside = |step: i32| {
+            let is_level = |steps: &i32| {
+                let other = further(number, step * steps, threads.len(), repeat);
+                other.is_some_and(|other| threads[other].level == thread.level)
+            };
+            (1..=BESIDE_MAX.min(threads.len() as i32)).find(is_level).unwrap_or(0)
+        };
         let gap = thread.pitch / unit;
         let [most, share] = SIDEWAYS;
         rows.push(Row {
@@ -307,10 +364,18 @@ fn rows(threads: &[Thread], unit: f32) -> Result<Vec<Row>, CrossingsError> {
             radius: 0.5 * thread.diameter / unit,
             stiffness: thread.stiffness,
             freedom: most.min(share * gap.min(before)),
+            height,
+            level: thread.level as i32,
+            beside: [beside(-1), beside(1)],
         });
         before = gap;
     }
     Ok(rows)
+}
+
+/// How many levels a set has.
+fn levels(threads: &[Thread]) -> u32 {
+    threads.iter().map(|thread| thread.level).max().unwrap_or(0) + 1
 }
 
 fn room<T>(what: &'static str, count: usize) -> Result<Vec<T>, CrossingsError> {

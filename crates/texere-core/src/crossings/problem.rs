@@ -9,6 +9,9 @@ pub struct Thread {
     pub diameter: f32,
     /// How stiff it is against bending, 1 for a cotton yarn of its diameter.
     pub stiffness: f32,
+    /// Its level among the threads of its set, 0 for the lowest one. Threads of one level lie side by side, those of others above or below:
+    /// the picks of a double cloth have two levels by turns. Where warp and weft have as many, a level of both is a layer of the cloth.
+    pub level: u32,
 }
 
 /// Woven cloth that is to come to rest.
@@ -16,7 +19,7 @@ pub struct Thread {
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, Thread};
 /// // Plain weave, two ends and two picks a repeat; threads of 0.2 mm every 0.4 mm.
-/// let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0 };
+/// let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
 /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
 /// assert_eq!(CrossingsPlan::new(&plain)?.crossings(), 4);
 /// # Ok::<(), texere_core::crossings::CrossingsError>(())

@@ -38,6 +38,9 @@ pub const MARGIN: f32 = 0.003;
 /// contacts that come and go make momentum swing.
 pub const NEAR: f32 = 0.02;
 
+/// Between two crossings a thread of a layer is so many times steeper than the straight line, since it bends where it binds.
+pub const STEEPER: f32 = 1.4;
+
 // Unknowns of a thread, after the first of its set.
 const SHIFT: usize = 0;
 const HEIGHT: usize = 1;
@@ -52,30 +55,36 @@ pub(super) fn gather(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing
         here.own(&mut block);
         here.bends(&mut block);
         here.steps(&mut block);
-        for [from, to] in [[-1, 0], [0, 1]] {
-            let [Some(first), Some(second)] = [from, to].map(|steps| here.along(steps)) else { continue };
-            if plan.side(first, set) == plan.side(second, set) {
-                here.shoulder(&mut block, [first, second], to == 0);
-            } else {
-                here.passage(&mut block, [first, second], to == 0);
+        for steps in [-1, 1] {
+            here.meeting(&mut block, steps);
+        }
+        for (sign, steps) in here.of_level(set) {
+            here.neighbour(&mut block, sign * steps);
+            if steps != 1 {
+                here.stacked(&mut block, sign);
             }
         }
-        for across in [-1, 1] {
-            here.neighbour(&mut block, across);
-            for along in [-1, 1] {
-                here.half_way(&mut block, along, across);
+        for (sign, steps) in here.of_level(set.other()) {
+            if steps > 1 {
+                here.meeting(&mut block, sign * steps);
             }
         }
     }
-    contact(plan, pass, &all[plan.number(site)], site, &mut block);
+    contact(plan, pass, all, site, &mut block);
     block
 }
 
 /// Both threads of a crossing lie one on top of the other.
-fn contact(plan: &CrossingsPlan, pass: &CrossingsPass, crossing: &Crossing, site: Site, block: &mut Block) {
+fn contact(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing], site: Site, block: &mut Block) {
+    let crossing = &all[plan.number(site)];
     let side = plan.side(site, Set::Warp);
     let apart = side * (crossing.warp.height - crossing.weft.height);
-    let need = crossing.warp.half_height + crossing.weft.half_height;
+    let reaches = Set::BOTH.map(|set| {
+        // Threads of two layers slope where they cross: along the slope of the other one an ellipse reaches further.
+        let slope = if plan.are_apart(site) { STEEPER * slope(plan, all, site, set.other()) } else { 0.0 };
+        Reach::new(crossing.lie(set), slope)
+    });
+    let need = reaches[0].reach + reaches[1].reach;
     block.see(apart / need);
     let room = apart - need - MARGIN;
     if room < NEAR {
@@ -83,11 +92,41 @@ fn contact(plan: &CrossingsPlan, pass: &CrossingsPass, crossing: &Crossing, site
         let slopes = [
             (warp + HEIGHT, side),
             (weft + HEIGHT, -side),
-            (warp + THICKNESS, -1.0),
-            (weft + THICKNESS, -1.0),
+            (warp + WIDTH, -reaches[0].wider),
+            (weft + WIDTH, -reaches[1].wider),
+            (warp + THICKNESS, -reaches[0].thicker),
+            (weft + THICKNESS, -reaches[1].thicker),
         ];
         block.add(pass.penalty, 1.0, room.min(0.0), slopes);
     }
+}
+
+/// How far an ellipse reaches upright where what lies on it slopes, and the slopes of that in its half width and half height.
+struct Reach {
+    reach: f32,
+    wider: f32,
+    thicker: f32,
+}
+
+impl Reach {
+    fn new(lie: &Lie, slope: f32) -> Self {
+        let (x, z) = (lie.half_width * slope, lie.half_height);
+        let reach = (x * x + z * z).sqrt();
+        Self { reach, wider: x * slope / reach, thicker: z / reach }
+    }
+}
+
+/// How steeply a thread rises or falls next to a crossing, on the steeper side.
+fn slope(plan: &CrossingsPlan, all: &[Crossing], site: Site, set: Set) -> f32 {
+    let height = |site: Site| all[plan.number(site)].lie(set).height;
+    let side = |steps: i32| {
+        plan.beside(site, set, steps, 0).map_or(0.0, |other| {
+            let first = if steps < 0 { other } else { site };
+            let gap = plan.rows(set.other())[first.thread(set.other())].gap;
+            ((height(other) - height(site)) / gap).abs()
+        })
+    };
+    side(-1).max(side(1))
 }
 
 /// One thread at one crossing.
@@ -117,8 +156,24 @@ impl Here<'_> {
 
     /// From the crossing at `site` to the next one along the thread.
     fn pitch(&self, site: Site) -> f32 {
-        let crossed = self.set.other();
-        self.plan.rows(crossed)[site.thread(crossed)].gap
+        self.way(self.set.other(), site, 1)
+    }
+
+    /// From the thread of a set at `site` to the one so many after it.
+    fn way(&self, set: Set, site: Site, steps: i32) -> f32 {
+        let rows = self.plan.rows(set);
+        let mut way = rows[site.thread(set)].gap;
+        for step in 1..steps {
+            let next = self.plan.beside(site, set, 0, step);
+            way += next.map_or(0.0, |next| rows[next.thread(set)].gap);
+        }
+        way
+    }
+
+    /// The way to the nearest threads of a set on the level of the one here: -1 or 1, and how many threads that is. 0 where there is none.
+    fn of_level(&self, set: Set) -> [(i32, i32); 2] {
+        let [before, after] = self.plan.rows(set)[self.site.thread(set)].beside;
+        [(-1, before), (1, after)]
     }
 
     fn radius(&self) -> f32 {
@@ -173,16 +228,29 @@ impl Here<'_> {
         }
     }
 
-    /// The thread stays on its side between two crossings, the `second` of which is this one or else the first. Where it slopes it clears the
-    /// shoulder of the thread under its upper end.
-    fn shoulder(&self, block: &mut Block, sites: [Site; 2], second: bool) {
+    /// What the thread has to clear between this crossing and the one so many further along it.
+    fn meeting(&self, block: &mut Block, steps: i32) {
+        let Some(other) = self.along(steps) else { return };
+        let second = steps < 0;
+        let sites = if second { [other, self.site] } else { [self.site, other] };
+        let way = self.way(self.set.other(), sites[0], steps.abs());
+        if self.plan.side(sites[0], self.set) == self.plan.side(sites[1], self.set) {
+            self.shoulder(block, sites, way, second);
+        } else {
+            self.passage(block, sites, way, second);
+        }
+    }
+
+    /// The thread stays on its side between two crossings `way` apart, the `second` of which is this one or else the first. Where it slopes it
+    /// clears the shoulder of the thread under its upper end.
+    fn shoulder(&self, block: &mut Block, sites: [Site; 2], way: f32, second: bool) {
         let crossed = self.set.other();
         let [first, last] = sites.map(|site| self.crossing(site));
         let side = self.plan.side(sites[0], self.set);
         let rises = side * (last.lie(self.set).height - first.lie(self.set).height) > 0.0;
         let [upper, lower] = if rises { [last, first] } else { [first, last] };
         let (own, other, under) = (upper.lie(self.set), lower.lie(self.set), upper.lie(crossed));
-        let across = self.pitch(sites[0]) + last.lie(crossed).shift - first.lie(crossed).shift;
+        let across = way + last.lie(crossed).shift - first.lie(crossed).shift;
         let slope = side * (own.height - other.height) / across;
         // Upright, not across the slope.
         let length = (1.0 + slope * slope).sqrt();
@@ -215,12 +283,12 @@ impl Here<'_> {
         }
     }
 
-    /// The thread changes sides between two crossings, the `second` of which is this one or else the first.
-    fn passage(&self, block: &mut Block, [first, last]: [Site; 2], second: bool) {
+    /// The thread changes sides between two crossings `way` apart, the `second` of which is this one or else the first.
+    fn passage(&self, block: &mut Block, [first, last]: [Site; 2], way: f32, second: bool) {
         let side = self.plan.side(first, self.set);
         let crossed = self.set.other();
         let [one, two] = [first, last].map(|site| self.crossing(site).lie(crossed));
-        let across = self.pitch(first) + two.shift - one.shift;
+        let across = way + two.shift - one.shift;
         let rise = side * (two.height - one.height);
         let halves = [one, two].map(|lie| [lie.half_width, lie.half_height]);
         let thread = self.lie(first).half_height + self.lie(last).half_height;
@@ -244,55 +312,93 @@ impl Here<'_> {
         }
     }
 
-    /// From this thread's place to that of the next one (`across` 1) or of the one before (-1).
+    /// From this thread's place to that of the one so many after it, or before it.
     fn gap(&self, neighbour: Site, across: i32) -> f32 {
         let lower = if across < 0 { neighbour } else { self.site };
-        self.plan.rows(self.set)[lower.thread(self.set)].gap
+        self.way(self.set, lower, across.abs())
     }
 
-    /// Neighbours of one set keep to their own places at a crossing, whatever their heights.
+    /// Neighbours of one level keep to their own places at a crossing, whatever their heights, and are clear of one another beside it.
     fn neighbour(&self, block: &mut Block, across: i32) {
         let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
-        let (lie, other, sign) = (self.lie(self.site), self.lie(neighbour), across as f32);
-        let apart = self.gap(neighbour, across) + sign * (other.shift - lie.shift);
+        if across == 0 {
+            return;
+        }
+        let (lie, other, sign) = (self.lie(self.site), self.lie(neighbour), across.signum() as f32);
+        let gap = self.gap(neighbour, across);
+        let apart = gap + sign * (other.shift - lie.shift);
         let need = lie.half_width + other.half_width;
         block.see(apart / need);
         let room = apart - need - MARGIN;
         if room < NEAR {
-            block.add(
-                self.pass.penalty,
-                2.0,
-                room.min(0.0),
-                [(self.row + SHIFT, -sign), (self.row + WIDTH, -1.0)],
-            );
+            let slopes = [(self.row + SHIFT, -sign), (self.row + WIDTH, -1.0)];
+            block.add(self.pass.penalty, 2.0, room.min(0.0), slopes);
+        }
+        for along in [-1, 1] {
+            self.half_way(block, along, across, gap);
         }
     }
 
-    /// Neighbours of one set half way between two crossings, as ellipses.
-    fn half_way(&self, block: &mut Block, along: i32, across: i32) {
+    /// Neighbours of two levels lie side by side or one above the other, as ellipses.
+    fn stacked(&self, block: &mut Block, across: i32) {
+        let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
+        let (lie, other, sign) = (self.lie(self.site), self.lie(neighbour), across as f32);
+        let gap = self.gap(neighbour, across);
+        let apart = gap + sign * (other.shift - lie.shift);
+        let rise = other.height - lie.height;
+        let ellipses = Ellipses {
+            apart,
+            rise,
+            wide: lie.half_width + other.half_width,
+            thick: lie.half_height + other.half_height,
+        };
+        self.keep_clear(block, &ellipses, sign, 1.0);
+        for along in [-1, 1] {
+            self.half_way(block, along, across, gap);
+        }
+    }
+
+    /// Neighbours `gap` apart half way between two crossings, as ellipses.
+    fn half_way(&self, block: &mut Block, along: i32, across: i32, gap: f32) {
         let beside = |along, across| self.plan.beside(self.site, self.set, along, across);
         let sites = [beside(along, 0), beside(0, across), beside(along, across)];
         let [Some(next), Some(neighbour), Some(opposite)] = sites else { return };
-        let gap = self.gap(neighbour, across);
         let lies = [self.site, next, neighbour, opposite].map(|site| *self.lie(site));
         let [own, next, neighbour, opposite] = lies;
-        let sign = across as f32;
-        let apart = gap + sign * 0.5 * (neighbour.shift + opposite.shift - own.shift - next.shift);
-        let rise = 0.5 * (neighbour.height + opposite.height - own.height - next.height);
-        let wide = 0.5 * (own.half_width + next.half_width + neighbour.half_width + opposite.half_width);
-        let thick = 0.5 * (own.half_height + next.half_height + neighbour.half_height + opposite.half_height);
+        let sign = across.signum() as f32;
+        let ellipses = Ellipses {
+            apart: gap + sign * 0.5 * (neighbour.shift + opposite.shift - own.shift - next.shift),
+            rise: 0.5 * (neighbour.height + opposite.height - own.height - next.height),
+            wide: 0.5 * (own.half_width + next.half_width + neighbour.half_width + opposite.half_width),
+            thick: 0.5 * (own.half_height + next.half_height + neighbour.half_height + opposite.half_height),
+        };
+        self.keep_clear(block, &ellipses, sign, 0.5);
+    }
+
+    /// Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
+    fn keep_clear(&self, block: &mut Block, ellipses: &Ellipses, sign: f32, part: f32) {
+        let Ellipses { apart, rise, wide, thick } = *ellipses;
         let (x, z) = (apart / wide, rise / thick);
         let clearance = (x * x + z * z).sqrt();
         block.see(clearance);
         let room = (clearance - 1.0) * wide - MARGIN;
         if room < NEAR {
             let slopes = [
-                (self.row + SHIFT, -sign * 0.5 * x / clearance),
-                (self.row + HEIGHT, -0.5 * z * wide / (thick * clearance)),
-                (self.row + WIDTH, 0.5 * (clearance - 1.0 - x * x / clearance)),
-                (self.row + THICKNESS, -0.5 * z * z * wide / (thick * clearance)),
+                (self.row + SHIFT, -sign * part * x / clearance),
+                (self.row + HEIGHT, -part * z * wide / (thick * clearance)),
+                (self.row + WIDTH, part * (clearance - 1.0 - x * x / clearance)),
+                (self.row + THICKNESS, -part * z * z * wide / (thick * clearance)),
             ];
-            block.add(self.pass.penalty, 4.0, room.min(0.0), slopes);
+            // As many crossings step as have a part.
+            block.add(self.pass.penalty, 2.0 / part, room.min(0.0), slopes);
         }
     }
+}
+
+/// Two sections beside one another: from the middle of the one to that of the other, and both half widths and half heights together.
+struct Ellipses {
+    apart: f32,
+    rise: f32,
+    wide: f32,
+    thick: f32,
 }

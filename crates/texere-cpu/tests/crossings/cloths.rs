@@ -33,6 +33,7 @@ fn cloth(
         pitch: pitch[set] as f32,
         diameter: diameter(tex[set]) as f32,
         stiffness: 1.0,
+        level: 0,
     });
     let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
     let problem = Crossings::new(ups, vec![threads[0]; ends], vec![threads[1]; picks]);

@@ -2,21 +2,22 @@
 
 use texere_core::crossings::{
     AREA_GAIN, AREA_LOSS, ASPECT, BEND, Crossing, CrossingsPass, CrossingsPlan, MARGIN, PRESS, SHAPE,
-    SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, Set, Site, TENSION,
+    SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, STEEPER, Set, Site, TENSION,
 };
 
 use crate::chance;
 
-/// Contact, passage, neighbours, neighbours half way, shoulders.
-pub(crate) const KINDS: usize = 5;
+/// Contact, passage, neighbours, neighbours half way, shoulders; then of layers: contact, passages and shoulders past threads of others,
+/// neighbours of two levels.
+pub(crate) const KINDS: usize = 8;
 
-/// A crossing near a start, but thicker and with some disorder.
-pub(crate) fn stirred(crossing: &Crossing, seed: &mut u64) -> Crossing {
+/// A crossing near a start, but with some disorder, with a share of its heights and so many times as wide.
+pub(crate) fn stirred(crossing: &Crossing, [flat, wide]: [f32; 2], seed: &mut u64) -> Crossing {
     let mut all: [f32; 8] = bytemuck::cast(*crossing);
     for set in 0..2 {
         all[4 * set] += 0.08 * chance(seed);
-        all[4 * set + 1] += 0.15 * chance(seed);
-        all[4 * set + 2] *= 2.4 + 0.4 * chance(seed);
+        all[4 * set + 1] = flat * all[4 * set + 1] + 0.15 * chance(seed);
+        all[4 * set + 2] *= wide + 0.4 * chance(seed);
         all[4 * set + 3] *= 1.1 + 0.2 * chance(seed);
     }
     bytemuck::cast(all)
@@ -47,6 +48,8 @@ struct Sum<'a> {
     plan: &'a CrossingsPlan,
     pass: &'a CrossingsPass,
     values: &'a [[f64; 8]],
+    /// As slopes at contacts are taken from: they count as they were found.
+    found: &'a [[f64; 8]],
 }
 
 impl Sum<'_> {
@@ -68,14 +71,48 @@ impl Sum<'_> {
     fn at(&self, site: Site, kinds: &mut [u32; KINDS]) -> f64 {
         let [warp, weft] = Set::BOTH.map(|set| self.lie(site, set));
         let side = f64::from(self.plan.side(site, Set::Warp));
-        let mut sum = self.kept_apart(side * (warp[1] - weft[1]) - warp[3] - weft[3], 0, kinds);
+        let apart = side * (warp[1] - weft[1]);
+        let levels = Set::BOTH.map(|set| self.plan.rows(set)[site.thread(set)].level);
+        let mut sum = if self.plan.is_layered() && levels[0] != levels[1] {
+            let [along_warp, along_weft] = Set::BOTH.map(|set| f64::from(STEEPER) * self.slope(site, set));
+            let need = (warp[2] * along_weft).hypot(warp[3]) + (weft[2] * along_warp).hypot(weft[3]);
+            self.kept_apart(apart - need, 5, kinds)
+        } else {
+            self.kept_apart(apart - warp[3] - weft[3], 0, kinds)
+        };
         for set in Set::BOTH {
-            sum += self.of(site, set, kinds);
+            sum += self.of(site, set);
+            sum += self.beside(site, set, kinds);
+            let steps = self.plan.rows(set.other())[site.thread(set.other())].beside[1];
+            sum += self.between(site, set, 1, [1, 4], kinds);
+            if steps > 1 {
+                sum += self.between(site, set, steps, [6, 6], kinds);
+            }
         }
         sum
     }
 
-    fn of(&self, site: Site, set: Set, kinds: &mut [u32; KINDS]) -> f64 {
+    /// The steeper one of a thread's slopes before and after a crossing.
+    fn slope(&self, site: Site, set: Set) -> f64 {
+        let height = |site: Site| self.found[self.plan.number(site)][if set == Set::Warp { 1 } else { 5 }];
+        let slope = |steps: i32| {
+            let other = self.plan.beside(site, set, steps, 0)?;
+            let way =
+                if steps < 0 { self.way(other, set.other(), 1) } else { self.way(site, set.other(), 1) };
+            Some(((height(other) - height(site)) / way).abs())
+        };
+        [-1, 1].into_iter().filter_map(slope).fold(0.0, f64::max)
+    }
+
+    /// From a thread of a set to the one so many further on.
+    fn way(&self, site: Site, set: Set, steps: i32) -> f64 {
+        let rows = self.plan.rows(set);
+        let from = site.thread(set);
+        (0..steps as usize).map(|step| f64::from(rows[(from + step) % rows.len()].gap)).sum()
+    }
+
+    /// What a thread wants by itself, and on its way to the next crossing.
+    fn of(&self, site: Site, set: Set) -> f64 {
         let plan = self.plan;
         let row = plan.rows(set)[site.thread(set)];
         let radius = f64::from(row.radius);
@@ -86,9 +123,8 @@ impl Sum<'_> {
         let mut sum = f64::from(SHAPE) * (wide - f64::from(ASPECT) * thick).powi(2)
             + f64::from(if gain < 0.0 { AREA_LOSS } else { AREA_GAIN }) * gain * gain
             + f64::from(PRESS * plan.press()) * d * d * here[1].powi(2);
-        let pitch = |site: Site| f64::from(plan.rows(set.other())[site.thread(set.other())].gap);
-        let [before, after, beside, opposite] =
-            [[-1, 0], [1, 0], [0, 1], [1, 1]].map(|[along, across]| plan.beside(site, set, along, across));
+        let pitch = |site: Site| self.way(site, set.other(), 1);
+        let [before, after] = [-1, 1].map(|along| plan.beside(site, set, along, 0));
         if let (Some(before), Some(after)) = (before, after) {
             let mean = f64::midpoint(pitch(before), pitch(site));
             let stiff = f64::from(row.stiffness) * d.powi(4) / mean.powi(3);
@@ -102,25 +138,51 @@ impl Sum<'_> {
             let step = |of: usize| (here[of] - next[of]).powi(2);
             sum += taut * (f64::from(TENSION) * step(1) + f64::from(SIDEWAYS_TENSION) * step(0));
             sum += f64::from(SMOOTH) / (radius * radius) * (step(2) + step(3));
-            let side = plan.side(site, set);
-            if side != plan.side(after, set) {
-                let [one, two] = [site, after].map(|site| self.lie(site, set.other()));
-                let (across, rise) = (pitch(site) + two[0] - one[0], f64::from(side) * (two[1] - one[1]));
-                let room = room(across, rise, [[one[2], one[3]], [two[2], two[3]]], here[3] + next[3]).0;
-                sum += self.kept_apart(room, 1, kinds);
-            } else {
-                let side = f64::from(side);
-                let [one, two] = [site, after].map(|site| self.lie(site, set.other()));
-                let slope = side * (next[1] - here[1]) / (pitch(site) + two[0] - one[0]);
-                let (own, under) = if slope > 0.0 { (next, two) } else { (here, one) };
-                let need = (under[2] * slope).hypot(under[3]) + own[3] * 1.0_f64.hypot(slope);
-                sum += self.kept_apart(side * (own[1] - under[1]) - need, 4, kinds);
-            }
         }
-        if let Some(beside) = beside {
+        sum
+    }
+
+    /// Passage or shoulder from a crossing to the one so many further along a thread.
+    fn between(&self, site: Site, set: Set, steps: i32, kind: [usize; 2], kinds: &mut [u32; KINDS]) -> f64 {
+        let Some(after) = self.plan.beside(site, set, steps, 0) else { return 0.0 };
+        let way = self.way(site, set.other(), steps);
+        let (here, next) = (self.lie(site, set), self.lie(after, set));
+        let side = self.plan.side(site, set);
+        let [one, two] = [site, after].map(|site| self.lie(site, set.other()));
+        if side != self.plan.side(after, set) {
+            let (across, rise) = (way + two[0] - one[0], f64::from(side) * (two[1] - one[1]));
+            let room = room(across, rise, [[one[2], one[3]], [two[2], two[3]]], here[3] + next[3]).0;
+            return self.kept_apart(room, kind[0], kinds);
+        }
+        let side = f64::from(side);
+        let slope = side * (next[1] - here[1]) / (way + two[0] - one[0]);
+        let (own, under) = if slope > 0.0 { (next, two) } else { (here, one) };
+        let need = (under[2] * slope).hypot(under[3]) + own[3] * 1.0_f64.hypot(slope);
+        self.kept_apart(side * (own[1] - under[1]) - need, kind[1], kinds)
+    }
+
+    /// A thread and those after it: the next one of its level, and the very next one where that is of another.
+    fn beside(&self, site: Site, set: Set, kinds: &mut [u32; KINDS]) -> f64 {
+        let rows = self.plan.rows(set);
+        let of_level = rows[site.thread(set)].beside[1];
+        let here = self.lie(site, set);
+        let mut sum = 0.0;
+        for (steps, is_level) in [(of_level, true), (1, false)] {
+            if steps == 0 || !is_level && of_level == 1 {
+                continue;
+            }
+            let Some(beside) = self.plan.beside(site, set, 0, steps) else { continue };
             let other = self.lie(beside, set);
-            let gap = f64::from(row.gap);
-            sum += self.kept_apart(gap + other[0] - here[0] - here[2] - other[2], 2, kinds);
+            let gap = self.way(site, set, steps);
+            let apart = gap + other[0] - here[0];
+            let wide = here[2] + other[2];
+            sum += if is_level {
+                self.kept_apart(apart - wide, 2, kinds)
+            } else {
+                let clearance = (apart / wide).hypot((other[1] - here[1]) / (here[3] + other[3]));
+                self.kept_apart((clearance - 1.0) * wide, 7, kinds)
+            };
+            let [after, opposite] = [0, steps].map(|across| self.plan.beside(site, set, 1, across));
             if let (Some(after), Some(opposite)) = (after, opposite) {
                 let (next, opposite) = (self.lie(after, set), self.lie(opposite, set));
                 let half = |of: usize| 0.5 * (other[of] + opposite[of] - here[of] - next[of]);
@@ -148,7 +210,8 @@ pub(crate) fn energy(
     crossings: &[Crossing],
     kinds: &mut [u32; KINDS],
 ) -> f64 {
-    Sum { plan, pass, values: &values(crossings) }.whole(kinds)
+    let values = values(crossings);
+    Sum { plan, pass, values: &values, found: &values }.whole(kinds)
 }
 
 /// The slopes of the energy in the unknowns of one crossing, by differences.
@@ -160,11 +223,12 @@ pub(crate) fn gradient(
     kinds: &mut [u32; KINDS],
 ) -> [f64; 8] {
     const STEP: f64 = 1e-6;
+    let found = values(crossings);
     std::array::from_fn(|unknown| {
         let mut moved = |by: f64| {
             let mut values = values(crossings);
             values[number][unknown] += by;
-            Sum { plan, pass, values: &values }.whole(kinds)
+            Sum { plan, pass, values: &values, found: &found }.whole(kinds)
         };
         (moved(STEP) - moved(-STEP)) / (2.0 * STEP)
     })

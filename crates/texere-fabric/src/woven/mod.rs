@@ -9,6 +9,7 @@ mod draft;
 mod drawdown;
 mod jam;
 mod layers;
+mod levels;
 mod library;
 mod notation;
 mod path;

@@ -21,14 +21,17 @@ use super::{Thread, Woven};
 pub struct Sett {
     /// Threads to the cm, in the mean.
     pub per_cm: f64,
-    /// How often a thread of the other set changes sides on its way over one of this set, 0 to 1: 1 in plain weave, 2/n in a satin of n.
+    /// How often a thread of the other set changes sides on its way over one of this set, 0 to 1: 1 in plain weave, 2/n in a satin of n. Of a cloth
+    /// of several levels, within each level, in the mean.
     pub interlacings: f64,
-    /// The greatest sett by the rule of ends and intersections: where a thread changes sides it takes the room of one more thread.
+    /// The greatest sett by the rule of ends and intersections: where a thread changes sides it takes the room of one more thread. Levels have it
+    /// each, so that a double cloth has room for twice as many threads ([`Drawdown::levels`](crate::Drawdown::levels)).
     ///
     /// **Source**: T. R. Ashenhurst, "A treatise on textile calculations and the structure of fabrics", 1884: diameters to the inch × ends
     /// of a repeat / (ends + intersections). J. T. Taylor, "Cotton weaving and designing", 6th edition 1909, counts "firmness" so.
     pub greatest_per_cm: f64,
-    /// The sett at which the threads of plain weave jam as they lie between those of the other set at its own sett; none in other weaves.
+    /// The sett at which the threads of plain weave jam as they lie between those of the other set at its own sett; none in other weaves, and none
+    /// of several levels.
     ///
     /// **Source**: F. T. Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937, of round threads; A. Kemp, "An extension
     /// of Peirce's cloth geometry to the treatment of non-circular threads", the same 49, 1958, of flat ones ([`Thread::flatness`](crate::Thread)): as
@@ -54,31 +57,62 @@ impl Woven {
             let sum: f64 = threads.iter().map(|thread| 2.0 * f64::from(thread.radius_mm)).sum();
             sum / threads.len() as f64
         });
-        let interlacings = self.interlacings();
-        let is_plain = interlacings.iter().all(|share| *share == 1.0);
+        let levels = self.interlacings();
+        let is_plain = levels.iter().all(|levels| matches!(levels[..], [Level { interlacings: 1.0, .. }]));
         let pitches = [0, 1].map(|set| size[set] / sets[set].len() as f64);
-        [0, 1].map(|set| Sett {
-            per_cm: 10.0 / pitches[set],
-            interlacings: interlacings[set],
-            greatest_per_cm: 10.0 / (diameters[set] + interlacings[set] * diameters[1 - set]),
-            jammed_per_cm: is_plain.then(|| 10.0 / jammed(sets[set], sets[1 - set], pitches[1 - set])),
+        [0, 1].map(|set| {
+            // Each level has its share of the threads.
+            let greatest = levels[set]
+                .iter()
+                .map(|level| 10.0 / (diameters[set] + level.interlacings * diameters[1 - set]) / level.share);
+            Sett {
+                per_cm: 10.0 / pitches[set],
+                interlacings: levels[set].iter().map(|level| level.share * level.interlacings).sum(),
+                greatest_per_cm: greatest.fold(f64::INFINITY, f64::min),
+                jammed_per_cm: is_plain.then(|| 10.0 / jammed(sets[set], sets[1 - set], pitches[1 - set])),
+            }
         })
     }
 
-    /// How often picks change sides between one end and the next, and ends between picks.
-    fn interlacings(&self) -> [f64; 2] {
-        let [ends, picks] = self.repeat();
-        // A cloth of one thread is its own neighbour.
-        let up = |end: usize, pick: usize| {
-            self.drawdown().up(end % ends % self.warp().len(), pick % picks % self.weft().len())
+    /// How often picks change sides between one end and the next of its level, and ends between picks, for each level. Where a level of both sets
+    /// is a layer, within it.
+    fn interlacings(&self) -> [Vec<Level>; 2] {
+        let repeat = self.repeat();
+        let levels = self.levels(repeat);
+        let counts = levels.each_ref().map(|levels| levels.iter().max().map_or(1, |highest| highest + 1));
+        let of = |set: usize, level: u32| -> Vec<usize> {
+            (0..repeat[set]).filter(|&thread| levels[set][thread] == level).collect()
         };
-        let mut changes = [0_u64; 2];
-        for (end, pick) in (0..picks).flat_map(|pick| (0..ends).map(move |end| (end, pick))) {
-            changes[0] += u64::from(up(end, pick) != up(end + 1, pick));
-            changes[1] += u64::from(up(end, pick) != up(end, pick + 1));
-        }
-        changes.map(|changes| changes as f64 / (ends * picks) as f64)
+        let all = |set: usize| -> Vec<usize> { (0..repeat[set]).collect() };
+        // A cloth of one thread is its own neighbour.
+        let up =
+            |end: usize, pick: usize| self.drawdown().up(end % self.warp().len(), pick % self.weft().len());
+        [0, 1].map(|set| {
+            let level = |level: u32| {
+                let threads = of(set, level);
+                let others = if counts[0] == counts[1] { of(1 - set, level) } else { all(1 - set) };
+                let side = |thread: usize, other: usize| {
+                    if set == 0 { up(thread, other) } else { up(other, thread) }
+                };
+                let changes = |(at, &thread): (usize, &usize)| {
+                    let next = threads[(at + 1) % threads.len()];
+                    others.iter().filter(|&&other| side(thread, other) != side(next, other)).count()
+                };
+                let changes: usize = threads.iter().enumerate().map(changes).sum();
+                Level {
+                    share: threads.len() as f64 / repeat[set] as f64,
+                    interlacings: changes as f64 / (threads.len() * others.len()) as f64,
+                }
+            };
+            (0..counts[set]).map(level).collect()
+        })
     }
+}
+
+/// A level of a set: its share of the threads, and how often those of the other set change sides between them.
+struct Level {
+    share: f64,
+    interlacings: f64,
 }
 
 /// The pitch at which threads of plain weave jam between those of the other set, mm: cos θ₁ + cos θ₂ = 1, where each set's pitch is the sum of both

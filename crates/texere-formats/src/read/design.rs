@@ -150,10 +150,14 @@ fn layers(structure: &Structure) -> Option<String> {
     };
     let sizes: Vec<String> = layers.iter().take(LAYERS_LISTED).map(size).collect();
     (layers.len() > 1).then(|| {
-        let more = if layers.len() > LAYERS_LISTED { format!(", and {} more", layers.len() - LAYERS_LISTED) } else { String::new() };
+        let more = if layers.len() > LAYERS_LISTED {
+            format!(", and {} more", layers.len() - LAYERS_LISTED)
+        } else {
+            String::new()
+        };
         let listed = sizes.join(", ");
         format!(
-            "nothing binds all threads into one cloth: from the face there are {} layers ({listed}{more}); they are laid side by side in one",
+            "nothing binds all threads into one cloth: from the face there are {} layers ({listed}{more})",
             layers.len()
         )
     })

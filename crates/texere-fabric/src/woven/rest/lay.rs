@@ -1,5 +1,7 @@
 //! From crossings at rest to yarns.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 use texere_core::crossings::{Crossing, CrossingsPlan, Set};
 use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
@@ -18,6 +20,8 @@ pub(super) struct Lies {
     /// As they are drawn: half width and half height of the end, then of the pick.
     pub(super) drawn: Vec<[[f32; 2]; 2]>,
     rooms: [Vec<[f32; 2]>; 2],
+    /// The layer of each thread of the repeat, 0 for the lowest one. All have 0 where warp and weft have not as many levels.
+    layers: [Vec<u32>; 2],
 }
 
 impl Lies {
@@ -27,7 +31,13 @@ impl Lies {
         mm.iter_mut().for_each(|value| *value *= plan.unit());
         let drawn =
             rest.iter().map(|at| Set::BOTH.map(|set| [at.lie(set).half_width, at.lie(set).half_height]));
-        Self { repeat: problem.repeat, drawn: drawn.collect(), rooms: problem.rooms, rest }
+        let [warp, weft] = &problem.levels;
+        let layers = if warp.iter().max() == weft.iter().max() {
+            problem.levels
+        } else {
+            problem.repeat.map(|threads| vec![0; threads])
+        };
+        Self { repeat: problem.repeat, drawn: drawn.collect(), rooms: problem.rooms, layers, rest }
     }
 
     /// Ends and picks of the repeat.
@@ -84,9 +94,12 @@ impl Lies {
     }
 }
 
+/// So many threads beyond either edge are where the repeat goes on. A thread bends round the next one that it meets there.
+const BEYOND: usize = 8;
+
 /// One set of threads, measured.
 struct Threads {
-    /// Where they lie, mm, one before the first and one after the last as well.
+    /// Where they lie, mm, and those beyond both edges.
     at: Vec<f64>,
     extent: f64,
 }
@@ -106,35 +119,35 @@ impl<'a> Loom<'a> {
         let (middles, size) = (cloth.middles_mm(), cloth.size_mm());
         let sets = [0, 1].map(|set| {
             let gaps = gaps([cloth.warp(), cloth.weft()][set]);
-            let count = middles[set].len();
-            // Beyond an edge the repeat goes on.
-            let before = gaps[(lies.repeat[set] - 1) % count];
-            let after = gaps[(count - 1) % lies.repeat[set] % count];
-            let first = middles[set].first().map(|first| first - before);
-            let last = middles[set].last().map(|last| last + after);
-            let at = first.into_iter().chain(middles[set].iter().copied()).chain(last).collect();
+            let (count, repeat) = (middles[set].len(), lies.repeat[set]);
+            let gap = |thread: usize| gaps[thread % repeat % count];
+            let mut at = middles[set].clone();
+            for beyond in 0..BEYOND {
+                at.push(at[at.len() - 1] + gap(count - 1 + beyond));
+                at.insert(0, at[0] - gap(BEYOND * repeat - 1 - beyond));
+            }
             Threads { at, extent: size[set] }
         });
         Self { lies, cloth, sets }
     }
 
-    /// A thread where it crosses another. Crossed threads count from 1: 0 is the one beyond the edge.
+    /// A thread where it crosses another. Crossed threads count from the first one beyond the edge, [`BEYOND`] of them.
     fn station(&self, (set, thread): Of, crossed: usize) -> Station {
         let other = 1 - set;
         let repeat = self.lies.repeat[other];
-        let within = (crossed + repeat - 1) % repeat;
+        let within = (crossed + BEYOND * (repeat - 1)) % repeat;
         let number =
             if set == 0 { self.lies.number(thread, within) } else { self.lies.number(within, thread) };
         let (rest, drawn) = (&self.lies.rest[number], &self.lies.drawn[number]);
         let [own, under] = if set == 0 { [&rest.warp, &rest.weft] } else { [&rest.weft, &rest.warp] };
         let room = self.lies.rooms[set][thread];
         Station {
-            number: crossed.wrapping_sub(1),
+            number: crossed.wrapping_sub(BEYOND),
             at: self.sets[other].at[crossed] + f64::from(under.shift),
             crossed: [under.half_width, under.half_height].map(f64::from),
             crossed_z: f64::from(under.height),
             side: if self.up(number) == (set == 0) { 1.0 } else { -1.0 },
-            across: self.sets[set].at[thread + 1] + f64::from(own.shift),
+            across: self.sets[set].at[thread + BEYOND] + f64::from(own.shift),
             z: f64::from(own.height),
             half_height: f64::from(own.half_height),
             drawn: [0, 1].map(|half| f64::from((drawn[set][half] / room[half]).max(RADIUS_MIN))),
@@ -158,17 +171,39 @@ impl<'a> Loom<'a> {
         }
     }
 
+    /// Whether a thread bends round one that it crosses. A thread of a layer passes those of another one that lie above or below it as their
+    /// layers do.
+    fn meets(&self, (set, thread): Of, crossed: usize) -> bool {
+        let [own, others] = [set, 1 - set].map(|set| &self.lies.layers[set]);
+        let other = (crossed + BEYOND * (others.len() - 1)) % others.len();
+        let number = if set == 0 { self.lies.number(thread, other) } else { self.lies.number(other, thread) };
+        match own[thread % own.len()].cmp(&others[other]) {
+            Ordering::Equal => true,
+            apart => (self.up(number) == (set == 0)) != apart.is_gt(),
+        }
+    }
+
+    /// The threads that a thread bends round on its way, with the next one beyond either edge.
+    fn met(&self, of: Of, count: usize) -> Vec<usize> {
+        let meets = |crossed: &usize| self.meets(of, *crossed);
+        let before = (0..BEYOND).rev().find(meets).unwrap_or(BEYOND - 1);
+        let after = (BEYOND + count..count + 2 * BEYOND).find(meets).unwrap_or(BEYOND + count);
+        let met = (BEYOND..BEYOND + count).filter(meets);
+        [before].into_iter().chain(met).chain([after]).collect()
+    }
+
     fn count(&self, pass: Pass) -> usize {
         let (of, cut, back, count) = self.order(pass);
-        let mut points = count + if pass.turns() { TURN_POINTS } else { 0 };
-        let sides: Vec<f64> = (0..count + 2).map(|crossed| self.station(of, crossed).side).collect();
+        let met = self.met(of, count);
+        let mut points = met.len() - 2 + if pass.turns() { TURN_POINTS } else { 0 };
+        let sides: Vec<f64> = met.iter().map(|&crossed| self.station(of, crossed).side).collect();
         for near in sides.windows(4) {
             let [before, changes, after] = [0, 1, 2].map(|at| near[at] != near[at + 1]);
             points += if changes { CHANGE_POINTS } else { usize::from(before) + usize::from(after) };
         }
         for last in [false, true] {
             if cut[usize::from(last)] {
-                self.leave(of, last != back, count, &mut |_| points += 1);
+                self.leave(of, last != back, &met, &mut |_| points += 1);
             }
         }
         points
@@ -190,14 +225,16 @@ impl<'a> Loom<'a> {
             });
             write(ControlPoint { x, y, z, halves: Halves::new(halves[0], halves[1]) }, source);
         };
+        let met = self.met(of, count);
         if cut[0] {
             let mut lead = Vec::new();
-            self.leave(of, back, count, &mut |point| lead.push(point));
+            self.leave(of, back, &met, &mut |point| lead.push(point));
             lead.into_iter().rev().for_each(&mut stop);
         }
-        let station = |step: usize| self.station(of, if back { count + 1 - step } else { step });
+        let last = met.len() - 1;
+        let station = |step: usize| self.station(of, met[if back { last - step } else { step }]);
         let [mut before, mut here] = [0, 1].map(station);
-        for step in 1..count {
+        for step in 1..last - 1 {
             stop(here.stop());
             let next = station(step + 1);
             let changes = [before.side != here.side, station(step + 2).side != next.side];
@@ -210,17 +247,19 @@ impl<'a> Loom<'a> {
         }
         stop(here.stop());
         if cut[1] {
-            self.leave(of, !back, count, &mut stop);
+            self.leave(of, !back, &met, &mut stop);
         }
     }
 
     /// The points from a thread's outermost crossing, at its upper end or its lower one, to where it is cut off.
-    fn leave(&self, of: Of, upper: bool, count: usize, stop: &mut impl FnMut(Stop)) {
-        let [inner, here, beyond] = if upper { [count - 1, count, count + 1] } else { [2, 1, 0] };
-        let [inner, here, beyond] = [inner, here, beyond].map(|crossed| self.station(of, crossed));
+    fn leave(&self, of: Of, upper: bool, met: &[usize], stop: &mut impl FnMut(Stop)) {
+        let last = met.len() - 1;
+        let steps = if upper { [last - 2, last - 1, last] } else { [2, 1, 0] };
+        let [inner, here, beyond] = steps.map(|step| self.station(of, met[step]));
         let edge = if upper { self.sets[1 - of.0].extent } else { 0.0 };
         if here.side == beyond.side {
-            float(&here, &beyond, [inner.side != here.side, false]).for_each(&mut *stop);
+            let within = |stop: &Stop| (stop.along - here.at) * (edge - stop.along) > 0.0;
+            float(&here, &beyond, [inner.side != here.side, false]).filter(within).for_each(&mut *stop);
             stop(here.stop().towards(&beyond.stop(), edge));
         } else {
             Change::new(&here, &beyond, [inner.side != here.side, false]).until(edge).for_each(stop);
@@ -231,7 +270,7 @@ impl<'a> Loom<'a> {
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let right = selvedge::runs_left(pick, self.cloth.selvedge());
         let ends = self.cloth.warp().len();
-        let (crossed, outwards) = if right { (ends, 1.0) } else { (1, -1.0) };
+        let (crossed, outwards) = if right { (BEYOND + ends - 1, 1.0) } else { (BEYOND, -1.0) };
         let [from, to] = [pick - 1, pick].map(|pick| self.station((1, pick), crossed));
         let widest = from.drawn[0].max(to.drawn[0]);
         let touching = from.crossed[0].max(to.crossed[0]) + widest;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use texere_core::crossings::{self, Crossings};
 
 use crate::reach::Reach;
-use crate::{Thread, Woven};
+use crate::{Drawdown, Thread, Woven};
 
 /// What comes to rest of a cloth: so many ends and picks, from where its threads and their crossings repeat. A cloth that does not repeat is
 /// its own repeat: its last threads lie beside its first ones, so that something holds its edges.
@@ -14,6 +14,8 @@ pub(super) struct Problem {
     pub(super) crossings: Crossings,
     /// Half width and half height of each section's room, in those of the thread that has it, thread by thread.
     pub(super) rooms: [Vec<[f32; 2]>; 2],
+    /// The level of each thread of the repeat among its set.
+    pub(super) levels: [Vec<u32>; 2],
 }
 
 /// A problem has at least so many threads of either set.
@@ -28,23 +30,23 @@ impl Problem {
         let ups =
             (0..across * along).map(|number| drawdown.up(number % across % ends, number / across % picks));
         let [warp, weft] = [cloth.warp(), cloth.weft()].map(gaps);
-        let threads = |threads: &[Thread], gaps: &[f64], rooms: &[[f32; 2]], count: usize| {
+        let levels = cloth.levels(repeat);
+        let threads = |set: usize, threads: &[Thread], gaps: &[f64]| {
+            let rooms: &[[f32; 2]] = &rooms[set];
             let thread = |number: usize| {
                 let [width, height] = rooms[number % threads.len()];
                 crossings::Thread {
                     pitch: gaps[number % threads.len()] as f32,
                     diameter: 2.0 * threads[number % threads.len()].radius_mm * (width * height).sqrt(),
                     stiffness: 1.0,
+                    level: levels[set][number],
                 }
             };
-            (0..count).map(thread).collect()
+            (0..repeat[set]).map(thread).collect()
         };
-        let crossings = Crossings::new(
-            ups.collect(),
-            threads(cloth.warp(), &warp, &rooms[0], across),
-            threads(cloth.weft(), &weft, &rooms[1], along),
-        );
-        Self { repeat, crossings, rooms }
+        let crossings =
+            Crossings::new(ups.collect(), threads(0, cloth.warp(), &warp), threads(1, cloth.weft(), &weft));
+        Self { repeat, crossings, rooms, levels }
     }
 }
 
@@ -58,6 +60,13 @@ fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
 }
 
 impl Woven {
+    /// The levels of so many ends and picks, from where the cloth repeats.
+    pub(in crate::woven) fn levels(&self, [across, along]: [usize; 2]) -> [Vec<u32>; 2] {
+        let (ends, picks) = (self.warp().len(), self.weft().len());
+        Drawdown::from_fn(across, along, |end, pick| self.drawdown().up(end % ends, pick % picks))
+            .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels())
+    }
+
     /// After how many ends and picks all threads and crossings are as those before; all of them where nothing repeats, two at least.
     pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
         let (rooms, drawdown) = (rooms(self), self.drawdown());

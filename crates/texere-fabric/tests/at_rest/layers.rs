@@ -1,0 +1,117 @@
+//! Cloths of several layers at rest.
+
+use texere_core::{Material, Origin, Section};
+use texere_fabric::{Drawdown, Thread, Woven, WovenRest};
+
+use crate::surfaces::Surfaces;
+use crate::{at_rest, plain, tightest};
+
+/// Ends, and picks, of a cloth.
+const THREADS: usize = 24;
+
+/// Diameter of all threads, mm.
+const DIAMETER: f64 = 0.2;
+
+fn twill(end: usize, pick: usize) -> bool {
+    (end + 64 - pick) % 4 < 2
+}
+
+/// Two cloths of a weave, face ends and picks first by turns. Where `stitched`, some ends of the back are lifted over a pick of the face.
+fn double(weave: fn(usize, usize) -> bool, stitched: bool) -> Drawdown {
+    let up = move |end: usize, pick: usize| match [end % 2, pick % 2] {
+        [0, 0] | [1, 1] => weave(end / 2, pick / 2),
+        [0, _] => true,
+        // Where the ends beside it float over that pick, and it lies over the picks beside it.
+        _ => stitched && (end / 2).is_multiple_of(4) && (end / 2 + 64 - pick / 2).is_multiple_of(8),
+    };
+    Drawdown::from_fn(THREADS, THREADS, up).unwrap()
+}
+
+/// Picks by turns of the face, in a weft-faced twill, and of the back, in a warp-faced one.
+fn weft_backed(end: usize, pick: usize) -> bool {
+    let step = (end + 64 - pick / 2) % 4;
+    if pick.is_multiple_of(2) { step == 0 } else { step != 2 }
+}
+
+/// A cloth whose layers have threads every `pitch` diameters.
+fn cloth(drawdown: Drawdown, pitch: f64) -> Woven {
+    let levels = drawdown.levels().map(|levels| levels.into_iter().max().unwrap_or(0) + 1);
+    let threads = |set: usize| {
+        let spacing = pitch * DIAMETER / f64::from(levels[set]);
+        vec![Thread::new(spacing, (DIAMETER / 2.0) as f32); THREADS]
+    };
+    Woven::new(drawdown, threads(0), threads(1), vec![Material::default()], vec![Section::Circle]).unwrap()
+}
+
+#[test]
+fn layers_lie_on_one_another() {
+    let turned = Drawdown::from_fn(THREADS, THREADS, |end, pick| weft_backed(pick, end)).unwrap();
+    let backed = Drawdown::from_fn(THREADS, THREADS, weft_backed).unwrap();
+    for (name, drawdown, area) in [
+        ("double plain", double(plain, false), 0.88),
+        ("double twill", double(twill, false), 0.89),
+        ("double twill, stitched", double(twill, true), 0.88),
+        ("weft-backed", backed, 0.87),
+        ("warp-backed", turned, 0.87),
+    ] {
+        let woven = cloth(drawdown, 2.0);
+        let rest = at_rest(&woven);
+        let surfaces = Surfaces::new(&rest.yarns);
+        let (clearance, folds) = (surfaces.clearance(), tightest(&rest.yarns));
+        println!(
+            "{name}: {} passes, clearance {:.3} -> {:.3} (by sections {clearance:.3}), bends {folds:.2}, area {:.3} {:.3} ({:.2} {:.2}), {:.2} mm",
+            rest.crossings.passes,
+            rest.clearance[0],
+            rest.clearance[1],
+            rest.area[0][0],
+            rest.area[1][0],
+            rest.area[0][1],
+            rest.area[1][1],
+            surfaces.thickness(),
+        );
+        assert!(clearance >= 0.98, "{name}: {clearance}");
+        assert!(folds >= 1.0, "{name} folds: {folds}");
+        for set in 0..2 {
+            assert!(rest.area[set][0] >= area, "{name}: area {:?}", rest.area);
+        }
+        threads_cross_as_they_are_woven(&woven, &rest);
+    }
+}
+
+/// At every crossing the thread that the drawdown has on top lies higher, whatever its layer.
+fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
+    let path = |yarn: usize| -> Vec<[f64; 3]> {
+        let points = rest.yarns.yarn_points(yarn).unwrap();
+        points.iter().map(|point| [point.x, point.y, point.z].map(f64::from)).collect()
+    };
+    let paths: Vec<Vec<[f64; 3]>> = (0..rest.yarns.layout().yarns().len()).map(path).collect();
+    let height = |path: &[[f64; 3]], axis: usize, at: f64| {
+        let after = path.partition_point(|point| point[axis] < at).clamp(1, path.len() - 1);
+        let [one, two] = [path[after - 1], path[after]];
+        one[2] + (at - one[axis]) / (two[axis] - one[axis]) * (two[2] - one[2])
+    };
+    // Threads shift sideways: an end's place is that of its nearest point.
+    let place = |path: &[[f64; 3]], axis: usize, along: usize, at: f64| {
+        let near = path.iter().min_by(|one, two| (one[along] - at).abs().total_cmp(&(two[along] - at).abs()));
+        near.unwrap()[axis]
+    };
+    let middles = woven.middles_mm();
+    for end in 0..THREADS {
+        assert!(matches!(rest.yarns.layout().yarns()[end].origin, Origin::End(_)));
+        for pick in 0..THREADS {
+            let (warp, weft) = (&paths[end], &paths[THREADS + pick]);
+            let x = place(warp, 0, 1, middles[1][pick]);
+            let y = place(weft, 1, 0, middles[0][end]);
+            let over = height(warp, 1, y) - height(weft, 0, x);
+            let up = woven.drawdown().up(end, pick);
+            assert!((over > 0.0) == up, "end {end}, pick {pick}: {over}, {up}");
+        }
+    }
+}
+
+/// Two layers side by side in one would be far from clear.
+#[test]
+fn layers_in_one_place_pierce() {
+    let clearance = Surfaces::new(&cloth(double(plain, false), 2.0).yarns().unwrap()).clearance();
+    assert!(clearance < 0.8, "{clearance}");
+}

@@ -11,8 +11,14 @@ use texere::{Camera, Cut, Design, Extent, Output, Picture, Quality, Renderer};
 
 use crate::args::{RenderArgs, View};
 use crate::fail::Fail;
+use crate::settling::SettlingReport;
 use crate::terminal::line;
 use crate::{drivers, print, settling};
+
+/// Sides of the tube in a picture of woven cloth at rest, where nothing else is asked for and it has no more control points than that: threads of
+/// larger cloths are hardly wider than pixels.
+const FINE_SIDES: u32 = 16;
+const FINE_POINTS: usize = 4_000_000;
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
     let start = Instant::now();
@@ -34,10 +40,15 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
         design.structure.set_section(section.clone())?;
     }
     let outputs = outputs(args, &design)?;
-    let settings = args.settings.settings();
+    let mut settings = args.settings.settings();
     let open = || texere::open(&args.device);
     let (yarns, settling) =
         stages.time("yarns", || settling::yarns(&design, &args.settling, settings.tension, open))?;
+    // Flattened threads lie so close that ground would be seen past the corners of fewer sides.
+    let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
+    if args.settings.sides.is_none() && lies_close && yarns.points().len() <= FINE_POINTS {
+        settings.sides = FINE_SIDES;
+    }
     let mut scene = stages.time("upload", || renderer.scene(&yarns, &settings))?;
     let cameras = cameras(args, &design, scene.extent())?;
     let quality = Quality { supersampling: args.supersampling };

@@ -1,6 +1,8 @@
 //! `texere render` as a user runs it. It draws on whatever Vulkan device there is; lavapipe will do.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
@@ -161,4 +163,58 @@ fn no_vulkan_and_no_opencl_exit_alike() {
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{command} {device}: {said}");
     }
+}
+
+/// Colours of a picture's pixels, row by row.
+fn pixels(path: &PathBuf) -> Vec<[u8; 3]> {
+    let mut reader = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    assert_eq!((info.color_type, info.bit_depth), (png::ColorType::Rgb, png::BitDepth::Eight));
+    bytes[..info.buffer_size()].as_chunks().0.to_vec()
+}
+
+/// A weave of red warp and blue weft, seen straight from above: what share of its middle shows warp, weft and ground.
+fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pixel: &str) -> [f64; 3] {
+    let folder = tempfile::tempdir().unwrap();
+    let [design, picture] = ["cloth.toml", "cloth.png"].map(|name| folder.path().join(name));
+    let text = format!(
+        "[weave]\nnotation = \"{weave}\"\nends = 40\npicks = 40\n\
+         [yarns.warp]\ncotton_count = {warp}\ncolor = \"#ff0000\"\n[yarns.weft]\ncotton_count = {weft}\ncolor = \"#0000ff\"\n\
+         [warp]\nyarns = [\"warp\"]\nper_inch = {ends}\n[weft]\nyarns = [\"weft\"]\nper_inch = {picks}\n"
+    );
+    std::fs::write(&design, text).unwrap();
+    let [design, out] = [&design, &picture].map(|path| path.to_str().unwrap());
+    let scale = ["--mm-per-pixel", mm_per_pixel, "--supersampling", "1"];
+    let output = render(&[&[design, "-o", out], &scale[..]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let [width, height] = png_size(&picture).map(|side| side as usize);
+    let all = pixels(&picture);
+    let mut counts = [0_u32; 3];
+    for row in height / 4..3 * height / 4 {
+        for [red, green, blue] in &all[row * width + width / 4..row * width + 3 * width / 4] {
+            // Ground is grey, and threads are never: light of any strength leaves them their colours.
+            let kind = match *green > 4 * (*red.max(blue) / 5) {
+                true => 2,
+                false => usize::from(blue > red),
+            };
+            counts[kind] += 1;
+        }
+    }
+    counts.map(|count| f64::from(count) / f64::from(counts.iter().sum::<u32>()))
+}
+
+/// Denim and sateen hide the ground, and on their faces most of the weft; an open cloth does neither. Pixels of the picture are counted.
+#[test]
+fn denim_and_sateen_show_no_ground() {
+    for (name, [_, weft, ground], most) in [
+        ("denim", seen("3/1", [72.0, 56.0], [7.0, 10.0], "0.02"), 0.16),
+        ("sateen", seen("satin 5(2)", [173.0, 120.0], [60.0, 60.0], "0.01"), 0.15),
+    ] {
+        println!("{name}: weft {weft:.3}, ground {ground:.5}");
+        assert!(ground < 2e-4, "{name}: ground {ground}");
+        assert!(weft < most, "{name}: weft {weft}");
+    }
+    let [_, weft, ground] = seen("plain", [30.0, 30.0], [20.0, 20.0], "0.03");
+    assert!(ground > 0.2 && weft > 0.2, "{ground} {weft}");
 }

@@ -9,9 +9,9 @@ pub(crate) struct SettingsArgs {
     /// Points inserted between two control points
     #[arg(long, value_name = "K", default_value_t = Settings::default().subdivisions)]
     subdivisions: u32,
-    /// Sides of the tube
-    #[arg(long, value_name = "NC", default_value_t = Settings::default().sides)]
-    sides: u32,
+    /// Sides of the tube; if left out 6, or 16 in a picture of woven cloth at rest of up to four million control points
+    #[arg(long, value_name = "NC")]
+    pub(crate) sides: Option<u32>,
     /// Tension of the spline, 0 to below 1
     #[arg(long, value_name = "U", default_value_t = Settings::default().tension)]
     tension: f32,
@@ -48,7 +48,7 @@ impl SettingsArgs {
         Settings {
             tension: self.tension,
             subdivisions: self.subdivisions,
-            sides: self.sides,
+            sides: self.sides.unwrap_or(Settings::default().sides),
             frame: match self.frame {
                 FrameArg::Upright => Frame::Upright,
                 FrameArg::RotationMinimizing => Frame::RotationMinimizing,

@@ -88,10 +88,10 @@ struct Jammed {
 }
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
-    let design = texere::read(&args.design)?;
+    let mut design = texere::read(&args.design)?;
     let settings = Settings::default();
     let (yarns, settling) =
-        settling::yarns(&design, &args.settling, settings.tension, || texere::open("cpu"))?;
+        settling::yarns(&mut design, &args.settling, settings.tension, || texere::open("cpu"))?;
     let clearance = progress::during("measuring how near yarns come", |bar| {
         design.structure.clearance(&yarns, &settings, progress::share(bar))
     })?;

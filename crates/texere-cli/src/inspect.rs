@@ -109,12 +109,12 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
     print::text(&report.text())
 }
 
-fn report(design: Design, args: &InspectArgs) -> Result<Report, Fail> {
+fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let settings = args.settings.settings();
     let (yarns, settling) = if args.counts {
         (design.yarns()?, None)
     } else {
-        settling::yarns(&design, &args.settling, settings.tension, || texere::open("cpu"))?
+        settling::yarns(&mut design, &args.settling, settings.tension, || texere::open("cpu"))?
     };
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();

@@ -16,7 +16,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     }
     let settings = args.settings.settings();
     let device = drivers::quietly(|| texere::open(&args.device))?;
-    let (yarns, settling) = settling::yarns(&design, &args.settling, settings.tension, || Ok(&*device))?;
+    let (yarns, settling) = settling::yarns(&mut design, &args.settling, settings.tension, || Ok(&*device))?;
     let bar = progress::bar(std::io::stderr().is_terminal());
     let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::reporter(&bar));
     let output = Output::to(&args.output).sparing(design.files());

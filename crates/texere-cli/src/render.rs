@@ -43,7 +43,7 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     let mut settings = args.settings.settings();
     let open = || texere::open(&args.device);
     let (yarns, settling) =
-        stages.time("yarns", || settling::yarns(&design, &args.settling, settings.tension, open))?;
+        stages.time("yarns", || settling::yarns(&mut design, &args.settling, settings.tension, open))?;
     // Flattened threads lie so close that ground would be seen past the corners of fewer sides.
     let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
     if args.settings.sides.is_none() && lies_close && yarns.points().len() <= FINE_POINTS {

@@ -8,7 +8,7 @@ use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, ThreadPlace};
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
-    FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, WovenDesign,
+    FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, Stretch, WovenDesign,
     YarnPlace, clearance_with_progress,
 };
 
@@ -146,6 +146,24 @@ impl Structure {
             Self::Weft(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
             Self::Warp(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
         }
+    }
+
+    /// Stretches woven cloth along one set of its threads, all of which keep their length: see [`Woven::stretched`](crate::Woven::stretched). Gives
+    /// `finish` with the tensions that go with it, for [`Structure::settle`]. A knit stays as it is.
+    ///
+    /// **Errors**: those of [`Woven::stretched`](crate::Woven::stretched); the cloth is then as it was.
+    pub fn stretch(
+        &mut self,
+        finish: &Finish,
+        stretch: Stretch,
+        tension: f32,
+        backend: &dyn Backend,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<Finish, FinishError> {
+        let Self::Woven(design) = self else { return Ok(*finish) };
+        let (cloth, finish) = design.cloth().stretched(finish, stretch, tension, backend, progress)?;
+        *design = design.of(cloth)?;
+        Ok(finish)
     }
 
     /// A place on one of the structure's yarns as a designer finds it. `yarns` are the structure's own, settled or not.

@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use texere_core::Section;
+use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::{Crimp, Finish, JamReport, Shape, Woven};
+use texere_fabric::{Crimp, Finish, JamReport, Shape, Stretch, Woven};
 use texere_formats::{Design, ReadError, read};
 
 const DENIM: &str = r##"name = "Denim"
@@ -129,6 +130,10 @@ fn yarns_settle_as_the_finish_table_says() {
     let woven = Finish { taut: [3.0, 0.5], calender: 2.0, ..Finish::default() };
     assert_eq!(finished(DENIM, "warp_tension = 3\nweft_tension = 0.5\ncalender = 2\n"), (true, woven));
     assert!(!finished(DENIM, "settle = false\n").0);
+    let stretch = |table: &str| read_text(&format!("{DENIM}[finish]\n{table}")).unwrap().stretch;
+    assert_eq!(stretch("calender = 2\n"), None);
+    assert_eq!(stretch("stretch_warp = 1.03\n"), Some(Stretch { along: Set::Warp, by: 1.03 }));
+    assert_eq!(stretch("stretch_weft = 1\n"), Some(Stretch { along: Set::Weft, by: 1.0 }));
 }
 
 #[test]
@@ -155,6 +160,13 @@ fn a_finish_that_can_not_be_is_refused_with_its_line() {
     refused(DENIM, "presses = 1.0\n", &["line 20", "presses", "press"]);
     refused(DENIM, "calender = 11\n", &["line 20", "finish.calender", "11", "0", "10"]);
     refused(DENIM, "warp_tension = \"high\"\n", &["line 20", "finish.warp_tension", "high", "a number"]);
+    refused(DENIM, "stretch_warp = 2.5\n", &["line 20", "finish.stretch_warp", "2.5", "0.5", "2"]);
+    refused(
+        DENIM,
+        "stretch_warp = 1.1\nstretch_weft = 1.1\n",
+        &["line 21", "finish.stretch_weft", "not both"],
+    );
+    refused(JERSEY, "stretch_warp = 1.1\n", &["line 7", "finish.stretch_warp", "only in woven cloth"]);
     // What only the other kind of cloth has.
     for table in ["length = 1.2\n", "tension = 0.01\n", "press = 1.0\n"] {
         refused(DENIM, table, &["line 20", "finish.", "only in a knit", "calender"]);

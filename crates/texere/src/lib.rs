@@ -71,9 +71,10 @@ pub use texere_fabric::{
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
     FabricWarning, FaultKind, Faults, Finish, FinishError, Finished, JamReport, Jams, KnitMeasures,
     LINKING_CHANGE, Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Sett,
-    Settled, Shape, Shedding, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
-    Tightness, Weave, Woven, WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress,
-    length_mm, lengths_mm, linking, linking_with_progress, settle, warp, weft, yarns_under,
+    Settled, Shape, Shedding, Stretch, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd,
+    ThreadPlace, Tightness, Weave, Woven, WovenDesign, WovenRest, YarnPlace, clearance,
+    clearance_with_progress, length_mm, lengths_mm, linking, linking_with_progress, settle, warp, weft,
+    yarns_under,
 };
 pub use texere_formats::write::{
     Format, Output, Side, Written, abandon, draft as write_draft, file as write_file,

@@ -30,9 +30,9 @@ pub(crate) enum SettlingReport {
 }
 
 /// The yarns of a design, and how they have settled where it or the command line asks for that. They settle on the device that
-/// `open` gives, with splines of `tension`.
+/// `open` gives, with splines of `tension`. A design that is stretched is another cloth then.
 pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
-    design: &Design,
+    design: &mut Design,
     args: &SettlingArgs,
     tension: f32,
     open: impl FnOnce() -> Result<D, BackendError>,
@@ -49,6 +49,11 @@ pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
     let output = args.settling_plot.as_ref().map(|path| Output::to(path).sparing(design.files()));
     output.iter().try_for_each(Output::check)?;
     let device = drivers::quietly(open)?;
+    if let Some(stretch) = design.stretch {
+        design.finish = progress::during("stretching", |bar| {
+            design.structure.stretch(&design.finish, stretch, tension, &*device, progress::share(bar))
+        })?;
+    }
     let finish = Finish { record: output.is_some(), ..design.finish };
     let finished = progress::during("settling", |bar| {
         design.structure.settle(&finish, tension, &*device, progress::share(bar))

@@ -174,3 +174,39 @@ fn flags_that_make_no_sense_are_refused() {
     assert!(stderr(&output).contains("which must stay") && fs::read(Path::new(&knit)).unwrap() == before);
     assert_eq!(fs::read(&plot).unwrap(), b"old");
 }
+
+/// A cloth that is stretched along its warp is longer and narrower, with as much yarn in it; beyond what its threads allow it is refused.
+#[test]
+fn stretched_cloth_keeps_its_yarn() {
+    let sheeting = |finish: &str| {
+        folder(
+            "sheeting.toml",
+            &format!(
+                "[weave]\nnotation = \"plain\"\nends = 24\npicks = 20\n[finish]\n{finish}\n[yarns.a]\ncotton_count = 20.0\n\
+                 [warp]\nyarns = [\"a\"]\nper_inch = 60.0\n[weft]\nyarns = [\"a\"]\nper_inch = 60.0\n"
+            ),
+        )
+    };
+    let measured = |finish: &str| {
+        let folder = sheeting(finish);
+        let (code, report) = json(&["inspect", &at(&folder, "sheeting.toml")]);
+        assert_eq!(code, 0);
+        let number = |value: &Value| value.as_f64().unwrap();
+        [
+            &report["size_mm"][0],
+            &report["size_mm"][1],
+            &report["measures"]["length_mm"],
+            &report["measures"]["crimp"]["weft"],
+        ]
+        .map(number)
+    };
+    let [[width, height, yarn, _], [narrower, longer, kept, crimped]] =
+        ["", "stretch_warp = 1.03"].map(measured);
+    assert!(
+        (longer / height - 1.03).abs() < 1e-6 && narrower < 0.97 * width,
+        "{width} {narrower}, {height} {longer}"
+    );
+    assert!((kept / yarn - 1.0).abs() < 2e-3 && crimped > 0.1, "{yarn} {kept}, {crimped}");
+    let output = texere(&["inspect", &at(&sheeting("stretch_warp = 1.3"), "sheeting.toml")]);
+    assert!(!output.status.success() && stderr(&output).contains("straight at 1.06"), "{}", stderr(&output));
+}

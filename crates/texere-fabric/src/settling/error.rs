@@ -22,6 +22,18 @@ pub enum FinishError {
         /// `a length`, `a press` or `a course`.
         asked: &'static str,
     },
+    /// Woven cloth can't be stretched so far, or draw in so far, without another length of its threads.
+    #[error(
+        "cloth can't be {by} times as long along its {along} while its threads keep their lengths: these are straight at {most:.4}, and jam where it draws in too far"
+    )]
+    Stretch {
+        /// `warp` or `weft`.
+        along: &'static str,
+        /// What was asked.
+        by: f64,
+        /// Where its threads are straight.
+        most: f64,
+    },
     /// Crossings of woven cloth can't be settled.
     #[error(transparent)]
     Crossings(#[from] CrossingsError),

@@ -86,6 +86,13 @@ impl Woven {
         Ok(cloth)
     }
 
+    /// The same cloth of other threads.
+    pub(super) fn with_threads(&self, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Self, FabricError> {
+        let (materials, sections) = (self.materials.clone(), self.sections.clone());
+        let cloth = Self::new(self.drawdown.clone(), warp, weft, materials, sections)?;
+        Ok(Self { shape: self.shape, crimp: self.crimp, selvedge: self.selvedge, ..cloth })
+    }
+
     fn check_threads(&self, threads: &[Thread], origin: fn(u32) -> Origin) -> Result<(), FabricError> {
         for (number, each) in (1..).zip(threads) {
             let thread = origin(number);

@@ -64,6 +64,11 @@ impl WovenDesign {
         self.given.is_some()
     }
 
+    /// The design of another cloth, whose jammed threads nothing relieves.
+    pub(crate) fn of(&self, cloth: Woven) -> Result<Self, FabricError> {
+        Self::new(cloth, self.draft.clone(), Relief::Report)
+    }
+
     /// Gives all threads of the cloth as it was given one section, and relieves it again.
     ///
     /// **Errors**: [`FabricError::Section`] where its numbers are not sound, and those of [`Woven::relieve`]; the design is

@@ -31,7 +31,7 @@ pub use drawdown::{CROSSINGS_MAX, Drawdown, THREADS_MAX};
 pub use notation::REPEAT_MAX;
 pub use pitch::Pitch;
 pub use relief::{JamReport, Relief, Tightness};
-pub use rest::WovenRest;
+pub use rest::{Stretch, WovenRest};
 pub use sett::Sett;
 pub use shape::Shape;
 pub use thread::{FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, Thread};

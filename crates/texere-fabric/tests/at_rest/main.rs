@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
 mod layers;
+mod stretch;
 mod surfaces;
 
 use std::ops::ControlFlow;

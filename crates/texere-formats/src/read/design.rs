@@ -3,7 +3,7 @@
 use std::path::{self, Path, PathBuf};
 
 use texere_core::Yarns;
-use texere_fabric::{FabricError, Finish, Structure};
+use texere_fabric::{FabricError, Finish, Stretch, Structure};
 
 use super::knit::KnittedFrom;
 
@@ -24,6 +24,8 @@ pub struct Design {
     pub settle: bool,
     /// How they settle.
     pub finish: Finish,
+    /// How woven cloth is stretched before it comes to rest: [`Structure::stretch`].
+    pub stretch: Option<Stretch>,
     remarks: Vec<String>,
     files: Vec<PathBuf>,
     knitted_from: Option<KnittedFrom>,
@@ -60,6 +62,7 @@ impl Design {
             structure,
             settle: true,
             finish: Finish::default(),
+            stretch: None,
             remarks,
             files: Vec::new(),
             knitted_from: None,
@@ -70,6 +73,11 @@ impl Design {
     /// The same design with what it says about how its yarns settle.
     pub(super) fn finished(self, settle: Option<bool>, finish: Finish) -> Self {
         Self { settle: settle.unwrap_or(self.settle), finish, ..self }
+    }
+
+    /// The same design, stretched before it comes to rest.
+    pub(super) fn stretched(self, stretch: Option<Stretch>) -> Self {
+        Self { stretch, ..self }
     }
 
     /// The same design, left as it is woven unless somebody asks for more.

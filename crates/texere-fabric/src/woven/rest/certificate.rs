@@ -119,7 +119,7 @@ fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
 }
 
 /// A cloth with whole repeats left out: one of them and some more threads are left, with both edges as they are.
-fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
+pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
     let left = |count: usize, repeat: usize| count - count.saturating_sub(repeat + BEYOND) / repeat * repeat;
     let [ends, picks] = [left(cloth.warp().len(), repeat[0]), left(cloth.weft().len(), repeat[1])];
     let drawdown = Drawdown::from_fn(ends, picks, |end, pick| cloth.drawdown().up(end, pick))?;

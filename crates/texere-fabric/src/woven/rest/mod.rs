@@ -5,6 +5,7 @@ mod ease;
 mod lay;
 mod path;
 mod problem;
+mod stretch;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -15,6 +16,7 @@ use texere_core::{Backend, Crossings, Settings, Yarns, zeroed};
 use self::certificate::certify;
 use self::lay::Lies;
 use self::problem::Problem;
+pub use self::stretch::Stretch;
 use crate::{FabricError, Finish, FinishError, Woven};
 
 /// The share of the progress at which crossings have settled, and at which surfaces are clear.
@@ -86,26 +88,8 @@ impl Woven {
         if let Some((asked, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) {
             return Err(FinishError::Woven { asked });
         }
-        let mut problem = Problem::new(self);
-        let [warp, weft] = finish.taut;
-        problem.crossings = problem.crossings.tension(warp, weft).press(finish.calender);
-        let repeat = problem.repeat;
-        let plan = Arc::new(CrossingsPlan::new(&problem.crossings)?);
-        let mut settler = backend.crossings_settler(Arc::clone(&plan))?;
-        let (mut made, mut stopped) = (0.0, false);
-        let rest = crossings::settle(&plan, settler.as_mut(), |_, _| {
-            made += 1.0;
-            let answer = progress(SETTLED * made / f64::from(plan.passes()));
-            stopped = answer.is_break();
-            answer
-        })?;
-        if stopped {
-            return Err(FabricError::Cancelled.into());
-        }
-        let mut all: Vec<Crossing> = zeroed("crossings", plan.crossings() as u64)?;
-        settler.read(&mut all)?;
-        drop(settler);
-        let mut lies = Lies::new(problem, &plan, all);
+        let (mut lies, rest) = self.lies(finish, backend, |done| progress(SETTLED * done))?;
+        let repeat = lies.repeat();
         let at_first = lies.area(self);
         let settings = Settings { tension, ..Settings::default() };
         let (clearance, rounds) =
@@ -123,5 +107,32 @@ impl Woven {
             area,
             area_lost: [0, 1].map(|set| at_first[set][0] - area[set][0]),
         })
+    }
+
+    /// How its crossings lie at rest, before surfaces are measured.
+    fn lies(
+        &self,
+        finish: &Finish,
+        backend: &dyn Backend,
+        mut progress: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<(Lies, CrossingsRest), FinishError> {
+        let mut problem = Problem::new(self);
+        let [warp, weft] = finish.taut;
+        problem.crossings = problem.crossings.tension(warp, weft).press(finish.calender);
+        let plan = Arc::new(CrossingsPlan::new(&problem.crossings)?);
+        let mut settler = backend.crossings_settler(Arc::clone(&plan))?;
+        let (mut made, mut stopped) = (0.0, false);
+        let rest = crossings::settle(&plan, settler.as_mut(), |_, _| {
+            made += 1.0;
+            let answer = progress(made / f64::from(plan.passes()));
+            stopped = answer.is_break();
+            answer
+        })?;
+        if stopped {
+            return Err(FabricError::Cancelled.into());
+        }
+        let mut all: Vec<Crossing> = zeroed("crossings", plan.crossings() as u64)?;
+        settler.read(&mut all)?;
+        Ok((Lies::new(problem, &plan, all), rest))
     }
 }

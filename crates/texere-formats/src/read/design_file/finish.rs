@@ -1,7 +1,8 @@
 //! The `[finish]` table: how yarns come to rest.
 
+use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::Finish;
+use texere_fabric::{Finish, Stretch};
 use toml::Spanned;
 
 use super::schema::{FinishTable, Source, real};
@@ -15,6 +16,9 @@ const TENSION_MOST: f64 = 0.1;
 
 /// The most times relaxed cloth's that woven cloth is taut or pressed.
 const TIMES_MOST: f64 = 10.0;
+
+/// How many times as long woven cloth may become.
+const STRETCH: (f64, f64) = (0.5, 2.0);
 
 /// Distances of plates that are taken, mm.
 const PRESS_MM: (f64, f64) = (0.001, 1000.0);
@@ -31,11 +35,16 @@ impl FinishTable {
             ("finish.warp_tension", &self.warp_tension),
             ("finish.weft_tension", &self.weft_tension),
             ("finish.calender", &self.calender),
+            ("finish.stretch_warp", &self.stretch_warp),
+            ("finish.stretch_weft", &self.stretch_weft),
         ];
         let (others, expected) = if woven {
-            (knits, "only in a knit: woven cloth has warp_tension, weft_tension and calender")
+            (
+                &knits[..],
+                "only in a knit: woven cloth has warp_tension, weft_tension, calender, stretch_warp and stretch_weft",
+            )
         } else {
-            (wovens, "only in woven cloth: a knit has length, tension and press")
+            (&wovens[..], "only in woven cloth: a knit has length, tension and press")
         };
         if let Some((field, value)) = others.iter().find_map(|(field, value)| Some((field, value.as_ref()?)))
         {
@@ -51,7 +60,7 @@ impl FinishTable {
             settle.as_ref().as_bool().ok_or_else(|| source.odd("finish.settle", settle, "true or false"))
         };
         let settle = self.settle.as_ref().map(said).transpose()?;
-        let [warp, weft, calender] = wovens;
+        let [warp, weft, calender, ..] = wovens;
         let mut finish = Finish {
             length: self.length(source)?,
             taut: [times(warp)?, times(weft)?],
@@ -64,6 +73,22 @@ impl FinishTable {
             finish.press_mm = Some(source.number(field, &gap, PRESS_MM.0, PRESS_MM.1)? as f32);
         }
         Ok((settle, finish))
+    }
+
+    /// How woven cloth is stretched, where the table says so.
+    pub(super) fn stretch(&self, source: &Source<'_>) -> Result<Option<Stretch>, ReadError> {
+        let (along, field, given) = match (&self.stretch_warp, &self.stretch_weft) {
+            (None, None) => return Ok(None),
+            (Some(given), None) => (Set::Warp, "finish.stretch_warp", given),
+            (None, Some(given)) => (Set::Weft, "finish.stretch_weft", given),
+            (Some(_), Some(given)) => {
+                let expected = "it or finish.stretch_warp, not both: the other way cloth gives by itself";
+                return Err(source.odd("finish.stretch_weft", given, expected));
+            }
+        };
+        let number = source.float(field, given, "a number, how many times as long the cloth becomes")?;
+        let by = source.number(field, &number, STRETCH.0, STRETCH.1)?;
+        Ok(Some(Stretch { along, by }))
     }
 
     /// What becomes of lengths, where the table says so.

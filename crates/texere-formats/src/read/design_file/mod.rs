@@ -106,6 +106,7 @@
 //! | `press` | the distance of two plates that press the cloth while its yarns settle, mm |
 //! | `warp_tension`, `weft_tension` | how taut the cloth is held, 1 where it is relaxed, 0 to 10 |
 //! | `calender` | how strongly it is pressed flat, likewise |
+//! | `stretch_warp` or `stretch_weft` | how many times as long the cloth becomes that way, its threads keeping their length ([`Stretch`](texere_fabric::Stretch)) |
 //!
 //! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.
 
@@ -147,6 +148,7 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let source = Source::new(path, &bytes)?;
     let file: DesignFile = source.parse()?;
     let (settle, finish) = file.finish.read(&source, file.weave.is_some())?;
+    let stretch = file.finish.stretch(&source)?;
     let rests = settle != Some(false);
     let laid = Cloth::new(&source, &file.cloth, rests)?;
     let yarns = YarnTable::new(&source, &file.yarns)?;
@@ -169,7 +171,7 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
         (None, Some(image), None) => weave::from_image(&source, weave, image, &mut warnings)?,
         (None, None, Some(wif)) => {
             let design = from_wif(&source, &file, weave, wif, &yarns, laid)?;
-            return Ok(design.remarking(unused(&file, rests)).finished(settle, finish));
+            return Ok(design.remarking(unused(&file, rests)).finished(settle, finish).stretched(stretch));
         }
         _ => {
             let keys = "weave.notation, weave.image and weave.wif";
@@ -181,7 +183,7 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let name = file.name.clone().unwrap_or_else(|| file_name(path));
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
     let design = Design::new(name, Structure::Woven(woven), warnings);
-    let design = design.remarking(unused(&file, rests)).finished(settle, finish);
+    let design = design.remarking(unused(&file, rests)).finished(settle, finish).stretched(stretch);
     Ok(match &weave.image {
         Some(image) => design.noting(&source.beside(image)),
         None => design,

@@ -115,6 +115,8 @@ pub(super) struct FinishTable {
     pub(super) warp_tension: Option<Spanned<toml::Value>>,
     pub(super) weft_tension: Option<Spanned<toml::Value>>,
     pub(super) calender: Option<Spanned<toml::Value>>,
+    pub(super) stretch_warp: Option<Spanned<toml::Value>>,
+    pub(super) stretch_weft: Option<Spanned<toml::Value>>,
 }
 
 #[derive(Debug, Deserialize)]

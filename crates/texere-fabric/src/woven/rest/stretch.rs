@@ -1,0 +1,119 @@
+//! Cloth that is stretched one way: it gives the other way, since its threads stay as long as they are.
+
+use std::ops::ControlFlow;
+
+use texere_core::Backend;
+use texere_core::crossings::Set;
+
+use super::certificate::crop;
+use crate::{FabricError, Finish, FinishError, Thread, Woven, lengths_mm};
+
+/// The least crimp that is left of threads that are pulled straight.
+const STRAIGHT: f64 = 0.002;
+
+/// How near the crimp of the pulled threads comes to what keeps their length.
+const NEAR: f64 = 2e-4;
+
+/// How much tauter one set may become over the other one, as a natural logarithm: what [`Finish::taut`] allows.
+const TAUTER: f64 = 4.6;
+
+/// Halvings of that, and how often the cloth gives the other way in each.
+const HALVINGS: u32 = 16;
+const GIVES: u32 = 3;
+
+/// What is asked of cloth that is pulled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// The threads along which it is pulled.
+    pub along: Set,
+    /// How many times as long it becomes, 0.5 to 2; less than 1 lets it draw in.
+    pub by: f64,
+}
+
+impl Woven {
+    /// The cloth stretched along one set of its threads, and `finish` with tensions such that all threads keep the length that they have where the
+    /// cloth comes to rest as `finish` has it: those that are pulled straighten, those that cross them take their crimp, and the cloth becomes
+    /// narrower. Then [`Woven::at_rest`] lets it come to rest. `tension` is that of the splines; `progress` gets the share of the work that
+    /// is done, and `Break` ends it.
+    ///
+    /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or jammed, and those of [`Woven::at_rest`].
+    ///
+    /// **Source**: crimp interchange as F. T. Peirce has it, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use texere_core::crossings::Set;
+    /// use texere_core::{Material, Section};
+    /// use texere_cpu::SerialBackend;
+    /// use texere_fabric::{Finish, Stretch, Thread, Weave, Woven};
+    /// let plain = Weave::parse("plain")?.drawdown(6, 6)?;
+    /// let threads = vec![Thread::new(0.42, 0.1); 6];
+    /// let cloth = Woven::new(plain, threads.clone(), threads, vec![Material::default()], vec![Section::Circle])?;
+    /// let (device, pull) = (SerialBackend::new(), Stretch { along: Set::Warp, by: 1.03 });
+    /// let (pulled, _) = cloth.stretched(&Finish::default(), pull, 0.0, &device, |_| ControlFlow::Continue(()))?;
+    /// let ([width, height], [narrower, longer]) = (cloth.size_mm(), pulled.size_mm());
+    /// assert!((longer / height - 1.03).abs() < 1e-9 && narrower < width);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn stretched(
+        &self,
+        finish: &Finish,
+        stretch: Stretch,
+        tension: f32,
+        backend: &dyn Backend,
+        mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<(Self, Finish), FinishError> {
+        let Stretch { along, by } = stretch;
+        let [pulled, crossed] = [along as usize, along.other() as usize];
+        let first = self.crimps(finish, tension, backend)?;
+        let wanted = (1.0 + first[pulled]) / by - 1.0;
+        let most = (1.0 + first[pulled]) / (1.0 + STRAIGHT);
+        let refused = || FinishError::Stretch { along: ["warp", "weft"][pulled], by, most };
+        if !(wanted >= STRAIGHT && (0.5..=2.0).contains(&by)) {
+            return Err(refused());
+        }
+        let (mut narrower, mut range) = (1.0, [-TAUTER, TAUTER]);
+        for halving in 0..HALVINGS {
+            let tauter = f64::midpoint(range[0], range[1]);
+            let pull = |set: usize, by: f64| (f64::from(finish.taut[set]) * by.exp()).clamp(0.0, 10.0) as f32;
+            let mut taut = finish.taut;
+            taut[pulled] = pull(pulled, tauter / 2.0);
+            taut[crossed] = pull(crossed, -tauter / 2.0);
+            let finish = Finish { taut, ..*finish };
+            let (mut cloth, mut crimps) = (self.clone(), first);
+            for _ in 0..GIVES {
+                let mut times = [by; 2];
+                times[crossed] = narrower;
+                cloth = self.spaced([times[1], times[0]])?;
+                crimps = cloth.crimps(&finish, tension, backend)?;
+                narrower = (1.0 + first[crossed]) / (1.0 + crimps[crossed]);
+            }
+            if progress(f64::from(halving + 1) / f64::from(HALVINGS)).is_break() {
+                return Err(FabricError::Cancelled.into());
+            }
+            if (crimps[pulled] - wanted).abs() < NEAR {
+                return Ok((cloth, finish));
+            }
+            range[usize::from(crimps[pulled] < wanted)] = tauter;
+        }
+        Err(refused())
+    }
+
+    /// The crimp of warp and weft where the cloth comes to rest.
+    fn crimps(&self, finish: &Finish, tension: f32, backend: &dyn Backend) -> Result<[f64; 2], FinishError> {
+        let (lies, _) = self.lies(finish, backend, |_| ControlFlow::Continue(()))?;
+        let piece = crop(self, lies.repeat())?;
+        let lengths = lengths_mm(&lies.yarns(&piece)?, tension);
+        let (size, ends) = (piece.size_mm(), piece.warp().len());
+        let [warp, weft]: [f64; 2] = [&lengths[..ends], &lengths[ends..]].map(|lengths| lengths.iter().sum());
+        Ok([warp / (ends as f64 * size[1]) - 1.0, weft / (piece.weft().len() as f64 * size[0]) - 1.0])
+    }
+
+    /// The same cloth with ends and picks so many times as far apart.
+    fn spaced(&self, times: [f64; 2]) -> Result<Self, FabricError> {
+        let apart = |set: &[Thread], times: f64| -> Vec<Thread> {
+            set.iter().map(|thread| Thread { spacing_mm: thread.spacing_mm * times, ..*thread }).collect()
+        };
+        self.with_threads(apart(self.warp(), times[0]), apart(self.weft(), times[1]))
+    }
+}

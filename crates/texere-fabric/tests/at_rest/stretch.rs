@@ -1,0 +1,60 @@
+//! Cloth that is stretched one way.
+
+use std::ops::ControlFlow;
+
+use texere_core::crossings::Set;
+use texere_cpu::ParallelBackend;
+use texere_fabric::{Finish, FinishError, Stretch, Woven};
+
+use crate::surfaces::Surfaces;
+use crate::{cloths, finished};
+
+fn stretched(cloth: &Woven, along: Set, by: f64) -> Result<(Woven, Finish), FinishError> {
+    let device = ParallelBackend::open().unwrap();
+    cloth.stretched(&Finish::default(), Stretch { along, by }, 0.0, &device, |_| ControlFlow::Continue(()))
+}
+
+/// Threads keep their length, measured by the test along yarns at rest: what is pulled straightens, and the cloth narrows by what those across
+/// need more.
+#[test]
+fn threads_keep_their_length() {
+    for (name, along, by) in [
+        ("sheeting", Set::Warp, 1.03),
+        ("sheeting", Set::Weft, 1.03),
+        ("poplin", Set::Warp, 1.05),
+        ("poplin", Set::Weft, 0.99),
+        ("drill", Set::Warp, 1.04),
+    ] {
+        let cloth = cloths().into_iter().find(|cloth| cloth.name == name).unwrap().woven;
+        let (pulled, finish) = stretched(&cloth, along, by).unwrap();
+        let before = Surfaces::new(&finished(&cloth, &Finish::default()).yarns).crimp();
+        let rest = finished(&pulled, &finish);
+        let surfaces = Surfaces::new(&rest.yarns);
+        let (after, clearance) = (surfaces.crimp(), surfaces.clearance());
+        let [size, pulled_size] = [&cloth, &pulled].map(Woven::size_mm);
+        // Ends run along y, picks along x.
+        let longer = [pulled_size[1] / size[1], pulled_size[0] / size[0]];
+        println!(
+            "{name} {along:?} {by}: {longer:?}, crimp {before:?} to {after:?}, {clearance:.3}, taut {:?}",
+            finish.taut
+        );
+        let set = along as usize;
+        assert!((longer[set] - by).abs() < 1e-9);
+        assert!((longer[1 - set] < 1.0) == (by > 1.0), "{name}: {longer:?}");
+        for set in 0..2 {
+            let kept = longer[set] * (1.0 + after[set]) / (1.0 + before[set]);
+            assert!((kept - 1.0).abs() < 2e-3, "{name}: {kept} of their length");
+        }
+        assert!(clearance >= 0.98, "{name}: {clearance}");
+    }
+}
+
+/// No further than threads are straight.
+#[test]
+fn straight_threads_stretch_no_further() {
+    let sheeting = cloths().swap_remove(2).woven;
+    for by in [1.07, 0.4, f64::NAN, f64::INFINITY, -1.0] {
+        let refused = stretched(&sheeting, Set::Warp, by).unwrap_err().to_string();
+        assert!(refused.contains("straight at 1.06"), "{refused}");
+    }
+}

@@ -204,6 +204,18 @@ pub enum FabricError {
         /// Thickest taken, mm.
         high: f32,
     },
+    /// A stiffness outside its limits, or not a number.
+    #[error("{thread} has a stiffness of {stiffness}, outside {low} to {high}")]
+    Stiffness {
+        /// Which end or pick.
+        thread: Origin,
+        /// Its stiffness, in that of cotton.
+        stiffness: f32,
+        /// The least.
+        low: f32,
+        /// The most.
+        high: f32,
+    },
     /// A flatness outside its limits, or not a number.
     #[error("{thread} has a flatness of {flatness}, outside {low} to {high}")]
     Flatness {

@@ -73,8 +73,8 @@ pub use under::yarns_under;
 pub use warning::FabricWarning;
 pub use woven::{
     CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, NO_CROSSING, POINTS_MAX,
-    Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, Sett, Shape, Shedding, Stretch, THREADS_MAX, Thread,
-    Tightness, Weave, Woven, WovenDesign, WovenRest,
+    Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Sett, Shape, Shedding,
+    Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenRest,
 };
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,

@@ -158,6 +158,7 @@ fn what_is_wrong_with_a_thread_is_named() {
     assert!(matches!(with(|t| t.radius_mm = f32::NAN), FabricError::Radius { thread: t, .. } if t == thread));
     assert!(matches!(with(|t| t.radius_mm = 0.0), FabricError::Radius { thread: t, .. } if t == thread));
     assert!(matches!(with(|t| t.twist = f32::NAN), FabricError::Twist { thread: t, .. } if t == thread));
+    assert!(matches!(with(|t| t.stiffness = 0.0), FabricError::Stiffness { thread: t, .. } if t == thread));
     let missing = with(|t| t.material = 2);
     assert_eq!(missing, FabricError::UnknownMaterial { thread, material: 2, materials: 2 });
     let missing = with(|t| t.section = u32::MAX);

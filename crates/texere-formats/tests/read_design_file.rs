@@ -384,6 +384,7 @@ fn faults_are_named_with_their_line() {
     );
     refused("plies = 2", "section = { shape = \"blob\" }", &["line 12", "blob"]);
     refused("twist_per_m = -500.0", "twist_per_m = 1e9", &["yarns.indigo.twist_per_m"]);
+    refused("twist_per_m = -500.0", "stiffness = 200.0", &["yarns.indigo.stiffness", "200", "0.01", "100"]);
     refused("\"2 indigo\"", "\"2 denim\"", &["line 14", "\"2 denim\"", "\"ecru\", \"indigo\""]);
     refused("\"2 indigo\"", "\"0 indigo\"", &["\"0 indigo\"", "a number from 1"]);
     refused("[\"2 indigo\", \"ecru\"]", "[]", &["warp.yarns", "at least one"]);

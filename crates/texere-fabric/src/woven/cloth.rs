@@ -2,7 +2,9 @@
 
 use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, Yarn};
 
-use super::thread::{FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, Thread};
+use super::thread::{
+    FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread,
+};
 use super::{Crimp, Drawdown, Shape};
 use crate::{FabricError, yarn_check};
 
@@ -113,6 +115,14 @@ impl Woven {
                     flatness: each.flatness,
                     low: FLATNESS_MIN,
                     high: FLATNESS_MAX,
+                });
+            }
+            if !(STIFFNESS_MIN..=STIFFNESS_MAX).contains(&each.stiffness) {
+                return Err(FabricError::Stiffness {
+                    thread,
+                    stiffness: each.stiffness,
+                    low: STIFFNESS_MIN,
+                    high: STIFFNESS_MAX,
                 });
             }
             let [half_width, half_height] = each.halves_mm();

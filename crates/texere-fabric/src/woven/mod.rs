@@ -34,6 +34,8 @@ pub use relief::{JamReport, Relief, Tightness};
 pub use rest::{Stretch, WovenRest};
 pub use sett::Sett;
 pub use shape::Shape;
-pub use thread::{FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, Thread};
+pub use thread::{
+    FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread,
+};
 pub use weave::Weave;
 pub use yarns::NO_CROSSING;

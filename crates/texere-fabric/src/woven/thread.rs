@@ -14,6 +14,12 @@ pub const FLATNESS_MIN: f32 = 0.1;
 /// The most flatness of a thread: ten times as wide as high.
 pub const FLATNESS_MAX: f32 = 10.0;
 
+/// The least stiffness of a thread, in that of cotton.
+pub const STIFFNESS_MIN: f32 = 0.01;
+
+/// The most stiffness of a thread, likewise.
+pub const STIFFNESS_MAX: f32 = 100.0;
+
 /// One end or one pick: what it is like, and how far it lies from the one before.
 ///
 /// ```
@@ -30,6 +36,8 @@ pub struct Thread {
     /// Width over height in the cloth, of the same area as the round yarn: 1 for a round one. The section, and what turns with
     /// the twist, is inside that outline.
     pub flatness: f32,
+    /// How stiff it is against bending where the cloth comes to rest: 1 for a cotton yarn of its diameter.
+    pub stiffness: f32,
     /// Index into the materials.
     pub material: u32,
     /// Index into the sections.
@@ -42,7 +50,7 @@ impl Thread {
     /// A round, untwisted thread of the first material and the first section.
     #[must_use]
     pub const fn new(spacing_mm: f64, radius_mm: f32) -> Self {
-        Self { spacing_mm, radius_mm, flatness: 1.0, material: 0, section: 0, twist: 0.0 }
+        Self { spacing_mm, radius_mm, flatness: 1.0, stiffness: 1.0, material: 0, section: 0, twist: 0.0 }
     }
 
     /// Half its width and half its height in the cloth, mm, of a circular section.

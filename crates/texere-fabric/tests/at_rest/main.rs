@@ -321,6 +321,27 @@ fn a_woven_structure_comes_to_rest() {
     }
 }
 
+/// Stiff threads stay straight, and those that cross them crimp; as stiff both ways, the cloth is as balanced as before.
+#[test]
+fn stiff_threads_stay_straight() {
+    let sheeting = cloths().swap_remove(2).woven;
+    let crimp = |stiffness: [f32; 2]| {
+        let stiff = |set: &[Thread], stiffness: f32| {
+            set.iter().map(|thread| Thread { stiffness, ..*thread }).collect()
+        };
+        let (warp, weft) = (stiff(sheeting.warp(), stiffness[0]), stiff(sheeting.weft(), stiffness[1]));
+        let (materials, sections) = (sheeting.materials().to_vec(), sheeting.sections().to_vec());
+        let cloth = Woven::new(sheeting.drawdown().clone(), warp, weft, materials, sections);
+        let surfaces = Surfaces::new(&at_rest(&cloth.unwrap()).yarns);
+        assert!(surfaces.clearance() >= 0.98);
+        surfaces.crimp()
+    };
+    let (even, stiff_warp, stiff) = (crimp([1.0; 2]), crimp([4.0, 1.0]), crimp([4.0; 2]));
+    println!("crimp of sheeting {even:?}, with a stiff warp {stiff_warp:?}, all stiff {stiff:?}");
+    assert!(stiff_warp[0] < 0.5 * even[0] && stiff_warp[1] > 1.5 * even[1], "{even:?} {stiff_warp:?}");
+    assert!((stiff[0] - stiff[1]).abs() < 1e-4, "{stiff:?}");
+}
+
 /// A taut set straightens, and the other one takes its crimp; a calender makes the cloth thinner.
 #[test]
 fn a_finish_is_felt() {

@@ -38,7 +38,7 @@ impl Problem {
                 crossings::Thread {
                     pitch: gaps[number % threads.len()] as f32,
                     diameter: 2.0 * threads[number % threads.len()].radius_mm * (width * height).sqrt(),
-                    stiffness: 1.0,
+                    stiffness: threads[number % threads.len()].stiffness,
                     level: levels[set][number],
                 }
             };
@@ -90,7 +90,8 @@ fn kinds(threads: &[Thread], rooms: &[[f32; 2]], sides: impl Fn(usize) -> Vec<u6
     let mut known = HashMap::new();
     let gaps = gaps(threads);
     let kind = |number: usize| {
-        let sizes = [threads[number].radius_mm, rooms[number][0], rooms[number][1]].map(f32::to_bits);
+        let Thread { radius_mm, stiffness, .. } = threads[number];
+        let sizes = [radius_mm, stiffness, rooms[number][0], rooms[number][1]].map(f32::to_bits);
         (sizes, (gaps[number] as f32).to_bits(), sides(number))
     };
     (0..threads.len())

@@ -130,6 +130,7 @@ pub(super) struct YarnSpec {
     pub(super) section: Option<Spanned<SectionSpec>>,
     pub(super) plies: Option<Spanned<i64>>,
     pub(super) flatness: Option<Spanned<f64>>,
+    pub(super) stiffness: Option<Spanned<f64>>,
     pub(super) twist_per_m: Option<Spanned<f64>>,
 }
 

@@ -23,6 +23,9 @@ const COTTON_COUNT: (f64, f64) = (0.01, 10_000.0);
 /// Fluffiest and densest yarn, the air in it counted, g/cm³.
 const DENSITY: (f64, f64) = (0.05, 20.0);
 
+/// Limpest and stiffest yarn, in the stiffness of cotton.
+const STIFFNESS: (f64, f64) = (0.01, 100.0);
+
 /// Hardest twist, turns per metre either way.
 const TWIST_PER_M: f64 = 1e5;
 
@@ -86,6 +89,10 @@ impl YarnTable {
                 })
                 .transpose()?
                 .unwrap_or(1.0);
+            let stiffness = spec
+                .stiffness
+                .as_ref()
+                .map(|stiffness| source.number(&field("stiffness"), stiffness, STIFFNESS.0, STIFFNESS.1));
             let twist_per_m = spec
                 .twist_per_m
                 .as_ref()
@@ -107,6 +114,7 @@ impl YarnTable {
                     spacing_mm: 0.0,
                     radius_mm: (diameter_mm / 2.0) as f32,
                     flatness: flatness as f32,
+                    stiffness: stiffness.transpose()?.unwrap_or(1.0) as f32,
                     material: number,
                     section: number,
                     twist: (twist_per_m * std::f64::consts::TAU / 1000.0) as f32,

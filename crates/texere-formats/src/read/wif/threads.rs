@@ -194,6 +194,7 @@ impl Set {
             spacing_mm: own_spacing.unwrap_or(spacing),
             radius_mm: (thickness.unwrap_or(diameter) / 2.0) as f32,
             flatness: 1.0,
+            stiffness: 1.0,
             material: material.unwrap_or(NO_COLOR),
             section: 0,
             twist: 0.0,

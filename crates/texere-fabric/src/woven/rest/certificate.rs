@@ -22,7 +22,7 @@ const ENOUGH: f64 = 0.986;
 const BENDS_WANTED: f64 = 1.003;
 
 /// The most rounds.
-const ROUNDS: u32 = 6;
+const ROUNDS: u32 = 10;
 
 /// The most that a half width or a half height loses in a round.
 const LOST_MOST: f64 = 0.06;

@@ -3,6 +3,8 @@
 #[cfg(feature = "gpu")]
 pub mod crossings;
 #[cfg(feature = "gpu")]
+pub mod edits;
+#[cfg(feature = "gpu")]
 pub mod figure_7;
 #[cfg(feature = "gpu")]
 pub mod fill;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::Parser;
 use texere::DeviceKind;
-use texere_bench::{crossings, figure_7, floor, settling, stages, tables};
+use texere_bench::{crossings, edits, figure_7, floor, settling, stages, tables};
 
 /// Measures devices.
 #[derive(Debug, Parser)]
@@ -45,6 +45,20 @@ enum Args {
         passes: u32,
         /// Runs of each
         #[arg(long, default_value_t = 5)]
+        rounds: usize,
+    },
+    /// Edits of cloth whose mesh stays on its device, beside the whole mesh
+    Edits {
+        /// Devices, such as cpu, opencl:0 or wgpu:0 [default: the CPU and all GPUs that `texere devices` lists]
+        devices: Vec<String>,
+        /// Ends x picks of the cloth of which a yarn is edited
+        #[arg(long, default_value = "489x450")]
+        yarns: Size,
+        /// Ends x picks of the cloth of which a lift is edited
+        #[arg(long, default_value = "815x750")]
+        lifts: Size,
+        /// Runs of each
+        #[arg(long, default_value_t = 21)]
         rounds: usize,
     },
     /// From a design to its mesh in a device's memory, stage by stage
@@ -161,6 +175,14 @@ fn main() -> Result<(), Box<dyn Error>> {
             let devices = if devices.is_empty() { gpus().collect() } else { devices };
             let sizes: Vec<_> = sizes.iter().map(|size| (size.0, size.1)).collect();
             crossings::print(&devices, &sizes, passes, rounds)
+        }
+        Args::Edits { devices, yarns, lifts, rounds } => {
+            let devices = if devices.is_empty() {
+                ["cpu".to_owned()].into_iter().chain(gpus()).collect()
+            } else {
+                devices
+            };
+            edits::print(&devices, (yarns.0, yarns.1), (lifts.0, lifts.1), rounds)
         }
         Args::Stages { designs, device } => {
             stages::print(&designs, &device)?;

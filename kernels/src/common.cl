@@ -44,7 +44,7 @@ typedef struct {
 typedef struct {
     uint blocks;
     uint caps;
-    uint first_block;
+    uint first_yarn;
     uint yarns;
     uint sides;
     uint subdivisions;

@@ -40,6 +40,18 @@ pub const UNINDEXED_GROUP: usize = 64;
 /// The chunk's caps, after [`MESH`]: a lane a cap vertex.
 pub const CAPS: EntryPoint = EntryPoint { name: "caps", group: 64 };
 
+/// The length of all blocks: a workgroup a row of the chunk's block table. The first half of measuring.
+pub const BLOCK_LENGTHS: EntryPoint = EntryPoint { name: "block_lengths", group: 64 };
+
+/// How long yarns are at each block's start, in place: a workgroup a yarn. The second half.
+pub const YARN_LENGTHS: EntryPoint = EntryPoint { name: "yarn_lengths", group: 256 };
+
+/// The attributes of a chunk's tubes: a workgroup a row of its block table.
+pub const ATTRIBUTES_OF_TUBES: EntryPoint = EntryPoint { name: "attributes", group: 64 };
+
+/// Those of its caps, after [`ATTRIBUTES_OF_TUBES`]: a lane a cap vertex.
+pub const ATTRIBUTES_OF_CAPS: EntryPoint = EntryPoint { name: "cap_attributes", group: 64 };
+
 /// The paper's algorithm 2: a lane a part of the chunk.
 pub const TRAJECTORY_PER_YARN: EntryPoint = EntryPoint { name: "trajectory_per_yarn", group: 64 };
 
@@ -135,6 +147,13 @@ pub const PER_YARN: Program = Program {
     entries: &[TRAJECTORY_PER_YARN, MESH_PER_YARN],
 };
 
+/// Attributes of vertices. It is compiled apart from the others, where attributes are first wanted.
+pub const ATTRIBUTES: Program = Program {
+    name: "attributes",
+    sources: &[include_str!("common.cl"), include_str!("attributes.cl")],
+    entries: &[BLOCK_LENGTHS, YARN_LENGTHS, ATTRIBUTES_OF_TUBES, ATTRIBUTES_OF_CAPS],
+};
+
 /// A settling. It is compiled apart from the others, where a settler is first wanted.
 pub const SETTLING: Program = Program {
     name: "settling",
@@ -185,7 +204,7 @@ mod tests {
 
     #[test]
     fn workgroups_are_what_the_sources_require() {
-        for program in [PER_RING, PER_YARN, SETTLING, CROSSINGS] {
+        for program in [PER_RING, PER_YARN, ATTRIBUTES, SETTLING, CROSSINGS] {
             let source = program.sources.concat();
             for entry in program.entries {
                 let head = source.split_once(&format!("void {}(", entry.name)).unwrap().0;
@@ -204,7 +223,7 @@ mod tests {
 
     #[test]
     fn no_function_of_lower_accuracy_is_called() {
-        for program in [PER_RING, PER_YARN, SETTLING, CROSSINGS] {
+        for program in [PER_RING, PER_YARN, ATTRIBUTES, SETTLING, CROSSINGS] {
             let source = program.sources.concat();
             // Half widths, half heights, half gaps and half ways are no functions of the language.
             let source = ["half_width", "half_height", "half_gap", "half_way"]

@@ -58,7 +58,7 @@ __kernel void mesh(const Params params, const ulong window, __global const uint4
     uint lane = get_local_id(0);
     Block block = blocks[row];
     YarnRow yarn = yarns[block.yarn];
-    block_rings(points + window, &params, &yarn, &block, rolls, whole, row, lane, &rings);
+    block_rings(points + window, &params, &yarn, &block, rolls, whole, lane, &rings);
 
     uint stores = 3u * params.sides / 2u;
     Share share = share_of(lane, stores);
@@ -93,7 +93,7 @@ __kernel void mesh_odd(const Params params, const ulong window, __global const u
     uint lane = get_local_id(0);
     Block block = blocks[row];
     YarnRow yarn = yarns[block.yarn];
-    block_rings(points + window, &params, &yarn, &block, rolls, whole, row, lane, &rings);
+    block_rings(points + window, &params, &yarn, &block, rolls, whole, lane, &rings);
 
     uint stores = 3u * params.sides;
     Share share = share_of(lane, stores);

@@ -22,7 +22,7 @@ typedef struct {
 // Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the workgroup, which has
 // at least BLOCK_RINGS, must come here.
 void block_rings(__global const uint4 *points, const Params *params, const YarnRow *yarn, const Block *block,
-                 __global const uint *rolls, __global const uint *whole, size_t row, uint lane,
+                 __global const uint *rolls, __global const uint *whole, uint lane,
                  __local BlockRings *rings) {
     RingSample here;
     uint roll = 0u;
@@ -58,7 +58,7 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
             for (uint before = 0u; before < lane / 8u; before++) {
                 sum += rings->eights[before];
             }
-            uint start = rolls[params->first_block + row];
+            uint start = rolls[yarn->first_block + block->first_ring / BLOCK_RINGS];
             roll = closed_up(yarn, block->first_ring + lane, start + sum - turn, whole[block->yarn]);
         }
     }

@@ -54,7 +54,7 @@ void block_turns(const Params params, const ulong window, __global const float4 
         for (uint further = 1u; further < TURNS_GROUP / 8; further++) {
             turn += sums[further];
         }
-        rolls[params.first_block + row] = turn;
+        rolls[yarn.first_block + block.first_ring / BLOCK_RINGS] = turn;
     }
 }
 

@@ -14,7 +14,7 @@ void trajectory(const Params params, const ulong window, __global const uint4 *p
     uint lane = get_local_id(0);
     Block block = blocks[row];
     YarnRow yarn = yarns[block.yarn];
-    block_rings(points + window, &params, &yarn, &block, rolls, whole, row, lane, &standing);
+    block_rings(points + window, &params, &yarn, &block, rolls, whole, lane, &standing);
 
     // Three stores of 16 bytes a ring, contiguous across lanes.
     __global uint4 *out = rings + 3 * (size_t)block.chunk_ring;

@@ -42,7 +42,7 @@ struct CapRow {
 struct Params {
     blocks: u32,
     caps: u32,
-    first_block: u32,
+    first_yarn: u32,
     yarns: u32,
     sides: u32,
     subdivisions: u32,

@@ -9,6 +9,7 @@
 //! | `trajectory.wgsl` | `trajectory` | stage 1 |
 //! | `mesh.wgsl` | `mesh`, `mesh_odd` | stage 2 with stage 1 in it |
 //! | `caps.wgsl` | `caps` | closed ends |
+//! | `attributes.wgsl` | `block_lengths`, `yarn_lengths`, `attributes`, `cap_attributes` | attributes of vertices |
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
 //! Those that bring yarns to rest are in [`settling`] and [`crossings`], those that make pictures in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
@@ -124,6 +125,10 @@ pub enum Resource {
     CrossingsGroupRows = 40,
     /// What each pass since the last wait has seen.
     CrossingsPassRows = 41,
+    /// How long its yarn is at each block's start: `ArcLength`s.
+    ArcLengths = 42,
+    /// `Attribute`s of a chunk.
+    Attributes = 43,
 }
 
 /// How a shader uses a resource.
@@ -174,6 +179,7 @@ const fn write(resource: Resource) -> Binding {
 const SCAN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("scan.wgsl"));
 const MESH_SOURCE: &str =
     concat!(include_str!("common.wgsl"), include_str!("rings.wgsl"), include_str!("mesh.wgsl"));
+const ATTRIBUTES_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("attributes.wgsl"));
 const PER_YARN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("per_yarn.wgsl"));
 
 /// Turns of each block of a chunk: a workgroup a row.
@@ -247,6 +253,51 @@ pub const CAPS: Shader = Shader {
     ],
 };
 
+/// The length of each block of a chunk: a workgroup a row.
+pub const BLOCK_LENGTHS: Shader = Shader {
+    entry_point: "block_lengths",
+    source: ATTRIBUTES_SOURCE,
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Points),
+        read(Resource::Yarns),
+        read(Resource::Blocks),
+        write(Resource::ArcLengths),
+    ],
+};
+
+/// How long yarns are at each block's start, in place: a workgroup a yarn.
+pub const YARN_LENGTHS: Shader = Shader {
+    entry_point: "yarn_lengths",
+    source: ATTRIBUTES_SOURCE,
+    workgroup: 256,
+    bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::ArcLengths)],
+};
+
+/// Attributes of a chunk's tubes: a workgroup a row.
+pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
+    entry_point: "attributes",
+    source: ATTRIBUTES_SOURCE,
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Points),
+        read(Resource::Yarns),
+        read(Resource::Blocks),
+        write(Resource::ArcLengths),
+        write(Resource::Attributes),
+    ],
+};
+
+/// Attributes of a chunk's caps: a lane a vertex.
+pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
+    entry_point: "cap_attributes",
+    source: ATTRIBUTES_SOURCE,
+    workgroup: 64,
+    bindings: &[uniform(Resource::Params), read(Resource::CapRows), write(Resource::Attributes)],
+};
+
 /// The paper's algorithm 2: a lane a part.
 pub const TRAJECTORY_PER_YARN: Shader = Shader {
     entry_point: "trajectory_per_yarn",
@@ -279,5 +330,17 @@ pub const MESH_PER_YARN: Shader = Shader {
 };
 
 /// All shaders.
-pub const ALL: [&Shader; 8] =
-    [&BLOCK_TURNS, &YARN_ROLLS, &TRAJECTORY, &MESH, &MESH_ODD, &CAPS, &TRAJECTORY_PER_YARN, &MESH_PER_YARN];
+pub const ALL: [&Shader; 12] = [
+    &BLOCK_TURNS,
+    &YARN_ROLLS,
+    &TRAJECTORY,
+    &MESH,
+    &MESH_ODD,
+    &CAPS,
+    &BLOCK_LENGTHS,
+    &YARN_LENGTHS,
+    &ATTRIBUTES_OF_TUBES,
+    &ATTRIBUTES_OF_CAPS,
+    &TRAJECTORY_PER_YARN,
+    &MESH_PER_YARN,
+];

@@ -72,7 +72,7 @@ fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
             }
         }
     }
-    block_rings(yarn, block, row, lane);
+    block_rings(yarn, block, lane);
     let outline = yarn.section * params.sides;
     let out = 3u * block.first_vertex / 2u;
     for (var store = share.store; store < stores; store += share.across) {
@@ -105,7 +105,7 @@ fn mesh_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
             }
         }
     }
-    block_rings(yarn, block, row, lane);
+    block_rings(yarn, block, lane);
     let outline = yarn.section * params.sides;
     let out = 3u * block.first_vertex;
     for (var store = share.store; store < stores; store += share.across) {

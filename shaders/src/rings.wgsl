@@ -24,9 +24,9 @@ struct BlockRings {
 
 var<workgroup> standing: BlockRings;
 
-// Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the workgroup, which has
+// Makes the rings of `block`: one lane a ring. Every lane of the workgroup, which has
 // at least BLOCK_RINGS, must come here.
-fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
+fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
     var here: RingSample;
     var roll = 0u;
     if lane < block.rings {
@@ -61,7 +61,7 @@ fn block_rings(yarn: YarnRow, block: Block, row: u32, lane: u32) {
             for (var before = 0u; before < lane / 8u; before++) {
                 sum += standing.eights[before];
             }
-            let start = rolls[params.yarns + params.first_block + row];
+            let start = rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS];
             roll = closed_up(yarn, block.first_ring + lane, start + sum - turn, rolls[block.yarn]);
         }
     }

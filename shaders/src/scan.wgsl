@@ -60,20 +60,22 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
         for (var further = 1u; further < TURNS_GROUP / 8u; further++) {
             turn += turn_sums[further];
         }
-        rolls[params.yarns + params.first_block + row] = turn;
+        rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS] = turn;
     }
 }
 
 var<workgroup> roll_sums: array<u32, ROLLS_GROUP>;
 
-// A workgroup of ROLLS_GROUP a yarn: turns become rolls in place, tile by tile, and their total the yarn's whole turn.
+// A workgroup of ROLLS_GROUP a yarn, `params.blocks` of them from `params.first_yarn` on: turns become rolls in place, tile
+// by tile, and their total the yarn's whole turn.
 @compute @workgroup_size(ROLLS_GROUP)
 fn yarn_rolls(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {
-    let number = group.y * grid.x + group.x;
-    if number >= params.yarns {
+    let row = group.y * grid.x + group.x;
+    if row >= params.blocks {
         return;
     }
+    let number = params.first_yarn + row;
     let yarn = yarns[number];
     let blocks = (yarn.rings - 1u) / BLOCK_RINGS + 1u;
     let own = params.yarns + yarn.first_block;

@@ -16,7 +16,7 @@ fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
     let block = blocks[row];
     let yarn = yarns[block.yarn];
-    block_rings(yarn, block, row, lane);
+    block_rings(yarn, block, lane);
 
     // Three stores of 16 bytes a ring, contiguous across lanes.
     let out = 3u * block.chunk_ring;

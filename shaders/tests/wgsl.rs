@@ -9,7 +9,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
 use texere_core::crossings::{Crossing, Lie};
 use texere_core::settling::Place;
-use texere_core::{Block, ControlPoint, Ring, SectionPoint, Vertex};
+use texere_core::{ArcLength, Attribute, Block, ControlPoint, Ring, SectionPoint, Vertex};
 use texere_gpu::{
     BoundsRow, CapRow, ChordRow, CrossingsParams, CrossingsSeenRow, ExtentRow, Language, Params, PlaceRow,
     SeenRow, SettledParams, SettledRow, SettlingParams, StrandRow, ThreadRow, YarnRow, prelude,
@@ -81,7 +81,7 @@ fn tables_lie_as_in_rust() {
             Params {
                 blocks,
                 caps,
-                first_block,
+                first_yarn,
                 yarns,
                 sides,
                 subdivisions,
@@ -232,6 +232,8 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (39, size_of::<Crossing>()),
         (40, size_of::<CrossingsSeenRow>()),
         (41, size_of::<CrossingsSeenRow>()),
+        (42, size_of::<ArcLength>()),
+        (43, size_of::<Attribute>()),
     ];
     let rust = BTreeMap::from(rust);
     for shader in all() {
@@ -256,6 +258,10 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         [offset_of!(Ring, half_height), offset_of!(Ring, width_growth), offset_of!(Ring, height_growth)];
     assert_eq!(sizes, [32, 36, 40]);
     assert_eq!((offset_of!(Vertex, position), offset_of!(Vertex, normal)), (0, 12));
+    // Written as three pairs.
+    let attribute =
+        [offset_of!(Attribute, angle), offset_of!(Attribute, along), offset_of!(Attribute, tangent)];
+    assert_eq!((offset_of!(Attribute, yarn), attribute), (0, [4, 8, 12]));
 }
 
 #[test]

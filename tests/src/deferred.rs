@@ -90,9 +90,9 @@ impl Engine for DeferredEngine {
         self.serial.scan(chunks)
     }
 
-    fn load(&mut self, slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
+    fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         self.launches[slot.index()] = Launch::default();
-        Ok(())
+        self.serial.load(slot, chunk)
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {

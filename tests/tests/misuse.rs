@@ -219,14 +219,14 @@ fn an_engine_refuses_what_it_has_not_loaded() {
         let refused = |result: Result<(), BackendError>| {
             assert!(matches!(result, Err(BackendError::NotLoaded { chunk: 0 })), "{name}: {result:?}");
         };
-        refused(engine.mesh(Slot::Even, &small));
-        engine.load(Slot::Even, &large).unwrap();
-        refused(engine.mesh(Slot::Even, &small));
-        refused(engine.trajectory(Slot::Even, &small));
-        refused(engine.mesh(Slot::Odd, &large));
-        refused(engine.load(Slot::Even, &foreign));
+        refused(engine.mesh(Slot::BOTH[0], &small));
+        engine.load(Slot::BOTH[0], &large).unwrap();
+        refused(engine.mesh(Slot::BOTH[0], &small));
+        refused(engine.trajectory(Slot::BOTH[0], &small));
+        refused(engine.mesh(Slot::BOTH[1], &large));
+        refused(engine.load(Slot::BOTH[0], &foreign));
         // A chunk that is refused leaves none.
-        refused(engine.mesh(Slot::Even, &large));
+        refused(engine.mesh(Slot::BOTH[0], &large));
         let mut session = Session::with_engine(engine, Limits::NONE, Arc::new(other.clone()));
         let result = session.mesh(&foreign);
         assert!(

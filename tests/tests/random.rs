@@ -5,8 +5,8 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use texere_conformance::DeferredBackend;
 use texere_core::{
-    Backend, ControlPoint, Frame, Limits, Mesh, Pipeline, Plan, Section, Settings, Topology, Trajectory,
-    Vertex, Yarn, Yarns,
+    Backend, ControlPoint, Frame, Limits, Mesh, PaddedPoints, Pipeline, Plan, Section, Settings, Topology,
+    Trajectory, Vertex, Yarn, Yarns,
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 
@@ -119,6 +119,42 @@ proptest! {
             prop_assert!(normal_form(&whole) == normal_form(&cut));
             let bytes = |trajectory: &Trajectory| bytemuck::cast_slice::<_, u8>(&trajectory.rings).to_vec();
             prop_assert!(bytes(&trajectory) == bytes(&cut_trajectory));
+        }
+    }
+
+    /// Boxes from control points alone hold every vertex of the cloth, of its yarns, and of any part of a yarn.
+    #[test]
+    fn bounds_hold_every_vertex(yarns in yarns(), settings in settings(), from in 0.0f64..1.0, to in 0.0f64..=1.0) {
+        let device = ParallelBackend::open().unwrap();
+        let mesh = Pipeline::new(&yarns).settings(settings).mesh(&device).unwrap();
+        let (plan, sides) = (&mesh.plan, settings.sides as usize);
+        let mut points = PaddedPoints::new(plan).unwrap();
+        points.upload(plan, 0, yarns.points());
+        let cloth = plan.bounds(&points);
+        let chunk = &mesh.chunks[0];
+        for vertex in &mesh.vertices {
+            prop_assert!(cloth.holds(vertex.position), "{:?} is not in {:?}", vertex, cloth);
+        }
+        for part in chunk.parts() {
+            let (yarn, rings) = (part.yarn as usize, f64::from(part.rings));
+            let bounds = plan.yarn_bounds(&points, yarn);
+            let vertices = &mesh.vertices[part.first_vertex as usize..][..part.rings as usize * sides];
+            for vertex in vertices {
+                prop_assert!(bounds.holds(vertex.position), "{:?} is not in {:?} of yarn {}", vertex, bounds, yarn);
+            }
+            let [one, other] = [from, to].map(|share| (share * rings) as u32);
+            for rings in [one.min(other)..one.max(other), one..one + 1, part.rings - 1..part.rings] {
+                let bounds = plan.part_bounds(&points, yarn, rings.clone());
+                let vertices = vertices.chunks_exact(sides).enumerate().filter(|(ring, _)| rings.contains(&(*ring as u32)));
+                for vertex in vertices.flat_map(|(_, ring)| ring) {
+                    prop_assert!(bounds.holds(vertex.position), "{:?} is not in {:?} of {}, {:?}", vertex, bounds, yarn, rings);
+                }
+            }
+        }
+        for cap in chunk.caps() {
+            let bounds = plan.yarn_bounds(&points, cap.yarn as usize);
+            let vertices = &mesh.vertices[cap.first_vertex as usize..][..sides];
+            prop_assert!(vertices.iter().all(|vertex| bounds.holds(vertex.position)));
         }
     }
 

@@ -9,6 +9,7 @@ mod mutants;
 mod mutate;
 mod steps;
 
+use std::collections::BTreeSet;
 use std::process::ExitCode;
 
 use demo::vulkan;
@@ -122,6 +123,28 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     steps.install(what, &missing);
 }
 
+/// The most packages that a program takes on which links texere as it comes, texere's own among them.
+const LINKED_MOST: usize = 45;
+
+/// Each feature of the facade that the workspace always has compiles without the others, and the facade as it comes stays light.
+fn features(steps: &mut Steps) {
+    for feature in ["", "images", "pictures"] {
+        let name = format!("the library, features: {}", if feature.is_empty() { "none" } else { feature });
+        let package =
+            ["clippy", "--package", "texere", "--locked", "--no-default-features", "--features", feature];
+        steps.cargo(&name, &[&package[..], &["--", "-D", "warnings"]].concat(), &[]);
+    }
+    let tree =
+        ["tree", "--package", "texere", "--edges", "normal", "--prefix", "none", "--no-dedupe", "--locked"];
+    let Some(tree) = steps.output("cargo", &tree, &[]) else { return };
+    // A name and a version begin each line; a path may follow.
+    let package = |line: &str| line.split(' ').take(2).collect::<Vec<_>>().join(" ");
+    let linked: BTreeSet<_> = tree.lines().filter(|line| line.contains(" v")).map(package).collect();
+    if linked.len() > LINKED_MOST {
+        steps.fail(format!("texere links {} packages, more than {LINKED_MOST}: {linked:?}", linked.len()));
+    }
+}
+
 /// The checks that run no tests.
 fn check(steps: &mut Steps) {
     steps.cargo("format", &["fmt", "--all", "--check"], &[]);
@@ -130,8 +153,14 @@ fn check(steps: &mut Steps) {
         &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
         &[],
     );
+    features(steps);
     let documented = ["doc", "--workspace", "--no-deps", "--locked", "--document-private-items"];
     steps.cargo("docs", &documented, &[("RUSTDOCFLAGS", "-D warnings -A rustdoc::private_intra_doc_links")]);
+    // What the README opens, and what a program sees that links texere without features.
+    for features in [&["--all-features"][..], &[]] {
+        let facade = [&["doc", "--package", "texere", "--no-deps", "--locked"], features].concat();
+        steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);
+    }
     if !steps.succeeds("cargo", &["deny", "--version"]) {
         steps.cargo("install cargo-deny", &["install", "cargo-deny", "--locked"], &[]);
     }

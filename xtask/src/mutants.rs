@@ -62,8 +62,13 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
     // The ring's own turn is counted in.
     opencl("kernels/src/rings.cl", "block_rings", "start + sum - turn", "start + sum"),
-    // The roll is looked up by the chunk's row, which whole fabrics don't show.
-    opencl("kernels/src/rings.cl", "block_rings", "rolls[params->first_block + row]", "rolls[row]"),
+    // Every block takes the roll of its yarn's first, which yarns of one block don't show.
+    opencl(
+        "kernels/src/rings.cl",
+        "block_rings",
+        "rolls[yarn->first_block + block->first_ring / BLOCK_RINGS]",
+        "rolls[yarn->first_block]",
+    ),
     // The step to the next block's first ring is left out.
     opencl("kernels/src/scan.cl", "block_turns", "lane < block.quads", "lane + 1u < block.quads"),
     // Only the tile before counts, which yarns of no more than two tiles don't show.
@@ -127,7 +132,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     wgpu(
         "shaders/src/rings.wgsl",
         "block_rings",
-        "let start = rolls[params.yarns + params.first_block + row];",
+        "let start = rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS];",
         "let start = 0u;",
     ),
     // Every step is measured from the block's first ring.

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use texere::{Counts, DeviceInfo, Pipeline, PlanError, Yarns};
+use texere::{Counts, DeviceInfo, Plan, PlanError, Settings, Yarns};
 use texere_core::StageTimings;
 
 /// One device's work on one cloth.
@@ -49,7 +49,7 @@ pub(super) const PICTURE: [u32; 2] = [1600, 1200];
 impl Cloth {
     /// A cloth and its counts at the default settings.
     pub(super) fn new(name: String, yarns: Yarns) -> Result<Self, PlanError> {
-        let counts = *Pipeline::new(&yarns).plan()?.counts();
+        let counts = *Plan::new(yarns.layout().clone(), Settings::default())?.counts();
         Ok(Self { name, yarns, counts })
     }
 }

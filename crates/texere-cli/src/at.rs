@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::{Design, Yarns, yarns_under};
+use texere::{Design, NamedPlace, YarnPlace, Yarns, yarns_under};
 
 /// A yarn under the point. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -23,23 +23,21 @@ pub(crate) struct YarnUnder {
 
 /// The yarns under `point`, the topmost first.
 pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2], tension: f32) -> Vec<YarnUnder> {
-    let table = yarns.layout().yarns();
-    let named = |place: &texere::YarnPlace| {
-        let material = yarns.materials().get(table[place.yarn].material as usize);
-        let told = place.source.and_then(|source| design.told(source));
+    let said = |place: &YarnPlace| {
+        let NamedPlace { thread, material, told } = design.named(yarns, place);
         let (place_of, instructions) = told.map(|told| (told.place, told.instructions)).unzip();
         // Guides of a warp knit make all courses.
         let course =
             || design.structure.warp_knitted().and(place.source).map(|course| format!("course {course}"));
         YarnUnder {
-            yarn: design.structure.place(yarns, place).thread.to_string(),
-            material: material.map(|material| material.name.clone()).unwrap_or_default(),
+            yarn: thread.thread.to_string(),
+            material,
             z_mm: place.position[2],
             place: place_of.or_else(course),
             instructions: instructions.unwrap_or_default(),
         }
     };
-    yarns_under(yarns, point.map(f64::from), tension).iter().map(named).collect()
+    yarns_under(yarns, point.map(f64::from), tension).iter().map(said).collect()
 }
 
 impl fmt::Display for YarnUnder {

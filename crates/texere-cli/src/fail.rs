@@ -6,7 +6,9 @@ use std::iter::successors;
 use std::path::Path;
 use std::process::ExitCode;
 
-use texere::{BackendError, FabricError, FinishError, PlanError, ReadError, RenderError, WriteError};
+use texere::{
+    BackendError, FabricError, FinishError, PipelineError, PlanError, ReadError, RenderError, WriteError,
+};
 
 use crate::terminal::line;
 
@@ -129,13 +131,22 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
     let write = error.downcast_ref().map(|error| match error {
         WriteError::UnknownFormat { .. }
         | WriteError::NotPng { .. }
+        | WriteError::NotEnding { .. }
+        | WriteError::Unheld { .. }
+        | WriteError::TextTooLarge { .. }
         | WriteError::Spared { .. }
         | WriteError::GlbTooLarge { .. }
         | WriteError::TooManyVertices { .. } => USAGE,
-        WriteError::DraftTooLarge { .. } => DESIGN,
+        WriteError::DraftTooLarge { .. } | WriteError::OutOfRange { .. } => DESIGN,
         _ => WORLD,
     });
-    read.or(fabric).or(plan).or(backend).or(write)
+    // It says what it holds, and is that to a user.
+    let pipeline = error.downcast_ref().and_then(|error| match error {
+        PipelineError::Plan(error) => own_code(error),
+        PipelineError::Backend(error) => own_code(error),
+        _ => None,
+    });
+    read.or(fabric).or(plan).or(backend).or(pipeline).or(write)
 }
 
 impl From<ReadError> for Fail {
@@ -194,7 +205,7 @@ impl From<RenderError> for Fail {
 mod tests {
     use std::io::ErrorKind;
 
-    use texere::{PipelineError, Place};
+    use texere::Place;
 
     use super::*;
 

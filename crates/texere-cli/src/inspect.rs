@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use serde::Serialize;
 use texere::warp::{Bar, WarpKnitted};
 use texere::weft::Knitted;
-use texere::{Counts, Design, Pipeline, Settings, Structure, Yarns};
+use texere::{Counts, Design, Plan, Settings, Structure, Yarns};
 
 use crate::args::InspectArgs;
 use crate::at::{self, YarnUnder};
@@ -117,7 +117,7 @@ fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
         settling::yarns(&mut design, &args.settling, settings.tension, || texere::open("cpu"))?
     };
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
-    let counts = *Pipeline::new(&yarns).settings(settings).plan()?.counts();
+    let counts = *Plan::new(yarns.layout().clone(), settings)?.counts();
     let cloth = if args.counts {
         None
     } else {
@@ -265,15 +265,11 @@ impl ClothReport {
             lines.push(("cover", format!("{cloth}: ends {ends}, picks {picks}")));
         }
         lines.extend(self.woven.iter().flat_map(|woven| woven.setts.lines()));
-        for Sets { warp, weft } in self.woven.iter().map(|woven| &woven.levels) {
-            if warp.max(weft) > &1 {
-                let drawn = if self.woven.iter().any(|woven| woven.jam.is_some()) {
-                    "; as woven all are drawn side by side"
-                } else {
-                    ""
-                };
-                lines.push(("levels", format!("of ends {warp}, of picks {weft}{drawn}")));
-            }
+        if let Some(WovenReport { levels: Sets { warp, weft }, jam, .. }) = &self.woven
+            && warp.max(weft) > &1
+        {
+            let drawn = if jam.is_some() { "; as woven all are drawn side by side" } else { "" };
+            lines.push(("levels", format!("of ends {warp}, of picks {weft}{drawn}")));
         }
         let jams = self.woven.iter().filter_map(|woven| woven.jam.as_ref());
         let pitches =

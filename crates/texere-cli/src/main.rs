@@ -1,4 +1,4 @@
-//! The `texere` program: inspect, check, mesh and draft textile designs.
+//! The `texere` program: inspect, check, mesh, draft and convert textile designs.
 //!
 //! Exit codes: 0 done; 1 a device, a file or memory failed; 2 the command line or the variable `TEXERE_SIMD` is wrong; 3 the
 //! design is wrong; 4 `check` found that the cloth pierces itself, folds or jams.
@@ -7,6 +7,7 @@ mod args;
 mod at;
 mod check;
 mod clearance;
+mod convert;
 mod cores;
 mod cures;
 mod devices;
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Mesh(args) => mesh::run(&args),
         Command::Draft(args) => draft::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Render(args) => render::run(&args),
     };
     #[cfg(unix)]

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use texere::{Camera, Cut, Design, Extent, Output, Picture, Quality, Renderer};
+use texere::{Background, Camera, Cut, Design, Extent, Output, Quality, Renderer};
 
 use crate::args::{RenderArgs, View};
 use crate::fail::Fail;
@@ -50,16 +50,19 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
         settings.sides = FINE_SIDES;
     }
     let mut scene = stages.time("upload", || renderer.scene(&yarns, &settings))?;
+    scene.set_background(args.background);
     let cameras = cameras(args, &design, scene.extent())?;
     let quality = Quality { supersampling: args.supersampling };
     let mut text = settling.map(|settling| format!("settling: {}\n", line(settling))).unwrap_or_default();
     for (output, camera) in outputs.into_iter().zip(cameras) {
-        let Picture { size: [width, height], rgb, timings } = scene.picture(&camera, quality)?;
-        stages.add("screen", timings.screen);
-        stages.add("mesh and draw", timings.draw);
-        stages.add("light", timings.shade);
+        let picture = scene.picture(&camera, quality)?;
+        stages.add("screen", picture.timings.screen);
+        stages.add("mesh and draw", picture.timings.draw);
+        stages.add("light", picture.timings.shade);
+        let pixels = if args.background == Background::Nothing { picture.rgba() } else { picture.rgb };
+        let [width, height] = picture.size;
         let path = line(output.path().display());
-        stages.time("write", || texere::write_picture([width, height], &rgb, output))?;
+        stages.time("write", || texere::write_picture(picture.size, &pixels, output))?;
         let triangles = scene.plan().counts().triangles;
         let name = &renderer.info().name;
         // Writing to a string can't fail.

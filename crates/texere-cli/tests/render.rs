@@ -106,6 +106,28 @@ fn supersampling_is_blamed_where_it_is_the_cause() {
     assert!(said.contains("supersampled 2 times") && said.contains("1 times is the most"), "{said}");
 }
 
+#[test]
+fn what_is_seen_where_no_yarn_is_can_be_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("plain.png");
+    let drawn = |background: &str| {
+        let size = ["--size", "60x40", "--view", "oblique", "--background", background];
+        let output = render(&[&[PLAIN, "-o", out.to_str().unwrap()], &size[..]].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        pixels(&out)
+    };
+    let (plum, nothing) = (drawn("#78285A"), drawn("none"));
+    // The picture's corner lies beside the cloth.
+    assert_eq!((plum.0, &plum.1[..3]), (png::ColorType::Rgb, &[0x78, 0x28, 0x5a][..]));
+    assert_eq!((nothing.0, &nothing.1[..4]), (png::ColorType::Rgba, &[0; 4][..]));
+    let middle = 4 * (20 * 60 + 30);
+    assert!(nothing.1[middle + 3] > 150);
+    for background in ["", "plum", "#78285", "#+8285A", "78285A", "#78285AFF"] {
+        let refused = render(&[PLAIN, "-o", out.to_str().unwrap(), "--background", background]);
+        assert_eq!(refused.status.code(), Some(2), "{background}");
+    }
+}
+
 /// With an even number of threads the middle of the cloth lies between two of them.
 #[test]
 fn a_cut_goes_through_a_thread_if_it_is_not_told_where() {
@@ -165,13 +187,21 @@ fn no_vulkan_and_no_opencl_exit_alike() {
     }
 }
 
-/// Colours of a picture's pixels, row by row.
-fn pixels(path: &PathBuf) -> Vec<[u8; 3]> {
+/// Colours of an opaque picture's pixels, row by row.
+fn colors(path: &PathBuf) -> Vec<[u8; 3]> {
+    let (kind, bytes) = pixels(path);
+    assert_eq!(kind, png::ColorType::Rgb);
+    bytes.as_chunks().0.to_vec()
+}
+
+/// What a pixel of a picture has, and the bytes of all, row by row.
+fn pixels(path: &PathBuf) -> (png::ColorType, Vec<u8>) {
     let mut reader = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut bytes).unwrap();
-    assert_eq!((info.color_type, info.bit_depth), (png::ColorType::Rgb, png::BitDepth::Eight));
-    bytes[..info.buffer_size()].as_chunks().0.to_vec()
+    assert_eq!(info.bit_depth, png::BitDepth::Eight);
+    bytes.truncate(info.buffer_size());
+    (info.color_type, bytes)
 }
 
 /// A weave of red warp and blue weft, seen straight from above: what share of its middle shows warp, weft and ground.
@@ -189,7 +219,7 @@ fn seen(weave: &str, [ends, picks]: [f64; 2], [warp, weft]: [f64; 2], mm_per_pix
     let output = render(&[&[design, "-o", out], &scale[..]].concat());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let [width, height] = png_size(&picture).map(|side| side as usize);
-    let all = pixels(&picture);
+    let all = colors(&picture);
     let mut counts = [0_u32; 3];
     for row in height / 4..3 * height / 4 {
         for [red, green, blue] in &all[row * width + width / 4..row * width + 3 * width / 4] {

@@ -1,40 +1,34 @@
 //! The engine trait: what a device does for a session. The session checks every call; an engine gets only valid input.
 
+use std::any::Any;
 use std::fmt;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
+use std::sync::Arc;
 use std::time::Duration;
 
 use crate::settling::{Settler, points_of};
-use crate::{BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, Ring, Traffic};
+use crate::{Attribute, BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, Plan, Ring, Traffic};
 
-/// One of a session's two places for a chunk in flight. The chunk's tables, rings and mesh lie there until another chunk
-/// takes the slot.
+/// One of an engine's places for a chunk. The chunk's tables, rings and mesh lie there until another chunk takes the slot.
+///
+/// A [`Session`](crate::Session) has two, [`LiveMesh`](crate::LiveMesh) one for each of its chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Slot {
-    /// The first slot.
-    #[default]
-    Even,
-    /// The second slot.
-    Odd,
-}
+pub struct Slot(u32);
 
 impl Slot {
-    /// Both of them.
-    pub const BOTH: [Self; 2] = [Self::Even, Self::Odd];
+    /// The two of a session.
+    pub const BOTH: [Self; 2] = [Self(0), Self(1)];
 
-    /// The other one.
+    /// The slot of a number, from 0.
     #[must_use]
-    pub const fn other(self) -> Self {
-        match self {
-            Self::Even => Self::Odd,
-            Self::Odd => Self::Even,
-        }
+    pub const fn new(number: u32) -> Self {
+        Self(number)
     }
 
-    /// 0 or 1, the index into an array of two.
+    /// Its number, the index into an engine's slots.
     #[must_use]
     pub const fn index(self) -> usize {
-        self as usize
+        self.0 as usize
     }
 }
 
@@ -59,13 +53,17 @@ pub type RingSink<'a> = &'a mut dyn FnMut(&[Ring]) -> ControlFlow<()>;
 /// A callback that borrows vertices and indices, piece by piece.
 pub type MeshSink<'a> = &'a mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>;
 
+/// A callback that borrows attributes, piece by piece, each with the number of its first vertex, from the chunk's start.
+pub type AttributeSink<'a> = &'a mut dyn FnMut(u32, &[Attribute]) -> ControlFlow<()>;
+
 /// The work on one plan on one device. It owns all memory that the work needs.
 ///
 /// A [`Session`](crate::Session) calls it, and keeps these rules, so that no engine has to check them:
 ///
 /// - Control points come within the plan's range. Results of the points before them are not read any more.
 /// - Where the plan needs a scan, one comes before any stage, and again after each upload.
-/// - Every chunk is the plan's own. It is loaded into a slot before a stage is run for it there.
+/// - Every chunk is the plan's own, or a [patch](crate::Plan::patch) of one. It is loaded into a slot before a stage is run for it there. After
+///   a chunk come only patches of it where its results are still wanted: they must stay where they are.
 /// - `mesh` of an engine that [reads rings](Engine::mesh_reads_rings) comes after `trajectory` in the same slot.
 /// - What is read has been made, and nothing has taken its slot since. Slices to write into are as long as the chunk says.
 ///
@@ -76,7 +74,7 @@ pub type MeshSink<'a> = &'a mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>;
 /// Every call may return before its work is done, except those that read.
 ///
 /// All methods give back a [`BackendError`] for what could not be foreseen, and nothing else.
-pub trait Engine: fmt::Debug + Send {
+pub trait Engine: Any + fmt::Debug + Send {
     /// Takes control points, the first of which is number `first` of the fabric. Gives back the bytes sent, virtual ends
     /// included.
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError>;
@@ -89,8 +87,23 @@ pub trait Engine: fmt::Debug + Send {
         take_over_host(self, settler)
     }
 
-    /// Works out the roll at each block's start, and the whole turn of each closed yarn. `chunks` are all of the plan, each in
-    /// a slot, for an engine that needs their tables there.
+    /// Whether it has as many slots as it is asked for, makes [patches](crate::Plan::patch) without touching what lies beside them, and takes edited
+    /// plans: what [`LiveMesh`](crate::LiveMesh) needs.
+    fn is_editable(&self) -> bool {
+        false
+    }
+
+    /// Takes a plan that was [edited](crate::Plan::edited) from its own: `yarns` may be others, with other numbers of control points. What is loaded
+    /// in slots is forgotten, what has been made stays.
+    ///
+    /// Provided: refused, by an engine that is not [editable](Engine::is_editable).
+    fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
+        let _ = (plan, yarns);
+        Err(BackendError::NoEditing)
+    }
+
+    /// Works out the roll at each block's start, and the whole turn of each closed yarn, of the yarns that [`ScanChunks::yarns`] says.
+    /// `chunks` are all of the plan or, between them, all blocks of those yarns, each in a slot, for an engine that needs their tables there.
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError>;
 
     /// Takes the tables of `chunk` into `slot`, in place of any other chunk's.
@@ -124,6 +137,32 @@ pub trait Engine: fmt::Debug + Send {
         chunk: &Chunk,
         sink: MeshSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError>;
+
+    /// Works out how long each yarn is at each block's start, for those that [`ScanChunks::yarns`] says, as [`Engine::scan`] does rolls.
+    ///
+    /// Provided, as the two that follow: refused, by an engine that makes no attributes.
+    fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        let _ = chunks;
+        Err(BackendError::NoAttributes)
+    }
+
+    /// Attributes of all vertices of `chunk`, into `slot`, in memory of their own. Its yarns have been measured since the last upload.
+    fn attributes(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let _ = (slot, chunk);
+        Err(BackendError::NoAttributes)
+    }
+
+    /// Waits for the attributes in `slot` and lends them piece by piece, in order. A sink that answers `Break` ends the reading,
+    /// and the answer comes back.
+    fn read_attributes(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: AttributeSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let _ = (slot, chunk, sink);
+        Err(BackendError::NoAttributes)
+    }
 
     /// Stage 2 straight into the caller's slices.
     ///
@@ -180,11 +219,18 @@ pub struct ScanChunk {
 /// there.
 pub struct ScanChunks<'a> {
     chunks: &'a mut dyn Iterator<Item = ScanChunk>,
+    yarns: Range<usize>,
 }
 
 impl<'a> ScanChunks<'a> {
-    pub(crate) fn new(chunks: &'a mut dyn Iterator<Item = ScanChunk>) -> Self {
-        Self { chunks }
+    pub(crate) fn new(chunks: &'a mut dyn Iterator<Item = ScanChunk>, yarns: Range<usize>) -> Self {
+        Self { chunks, yarns }
+    }
+
+    /// The yarns whose rolls are asked for.
+    #[must_use]
+    pub const fn yarns(&self) -> Range<usize> {
+        self.yarns.start..self.yarns.end
     }
 }
 

@@ -294,6 +294,34 @@ pub enum PlanError {
         /// Most allowed.
         limit: u64,
     },
+    /// A yarn is to have more control points than the plan has room for.
+    #[error("yarn {yarn} of {points} control points, but the plan has room for {room}")]
+    NoRoom {
+        /// The yarn, from 0.
+        yarn: usize,
+        /// Its control points.
+        points: u64,
+        /// Most that it may have.
+        room: u64,
+    },
+    /// A yarn is to have too few control points.
+    #[error("yarn {yarn} of {points} control points, fewer than {least}")]
+    TooFewPoints {
+        /// The yarn, from 0.
+        yarn: usize,
+        /// Its control points.
+        points: u64,
+        /// Least allowed.
+        least: u64,
+    },
+    /// A yarn is to become what takes a new plan.
+    #[error("yarn {yarn} can't be {what}: that takes a new plan")]
+    OtherPlan {
+        /// The yarn, from 0.
+        yarn: usize,
+        /// What it would be.
+        what: &'static str,
+    },
     /// Not even one block fits the limits of memory.
     #[error("one block of {rings} rings needs {needed} bytes for {what}, but the limit is {limit} bytes")]
     BlockTooLarge {
@@ -342,6 +370,12 @@ pub enum BackendError {
         /// Names that would have worked.
         found: Vec<&'static str>,
     },
+    /// The device, or its schedule, makes no attributes.
+    #[error("no attributes are made on this device, or not in its schedule")]
+    NoAttributes,
+    /// The device, or its schedule, can't make a mesh that is edited.
+    #[error("yarns can't be edited on this device, or not in its schedule")]
+    NoEditing,
     /// The backend can't settle yarns.
     #[error("{name} can't settle yarns")]
     NoSettling {
@@ -406,6 +440,20 @@ pub enum BackendError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {
+    /// A plan of only a [region](crate::Plan::within), of which nothing can be edited.
+    #[error("a mesh that is edited is of the whole cloth, and the plan is of a region of it")]
+    Region,
+    /// A yarn that there is not.
+    #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
+    NoYarn {
+        /// The yarn.
+        yarn: usize,
+        /// How many there are.
+        yarns: usize,
+    },
+    /// Control points that no yarn can have.
+    #[error(transparent)]
+    Yarns(#[from] YarnError),
     /// An upload past the last control point.
     #[error("upload of points {first} to {end}, but there are {points}")]
     UploadRange {
@@ -449,11 +497,11 @@ pub enum SessionError {
         /// What the plan says.
         planned: u64,
     },
-    /// Not even one block of the plan fits the device.
-    #[error("the device is too small for the plan")]
+    /// The plan can't be made, or not even one block of it fits the device.
+    #[error(transparent)]
     Plan(#[from] PlanError),
     /// The backend failed.
-    #[error("the backend failed")]
+    #[error(transparent)]
     Backend(#[from] BackendError),
 }
 
@@ -462,14 +510,14 @@ pub enum SessionError {
 #[non_exhaustive]
 pub enum PipelineError {
     /// The settings can't be planned for.
-    #[error("the mesh can't be planned")]
+    #[error(transparent)]
     Plan(#[from] PlanError),
     /// The backend failed.
-    #[error("the backend failed")]
+    #[error(transparent)]
     Backend(#[from] BackendError),
     /// A call of the session that the pipeline should not have made.
-    #[error("the session was misused")]
-    Session(#[source] SessionError),
+    #[error(transparent)]
+    Session(SessionError),
     /// The progress callback asked to stop.
     #[error("cancelled")]
     Cancelled,

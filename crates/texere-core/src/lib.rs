@@ -16,12 +16,15 @@
 //!
 //! This crate does no I/O, knows no GPU and holds no unsafe code.
 
+mod arrange;
+mod attribute;
 mod backend;
 mod boundary;
 pub mod crossings;
 mod engine;
 mod error;
 mod frame;
+mod live;
 mod material;
 mod mesh;
 mod null;
@@ -29,6 +32,7 @@ mod padded;
 mod pipeline;
 mod plan;
 mod point;
+mod ray;
 mod ring;
 mod sampling;
 mod section;
@@ -40,31 +44,40 @@ mod turn;
 mod vertex;
 mod yarns;
 
+pub use arrange::Placement;
+pub use attribute::{ArcLength, Attribute, corner_angle};
 pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
 pub use boundary::{Boundary, Ends};
 pub use crossings::{Crossings, CrossingsError, CrossingsPlan, CrossingsSettler};
-pub use engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings, take_over_host};
+pub use engine::{
+    AttributeSink, Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings, take_over_host,
+};
 pub use error::{
     BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,
 };
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
+pub use live::{Change, LiveMesh};
 pub use material::Material;
-pub use mesh::{Draw, Mesh, MeshMut, MeshPiece};
+pub use mesh::{ChunkDraw, Draw, Mesh, MeshMut, MeshPiece};
 pub use null::NullBackend;
 pub use padded::{PaddedPoints, renew_virtual_ends, zeroed};
 pub use pipeline::{Pipeline, Progress};
 pub use plan::{
-    BLOCK_RINGS, Block, Cap, Chunk, Chunks, Counts, Limits, Part, Plan, RINGS_MAX, Settings, WINDOW_POINTS,
-    YARN_RINGS_MAX,
+    BLOCK_RINGS, Block, Bounds, Cap, Chunk, Chunks, Counts, Limits, MeshPlace, Part, Plan, RINGS_MAX,
+    Settings, TablesId, WINDOW_POINTS, YARN_RINGS_MAX,
 };
 pub use point::{COORDINATE_LIMIT, ControlPoint, Halves, RADIUS_MAX, RADIUS_MIN};
+pub use ray::Ray;
 pub use ring::{Ring, Stance, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
 pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
 pub use session::{Session, Traffic};
 pub use settling::{Settler, Settling, SettlingError, SettlingPlan, settle};
-pub use spline::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment, ZERO_VELOCITY};
+pub use spline::{
+    ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment,
+    ZERO_VELOCITY,
+};
 pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};
 pub use vertex::Vertex;
-pub use yarns::{Layout, Origin, TWIST_LIMIT, Yarn, Yarns, YarnsBuilder};
+pub use yarns::{Layout, Origin, TWIST_LIMIT, Yarn, Yarns, YarnsBuilder, check_points};

@@ -13,14 +13,27 @@ pub struct Draw {
     pub indices: std::ops::Range<u64>,
     /// What to add to an index to get a vertex of the mesh.
     pub base_vertex: u64,
-    /// How many vertices from `base_vertex` on the draw may refer to.
+    /// How many vertices from `base_vertex` on the draw may refer to, for file formats and interfaces that ask: those of its chunk, or with a
+    /// shared pattern its own.
     pub vertices: u64,
 }
 
+/// A range of indices that draws (part of) one yarn of a chunk from buffers of the chunk's own: what an indexed draw of a GPU's interface takes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ChunkDraw {
+    /// The yarn, from 0 among all.
+    pub yarn: u32,
+    /// Its range in the chunk's indices, or in the [shared pattern](Plan::shared_indices).
+    pub indices: std::ops::Range<u32>,
+    /// What to add to an index to get a vertex of the chunk.
+    pub base_vertex: i32,
+}
+
 impl Plan {
-    /// Gaps between rings that the shared pattern covers: those of the longest part, at most [`SHARED_GAPS`].
+    /// Gaps between rings that the shared pattern covers: those of the longest part that there is room for, at most
+    /// [`SHARED_GAPS`].
     fn shared_gaps(&self) -> u64 {
-        let longest = (0..self.layout().yarns().len()).map(|yarn| u64::from(self.rings(yarn)) - 1).max();
+        let longest = self.ring_offsets().windows(2).map(|bounds| bounds[1] - bounds[0] - 1).max();
         longest.unwrap_or(0).min(SHARED_GAPS)
     }
 
@@ -76,8 +89,30 @@ impl Plan {
         })
     }
 
-    /// How to draw a chunk, yarn by yarn, its caps last. Empty with [`Topology::None`].
+    /// How to draw a chunk as part of a whole mesh, yarn by yarn, its caps last. Empty with [`Topology::None`].
     pub fn draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = Draw> + 'a {
+        self.draws_from(chunk, chunk.first_vertex(), chunk.first_index())
+    }
+
+    /// How to draw a chunk from buffers of its own, such as a device lends, likewise: vertices and indices count from the chunk's first.
+    ///
+    /// Of a [`LiveMesh`](crate::LiveMesh) draw these and nothing else: in the room between yarns lie triangles from before an edit. They
+    /// change with an edit that makes a yarn longer or shorter.
+    pub fn chunk_draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = ChunkDraw> + 'a {
+        self.draws_from(chunk, 0, 0).map(|draw| ChunkDraw {
+            yarn: draw.yarn,
+            // A chunk's counts fit: it has at most as many vertices as an `i32` counts.
+            indices: draw.indices.start as u32..draw.indices.end as u32,
+            base_vertex: draw.base_vertex as i32,
+        })
+    }
+
+    fn draws_from<'a>(
+        &'a self,
+        chunk: &'a Chunk,
+        first_vertex: u64,
+        first_index: u64,
+    ) -> impl Iterator<Item = Draw> + 'a {
         let sides = u64::from(self.settings().sides);
         let topology = self.settings().topology;
         let tubes = chunk.parts().iter().flat_map(move |part| {
@@ -88,12 +123,12 @@ impl Plan {
                 let here = stretch.min(gaps - number * stretch);
                 let (indices, base_vertex) = match topology {
                     Topology::Shared => (0, u64::from(part.first_vertex) + number * stretch * sides),
-                    _ => (chunk.first_index() + u64::from(part.first_index), 0),
+                    _ => (first_index + u64::from(part.first_index), 0),
                 };
                 Draw {
                     yarn: part.yarn,
                     indices: indices..indices + here * sides * 6,
-                    base_vertex: chunk.first_vertex() + base_vertex,
+                    base_vertex: first_vertex + base_vertex,
                     vertices: if topology == Topology::Shared {
                         (here + 1) * sides
                     } else {
@@ -110,12 +145,12 @@ impl Plan {
                     let before = section * 2 + u64::from(cap.end == End::Finish);
                     (self.shared_gaps() * sides * 6 + before * each, u64::from(cap.first_vertex))
                 }
-                _ => (chunk.first_index() + u64::from(cap.first_index), 0),
+                _ => (first_index + u64::from(cap.first_index), 0),
             };
             Draw {
                 yarn: cap.yarn,
                 indices: indices..indices + each,
-                base_vertex: chunk.first_vertex() + base_vertex,
+                base_vertex: first_vertex + base_vertex,
                 vertices: if topology == Topology::Shared { sides } else { chunk.vertices().into() },
             }
         });

@@ -1,11 +1,11 @@
 //! A backend that does nothing: for tests of what happens before a device is reached.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use crate::{
-    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits, MeshSink, Plan,
-    RingSink, ScanChunks, Schedule, Slot, StageTimings,
+    AttributeSink, Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits,
+    MeshSink, Plan, RingSink, ScanChunks, Schedule, Slot, StageTimings,
 };
 
 /// A backend that writes nothing: outputs stay as they were.
@@ -62,6 +62,14 @@ impl Engine for NullEngine {
         Ok(0)
     }
 
+    fn is_editable(&self) -> bool {
+        true
+    }
+
+    fn replan(&mut self, _plan: Arc<Plan>, _yarns: Range<usize>) -> Result<(), BackendError> {
+        Ok(())
+    }
+
     fn scan(&mut self, _chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         Ok(())
     }
@@ -92,6 +100,23 @@ impl Engine for NullEngine {
         _slot: Slot,
         _chunk: &Chunk,
         _sink: MeshSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn measure(&mut self, _chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        Ok(())
+    }
+
+    fn attributes(&mut self, _slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
+        Ok(())
+    }
+
+    fn read_attributes(
+        &mut self,
+        _slot: Slot,
+        _chunk: &Chunk,
+        _sink: AttributeSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
         Ok(ControlFlow::Continue(()))
     }

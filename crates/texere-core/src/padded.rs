@@ -44,7 +44,9 @@ impl PaddedPoints {
             padded[1 + own.start..1 + own.end].copy_from_slice(&points[sent]);
             renew_virtual_ends(padded, plan.yarn(yarn).closed);
         }
-        plan.padded_offsets()[yarns.start]..plan.padded_offsets()[yarns.end]
+        let end = yarns.clone().last().map(|last| plan.padded_range(last).end);
+        let start = plan.padded_offsets()[yarns.start];
+        start..end.unwrap_or(start)
     }
 
     /// All padded points, yarn after yarn.
@@ -63,7 +65,8 @@ impl PaddedPoints {
 }
 
 fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
-    plan.padded_offsets()[yarn] as usize..plan.padded_offsets()[yarn + 1] as usize
+    let range = plan.padded_range(yarn);
+    range.start as usize..range.end as usize
 }
 
 /// Works out the virtual ends of one padded yarn from the control points between them: equations 3 and 4 of the paper for

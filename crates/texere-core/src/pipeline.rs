@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::{
-    Backend, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PipelineError, Plan, PlanError, Ring, Session,
-    Settings, Settler, Topology, Trajectory, Yarns, zeroed,
+    Attribute, Backend, Bounds, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PaddedPoints, PipelineError,
+    Plan, Ring, Session, Settings, Settler, Topology, Trajectory, Yarns, zeroed,
 };
 
 /// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed in between.
@@ -35,6 +35,9 @@ pub struct Pipeline<'a> {
     yarns: &'a Yarns,
     settings: Settings,
     limits: Limits,
+    within: Option<Bounds>,
+    /// Rings handed over so far.
+    done: u64,
     settler: Option<&'a mut dyn Settler>,
     progress: Option<OnProgress<'a>>,
 }
@@ -56,6 +59,8 @@ impl<'a> Pipeline<'a> {
             yarns,
             settings: Settings::default(),
             limits: Limits::default(),
+            within: None,
+            done: 0,
             settler: None,
             progress: None,
         }
@@ -118,8 +123,30 @@ impl<'a> Pipeline<'a> {
         self
     }
 
+    /// Makes only what lies in a box, such as [`Bounds::rectangle`]: whole blocks of rings, and of each the same bits as in the whole mesh.
+    /// More in [`Plan::within`]. A [`Pipeline::trajectory`] is whole all the same.
+    ///
+    /// ```
+    /// # use texere_core::{ControlPoint, NullBackend, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # for y in 0..100 {
+    /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));
+    /// # }
+    /// # let (yarns, device) = (yarns.build()?, NullBackend::default());
+    /// use texere_core::{Bounds, Pipeline};
+    /// // A hundred yarns along x, a millimetre apart.
+    /// let mesh = Pipeline::new(&yarns).within(Bounds::rectangle([0.0, 39.5], [1.0, 44.5])).mesh(&device)?;
+    /// assert_eq!(mesh.chunks[0].parts().iter().map(|part| part.yarn).collect::<Vec<_>>(), [40, 41, 42, 43, 44]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn within(mut self, bounds: Bounds) -> Self {
+        self.within = Some(bounds);
+        self
+    }
+
     /// Takes control points from where `settler` has left them instead of those of the yarns, whose layout stays: on the device that
-    /// it works on they don't leave it.
+    /// it works on they don't leave it. What lies [within](Pipeline::within) a box is still told by those of the yarns.
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), Box<dyn std::error::Error>> {
@@ -154,9 +181,13 @@ impl<'a> Pipeline<'a> {
 
     /// The plan for these settings.
     ///
-    /// **Errors**: those of [`Plan::new`].
-    pub fn plan(&self) -> Result<Plan, PlanError> {
-        Plan::new(self.yarns.layout().clone(), self.settings)
+    /// **Errors**: those of [`Plan::new`], and [`PipelineError::Backend`] where there is no memory to find what lies within a box.
+    pub fn plan(&self) -> Result<Plan, PipelineError> {
+        let plan = Plan::new(self.yarns.layout().clone(), self.settings)?;
+        let Some(bounds) = &self.within else { return Ok(plan) };
+        let mut points = PaddedPoints::new(&plan)?;
+        points.upload(&plan, 0, self.yarns.points());
+        Ok(plan.within(&points, bounds))
     }
 
     /// The limits that chunks on `device` are cut to.
@@ -190,7 +221,8 @@ impl<'a> Pipeline<'a> {
     }
 
     /// The mesh piece by piece, each with the chunk that it belongs to, in bounded memory: the control points and two
-    /// chunks at a time. A sink that answers `Break` ends the run, and its answer comes back; by then at most one chunk more
+    /// chunks at a time. Of each chunk come all vertices in order, then all indices in order; a piece of indices may end anywhere, also within a
+    /// triangle. No triangle comes twice: what a chunk repeats of another are vertices. A sink that answers `Break` ends the run, and its answer comes back; by then at most one chunk more
     /// has been worked on.
     ///
     /// **Errors**: those of [`Pipeline::mesh`].
@@ -227,6 +259,40 @@ impl<'a> Pipeline<'a> {
         Ok(ControlFlow::Continue(()))
     }
 
+    /// What shaders and textures ask of each vertex, in host memory: in the order of [`Pipeline::mesh`]'s vertices with the same settings
+    /// and limits.
+    ///
+    /// ```
+    /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
+    /// use texere_core::Pipeline;
+    /// let mesh = Pipeline::new(yarns).mesh(device)?;
+    /// let attributes = Pipeline::new(yarns).attributes(device)?;
+    /// for (vertex, attribute) in mesh.vertices.iter().zip(&attributes) {
+    ///     println!("{:?} lies {} mm along yarn {}", vertex.position, attribute.along, attribute.yarn);
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// **Errors**: those of [`Pipeline::mesh`], and [`BackendError::NoAttributes`](crate::BackendError::NoAttributes).
+    pub fn attributes(mut self, device: &dyn Backend) -> Result<Vec<Attribute>, PipelineError> {
+        let (plan, mut session) = self.start(device)?;
+        session.measure()?;
+        let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
+        let total = chunks.iter().map(|chunk| u64::from(chunk.vertices())).sum();
+        let mut attributes: Vec<Attribute> = zeroed("attributes", total)?;
+        for chunk in &chunks {
+            session.attributes(chunk)?;
+            let own = &mut attributes[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
+            let _ = session.read_attributes(chunk, &mut |first, piece| {
+                own[first as usize..][..piece.len()].copy_from_slice(piece);
+                ControlFlow::Continue(())
+            })?;
+            self.tell(&plan, chunk)?;
+        }
+        Ok(attributes)
+    }
+
     /// The centrelines alone, in host memory.
     ///
     /// ```
@@ -240,6 +306,7 @@ impl<'a> Pipeline<'a> {
     ///
     /// **Errors**: those of [`Pipeline::mesh`].
     pub fn trajectory(mut self, device: &dyn Backend) -> Result<Trajectory, PipelineError> {
+        self.within = None;
         let (plan, mut session) = self.start(device)?;
         let mut rings: Vec<Ring> = zeroed("rings", plan.counts().rings)?;
         let mut done = 0;
@@ -280,13 +347,10 @@ impl<'a> Pipeline<'a> {
         Ok((plan, session))
     }
 
+    /// Counts a chunk as handed over.
     fn tell(&mut self, plan: &Plan, chunk: &Chunk) -> Result<(), PipelineError> {
-        // Rings of the yarns before, and of this one up to the chunk's end.
-        let done = chunk.parts().last().map_or(0, |part| {
-            let own = part.first_ring + part.rings - u32::from(chunk.repeats_ring());
-            plan.ring_offsets()[part.yarn as usize] + u64::from(own)
-        });
-        self.report(Progress { rings: done, total: plan.counts().rings })
+        self.done += u64::from(chunk.rings()) - u64::from(chunk.repeats_ring());
+        self.report(Progress { rings: self.done, total: plan.counts().rings })
     }
 
     fn report(&mut self, progress: Progress) -> Result<(), PipelineError> {

@@ -1,6 +1,6 @@
 //! Sampling of the spline: its tension, and how many rings it gets.
 
-use crate::{ControlPoint, PlanError, Sample, Segment};
+use crate::{ArcLength, ControlPoint, PlanError, Sample, Segment};
 
 /// Tension of the spline and points inserted between control points (the paper's u and K).
 ///
@@ -99,6 +99,18 @@ impl Sampling {
             span: segment.span(),
             ends_interval: step + 1 == per_interval,
         }
+    }
+
+    /// The length of the spline from ring `ring`, not the yarn's last, to the next one. `padded` is as in [`Sampling::sample`].
+    #[must_use]
+    #[inline]
+    pub fn step_length(&self, padded: &[ControlPoint], ring: u32) -> ArcLength {
+        let per_interval = self.subdivisions + 1;
+        let (interval, part) = ((ring / per_interval) as usize, ring % per_interval);
+        let window = [padded[interval], padded[interval + 1], padded[interval + 2], padded[interval + 3]];
+        // Not by the step, whose last multiple may be a bit off 1.
+        let end = if part + 1 == per_interval { 1.0 } else { (part + 1) as f32 * self.step };
+        ArcLength::from_mm(Segment::new(&window, self.s).length(part as f32 * self.step, end))
     }
 }
 

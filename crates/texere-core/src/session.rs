@@ -1,11 +1,14 @@
 //! One fabric on one device: the rules of its calls, and what is in flight.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::engine::{Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
+use crate::engine::{AttributeSink, Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::settling::{Settler, Strand};
-use crate::{Backend, Chunk, ControlPoint, Limits, MeshMut, MeshPiece, Plan, Ring, SessionError, Vertex};
+use crate::{
+    Backend, BackendError, Chunk, ControlPoint, Limits, MeshMut, MeshPiece, Plan, Ring, SessionError,
+    TablesId, Vertex,
+};
 
 /// Bytes that a session has moved between host and device, so far. A backend that works in the host's own memory lends
 /// its results where they lie, so it reads none back.
@@ -53,6 +56,7 @@ pub struct Session<E: Engine + ?Sized = dyn Engine> {
     /// The limits that a scan's chunks are cut to.
     limits: Limits,
     scanned: bool,
+    measured: bool,
     in_flight: [InFlight; 2],
     /// The slot that the next new chunk takes.
     next: Slot,
@@ -63,15 +67,16 @@ pub struct Session<E: Engine + ?Sized = dyn Engine> {
 /// What lies in a slot.
 #[derive(Debug, Default)]
 struct InFlight {
-    /// The blocks of the chunk whose tables are there. Its index would not do: chunks of another cut have the same ones.
-    blocks: Option<Range<u64>>,
+    /// The tables that are there. The chunk's index would not do: chunks of another cut have the same ones.
+    tables: Option<TablesId>,
     has_rings: bool,
     has_mesh: bool,
+    has_attributes: bool,
 }
 
 impl InFlight {
     fn forget_results(&mut self) {
-        (self.has_rings, self.has_mesh) = (false, false);
+        (self.has_rings, self.has_mesh, self.has_attributes) = (false, false, false);
     }
 }
 
@@ -93,6 +98,7 @@ impl<E: Engine + ?Sized> Session<E> {
             plan,
             limits,
             scanned: false,
+            measured: false,
             in_flight: Default::default(),
             next: Slot::default(),
             traffic: Traffic::default(),
@@ -121,7 +127,8 @@ impl<E: Engine + ?Sized> Session<E> {
     }
 
     /// Takes control points, the first of which is number `first` of the fabric: any range, so that a generator can feed
-    /// block by block and an edit send one yarn. Points that never came are zeros.
+    /// block by block and an edit send one yarn. Points that never came are zeros. They are taken as they are: [`Yarns`](crate::Yarns) are sound,
+    /// others a caller may check with [`check_points`](crate::check_points).
     ///
     /// **Errors**: [`SessionError::UploadRange`] past the last control point, and what the device says.
     pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
@@ -157,18 +164,41 @@ impl<E: Engine + ?Sized> Session<E> {
     /// **Errors**: [`SessionError::Plan`] where the device's limits hold no block, and what the device says.
     pub fn scan(&mut self) -> Result<(), SessionError> {
         if self.plan.needs_scan() && !self.scanned {
-            let chunks = self.plan.chunks(&self.limits)?;
-            // Put back only on success: after an error it is unknown which tables are loaded.
-            let mut in_flight = std::mem::take(&mut self.in_flight);
-            let mut in_slots = chunks.map(|chunk| {
-                let (slot, loaded) = claim(&mut in_flight, &mut self.next, &chunk);
-                in_flight[slot.index()].blocks = Some(chunk.block_range());
-                ScanChunk { slot, chunk, loaded }
-            });
-            self.engine.scan(ScanChunks::new(&mut in_slots))?;
-            self.in_flight = in_flight;
+            self.go_through(E::scan)?;
         }
         self.scanned = true;
+        Ok(())
+    }
+
+    /// Works out how long each yarn is at each block's start, for [`Session::attributes`]: once after uploads. There is nothing to do where
+    /// nothing was uploaded since.
+    ///
+    /// **Errors**: [`BackendError::NoAttributes`] and those of [`Session::scan`].
+    pub fn measure(&mut self) -> Result<(), SessionError> {
+        if !self.measured {
+            self.go_through(E::measure)?;
+        }
+        self.measured = true;
+        Ok(())
+    }
+
+    /// Calls `scan` with all chunks, each in a slot.
+    fn go_through(
+        &mut self,
+        scan: impl FnOnce(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
+    ) -> Result<(), SessionError> {
+        // A yarn's roll at any place comes from all of it before.
+        let whole = self.plan.whole();
+        let chunks = whole.chunks(&self.limits)?;
+        // Put back only on success: after an error it is unknown which tables are loaded.
+        let mut in_flight = std::mem::take(&mut self.in_flight);
+        let mut in_slots = chunks.map(|chunk| {
+            let (slot, loaded) = claim(&mut in_flight, &mut self.next, &chunk);
+            in_flight[slot.index()].tables = Some(chunk.tables().clone());
+            ScanChunk { slot, chunk, loaded }
+        });
+        scan(&mut self.engine, ScanChunks::new(&mut in_slots, 0..self.plan.layout().yarns().len()))?;
+        self.in_flight = in_flight;
         Ok(())
     }
 
@@ -231,6 +261,52 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
+    /// What shaders and textures ask of each vertex of `chunk`, in memory of its own. May return before it is done.
+    ///
+    /// ```
+    /// # fn example(session: &mut texere_core::Session, chunk: &texere_core::Chunk) -> Result<(), texere_core::SessionError> {
+    /// use std::ops::ControlFlow;
+    /// session.measure()?; // once after uploads
+    /// session.attributes(chunk)?;
+    /// let _ = session.read_attributes(chunk, &mut |first, piece| {
+    ///     println!("vertex {first}: {} mm along yarn {}", piece[0].along, piece[0].yarn);
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// **Errors**: [`SessionError::OutOfOrder`] before [`Session::measure`], and those of [`Session::trajectory`].
+    pub fn attributes(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
+        self.check_own(chunk)?;
+        if !self.measured {
+            return Err(SessionError::OutOfOrder { call: "attributes", needed: "measure" });
+        }
+        let slot = self.seat(chunk)?;
+        self.engine.attributes(slot, chunk)?;
+        self.in_flight[slot.index()].has_attributes = true;
+        Ok(())
+    }
+
+    /// Waits for this chunk's attributes and lends them piece by piece, in the order of its vertices, each piece with the number of its
+    /// first. A sink that answers `Break` ends the reading, and the answer comes back.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the device says.
+    pub fn read_attributes(
+        &mut self,
+        chunk: &Chunk,
+        sink: AttributeSink<'_>,
+    ) -> Result<ControlFlow<()>, SessionError> {
+        let slot = self.find(chunk, |here| here.has_attributes)?;
+        let mut bytes = 0;
+        let flow = self.engine.read_attributes(slot, chunk, &mut |first, piece| {
+            bytes += size_of_val(piece) as u64;
+            sink(first, piece)
+        });
+        self.count_read(bytes);
+        Ok(flow?)
+    }
+
     /// Runs stage 2 into the caller's slices, which must be exactly as long as planned. The mesh is not in flight afterwards.
     ///
     /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and those of [`Session::mesh`].
@@ -259,6 +335,14 @@ impl<E: Engine + ?Sized> Session<E> {
         self.find(chunk, |here| here.has_mesh)
     }
 
+    /// Where the attributes of `chunk` lie on the device, likewise.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::attributes`] has been called
+    /// for this chunk.
+    pub fn slot_of_attributes(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
+        self.find(chunk, |here| here.has_attributes)
+    }
+
     /// Time spent in each stage so far. Waits for all that has been launched.
     pub fn timings(&mut self) -> StageTimings {
         self.engine.timings()
@@ -272,7 +356,7 @@ impl<E: Engine + ?Sized> Session<E> {
 
     /// Earlier results belong to the old points.
     fn forget_points(&mut self) {
-        self.scanned = false;
+        (self.scanned, self.measured) = (false, false);
         self.in_flight.iter_mut().for_each(InFlight::forget_results);
     }
 
@@ -294,10 +378,15 @@ impl<E: Engine + ?Sized> Session<E> {
         if self.plan.needs_scan() && !self.scanned {
             return Err(SessionError::OutOfOrder { call, needed: "scan" });
         }
+        self.seat(chunk)
+    }
+
+    /// The slot of `chunk`, with its tables.
+    fn seat(&mut self, chunk: &Chunk) -> Result<Slot, SessionError> {
         let (slot, loaded) = claim(&mut self.in_flight, &mut self.next, chunk);
         if !loaded {
             self.engine.load(slot, chunk)?;
-            self.in_flight[slot.index()].blocks = Some(chunk.block_range());
+            self.in_flight[slot.index()].tables = Some(chunk.tables().clone());
         }
         Ok(slot)
     }
@@ -331,7 +420,7 @@ impl<E: Engine + ?Sized> Session<E> {
 
 /// The slot that has the tables of `chunk`.
 fn slot_of(in_flight: &[InFlight; 2], chunk: &Chunk) -> Option<Slot> {
-    let holds = |slot: &Slot| in_flight[slot.index()].blocks.as_ref() == Some(&chunk.block_range());
+    let holds = |slot: &Slot| in_flight[slot.index()].tables.as_ref() == Some(chunk.tables());
     Slot::BOTH.into_iter().find(holds)
 }
 
@@ -342,11 +431,16 @@ fn claim(in_flight: &mut [InFlight; 2], next: &mut Slot, chunk: &Chunk) -> (Slot
         return (slot, true);
     }
     // An empty slot first: a chunk that could not be loaded leaves one.
-    let is_empty = |slot: Slot| in_flight[slot.index()].blocks.is_none();
-    let slot = if is_empty(next.other()) && !is_empty(*next) { next.other() } else { *next };
-    *next = slot.other();
+    let is_empty = |slot: Slot| in_flight[slot.index()].tables.is_none();
+    let slot = if is_empty(other(*next)) && !is_empty(*next) { other(*next) } else { *next };
+    *next = other(slot);
     in_flight[slot.index()] = InFlight::default();
     (slot, false)
+}
+
+/// The other one of both slots.
+const fn other(slot: Slot) -> Slot {
+    Slot::BOTH[1 - slot.index()]
 }
 
 const _: () = {

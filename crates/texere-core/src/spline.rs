@@ -28,8 +28,23 @@ pub struct Segment {
     position: [Vec3; 3],
     half_width: Size,
     half_height: Size,
+    /// The largest difference between a control point and the start along any axis, mm.
+    largest: f32,
     /// A squared velocity up to this counts as zero.
     at_rest: f32,
+}
+
+/// What holds a stretch of a [`Segment`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Hull {
+    /// The least of its centres, mm.
+    pub(crate) low: Vec3,
+    /// The greatest, mm.
+    pub(crate) high: Vec3,
+    /// The most of its half widths, mm.
+    pub(crate) half_width: f32,
+    /// The most of its half heights, mm.
+    pub(crate) half_height: f32,
 }
 
 /// The spline at one parameter.
@@ -70,6 +85,21 @@ pub const SLOPE_LIMIT: f32 = 1e4;
 /// A spline overshoots: between a slub and a thin place it can dip below zero, where there is no tube.
 pub const RADIUS_FLOOR: f32 = 0.5;
 
+/// Where Gauss and Legendre's rule with eight points tries a function between -1 and 1: at each of these and its negative.
+///
+/// **Source**: Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, table 25.4.
+pub const ARC_NODES: [f32; 4] = [0.183_434_64, 0.525_532_4, 0.796_666_5, 0.960_289_84];
+
+/// The weight of each of them, likewise.
+pub const ARC_WEIGHTS: [f32; 4] = [0.362_683_8, 0.313_706_64, 0.222_381_03, 0.101_228_54];
+
+/// Where the slowest of a rule's places is slower than this share of the fastest, a spline may all but stand still in between, and its
+/// speed has a kink there: then each of [`ARC_PANELS`] parts has a rule of its own.
+pub const ARC_EVEN: f32 = 0.5;
+
+/// The parts that a length is worked out in where the spline's speed is uneven.
+pub const ARC_PANELS: u32 = 16;
+
 impl Segment {
     /// The segment between `points[1]` and `points[2]`, with `s = (1 - tension) / 2` (the paper's equation 2).
     #[must_use]
@@ -85,6 +115,7 @@ impl Segment {
             position: coefficients(a, b, c, s),
             half_width: size(ControlPoint::half_width),
             half_height: size(ControlPoint::half_height),
+            largest: a.abs().max(b.abs()).max(c.abs()).max_element(),
             at_rest: (ZERO_VELOCITY * (a.length_squared() + b.length_squared() + c.length_squared()))
                 .max(NO_LENGTH),
         }
@@ -128,6 +159,71 @@ impl Segment {
         }
     }
 
+    /// How fast the centre moves at `t`, mm for the whole of the parameter.
+    #[inline]
+    fn speed(&self, t: f32) -> f32 {
+        let [c1, c2, c3] = self.position;
+        (c1 + (c2 * 2.0 + c3 * (3.0 * t)) * t).length_squared().sqrt()
+    }
+
+    /// The length of the spline between two parameters in \[0, 1\], mm, by Gauss and Legendre's rule with eight points; where its speed is
+    /// [uneven](ARC_EVEN), in [`ARC_PANELS`] parts.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Segment};
+    /// let line = [0.0, 1.0, 2.0, 3.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1));
+    /// assert!((Segment::new(&line, 0.5).length(0.0, 0.5) - 0.5).abs() < 1e-6);
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn length(&self, from: f32, to: f32) -> f32 {
+        let (length, is_even) = self.length_by_rule(from, to);
+        if is_even {
+            return length;
+        }
+        let part = (to - from) / ARC_PANELS as f32;
+        (0..ARC_PANELS).fold(0.0, |sum, panel| {
+            let start = from + panel as f32 * part;
+            sum + self.length_by_rule(start, start + part).0
+        })
+    }
+
+    /// The length by a single rule, and whether the speed is even.
+    #[inline]
+    fn length_by_rule(&self, from: f32, to: f32) -> (f32, bool) {
+        let (middle, half) = ((from + to) * 0.5, (to - from) * 0.5);
+        let speed = self.speed(middle);
+        let (mut sum, mut slowest, mut fastest) = (0.0, speed, speed);
+        for (node, weight) in ARC_NODES.iter().zip(ARC_WEIGHTS) {
+            let reach = half * node;
+            let (before, behind) = (self.speed(middle - reach), self.speed(middle + reach));
+            sum += weight * (before + behind);
+            slowest = slowest.min(before).min(behind);
+            fastest = fastest.max(before).max(behind);
+        }
+        (sum * half, slowest >= ARC_EVEN * fastest)
+    }
+
+    /// A box that holds the spline's samples between `from` and `to`, and sizes that they do not exceed: those of the control
+    /// points of the stretch as a Bézier curve, made larger by what rounding may take from them.
+    pub(crate) fn hull(&self, from: f32, to: f32) -> Hull {
+        let [low, high] = extremes(self.position, Vec3::ZERO, from, to, [Vec3::min, Vec3::max]);
+        // Coefficients are up to 3.5 times as large as the largest difference, and each is rounded some ten times here and in
+        // `sample`: together that is less than 50 units in the last place of the difference.
+        let slack = Vec3::splat(64.0 * f32::EPSILON * self.largest);
+        let size = |size: &Size| {
+            let [_, most] = extremes(size.terms, size.start, from, to, [f32::min, f32::max]);
+            let slack = size.terms.iter().fold(size.start.abs(), |sum, term| sum + term.abs());
+            (most + 16.0 * f32::EPSILON * slack).max(size.floor)
+        };
+        Hull {
+            low: self.start + (low - slack),
+            high: self.start + (high + slack),
+            half_width: size(&self.half_width),
+            half_height: size(&self.half_height),
+        }
+    }
+
     /// The tangent where the velocity vanishes: the limit from the right, or from the left at t = 1.
     fn direction_at_rest(&self, t: f32) -> Vec3 {
         let [_, c2, c3] = self.position;
@@ -153,6 +249,32 @@ where
 {
     [(b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0)]
 }
+
+/// The least and the greatest control point, by the two functions, of the Bézier curve that `start + (terms[0] + (terms[1] +
+/// terms[2] t) t) t` is between `from` and `to`: the curve does not leave them.
+fn extremes<T>(
+    [c1, c2, c3]: [T; 3],
+    start: T,
+    from: f32,
+    to: f32,
+    [least, most]: [fn(T, T) -> T; 2],
+) -> [T; 2]
+where
+    T: Copy + Add<Output = T> + Mul<f32, Output = T>,
+{
+    // The same polynomial of how far along the stretch, from 0 to 1.
+    let along = to - from;
+    let first = start + (c1 + (c2 + c3 * from) * from) * from;
+    let (c1, c2, c3) = (
+        (c1 + (c2 * 2.0 + c3 * (3.0 * from)) * from) * along,
+        (c2 + c3 * (3.0 * from)) * (along * along),
+        c3 * (along * along * along),
+    );
+    let others = [first + c1 * THIRD, first + (c1 * 2.0 + c2) * THIRD, first + (c1 + c2 + c3)];
+    others.into_iter().fold([first, first], |[low, high], point| [least(low, point), most(high, point)])
+}
+
+const THIRD: f32 = 1.0 / 3.0;
 
 /// A half width or half height between two control points, as a polynomial of t.
 #[derive(Debug, Clone, Copy)]

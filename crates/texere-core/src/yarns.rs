@@ -58,6 +58,13 @@ pub struct Yarn {
     pub origin: Origin,
 }
 
+impl Yarn {
+    /// The fewest control points that make a yarn.
+    pub(crate) const fn points_least(&self) -> u64 {
+        if self.closed { 3 } else { 2 }
+    }
+}
+
 /// The steepest twist that is taken, rad/mm: 159,000 turns per metre, thirty times the hardest sewing thread.
 pub const TWIST_LIMIT: f32 = 1e3;
 
@@ -93,7 +100,7 @@ impl Layout {
             if end < start {
                 return Err(YarnError::OffsetOrder { yarn: index, start, end });
             }
-            let (points, least) = (end - start, if yarn.closed { 3 } else { 2 });
+            let (points, least) = (end - start, yarn.points_least());
             if points < least {
                 return Err(YarnError::TooFewPoints { yarn: index, points, least, closed: yarn.closed });
             }
@@ -109,6 +116,17 @@ impl Layout {
             }
         }
         Ok(Self { offsets, yarns, sections })
+    }
+
+    /// The same but that yarn number `yarn` is `what`, of `points` control points.
+    pub(crate) fn edited(&self, yarn: usize, what: Yarn, points: u64) -> Self {
+        let mut layout = self.clone();
+        layout.yarns[yarn] = what;
+        let before = self.offsets[yarn + 1] - self.offsets[yarn];
+        for offset in &mut layout.offsets[yarn + 1..] {
+            *offset = *offset - before + points;
+        }
+        layout
     }
 
     /// Where each yarn's control points start, and their total last (the paper's Ωτ): yarns + 1 values.
@@ -291,7 +309,16 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
     Ok(())
 }
 
-fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
+/// Checks the control points of yarn number `yarn`, whose number is only said in errors.
+///
+/// **Errors**: those of [`Yarns::new`] for the first point that is not sound.
+///
+/// ```
+/// use texere_core::{ControlPoint, check_points};
+/// assert!(check_points(0, &[ControlPoint::new(1.0, 2.0, 3.0, 0.1)]).is_ok());
+/// assert!(check_points(0, &[ControlPoint::new(f32::NAN, 2.0, 3.0, 0.1)]).is_err());
+/// ```
+pub fn check_points(yarn: usize, points: &[ControlPoint]) -> Result<(), YarnError> {
     // All points at once, without a branch; the invalid one is looked for only if there is one.
     let within = |value: f32, low: f32, high: f32| (value >= low) & (value <= high);
     let sound = points.iter().fold(true, |sound, point| {

@@ -1,13 +1,13 @@
 //! An engine on the CPU: memory and timings; the stages themselves come from an [`Executor`].
 
 use std::fmt::Debug;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere_core::{
-    BackendError, Chunk, ControlPoint, Engine, MeshMut, MeshPiece, MeshSink, PaddedPoints, Plan, Ring,
-    RingSink, ScanChunks, Slot, StageTimings, Vertex, zeroed,
+    ArcLength, Attribute, AttributeSink, BackendError, Chunk, ControlPoint, Engine, MeshMut, MeshPiece,
+    MeshSink, PaddedPoints, Plan, Ring, RingSink, ScanChunks, Slot, StageTimings, Vertex, zeroed,
 };
 
 use crate::pages;
@@ -19,16 +19,28 @@ pub(crate) struct Work {
     pub(crate) plan: Arc<Plan>,
     pub(crate) points: PaddedPoints,
     pub(crate) rolls: Rolls,
+    /// How long each yarn is at each block's first ring. Empty until it is asked for.
+    pub(crate) lengths: Vec<ArcLength>,
 }
 
 /// One way to run the scan and the two stages on a CPU.
 pub(crate) trait Executor: Copy + Debug + Send + 'static {
     /// Whether `mesh` works out its rings itself.
     const FUSED: bool;
-    fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError>;
+    /// The rolls of `yarns`; those of others stay.
+    fn scan(
+        self,
+        plan: &Plan,
+        points: &PaddedPoints,
+        rolls: &mut Rolls,
+        yarns: Range<usize>,
+    ) -> Result<(), BackendError>;
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]);
     /// `rings` are those of `chunk`, unless fused.
     fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>);
+    /// How long `yarns` are at each block's start; `lengths` has one for each block of the plan.
+    fn measure(self, plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>);
+    fn attributes(self, work: &Work, chunk: &Chunk, out: &mut [Attribute]);
 }
 
 /// Memory of a chunk in flight, which serves the next chunk but one again.
@@ -37,13 +49,14 @@ struct ChunkMemory {
     rings: Vec<Ring>,
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
+    attributes: Vec<Attribute>,
 }
 
 #[derive(Debug)]
 pub(crate) struct CpuEngine<E> {
     work: Work,
     /// One for each [`Slot`].
-    memory: [ChunkMemory; 2],
+    memory: Vec<ChunkMemory>,
     timings: StageTimings,
     executor: E,
 }
@@ -53,8 +66,8 @@ impl<E: Executor> CpuEngine<E> {
         let points = PaddedPoints::new(&plan)?;
         pages::prefer_huge(points.points());
         Ok(Self {
-            work: Work { plan, points, rolls: Rolls::default() },
-            memory: Default::default(),
+            work: Work { plan, points, rolls: Rolls::default(), lengths: Vec::new() },
+            memory: Vec::new(),
             timings: StageTimings::default(),
             executor,
         })
@@ -88,13 +101,23 @@ impl<E: Executor> Engine for CpuEngine<E> {
         Ok((sent.end - sent.start) * size_of::<ControlPoint>() as u64)
     }
 
-    fn scan(&mut self, _chunks: ScanChunks<'_>) -> Result<(), BackendError> {
-        let Self { work: Work { plan, points, rolls }, timings, executor, .. } = self;
-        timed(&mut timings.scan, || executor.scan(plan, points, rolls))
+    fn is_editable(&self) -> bool {
+        true
+    }
+
+    fn replan(&mut self, plan: Arc<Plan>, _yarns: Range<usize>) -> Result<(), BackendError> {
+        self.work.plan = plan;
+        Ok(())
+    }
+
+    fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        let Self { work: Work { plan, points, rolls, .. }, timings, executor, .. } = self;
+        timed(&mut timings.scan, || executor.scan(plan, points, rolls, chunks.yarns()))
     }
 
     /// A chunk's tables are read where they lie.
-    fn load(&mut self, _slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
+    fn load(&mut self, slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory.resize_with(self.memory.len().max(slot.index() + 1), ChunkMemory::default);
         Ok(())
     }
 
@@ -110,7 +133,7 @@ impl<E: Executor> Engine for CpuEngine<E> {
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        let ChunkMemory { rings, vertices, indices } = &mut self.memory[slot.index()];
+        let ChunkMemory { rings, vertices, indices, .. } = &mut self.memory[slot.index()];
         resize("vertices", vertices, chunk.vertices().into())?;
         resize("indices", indices, chunk.indices().into())?;
         let out = MeshMut { vertices, indices };
@@ -139,6 +162,29 @@ impl<E: Executor> Engine for CpuEngine<E> {
             flow = sink(MeshPiece::Indices { first: 0, indices });
         }
         Ok(flow)
+    }
+
+    fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        let Self { work: Work { plan, points, lengths, .. }, timings, executor, .. } = self;
+        resize("lengths along yarns", lengths, plan.block_count())?;
+        timed(&mut timings.scan, || executor.measure(plan, points, lengths, chunks.yarns()));
+        Ok(())
+    }
+
+    fn attributes(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let attributes = &mut self.memory[slot.index()].attributes;
+        resize("attributes", attributes, chunk.vertices().into())?;
+        timed(&mut self.timings.mesh, || self.executor.attributes(&self.work, chunk, attributes));
+        Ok(())
+    }
+
+    fn read_attributes(
+        &mut self,
+        slot: Slot,
+        _chunk: &Chunk,
+        sink: AttributeSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        Ok(sink(0, &self.memory[slot.index()].attributes))
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {

@@ -2,7 +2,7 @@
 //!
 //! [`SerialBackend`] is the paper's algorithms 1 and 3, written to be read: the gold reference that every other backend
 //! is held against. [`ParallelBackend`] spreads equal ranges of rings over all cores, inside a yarn as well as across
-//! yarns, and gives the same bits.
+//! yarns, and gives the same bits. A [`Picker`] says which triangle of the mesh a ray hits first.
 //!
 //! ```
 //! use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
@@ -16,6 +16,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod attributes;
 mod backend;
 mod caps;
 mod cells;
@@ -23,7 +24,9 @@ mod crossings;
 mod engine;
 mod pages;
 mod parallel;
+mod pick;
 mod rolls;
 mod serial;
 
 pub use backend::{ParallelBackend, SerialBackend};
+pub use pick::{Hit, PickError, Picker};

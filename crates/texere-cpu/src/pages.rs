@@ -4,6 +4,7 @@
 /// Asks the system for huge pages where `memory` has not been touched yet. What has been stays as it is.
 #[cfg(target_os = "linux")]
 pub(crate) fn prefer_huge<T: bytemuck::Pod>(memory: &[T]) {
+    use rustix::mm::{Advice, madvise};
     /// The size of every page that is not huge is a power of two up to this: the largest on any Linux system.
     const PAGE: usize = 64 << 10;
     let memory: &[u8] = bytemuck::cast_slice(memory);
@@ -11,8 +12,8 @@ pub(crate) fn prefer_huge<T: bytemuck::Pod>(memory: &[T]) {
     if let Some(whole) = memory.get(start..) {
         // SAFETY: the range is memory of ours, and the advice changes nothing of what it holds. Where the system does not
         // take it, pages stay small, which is why the answer does not matter.
-        unsafe {
-            libc::madvise(whole.as_ptr().cast_mut().cast(), whole.len() / PAGE * PAGE, libc::MADV_HUGEPAGE)
+        let _ = unsafe {
+            madvise(whole.as_ptr().cast_mut().cast(), whole.len() / PAGE * PAGE, Advice::LinuxHugepage)
         };
     }
 }

@@ -1,6 +1,6 @@
 //! Rolls at block starts: what a block needs to know of the yarn before it.
 
-use texere_core::{Plan, Turn};
+use texere_core::{BLOCK_RINGS, Block, Plan, Turn};
 
 /// The result of a scan.
 #[derive(Debug, Clone, Default)]
@@ -33,4 +33,9 @@ impl Rolls {
         let whole = self.whole.get(yarn).copied().unwrap_or(Turn::ZERO);
         sum - whole.share(ring, steps)
     }
+}
+
+/// Number of the block that a row is, counted over all yarns.
+pub(crate) fn block_number(plan: &Plan, row: &Block) -> u64 {
+    plan.block_offsets()[row.yarn as usize] + u64::from(row.first_ring / BLOCK_RINGS)
 }

@@ -57,8 +57,8 @@ pub use clearance::{
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
 pub use diagnosis::{
-    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Remedy, ThreadBend,
-    ThreadContact, ThreadCrowd, ThreadPlace,
+    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Remedy, StitchPlace,
+    ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
 };
 pub use error::FabricError;
 pub use length::{length_mm, lengths_mm};
@@ -72,9 +72,9 @@ pub use structure::Structure;
 pub use under::yarns_under;
 pub use warning::FabricWarning;
 pub use woven::{
-    CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, NO_CROSSING, POINTS_MAX,
-    Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Sett, Shape, Shedding,
-    Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenRest,
+    CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, Loom, NO_CROSSING,
+    POINTS_MAX, Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Sett,
+    Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenRest,
 };
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,

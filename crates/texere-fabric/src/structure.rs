@@ -166,14 +166,36 @@ impl Structure {
         Ok(finish)
     }
 
-    /// A place on one of the structure's yarns as a designer finds it. `yarns` are the structure's own, settled or not.
+    /// A place on one of the structure's yarns as a designer finds it: by thread and crossing, or by wale and course. `yarns` are the structure's own,
+    /// settled or not. Takes time that grows with the stitches of a knit's repeat.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign, YarnPlace, yarns_under};
+    /// let plain = Weave::parse("plain")?.drawdown(8, 6)?;
+    /// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 8], vec![Thread::new(1.0, 0.2); 6]);
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?);
+    /// let yarns = structure.yarns()?;
+    /// // End 3 lies from x = 2 to 3 mm, pick 4 from y = 3 to 4 mm; the warp is up there, or the weft.
+    /// let places = yarns_under(&yarns, [2.5, 3.5], 0.0).iter().map(|place| structure.place(&yarns, place)).collect::<Vec<_>>();
+    /// let mut said = places.iter().map(ToString::to_string).collect::<Vec<_>>();
+    /// said.sort();
+    /// assert_eq!(said, ["end 3 at pick 4", "pick 4 at end 3"]);
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
     ///
     /// **Panics** past the last yarn.
     #[must_use]
     pub fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
         match self {
             Self::Woven(design) => design.cloth().place(yarns, place),
-            Self::Weft(_) | Self::Warp(_) => ThreadPlace::on(yarns, place),
+            Self::Weft(knit) => {
+                ThreadPlace { stitch: knit.stitch_at(yarns, place), ..ThreadPlace::on(yarns, place) }
+            }
+            Self::Warp(knit) => {
+                ThreadPlace { stitch: knit.stitch_at(place), ..ThreadPlace::on(yarns, place) }
+            }
         }
     }
 

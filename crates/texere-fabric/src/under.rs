@@ -32,8 +32,6 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlac
     let mut found = Vec::new();
     for (number, yarn) in layout.yarns().iter().enumerate() {
         let points = yarns.yarn_points(number).unwrap_or(&[]);
-        let sources =
-            yarns.sources().zip(yarns.range(number)).and_then(|(sources, range)| sources.get(range));
         let intervals = if yarn.closed { points.len() } else { points.len().saturating_sub(1) };
         // The passage that goes on from the interval before: its distance and its place.
         let mut passage: Option<(f64, YarnPlace)> = None;
@@ -41,12 +39,10 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlac
             let four = neighbours(points, yarn.closed, interval);
             let nearest = if may_hold(&four, point) { nearest(&four, point, s) } else { None };
             match nearest {
-                Some((distance, t, position)) => {
-                    let nearer = interval + usize::from(t > 0.5);
-                    let source = sources.and_then(|sources| sources.get(nearer % points.len()).copied());
-                    let place = YarnPlace { yarn: number, interval, t, position, source };
+                Some((distance, t)) => {
                     if passage.is_none_or(|(least, _)| distance < least) {
-                        passage = Some((distance, place));
+                        passage =
+                            YarnPlace::at(yarns, number, interval, t, tension).map(|place| (distance, place));
                     }
                 }
                 None => found.extend(passage.take().map(|(_, place)| place)),
@@ -70,17 +66,17 @@ fn may_hold(four: &[ControlPoint; 4], point: [f64; 2]) -> bool {
     })
 }
 
-/// Where the centreline comes nearest to the point in the plane of the cloth, if the yarn is that wide there: distance,
-/// parameter, centre.
-fn nearest(four: &[ControlPoint; 4], point: [f64; 2], s: f32) -> Option<(f64, f64, [f64; 3])> {
+/// Where the centreline comes nearest to the point in the plane of the cloth, if the yarn is that wide there: distance and
+/// parameter.
+fn nearest(four: &[ControlPoint; 4], point: [f64; 2], s: f32) -> Option<(f64, f64)> {
     let segment = Segment::new(four, s);
     let samples = (0..=STEPS).map(|step| {
         let t = f32::from(step) / f32::from(STEPS);
         let sample = segment.sample(t);
         let centre = sample.centre.to_array().map(f64::from);
         let distance = (centre[0] - point[0]).hypot(centre[1] - point[1]);
-        (distance, f64::from(t), centre, f64::from(sample.half_width))
+        (distance, f64::from(t), f64::from(sample.half_width))
     });
-    let (distance, t, centre, half) = samples.min_by(|one, other| one.0.total_cmp(&other.0))?;
-    (distance <= half).then_some((distance, t, centre))
+    let (distance, t, half) = samples.min_by(|one, other| one.0.total_cmp(&other.0))?;
+    (distance <= half).then_some((distance, t))
 }

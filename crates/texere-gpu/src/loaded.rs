@@ -1,8 +1,6 @@
 //! Which chunk's tables an engine holds.
 
-use std::ops::Range;
-
-use texere_core::{BackendError, Chunk, Plan};
+use texere_core::{BackendError, Chunk, Plan, TablesId};
 
 /// The chunk whose tables lie in a slot of an engine.
 ///
@@ -25,8 +23,7 @@ use texere_core::{BackendError, Chunk, Plan};
 /// ```
 #[derive(Debug, Default)]
 pub struct LoadedChunk {
-    /// Its blocks, which no other chunk of the plan has.
-    blocks: Option<Range<u64>>,
+    tables: Option<TablesId>,
 }
 
 impl LoadedChunk {
@@ -39,18 +36,18 @@ impl LoadedChunk {
         chunk: &Chunk,
         send: impl FnOnce() -> Result<T, BackendError>,
     ) -> Result<T, BackendError> {
-        self.blocks = None;
+        self.tables = None;
         if !plan.owns(chunk) {
             return Err(BackendError::NotLoaded { chunk: chunk.index() });
         }
         let sent = send()?;
-        self.blocks = Some(chunk.block_range());
+        self.tables = Some(chunk.tables().clone());
         Ok(sent)
     }
 
     /// **Errors**: [`BackendError::NotLoaded`] unless the tables of `chunk`, one of `plan`'s, are here.
     pub fn check(&self, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
-        if plan.owns(chunk) && self.blocks == Some(chunk.block_range()) {
+        if plan.owns(chunk) && self.tables.as_ref() == Some(chunk.tables()) {
             Ok(())
         } else {
             Err(BackendError::NotLoaded { chunk: chunk.index() })

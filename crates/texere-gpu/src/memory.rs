@@ -40,7 +40,7 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
     ];
     // Chunks take the two slots in turn, and a slot's memory grows to the largest chunk that it had. A scan goes through
     // the chunks first, for their tables alone; where there are more than two, that shifts which chunk takes which slot.
-    let scanned = if plan.needs_scan() { plan.chunks(limits)?.count() } else { 0 };
+    let scanned = if plan.needs_scan() { plan.whole().chunks(limits)?.count() } else { 0 };
     let shift = if scanned > 2 { scanned } else { 0 };
     let mut places = [[0; 4]; 2];
     // One by one: all tables at once would take as much memory as the device.

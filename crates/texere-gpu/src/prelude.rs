@@ -1,10 +1,12 @@
 //! The constants of kernels and shaders, from the core's own.
 
+use std::f32::consts::TAU;
 use std::fmt::Write;
 
 use texere_core::{
-    ARCTANGENT, BLOCK_RINGS, COSINE, Frame, NO_LENGTH, NO_MIRROR, RADIUS_FLOOR, SINE, SLOPE_LIMIT,
-    TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY, crossings, settling,
+    ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, ARCTANGENT, ArcLength, BLOCK_RINGS, COSINE, Frame,
+    NO_LENGTH, NO_MIRROR, RADIUS_FLOOR, SINE, SLOPE_LIMIT, TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY,
+    crossings, settling,
 };
 
 use crate::crossings::CrossingsParams;
@@ -46,7 +48,7 @@ const fn integer(name: &'static str, value: u32) -> Constant {
 }
 
 /// All of them, each the core's of the same name. The numbers behind `SINE`, `COSINE` and `ARCTANGENT` are powers.
-pub const CONSTANTS: [Constant; 22] = [
+pub const CONSTANTS: [Constant; 35] = [
     integer("BLOCK_RINGS", BLOCK_RINGS),
     float("TURN_STEPS", Turn::STEPS),
     float("RADIANS_PER_STEP", Turn::RADIANS_PER_STEP),
@@ -69,6 +71,19 @@ pub const CONSTANTS: [Constant; 22] = [
     float("VERTICAL", VERTICAL),
     float("NO_MIRROR", NO_MIRROR),
     integer("ROTATION_MINIMIZING", Frame::RotationMinimizing as u32),
+    float("ARC_NODE_1", ARC_NODES[0]),
+    float("ARC_NODE_2", ARC_NODES[1]),
+    float("ARC_NODE_3", ARC_NODES[2]),
+    float("ARC_NODE_4", ARC_NODES[3]),
+    float("ARC_WEIGHT_1", ARC_WEIGHTS[0]),
+    float("ARC_WEIGHT_2", ARC_WEIGHTS[1]),
+    float("ARC_WEIGHT_3", ARC_WEIGHTS[2]),
+    float("ARC_WEIGHT_4", ARC_WEIGHTS[3]),
+    float("ARC_EVEN", ARC_EVEN),
+    integer("ARC_PANELS", ARC_PANELS),
+    float("LENGTH_STEPS", ArcLength::STEPS),
+    float("LENGTH_MM_MAX", ArcLength::MM_MAX),
+    float("FULL_TURN", TAU),
 ];
 
 /// Those of settling, which stand before all sources, too. `UNSEEN` and the two flags are [`SettlingParams`]' own, all others the
@@ -188,7 +203,7 @@ mod tests {
     use super::*;
 
     /// The core's values, each written here once more: a number in place of a name above is found.
-    const OF_THE_CORE: [(&str, &[f32]); 74] = [
+    const OF_THE_CORE: [(&str, &[f32]); 81] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
         ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
@@ -203,6 +218,13 @@ mod tests {
         ("VERTICAL", &[VERTICAL]),
         ("NO_MIRROR", &[NO_MIRROR]),
         ("ROTATION_MINIMIZING", &[1.0]),
+        ("ARC_NODE", &ARC_NODES),
+        ("ARC_WEIGHT", &ARC_WEIGHTS),
+        ("ARC_EVEN", &[ARC_EVEN]),
+        ("ARC_PANELS", &[ARC_PANELS as f32]),
+        ("LENGTH_STEPS", &[ArcLength::STEPS]),
+        ("LENGTH_MM_MAX", &[ArcLength::MM_MAX]),
+        ("FULL_TURN", &[TAU]),
         ("MARGIN", &[settling::MARGIN]),
         ("NEAR", &[settling::NEAR]),
         ("SHORT", &[settling::SHORT]),

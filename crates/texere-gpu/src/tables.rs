@@ -1,5 +1,7 @@
 //! Tables that kernels read beside control points and blocks. They go to a device as they are.
 
+use std::ops::Range;
+
 use bytemuck::{Pod, Zeroable};
 
 use texere_core::{BLOCK_RINGS, Block, Cap, Chunk, End, Plan, RINGS_MAX, Topology};
@@ -60,8 +62,8 @@ pub struct Params {
     pub blocks: u32,
     /// Rows of the cap table.
     pub caps: u32,
-    /// Number, among all of the plan, of the first row's block.
-    pub first_block: u32,
+    /// The first yarn of a launch over yarns, where [`Params::blocks`] is how many there are.
+    pub first_yarn: u32,
     /// Yarns of the plan.
     pub yarns: u32,
     /// Sides of the tube.
@@ -88,15 +90,22 @@ impl YarnRow {
     /// All yarns of `plan`.
     #[must_use]
     pub fn all(plan: &Plan) -> Vec<Self> {
-        (0..plan.layout().yarns().len())
-            .map(|yarn| Self {
-                rings: plan.rings(yarn),
-                first_block: plan.block_offsets()[yarn] as u32,
-                section: plan.yarn(yarn).section,
-                closed: plan.yarn(yarn).closed.into(),
-                twist: plan.twist_turns(yarn),
-            })
-            .collect()
+        Self::of(plan, 0..plan.layout().yarns().len())
+    }
+
+    /// Some yarns of `plan`.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn of(plan: &Plan, yarns: Range<usize>) -> Vec<Self> {
+        let row = |yarn| Self {
+            rings: plan.rings(yarn),
+            first_block: plan.block_offsets()[yarn] as u32,
+            section: plan.yarn(yarn).section,
+            closed: plan.yarn(yarn).closed.into(),
+            twist: plan.twist_turns(yarn),
+        };
+        yarns.map(row).collect()
     }
 }
 
@@ -126,6 +135,12 @@ impl CapRow {
 }
 
 impl Params {
+    /// For a launch over some yarns of `plan`, which `chunk` is one of.
+    #[must_use]
+    pub fn of_yarns(plan: &Plan, chunk: &Chunk, yarns: &Range<usize>) -> Self {
+        Self { blocks: yarns.len() as u32, first_yarn: yarns.start as u32, ..Self::new(plan, chunk) }
+    }
+
     /// For all launches on `chunk`, one of `plan`'s, with its own block table.
     #[must_use]
     pub fn new(plan: &Plan, chunk: &Chunk) -> Self {
@@ -133,7 +148,7 @@ impl Params {
         Self {
             blocks: chunk.blocks().len() as u32,
             caps: chunk.caps().len() as u32,
-            first_block: chunk.block_range().start as u32,
+            first_yarn: 0,
             yarns: plan.layout().yarns().len() as u32,
             sides: settings.sides,
             subdivisions: settings.subdivisions,
@@ -159,7 +174,7 @@ fn joined_rows(plan: &Plan, blocks: &[Block], most_rings: u32) -> Vec<Block> {
     let (per_interval, most_rings) = (settings.subdivisions + 1, most_rings.max(1));
     let ring_indices = if settings.topology == Topology::Indexed { 6 * settings.sides } else { 0 };
     let mut rows = Vec::new();
-    for part in blocks.chunk_by(|block, next| block.yarn == next.yarn) {
+    for part in blocks.chunk_by(|block, next| block.is_before(next)) {
         let (first, [rings, quads]) = (part[0], totals(part));
         for done in (0..rings).step_by(most_rings as usize) {
             let first_ring = first.first_ring + done;

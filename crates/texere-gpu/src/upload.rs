@@ -1,6 +1,7 @@
 //! Uploads to padded control points that lie elsewhere, such as on a GPU: what to write there, without a copy here.
 
 use std::ops::Range;
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use texere_core::{BackendError, ControlPoint, Plan, renew_virtual_ends, zeroed};
@@ -163,7 +164,10 @@ impl PaddedUpload<'_> {
                 (inner.start + own.start as u64, &self.points[sent]),
                 (back.start, &short[virtual_end..][..(back.end - back.start) as usize]),
             ];
-            for (at, run) in runs {
+            // Room for more points, if there is any.
+            let room = (back.end..offsets[yarn + 1]).step_by(ROOM.len());
+            let room = room.map(|at| (at, &ROOM[..ROOM.len().min((offsets[yarn + 1] - at) as usize)]));
+            for (at, run) in runs.into_iter().chain(room) {
                 let part = meet(&range, &(at..at + run.len() as u64));
                 if !part.is_empty() {
                     let lent = &run[(part.start - at) as usize..(part.end - at) as usize];
@@ -186,7 +190,7 @@ impl PaddedUpload<'_> {
 
     /// Where a yarn's virtual start, its points and its virtual end lie.
     fn places(&self, yarn: usize) -> [Range<u64>; 3] {
-        let (start, end) = (self.plan.padded_offsets()[yarn], self.plan.padded_offsets()[yarn + 1]);
+        let Range { start, end } = self.plan.padded_range(yarn);
         let points = start + 1..start + 1 + self.count(yarn) as u64;
         [start..points.start, points.clone(), points.end..end]
     }
@@ -232,6 +236,9 @@ impl PaddedUpload<'_> {
         padded
     }
 }
+
+/// What is written where there is only room for points.
+static ROOM: LazyLock<[ControlPoint; 64]> = LazyLock::new(|| [ControlPoint::default(); 64]);
 
 /// Without a branch for each point, so that it takes no time beside writing them.
 fn all_round(points: &[ControlPoint]) -> bool {

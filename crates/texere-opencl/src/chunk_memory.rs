@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use texere_core::{BackendError, Chunk, Plan, Ring, Schedule, Topology, Vertex};
+use texere_core::{Attribute, BackendError, Chunk, Plan, Ring, Schedule, Topology, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, part_rows};
 
 use crate::buffers::Buffer;
@@ -20,6 +20,8 @@ pub(crate) struct ChunkMemory {
     pub(crate) rings: Buffer,
     pub(crate) vertices: Buffer,
     pub(crate) indices: Buffer,
+    /// Empty until they are asked for.
+    pub(crate) attributes: Buffer,
     /// The last command that writes here.
     pub(crate) ready: Option<Arc<Handle>>,
 }
@@ -27,8 +29,8 @@ pub(crate) struct ChunkMemory {
 impl ChunkMemory {
     /// Bytes of its tables and results.
     pub(crate) fn bytes(&self) -> u64 {
-        let Self { table, caps, rings, vertices, indices, .. } = self;
-        [table, caps, rings, vertices, indices].map(Buffer::bytes).iter().sum()
+        let Self { table, caps, rings, vertices, indices, attributes, .. } = self;
+        [table, caps, rings, vertices, indices, attributes].map(Buffer::bytes).iter().sum()
     }
 
     /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after those
@@ -63,6 +65,12 @@ impl ChunkMemory {
     /// Makes room for the rings of `chunk`.
     pub(crate) fn reserve_rings(&mut self, opened: &Opened, chunk: &Chunk) -> Result<(), BackendError> {
         self.rings.reserve(opened, "rings", u64::from(chunk.rings()) * size_of::<Ring>() as u64)
+    }
+
+    /// Makes room for the attributes of `chunk`.
+    pub(crate) fn reserve_attributes(&mut self, opened: &Opened, chunk: &Chunk) -> Result<(), BackendError> {
+        let bytes = u64::from(chunk.vertices()) * size_of::<Attribute>() as u64;
+        self.attributes.reserve(opened, "attributes", bytes)
     }
 
     /// Makes room for the vertices and indices of `chunk`.

@@ -1,22 +1,25 @@
 //! The work on a plan on an OpenCL device: memory and timings; the kernels are the schedule's.
 
 use std::any::Any;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::Instant;
 
 use opencl3::command_queue::{finish, flush};
 use texere_core::{
-    BackendError, Chunk, ControlPoint, Engine, Limits, MeshMut, MeshPiece, MeshSink, Plan, RingSink,
-    ScanChunk, ScanChunks, Settler, Slot, StageTimings, Traffic, Vertex, take_over_host, zeroed,
+    AttributeSink, BackendError, Chunk, ControlPoint, Engine, Limits, MeshMut, MeshPiece, MeshSink, Plan,
+    RingSink, ScanChunk, ScanChunks, Schedule, Settler, Slot, StageTimings, Traffic, Vertex, take_over_host,
+    zeroed,
 };
-use texere_gpu::{YarnEnds, check_schedule, settles_flattened};
+use texere_gpu::{YarnEnds, YarnRow, check_schedule, settles_flattened};
 
+use crate::attributes::Attributes;
 use crate::buffers::Staging;
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Stage};
 use crate::kernels::{Kernels, Launches, Work, kernels};
 use crate::opened::Opened;
+use crate::session::DeviceMesh;
 use crate::settling::OpenClSettler;
 use crate::tables::Tables;
 use crate::upload::Outbox;
@@ -30,8 +33,10 @@ pub struct OpenClEngine {
     kernels: Box<dyn Kernels>,
     /// Whether the kernels are those for all yarns.
     flattened: bool,
+    /// None until attributes are asked for.
+    attributes: Option<Box<Attributes>>,
     /// One for each [`Slot`].
-    memory: [ChunkMemory; 2],
+    memory: Vec<ChunkMemory>,
     staging: Staging,
     outbox: Outbox,
     clock: Clock,
@@ -46,8 +51,9 @@ impl OpenClEngine {
             tables: Tables::new(&opened, limits, &plan)?,
             kernels: kernels(&opened, &plan, false)?,
             flattened: false,
+            attributes: None,
             plan,
-            memory: Default::default(),
+            memory: Vec::new(),
             staging: Staging::default(),
             outbox: Outbox::default(),
             clock: Clock::default(),
@@ -60,9 +66,38 @@ impl OpenClEngine {
         &self.memory[slot.index()]
     }
 
+    /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in `slot`.
+    fn check_loaded(&self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let not_loaded = BackendError::NotLoaded { chunk: chunk.index() };
+        self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
+    }
+
+    /// The engine of a [`LiveMesh`](texere_core::LiveMesh), for its memory; none where that is on no device of OpenCL.
+    ///
+    /// ```no_run
+    /// # fn example(mesh: &texere_core::LiveMesh) -> Option<()> {
+    /// use texere_core::Slot;
+    /// use texere_opencl::OpenClEngine;
+    /// let first = OpenClEngine::of(mesh.engine())?.device_mesh(Slot::new(0))?;
+    /// println!("{:?} after {:?}", first.vertices, first.ready);
+    /// # Some(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn of(engine: &dyn Engine) -> Option<&Self> {
+        (engine as &dyn Any).downcast_ref()
+    }
+
+    /// The mesh of the chunk in `slot` where it lies on the device. None where nothing was made yet.
+    #[must_use]
+    pub fn device_mesh(&self, slot: Slot) -> Option<DeviceMesh<'_>> {
+        Some(DeviceMesh::new(self.memory.get(slot.index())?))
+    }
+
     /// Bytes of device memory that it holds.
     pub(crate) fn device_bytes(&self) -> u64 {
-        self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
+        let lengths = self.attributes.as_ref().map_or(0, |attributes| attributes.lengths.bytes());
+        self.tables.bytes() + lengths + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
     /// Takes the kernels for all yarns where one is not round.
@@ -79,11 +114,37 @@ impl OpenClEngine {
         &mut self,
         stage: Stage,
         slot: Option<Slot>,
-        start: impl FnOnce(&mut dyn Kernels, Work<'_>, &[ChunkMemory; 2]) -> Result<Launches, BackendError>,
+        start: impl FnOnce(&mut dyn Kernels, Work<'_>, &[ChunkMemory]) -> Result<Launches, BackendError>,
     ) -> Result<(), BackendError> {
         let started = Instant::now();
         let work = Work { opened: &self.opened, plan: &self.plan, tables: &self.tables };
-        let launches = start(&mut *self.kernels, work, &self.memory).inspect_err(|_| {
+        let launches = start(&mut *self.kernels, work, &self.memory);
+        self.note(stage, slot, started, launches)
+    }
+
+    /// The same for the kernels of attributes, whose plan was measured.
+    fn run_attributes(
+        &mut self,
+        stage: Stage,
+        slot: Option<Slot>,
+        start: impl FnOnce(&mut Attributes, Work<'_>, &[ChunkMemory]) -> Result<Launches, BackendError>,
+    ) -> Result<(), BackendError> {
+        let started = Instant::now();
+        let work = Work { opened: &self.opened, plan: &self.plan, tables: &self.tables };
+        let attributes = self.attributes.as_mut().ok_or(BackendError::NoAttributes)?;
+        let launches = start(attributes, work, &self.memory);
+        self.note(stage, slot, started, launches)
+    }
+
+    /// Notes the time of what was started for a stage, and lets the memory of `slot` wait for it.
+    fn note(
+        &mut self,
+        stage: Stage,
+        slot: Option<Slot>,
+        started: Instant,
+        launches: Result<Launches, BackendError>,
+    ) -> Result<(), BackendError> {
+        let launches = launches.inspect_err(|_| {
             // Some kernels may be running, and nobody else would wait for them. An error of this wait adds nothing.
             let _ = finish(self.opened.queue.raw());
         })?;
@@ -135,19 +196,34 @@ impl Engine for OpenClEngine {
     }
 
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        let yarns = chunks.yarns();
         for ScanChunk { slot, chunk, loaded } in chunks {
             if !loaded {
                 self.load(slot, &chunk)?;
             }
-            self.memory[slot.index()].loaded.check(&self.plan, &chunk)?;
+            self.check_loaded(slot, &chunk)?;
             self.run(Stage::Scan, Some(slot), |kernels, work, memory| {
                 kernels.block_turns(work, &chunk, &memory[slot.index()])
             })?;
         }
-        self.run(Stage::Scan, None, |kernels, work, _| kernels.yarn_rolls(work))
+        self.run(Stage::Scan, None, |kernels, work, _| kernels.yarn_rolls(work, yarns))
+    }
+
+    fn is_editable(&self) -> bool {
+        self.opened.schedule == Schedule::PerRing
+    }
+
+    fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
+        let first = yarns.start * size_of::<YarnRow>();
+        // In the queue of the kernels, so that those before still read the rows before.
+        let rows = YarnRow::of(&plan, yarns);
+        self.tables.yarns.write(&self.opened, &self.opened.queue, first as u64, &rows, None)?;
+        self.plan = plan;
+        Ok(())
     }
 
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.memory.resize_with(self.memory.len().max(slot.index() + 1), ChunkMemory::default);
         self.memory[slot.index()].load(&self.opened, &self.plan, chunk)
     }
 
@@ -156,7 +232,7 @@ impl Engine for OpenClEngine {
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        self.memory[slot.index()].loaded.check(&self.plan, chunk)?;
+        self.check_loaded(slot, chunk)?;
         self.memory[slot.index()].reserve_rings(&self.opened, chunk)?;
         self.run(Stage::Trajectory, Some(slot), |kernels, work, memory| {
             kernels.trajectory(work, chunk, &memory[slot.index()])
@@ -164,7 +240,7 @@ impl Engine for OpenClEngine {
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        self.memory[slot.index()].loaded.check(&self.plan, chunk)?;
+        self.check_loaded(slot, chunk)?;
         self.memory[slot.index()].reserve_mesh(&self.opened, &self.plan, chunk)?;
         self.run(Stage::Mesh, Some(slot), |kernels, work, memory| {
             kernels.mesh(work, chunk, &memory[slot.index()])
@@ -205,6 +281,42 @@ impl Engine for OpenClEngine {
         staging.read(opened, indices, chunk.indices(), ready, clock, &mut |first, indices: &[u32]| {
             sink(MeshPiece::Indices { first, indices })
         })
+    }
+
+    fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        if self.attributes.is_none() {
+            self.attributes = Some(Box::new(Attributes::new(&self.opened, &self.plan)?));
+        }
+        let yarns = chunks.yarns();
+        for ScanChunk { slot, chunk, loaded } in chunks {
+            if !loaded {
+                self.load(slot, &chunk)?;
+            }
+            self.check_loaded(slot, &chunk)?;
+            self.run_attributes(Stage::Scan, Some(slot), |attributes, work, memory| {
+                attributes.block_lengths(work, &chunk, &memory[slot.index()])
+            })?;
+        }
+        self.run_attributes(Stage::Scan, None, |attributes, work, _| attributes.yarn_lengths(work, yarns))
+    }
+
+    fn attributes(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.check_loaded(slot, chunk)?;
+        self.memory[slot.index()].reserve_attributes(&self.opened, chunk)?;
+        self.run_attributes(Stage::Mesh, Some(slot), |attributes, work, memory| {
+            attributes.make(work, chunk, &memory[slot.index()])
+        })
+    }
+
+    fn read_attributes(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: AttributeSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let Self { opened, memory, staging, clock, .. } = self;
+        let ChunkMemory { attributes, ready, .. } = &memory[slot.index()];
+        staging.read(opened, attributes, chunk.vertices(), ready.as_deref(), clock, sink)
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {

@@ -1,6 +1,7 @@
 //! A kernel with its arguments.
 
 use std::ffi::{CString, c_void};
+use std::ops::Range;
 use std::ptr;
 use std::sync::Arc;
 
@@ -53,7 +54,7 @@ impl Kernel {
         self.group
     }
 
-    /// Sets all arguments, in the order of the source, and runs `groups` workgroups after what is in the queue and after
+    /// Sets all arguments, in the order of the source, and runs workgroups `groups` after what is in the queue and after
     /// `after`; in several launches where they are many. Gives back the launches' events, in order.
     ///
     /// # Safety
@@ -64,7 +65,7 @@ impl Kernel {
         &mut self,
         opened: &Opened,
         args: &[Arg<'_>],
-        groups: usize,
+        groups: Range<usize>,
         after: Option<&Handle>,
     ) -> Result<Vec<Arc<Handle>>, BackendError> {
         for (number, arg) in args.iter().enumerate() {
@@ -83,10 +84,10 @@ impl Kernel {
         }
         let after = after.map(Handle::raw);
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
-        let mut launches = Vec::with_capacity(groups.div_ceil(LAUNCH_GROUPS));
-        for first in (0..groups).step_by(LAUNCH_GROUPS) {
+        let mut launches = Vec::with_capacity(groups.len().div_ceil(LAUNCH_GROUPS));
+        for first in groups.clone().step_by(LAUNCH_GROUPS) {
             let offset = first * self.group;
-            let lanes = (groups - first).min(LAUNCH_GROUPS) * self.group;
+            let lanes = (groups.end - first).min(LAUNCH_GROUPS) * self.group;
             // SAFETY: one dimension, each pointer to one value; the event is alive; the rest is this function's contract.
             let event = unsafe {
                 enqueue_nd_range_kernel(
@@ -119,7 +120,7 @@ pub(crate) unsafe fn start(
 ) -> Result<(), BackendError> {
     let groups = (lanes as usize).div_ceil(kernel.group());
     // SAFETY: this function's contract.
-    unsafe { kernel.run(opened, args, groups, None) }?;
+    unsafe { kernel.run(opened, args, 0..groups, None) }?;
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! The kernels of a schedule, and those of the schedule per-ring.
 
 use std::fmt::Debug;
+use std::ops::Range;
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
@@ -76,8 +77,8 @@ pub(crate) trait Kernels: Debug + Send {
         chunk: &Chunk,
         memory: &ChunkMemory,
     ) -> Result<Launches, BackendError>;
-    /// The second half: rolls from the turns of all chunks.
-    fn yarn_rolls(&mut self, work: Work<'_>) -> Result<Launches, BackendError>;
+    /// The second half: rolls of `yarns` from the turns of their blocks.
+    fn yarn_rolls(&mut self, work: Work<'_>, yarns: Range<usize>) -> Result<Launches, BackendError>;
     fn trajectory(
         &mut self,
         work: Work<'_>,
@@ -129,15 +130,15 @@ impl Kernels for PerRing {
         let args = &work.inputs(&params, &window, memory)[..6];
         // SAFETY: the arguments are those of `block_turns`; a group reads its row of the chunk's table and what that
         // names, and writes its block's roll: the plan counted all blocks. A repeated ring's is the next chunk's first.
-        unsafe { self.block_turns.run(opened, args, memory.rows, memory.ready.as_deref()) }
+        unsafe { self.block_turns.run(opened, args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
-    fn yarn_rolls(&mut self, work: Work<'_>) -> Result<Launches, BackendError> {
-        let Work { opened, plan, tables } = work;
+    fn yarn_rolls(&mut self, work: Work<'_>, yarns: Range<usize>) -> Result<Launches, BackendError> {
+        let Work { opened, tables, .. } = work;
         let args = [Arg::Memory(&tables.yarns), Arg::Memory(&tables.rolls), Arg::Memory(&tables.yarn_turns)];
         // SAFETY: the arguments are those of `yarn_rolls`; a group reads its yarn's row, reads and writes the yarn's
         // rolls, and writes its whole turn: the plan counted all of them.
-        unsafe { self.yarn_rolls.run(opened, &args, plan.layout().yarns().len(), None) }
+        unsafe { self.yarn_rolls.run(opened, &args, yarns, None) }
     }
 
     fn trajectory(
@@ -151,7 +152,7 @@ impl Kernels for PerRing {
         let args = [&work.inputs(&params, &window, memory)[..], &[Arg::Memory(&memory.rings)]].concat();
         // SAFETY: the arguments are those of `trajectory`; a group reads its row of the chunk's table and what that
         // names, and writes its rings, for all of which there is room.
-        unsafe { self.trajectory.run(opened, &args, memory.rows, memory.ready.as_deref()) }
+        unsafe { self.trajectory.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }
     }
 
     fn mesh(
@@ -171,7 +172,7 @@ impl Kernels for PerRing {
         let args = [&work.inputs(&params, &window, memory)[..], &outputs].concat();
         // SAFETY: the arguments are those of `mesh`; a group reads its row of the chunk's table and what that names, and
         // writes the row's vertices and indices, for all of which there is room.
-        let tubes = unsafe { self.mesh.run(opened, &args, memory.rows, memory.ready.as_deref()) }?;
+        let tubes = unsafe { self.mesh.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
         let args = [
             Arg::Value(bytes_of(&params)),
             Arg::Value(bytes_of(&window)),
@@ -184,7 +185,7 @@ impl Kernels for PerRing {
         let lanes = params.caps as usize * params.sides as usize;
         // SAFETY: the arguments are those of `caps`; a lane reads its cap's row and what that names, and writes a vertex
         // and a triangle, for all of which there is room. Lanes past the last do nothing.
-        let caps = unsafe { self.caps.run(opened, &args, lanes.div_ceil(self.caps.group()), None) }?;
+        let caps = unsafe { self.caps.run(opened, &args, 0..lanes.div_ceil(self.caps.group()), None) }?;
         Ok([tubes, caps].concat())
     }
 }

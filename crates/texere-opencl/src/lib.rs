@@ -14,6 +14,7 @@
 //! A program that has an OpenCL queue of its own works on it with [`OpenClBackend::on_queue`], and takes the mesh where
 //! it lies with [`OpenClSession::device_mesh`].
 
+mod attributes;
 mod backend;
 mod buffers;
 mod chunk_memory;

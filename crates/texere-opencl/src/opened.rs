@@ -11,7 +11,7 @@ use opencl3::program::{
 };
 use texere_core::{BackendError, DeviceInfo, Schedule};
 use texere_gpu::{Language, prelude, serial_unsupported};
-use texere_kernels::{CROSSINGS, PER_RING, PER_YARN, Program, SETTLING};
+use texere_kernels::{ATTRIBUTES, CROSSINGS, PER_RING, PER_YARN, Program, SETTLING};
 
 use crate::faults::failed;
 use crate::handles::Handle;
@@ -32,6 +32,8 @@ pub(crate) struct Opened {
     round: Handle,
     /// The one for all yarns, compiled where it is wanted first.
     flattened: OnceLock<Handle>,
+    /// That of attributes, likewise.
+    attributes: OnceLock<Handle>,
     /// Those of settlings, for round yarns alone and for all, likewise.
     settling: [OnceLock<Handle>; 2],
     /// That of crossings, likewise.
@@ -58,6 +60,7 @@ impl Opened {
             transfers,
             round,
             flattened: OnceLock::new(),
+            attributes: OnceLock::new(),
             settling: Default::default(),
             crossings: OnceLock::new(),
         })
@@ -71,6 +74,14 @@ impl Opened {
             return Ok(&self.round);
         }
         self.compiled(&self.flattened, program(self.schedule, &self.name)?, true)
+    }
+
+    /// The program of attributes.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn attributes(&self) -> Result<&Handle, BackendError> {
+        // They do not depend on sizes.
+        self.compiled(&self.attributes, ATTRIBUTES, false)
     }
 
     /// The program of settlings, of round yarns alone or of all.

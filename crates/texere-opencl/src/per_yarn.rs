@@ -1,5 +1,7 @@
 //! The schedule per-yarn: the paper's algorithms 2 and 4.
 
+use std::ops::Range;
+
 use bytemuck::bytes_of;
 use texere_core::{BackendError, Chunk, Plan};
 use texere_gpu::Params;
@@ -41,7 +43,7 @@ impl Kernels for PerYarn {
         Ok(Vec::new())
     }
 
-    fn yarn_rolls(&mut self, _: Work<'_>) -> Result<Launches, BackendError> {
+    fn yarn_rolls(&mut self, _: Work<'_>, _: Range<usize>) -> Result<Launches, BackendError> {
         Ok(Vec::new())
     }
 
@@ -57,7 +59,7 @@ impl Kernels for PerYarn {
         let groups = memory.rows.div_ceil(self.trajectory.group());
         // SAFETY: the arguments are those of `trajectory_per_yarn`; a lane reads its part and what that names, and writes
         // the part's rings, for which there is room. Lanes past the last part do nothing.
-        unsafe { self.trajectory.run(opened, &args, groups, memory.ready.as_deref()) }
+        unsafe { self.trajectory.run(opened, &args, 0..groups, memory.ready.as_deref()) }
     }
 
     fn mesh(
@@ -81,6 +83,6 @@ impl Kernels for PerYarn {
         let groups = memory.rows.div_ceil(self.mesh.group());
         // SAFETY: the arguments are those of `mesh_per_yarn`; a lane reads its part and what that names, and writes the
         // part's vertices and indices, for which there is room. Lanes past the last part do nothing.
-        unsafe { self.mesh.run(opened, &args, groups, memory.ready.as_deref()) }
+        unsafe { self.mesh.run(opened, &args, 0..groups, memory.ready.as_deref()) }
     }
 }

@@ -7,6 +7,7 @@ use std::ptr;
 
 use texere_core::{Chunk, Session, SessionError};
 
+use crate::chunk_memory::ChunkMemory;
 use crate::engine::OpenClEngine;
 use crate::handles::Handle;
 
@@ -41,9 +42,23 @@ pub struct DeviceMesh<'a> {
     pub vertices: *mut c_void,
     /// A `cl_mem` with the chunk's `u32` indices from its start; null where it has none.
     pub indices: *mut c_void,
+    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices; null where none were made.
+    pub attributes: *mut c_void,
     /// The `cl_event` of the last command that writes them: wait for it, also in a queue.
     pub ready: *mut c_void,
-    session: PhantomData<&'a OpenClSession>,
+    memory: PhantomData<&'a ChunkMemory>,
+}
+
+impl<'a> DeviceMesh<'a> {
+    pub(crate) fn new(memory: &'a ChunkMemory) -> Self {
+        Self {
+            vertices: memory.vertices.raw(),
+            indices: memory.indices.raw(),
+            attributes: memory.attributes.raw(),
+            ready: memory.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
+            memory: PhantomData,
+        }
+    }
 }
 
 impl OpenClSession {
@@ -53,13 +68,8 @@ impl OpenClSession {
     /// for this chunk.
     pub fn device_mesh(&self, chunk: &Chunk) -> Result<DeviceMesh<'_>, SessionError> {
         let slot = self.0.slot_of_mesh(chunk)?;
-        let memory = self.0.engine().memory(slot);
-        Ok(DeviceMesh {
-            vertices: memory.vertices.raw(),
-            indices: if chunk.indices() > 0 { memory.indices.raw() } else { ptr::null_mut() },
-            ready: memory.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
-            session: PhantomData,
-        })
+        let mesh = DeviceMesh::new(self.0.engine().memory(slot));
+        Ok(if chunk.indices() > 0 { mesh } else { DeviceMesh { indices: ptr::null_mut(), ..mesh } })
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of

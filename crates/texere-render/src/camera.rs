@@ -9,7 +9,7 @@ const MARGIN: f32 = 0.05;
 
 /// Vertical field of view of a perspective camera, radians: that of a portrait lens, which keeps threads parallel to the
 /// eye.
-pub(crate) const FIELD_OF_VIEW: f32 = 0.42;
+const FIELD_OF_VIEW: f32 = 0.42;
 
 /// How high the eye stands over the cloth's plane, radians: for the whole of it, and near a point of it.
 const OBLIQUE_HEIGHT: f32 = 0.72;
@@ -38,10 +38,24 @@ pub(crate) enum Projection {
     Perspective {
         /// From the target to the eye, mm.
         distance: f32,
+        /// From the picture's lower to its upper edge, radians.
+        field_of_view: f32,
     },
 }
 
-/// A view of a fabric, made for pictures of a certain size.
+/// Where an eye is, and where it looks: what [`Camera::perspective`] and [`Camera::orthographic`] ask for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// The eye, mm.
+    pub eye: [f32; 3],
+    /// The point in the middle of the picture, mm.
+    pub target: [f32; 3],
+    /// What is up in the picture, of any length.
+    pub up: [f32; 3],
+}
+
+/// A view of a fabric, made for pictures of a certain size: one of those that show a whole cloth or a place of it, or any
+/// [`Pose`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -115,7 +129,7 @@ impl Camera {
             let aside = (corner.dot(right).abs() / aspect(size)).max(corner.dot(above).abs());
             corner.dot(camera.toward) + aside * (1.0 + MARGIN) / slope
         });
-        camera.projection = Projection::Perspective { distance: needed.fold(0.0, f32::max) };
+        camera.projection = portrait(needed.fold(0.0, f32::max));
         Ok(camera)
     }
 
@@ -128,7 +142,7 @@ impl Camera {
         let camera = Self::above(extent, CLOSE_TURN, CLOSE_HEIGHT, size);
         Ok(Self {
             target: Vec3::new(at[0], at[1], extent.middle().z),
-            projection: Projection::Perspective { distance },
+            projection: portrait(distance),
             ..camera
         })
     }
@@ -156,6 +170,84 @@ impl Camera {
         })
     }
 
+    /// A view from any point, as an eye has it. `field_of_view`: from the picture's lower to its upper edge, radians.
+    ///
+    /// Light comes from above the cloth where the eye is above the target, else from below it.
+    ///
+    /// ```
+    /// # use texere_core::{ControlPoint, Yarn, Yarns};
+    /// # use texere_render::{Camera, Extent, Pose};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 10.0].map(|x| ControlPoint::new(x, 2.0, 0.0, 0.25)));
+    /// # let extent = Extent::of(&yarns.build()?);
+    /// let pose = Pose { eye: [5.0, -8.0, 6.0], target: [5.0, 2.0, 0.0], up: [0.0, 0.0, 1.0] };
+    /// let camera = Camera::perspective(&extent, &pose, 0.5, [800, 600])?;
+    /// // The middle of the picture shows the target.
+    /// let sight = camera.ray([400.0, 300.0]);
+    /// assert!((sight.at(136.0f64.sqrt())[1] - 2.0).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// **Errors**: [`RenderError::Camera`] for an eye at the target, an up along the line of sight, a field of view that is not
+    /// between 0.0001 and 3.1, and numbers that are not finite.
+    pub fn perspective(
+        extent: &Extent,
+        pose: &Pose,
+        field_of_view: f32,
+        size: [u32; 2],
+    ) -> Result<Self, RenderError> {
+        if !(1e-4..=3.1).contains(&field_of_view) {
+            let (what, expected) = ("a field of view (radians)", "between 0.0001 and 3.1");
+            return Err(RenderError::Camera { what, value: field_of_view, expected });
+        }
+        Self::posed(extent, pose, size, |distance| Projection::Perspective { distance, field_of_view })
+    }
+
+    /// The same with parallel lines of sight. `height`: what the picture's height shows, mm. The whole depth of the cloth is in the picture,
+    /// however near the eye is.
+    ///
+    /// **Errors**: [`RenderError::Camera`], as for [`Camera::perspective`].
+    pub fn orthographic(
+        extent: &Extent,
+        pose: &Pose,
+        height: f32,
+        size: [u32; 2],
+    ) -> Result<Self, RenderError> {
+        let height = positive("a height (mm)", height)?;
+        Self::posed(extent, pose, size, |_| Projection::Orthographic { height })
+    }
+
+    fn posed(
+        extent: &Extent,
+        pose: &Pose,
+        size: [u32; 2],
+        projection: impl FnOnce(f32) -> Projection,
+    ) -> Result<Self, RenderError> {
+        for (what, point) in
+            [("an eye's coordinate (mm)", pose.eye), ("a target's coordinate (mm)", pose.target)]
+        {
+            point.into_iter().try_for_each(|value| finite(what, value).map(|_| ()))?;
+        }
+        let [eye, target] = [pose.eye, pose.target].map(Vec3::from);
+        let distance = positive("the way from the eye to the target (mm)", eye.distance(target))?;
+        let (toward, up) = ((eye - target) / distance, Vec3::from(pose.up).normalize_or_zero());
+        let aside = up.cross(toward).length();
+        if aside.is_nan() || aside < 1e-4 {
+            let (what, expected) = ("the sine between up and the line of sight", "above 0.0001");
+            return Err(RenderError::Camera { what, value: aside, expected });
+        }
+        Ok(Self {
+            size,
+            target,
+            toward,
+            up,
+            projection: projection(distance),
+            cuts: false,
+            is_over: toward.z < 0.0,
+            extent: *extent,
+        })
+    }
+
     fn above(extent: &Extent, turn: f32, height: f32, size: [u32; 2]) -> Self {
         let (sine, cosine) = turn.sin_cos();
         Self {
@@ -163,7 +255,7 @@ impl Camera {
             target: extent.middle(),
             toward: Vec3::new(sine * height.cos(), -cosine * height.cos(), height.sin()),
             up: Vec3::Z,
-            projection: Projection::Perspective { distance: 1.0 },
+            projection: portrait(1.0),
             cuts: false,
             is_over: false,
             extent: *extent,
@@ -198,6 +290,11 @@ impl Camera {
     pub(crate) fn aspect(&self) -> f32 {
         aspect(self.size)
     }
+}
+
+/// A perspective of the field of view that all cameras have which nobody gave another.
+fn portrait(distance: f32) -> Projection {
+    Projection::Perspective { distance, field_of_view: FIELD_OF_VIEW }
 }
 
 fn aspect(size: [u32; 2]) -> f32 {

@@ -51,8 +51,8 @@ pub enum RenderError {
     #[error(transparent)]
     Backend(#[from] BackendError),
     /// A call of the session that a picture should not have made.
-    #[error("the session was misused")]
-    Session(#[source] SessionError),
+    #[error(transparent)]
+    Session(SessionError),
 }
 
 impl From<SessionError> for RenderError {

@@ -10,10 +10,12 @@
 //! mesh is drawn from the very buffers that the mesh stage wrote, chunk after chunk into one depth buffer; then the visible
 //! pixels are lit, once.
 
+mod background;
 mod camera;
 mod error;
 mod extent;
 mod memory;
+mod projection;
 mod renderer;
 mod scene;
 mod screen;
@@ -22,7 +24,8 @@ mod sieve;
 mod tests;
 mod uniform;
 
-pub use camera::{Camera, Cut};
+pub use background::Background;
+pub use camera::{Camera, Cut, Pose};
 pub use error::RenderError;
 pub use extent::Extent;
 pub use renderer::Renderer;

@@ -22,7 +22,9 @@ use crate::screen::{COLOR, DEPTH, KEPT, SAMPLES, VISIBILITY};
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Debug)]
+///
+/// Its clones are the same device with the same pipelines. A [`Scene`](crate::Scene) keeps one, and so may outlive the renderer that made it.
+#[derive(Debug, Clone)]
 pub struct Renderer {
     pub(crate) device: WgpuBackend,
     pub(crate) sieve: wgpu::ComputePipeline,
@@ -36,7 +38,7 @@ pub struct Renderer {
 }
 
 /// Layouts of what the pipelines bind.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Layouts {
     pub(crate) sieve: wgpu::BindGroupLayout,
     pub(crate) yarns: wgpu::BindGroupLayout,

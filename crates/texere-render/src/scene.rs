@@ -13,7 +13,7 @@ use wgpu::{BindingResource, BufferUsages};
 use crate::screen::Screen;
 use crate::sieve::Sieve;
 use crate::uniform::{ViewUniform, YarnLook};
-use crate::{Camera, Extent, RenderError, Renderer};
+use crate::{Background, Camera, Extent, RenderError, Renderer};
 
 /// Memory for two chunks of mesh, bytes: enough to keep any device busy, little beside the memory of pictures.
 const CHUNK_MEMORY: u64 = 128 << 20;
@@ -42,8 +42,20 @@ pub struct Picture {
     pub size: [u32; 2],
     /// Red, green and blue, a byte each, sRGB; rows from the top.
     pub rgb: Vec<u8>,
+    /// How much of each pixel shows a yarn or a background, a byte, 255 for all of it: less only with [`Background::Nothing`]. Colours are
+    /// not multiplied with it.
+    pub alpha: Vec<u8>,
     /// How long it took.
     pub timings: PictureTimings,
+}
+
+impl Picture {
+    /// Red, green, blue and alpha, a byte each.
+    #[must_use]
+    pub fn rgba(&self) -> Vec<u8> {
+        let pixels = self.rgb.chunks_exact(3).zip(&self.alpha);
+        pixels.flat_map(|(rgb, &alpha)| [rgb[0], rgb[1], rgb[2], alpha]).collect()
+    }
 }
 
 /// Time that a picture took, stage by stage, one after the other.
@@ -60,8 +72,8 @@ pub struct PictureTimings {
 /// A fabric on a device: control points and tables. Its mesh is made anew, chunk by chunk, for each picture. Whatever the
 /// fabric, only two chunks and one chunk's list of visible triangles are in memory, 214 MiB together.
 #[derive(Debug)]
-pub struct Scene<'a> {
-    renderer: &'a Renderer,
+pub struct Scene {
+    renderer: Renderer,
     plan: Arc<Plan>,
     limits: Limits,
     session: WgpuSession,
@@ -71,15 +83,16 @@ pub struct Scene<'a> {
     looks: wgpu::Buffer,
     sieve: Sieve,
     view: wgpu::Buffer,
+    background: Background,
     screen: Option<Screen>,
 }
 
 impl Renderer {
-    /// Sends a fabric to the device. The settings' topology and caps are ignored: pictures list their own triangles, and
+    /// Sends a fabric to the device, or several: [`Yarns::placed`] says where each is, [`Yarns::merged`] makes one of them. The settings' topology and caps are ignored: pictures list their own triangles, and
     /// show yarns solid, also where they end or are cut.
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
-    pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene<'_>, RenderError> {
+    pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
         self.scene_of(yarns, settings, Extent::of(yarns), |session| session.upload(0, yarns.points()))
     }
 
@@ -91,7 +104,7 @@ impl Renderer {
         yarns: &Yarns,
         settings: &Settings,
         settler: &mut dyn Settler,
-    ) -> Result<Scene<'_>, RenderError> {
+    ) -> Result<Scene, RenderError> {
         let extent = Extent::settled(yarns, settler)?;
         self.scene_of(yarns, settings, extent, |session| session.take_settled(settler))
     }
@@ -103,7 +116,7 @@ impl Renderer {
         settings: &Settings,
         extent: Extent,
         send: impl FnOnce(&mut WgpuSession) -> Result<(), SessionError>,
-    ) -> Result<Scene<'_>, RenderError> {
+    ) -> Result<Scene, RenderError> {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let limits = chunk_limits(&plan).min(&self.info().limits);
@@ -112,13 +125,14 @@ impl Renderer {
         session.scan()?;
         let buffer = |what, bytes: &[u8], usage| self.filled(what, bytes, usage);
         Ok(Scene {
-            renderer: self,
+            renderer: self.clone(),
             session,
             extent,
             ring_lengths: ring_lengths(yarns, &plan),
             looks: buffer("looks", bytemuck::cast_slice(&YarnLook::all(yarns)), BufferUsages::STORAGE)?,
             sieve: Sieve::new(self)?,
             view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
+            background: Background::Ground,
             screen: None,
             limits,
             plan,
@@ -126,7 +140,7 @@ impl Renderer {
     }
 }
 
-impl Scene<'_> {
+impl Scene {
     /// Bytes that went between host and device so far, but for the pictures themselves.
     #[must_use]
     pub fn traffic(&self) -> Traffic {
@@ -151,6 +165,11 @@ impl Scene<'_> {
         Self { limits: self.limits.min(limits), ..self }
     }
 
+    /// What its pictures have from now on where no yarn is; at first ground.
+    pub fn set_background(&mut self, background: Background) {
+        self.background = background;
+    }
+
     /// Makes a picture.
     ///
     /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for one that the device has no textures for,
@@ -164,15 +183,15 @@ impl Scene<'_> {
             self.screen = None;
             self.screen = Some(Screen::new(device, size, supersampling)?);
         }
-        let view = ViewUniform::new(camera, supersampling, self.plan.settings().sides);
+        let view = ViewUniform::new(camera, self.background, supersampling, self.plan.settings().sides);
         self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
         let screened = Instant::now();
         self.draw(camera)?;
         let drawn = Instant::now();
-        let rgb = self.shade()?;
+        let [rgb, alpha] = self.shade()?;
         let timings =
             PictureTimings { screen: screened - start, draw: drawn - screened, shade: drawn.elapsed() };
-        Ok(Picture { size, rgb, timings })
+        Ok(Picture { size, rgb, alpha, timings })
     }
 
     fn check_size(&self, [width, height]: [u32; 2], supersampling: u32) -> Result<(), RenderError> {
@@ -207,7 +226,7 @@ impl Scene<'_> {
 
     /// Lists the triangles that may be seen, and draws them.
     fn draw_chunk(&mut self, chunk: &Chunk, camera: &Camera) -> Result<wgpu::SubmissionIndex, RenderError> {
-        let renderer = self.renderer;
+        let renderer = &self.renderer;
         self.sieve.fill(renderer, &self.plan, chunk, &self.ring_lengths)?;
         let vertices = self.session.vertex_buffer(chunk)?.as_entire_binding();
         let [runs, triangles] = self.sieve.bindings();
@@ -241,8 +260,10 @@ impl Scene<'_> {
     }
 
     /// Visibility, then light, then the copy to the host.
-    fn shade(&self) -> Result<Vec<u8>, RenderError> {
-        let (renderer, Some(screen)) = (self.renderer, &self.screen) else { return Ok(Vec::new()) };
+    fn shade(&self) -> Result<[Vec<u8>; 2], RenderError> {
+        let (renderer, Some(screen)) = (&self.renderer, &self.screen) else {
+            return Ok([Vec::new(), Vec::new()]);
+        };
         let view = |view| BindingResource::TextureView(view);
         let kept = [
             self.view.as_entire_binding(),

@@ -146,17 +146,19 @@ impl Screen {
         self.host.map_async(wgpu::MapMode::Read, .., |_| ());
     }
 
-    /// The pixels, three bytes each, once the copy is done.
-    pub(crate) fn take(&self, device: &WgpuBackend) -> Result<Vec<u8>, BackendError> {
+    /// The pixels' colours, three bytes each, and their alpha, once the copy is done.
+    pub(crate) fn take(&self, device: &WgpuBackend) -> Result<[Vec<u8>; 2], BackendError> {
         let row = row_bytes(self.size) as usize;
         let width = (self.size[0] * COLOR_BYTES) as usize;
         let pixels = device.scoped("Buffer::get_mapped_range", || {
             self.host.get_mapped_range(..).map(|view| {
-                let mut rgb = Vec::with_capacity(view.len() / 4 * 3);
-                for row in view.chunks_exact(row) {
-                    row[..width].chunks_exact(4).for_each(|pixel| rgb.extend_from_slice(&pixel[..3]));
+                let pixels = view.len() / 4;
+                let [mut rgb, mut alpha] = [3 * pixels, pixels].map(Vec::with_capacity);
+                for pixel in view.chunks_exact(row).flat_map(|row| row[..width].chunks_exact(4)) {
+                    rgb.extend_from_slice(&pixel[..3]);
+                    alpha.push(pixel[3]);
                 }
-                rgb
+                [rgb, alpha]
             })
         })?;
         let pixels = pixels.map_err(|source| BackendError::Driver {

@@ -1,13 +1,11 @@
 //! The uniforms of shaders: the view, and the look of each yarn.
 
 use bytemuck::{Pod, Zeroable};
-use glam::dcamera::rh::proj::directx;
-use glam::dcamera::rh::view;
-use glam::{DMat4, DVec3, Vec3};
+use glam::Vec3;
 use texere_core::Yarns;
 
-use crate::Camera;
-use crate::camera::{FIELD_OF_VIEW, Projection};
+use crate::camera::Projection;
+use crate::{Background, Camera};
 
 /// How far ambient occlusion looks, radii of a yarn: across to the next yarn but one in a close cloth.
 const REACH_RADII: f32 = 5.0;
@@ -37,20 +35,23 @@ pub(crate) struct ViewUniform {
     thickness: f32,
     has_ground: u32,
     sees_inside: u32,
+    background: [f32; 3],
+    background_kind: u32,
 }
 
-const _: () = assert!(size_of::<ViewUniform>() == 224);
+const _: () = assert!(size_of::<ViewUniform>() == 240);
 
 impl ViewUniform {
-    pub(crate) fn new(camera: &Camera, supersampling: u32, sides: u32) -> Self {
+    pub(crate) fn new(camera: &Camera, background: Background, supersampling: u32, sides: u32) -> Self {
         let radius = camera.extent.radius;
         let size = camera.size().map(|pixels| (pixels * supersampling) as f32);
-        let (clip_from_local, pixels_per_mm) = projection(camera, size[1]);
+        let clip_from_local = camera.clip_from_local();
+        let (background, background_kind) = background.encoded();
         let up = if camera.is_over { Vec3::NEG_Z } else { Vec3::Z };
         let lowest = if camera.is_over { -camera.extent.high[2] } else { camera.extent.low[2] };
         let eye = match camera.projection {
             Projection::Orthographic { .. } => camera.toward.extend(0.0),
-            Projection::Perspective { distance } => (camera.toward * distance).extend(1.0),
+            Projection::Perspective { distance, .. } => (camera.toward * distance).extend(1.0),
         };
         Self {
             clip_from_local: clip_from_local.as_mat4().to_cols_array(),
@@ -64,44 +65,12 @@ impl ViewUniform {
             size,
             supersampling,
             sides,
-            reach_pixels: radius * REACH_RADII * pixels_per_mm,
+            reach_pixels: radius * REACH_RADII * size[1] / camera.height_at_target(),
             thickness: radius * THICKNESS_RADII,
             has_ground: u32::from(!camera.cuts),
             sees_inside: u32::from(camera.sees_inside()),
-        }
-    }
-}
-
-/// Where a point relative to the camera's target lies in clip space, and pixels a millimetre at the target.
-fn projection(camera: &Camera, pixels_down: f32) -> (DMat4, f32) {
-    // As near as the fabric is, and no farther: depth has 24 bits to tell yarns apart.
-    let depths = camera.extent.corners().map(|corner| (corner - camera.target).dot(camera.toward));
-    let (far, near) =
-        depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
-    let spare = camera.extent.radius;
-    let (far, near) = (f64::from(far - spare), f64::from(near + spare));
-    let (toward, up) = (camera.toward.as_dvec3(), camera.up.as_dvec3());
-    let aspect = f64::from(camera.aspect());
-    match camera.projection {
-        Projection::Orthographic { height } => {
-            let near = if camera.cuts { 0.0 } else { near };
-            let (above, aside) = (0.5 * f64::from(height), 0.5 * f64::from(height) * aspect);
-            let look = view::look_to_mat4(DVec3::ZERO, -toward, up);
-            let projected = directx::orthographic(-aside, aside, -above, above, -near, -far);
-            (projected * look, pixels_down / height)
-        }
-        Projection::Perspective { distance } => {
-            let eye = f64::from(distance);
-            let look = view::look_to_mat4(toward * eye, -toward, up);
-            // The near plane: in front of the eye, and far enough from it to leave the far end enough depth resolution.
-            let nearest = (eye - near).max(eye * 0.02);
-            let projected = directx::perspective(
-                f64::from(FIELD_OF_VIEW),
-                aspect,
-                nearest,
-                (eye - far).max(nearest * 1.01),
-            );
-            (projected * look, pixels_down / (2.0 * distance * (FIELD_OF_VIEW * 0.5).tan()))
+            background,
+            background_kind,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use texere_core::{BackendError, Block, Chunk, ControlPoint, Plan, Ring, Vertex};
+use texere_core::{Attribute, BackendError, Block, Chunk, ControlPoint, Plan, Ring, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, Params};
 use texere_shaders::Resource;
 use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
@@ -26,6 +26,8 @@ pub(crate) struct ChunkMemory {
     pub(crate) rings: Buffer,
     pub(crate) vertices: Buffer,
     pub(crate) indices: Buffer,
+    /// Empty until they are asked for.
+    pub(crate) attributes: Buffer,
 }
 
 impl ChunkMemory {
@@ -44,13 +46,14 @@ impl ChunkMemory {
             rings: buffer("rings", output)?,
             vertices: buffer("vertices", output | BufferUsages::VERTEX)?,
             indices: buffer("indices", output | BufferUsages::INDEX)?,
+            attributes: buffer("attributes", output | BufferUsages::VERTEX)?,
         })
     }
 
     /// Bytes of its tables and results.
     pub(crate) fn bytes(&self) -> u64 {
-        let Self { blocks, cap_rows, rings, vertices, indices, .. } = self;
-        [blocks, cap_rows, rings, vertices, indices].map(Buffer::bytes).iter().sum()
+        let Self { blocks, cap_rows, rings, vertices, indices, attributes, .. } = self;
+        [blocks, cap_rows, rings, vertices, indices, attributes].map(Buffer::bytes).iter().sum()
     }
 
     /// Sends the tables of another chunk.
@@ -87,6 +90,12 @@ impl ChunkMemory {
         Ok(())
     }
 
+    /// Makes room for the attributes of the chunk.
+    pub(crate) fn reserve_attributes(&mut self, gpu: &Gpu, chunk: &Chunk) -> Result<(), BackendError> {
+        self.attributes.reserve(gpu, u64::from(chunk.vertices()) * size_of::<Attribute>() as u64)?;
+        Ok(())
+    }
+
     /// What a shader that works on this chunk sees as `resource`; nothing where that is none of a mesh.
     pub(crate) fn resource<'a>(
         &'a self,
@@ -113,6 +122,8 @@ impl ChunkMemory {
             Resource::Rings => &self.rings,
             Resource::Vertices => &self.vertices,
             Resource::Indices => &self.indices,
+            Resource::ArcLengths => &tables.lengths,
+            Resource::Attributes => &self.attributes,
             _ => return None,
         };
         Some(buffer.buffer().as_entire_binding())

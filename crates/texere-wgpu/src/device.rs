@@ -33,7 +33,9 @@ const LAUNCH_BLOCKS: u64 = 1 << 18;
 /// assert!(backend.info().device.contains("llvmpipe"));
 /// # Ok::<(), texere_core::BackendError>(())
 /// ```
-#[derive(Debug)]
+///
+/// Its clones are the same open device.
+#[derive(Debug, Clone)]
 pub struct WgpuBackend {
     info: DeviceInfo,
     pub(crate) opened: Arc<Opened>,
@@ -89,7 +91,22 @@ impl WgpuBackend {
     /// Works on a device of the caller's, such as a viewer's, under the name `wgpu`.
     ///
     /// All calls are made within error scopes, and its callbacks stay the caller's. It takes no feature;
-    /// `TIMESTAMP_QUERY` makes timings exact. With wgpu's default limits a chunk has up to 128 MiB of vertices.
+    /// `TIMESTAMP_QUERY` makes timings exact. With wgpu's default limits a chunk has up to 128 MiB of vertices. [`Schedule::PerRing`] is the fast one,
+    /// which does all that there is; the other is the paper's, to compare with.
+    ///
+    /// ```no_run
+    /// use texere_wgpu::{Schedule, WgpuBackend, wgpu};
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # pollster::block_on(async {
+    /// let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    /// let adapter = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await?;
+    /// let (device, queue) = adapter.request_device(&wgpu::DeviceDescriptor::default()).await?;
+    /// let backend = WgpuBackend::from_device(device.clone(), queue.clone(), Schedule::PerRing)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// # })?;
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// **Errors**: [`BackendError::Compile`], also where its limits are below WebGPU's defaults.
     pub fn from_device(

@@ -1,15 +1,17 @@
 //! The work on a plan on a wgpu device: memory, launches and reading.
 
 use std::any::Any;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere_core::{
-    BackendError, Chunk, ControlPoint, Engine, MeshPiece, MeshSink, Plan, RingSink, ScanChunk, ScanChunks,
-    Settler, Slot, StageTimings, Traffic, take_over_host, zeroed,
+    AttributeSink, BackendError, Chunk, ControlPoint, Engine, MeshPiece, MeshSink, Plan, RingSink, ScanChunk,
+    ScanChunks, Settler, Slot, StageTimings, Traffic, take_over_host, zeroed,
 };
-use texere_gpu::{YarnEnds, check_schedule, part_rows, settles_flattened};
+use texere_gpu::{Params, YarnEnds, YarnRow, check_schedule, part_rows, settles_flattened};
+
+use texere_shaders::Resource;
 
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Timed};
@@ -29,7 +31,7 @@ pub struct WgpuEngine {
     ends: YarnEnds,
     tables: Tables,
     /// One for each [`Slot`].
-    memory: [ChunkMemory; 2],
+    memory: Vec<ChunkMemory>,
     outbox: Outbox,
     readback: Readback,
     clock: Clock,
@@ -46,7 +48,7 @@ impl WgpuEngine {
         Ok(Self {
             ends: YarnEnds::new(&plan)?,
             tables,
-            memory: [ChunkMemory::new(gpu)?, ChunkMemory::new(gpu)?],
+            memory: Vec::new(),
             outbox: Outbox::default(),
             readback: Readback::new(gpu)?,
             clock: Clock::new(gpu)?,
@@ -60,6 +62,59 @@ impl WgpuEngine {
     /// The memory of the chunk in `slot`.
     pub(crate) fn memory(&self, slot: Slot) -> &ChunkMemory {
         &self.memory[slot.index()]
+    }
+
+    /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in `slot`.
+    fn check_loaded(&self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let not_loaded = BackendError::NotLoaded { chunk: chunk.index() };
+        self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
+    }
+
+    /// The engine of a [`LiveMesh`](texere_core::LiveMesh), for its buffers; none where that is on no device of wgpu. [`draw`](fn@crate::draw) draws
+    /// them all.
+    ///
+    /// Between the yarns of a live mesh there is room, in which triangles of earlier edits may lie. So draw only what
+    /// [`Plan::chunk_draws`] says of the mesh's plan as it is now, and no chunk from its first to its last index.
+    ///
+    /// ```no_run
+    /// # fn example(mesh: &texere_core::LiveMesh, pass: &mut wgpu::RenderPass<'_>) -> Option<()> {
+    /// use texere_core::Slot;
+    /// use texere_wgpu::WgpuEngine;
+    /// let engine = WgpuEngine::of(mesh.engine())?;
+    /// for (number, chunk) in (0..).zip(mesh.chunks()) {
+    ///     let slot = Slot::new(number);
+    ///     pass.set_vertex_buffer(0, engine.vertex_buffer(slot)?.slice(..));
+    ///     pass.set_index_buffer(engine.index_buffer(slot)?.slice(..), wgpu::IndexFormat::Uint32);
+    ///     for draw in mesh.plan().chunk_draws(chunk) {
+    ///         pass.draw_indexed(draw.indices, draw.base_vertex, 0..1);
+    ///     }
+    /// }
+    /// # Some(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn of(engine: &dyn Engine) -> Option<&Self> {
+        (engine as &dyn Any).downcast_ref()
+    }
+
+    /// The vertices of the chunk in `slot`: [`Chunk::vertices`] of 24 bytes, position and normal, at the start of the buffer, which may be
+    /// longer. None where nothing was made yet. Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    #[must_use]
+    pub fn vertex_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
+        Some(self.memory.get(slot.index())?.vertices.buffer())
+    }
+
+    /// The indices of the chunk in `slot`, likewise: [`Chunk::indices`] of four bytes; with another topology than
+    /// [`Indexed`](texere_core::Topology::Indexed) there are none in it. Its usages are `INDEX`, `STORAGE` and `COPY_SRC`.
+    #[must_use]
+    pub fn index_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
+        Some(self.memory.get(slot.index())?.indices.buffer())
+    }
+
+    /// The attributes of the chunk in `slot`, likewise: one of 24 bytes for each vertex. Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    #[must_use]
+    pub fn attribute_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
+        Some(self.memory.get(slot.index())?.attributes.buffer())
     }
 
     /// Bytes of device memory that it holds.
@@ -101,6 +156,26 @@ impl WgpuEngine {
         })?;
         gpu.probe()
     }
+
+    /// Runs `kernel` with a workgroup for each of `yarns`, whose blocks `chunk`, the one in `slot`, is the last to have some of.
+    fn run_for_yarns(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        kernel: &Kernel,
+        yarns: &Range<usize>,
+    ) -> Result<(), BackendError> {
+        self.tables.set_yarns(&self.opened.gpu, &Params::of_yarns(&self.plan, chunk, yarns))?;
+        let (gpu, memory, tables) = (&self.opened.gpu, &self.memory[slot.index()], &self.tables);
+        self.clock.run(gpu, Timed::Scan, |pass| {
+            let bound = kernel.bind(gpu, |resource| match resource {
+                Resource::Params => Some(tables.of_yarns.buffer().as_entire_binding()),
+                _ => memory.resource(tables, resource),
+            });
+            kernel.record(pass, &bound, yarns.len() as u32);
+        })?;
+        gpu.probe()
+    }
 }
 
 impl Engine for WgpuEngine {
@@ -135,21 +210,73 @@ impl Engine for WgpuEngine {
         let kernels = self.kernels.clone();
         // A plan with rolls is refused by the other schedule.
         let Kernels::PerRing(kernels) = &*kernels else { return Ok(()) };
-        let mut last = Slot::default();
+        let (yarns, mut last) = (chunks.yarns(), None);
         for ScanChunk { slot, chunk, loaded } in chunks {
             if !loaded {
                 self.load(slot, &chunk)?;
             }
-            self.memory(slot).loaded.check(&self.plan, &chunk)?;
+            self.check_loaded(slot, &chunk)?;
             // A repeated ring has no step, and its block's turn is written by the next chunk, which comes after.
             self.run(slot, Timed::Scan, &[(&kernels.block_turns, self.memory(slot).rows)])?;
-            last = slot;
+            last = Some((slot, chunk));
         }
-        let yarns = self.plan.layout().yarns().len() as u32;
-        self.run(last, Timed::Scan, &[(&kernels.yarn_rolls, yarns)])
+        let Some((slot, chunk)) = last else { return Ok(()) };
+        self.run_for_yarns(slot, &chunk, &kernels.yarn_rolls, &yarns)
+    }
+
+    fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
+        let kernels = self.opened.attributes()?;
+        self.tables.reserve_lengths(&self.opened.gpu, &self.plan)?;
+        let (yarns, mut last) = (chunks.yarns(), None);
+        for ScanChunk { slot, chunk, loaded } in chunks {
+            if !loaded {
+                self.load(slot, &chunk)?;
+            }
+            self.check_loaded(slot, &chunk)?;
+            // A repeated ring has no step here, either.
+            self.run(slot, Timed::Scan, &[(&kernels.block_lengths, self.memory(slot).rows)])?;
+            last = Some((slot, chunk));
+        }
+        let Some((slot, chunk)) = last else { return Ok(()) };
+        self.run_for_yarns(slot, &chunk, &kernels.yarn_lengths, &yarns)
+    }
+
+    fn attributes(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.check_loaded(slot, chunk)?;
+        let kernels = self.opened.attributes()?;
+        let memory = &mut self.memory[slot.index()];
+        let (rows, cap_vertices) = (memory.rows, memory.cap_vertices);
+        memory.reserve_attributes(&self.opened.gpu, chunk)?;
+        let caps = kernels.of_caps.workgroups(cap_vertices);
+        self.run(slot, Timed::Mesh, &[(&kernels.of_tubes, rows), (&kernels.of_caps, caps)])
+    }
+
+    fn read_attributes(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: AttributeSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let attributes = self.memory[slot.index()].attributes.buffer();
+        self.readback.lend(&self.opened.gpu, attributes, chunk.vertices(), sink)
+    }
+
+    fn is_editable(&self) -> bool {
+        matches!(*self.kernels, Kernels::PerRing(_))
+    }
+
+    fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
+        let first = yarns.start * size_of::<YarnRow>();
+        let rows = YarnRow::of(&plan, yarns);
+        self.opened.gpu.write(self.tables.yarns.buffer(), first as u64, bytemuck::cast_slice(&rows))?;
+        self.plan = plan;
+        Ok(())
     }
 
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        while self.memory.len() <= slot.index() {
+            self.memory.push(ChunkMemory::new(&self.opened.gpu)?);
+        }
         let (gpu, memory) = (&self.opened.gpu, &mut self.memory[slot.index()]);
         match &*self.kernels {
             Kernels::PerRing(_) => memory.load(gpu, &self.plan, chunk, chunk.blocks()),
@@ -165,7 +292,7 @@ impl Engine for WgpuEngine {
     }
 
     fn trajectory(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        self.memory(slot).loaded.check(&self.plan, chunk)?;
+        self.check_loaded(slot, chunk)?;
         let kernels = self.kernels.clone();
         let memory = &mut self.memory[slot.index()];
         let rows = memory.rows;
@@ -178,7 +305,7 @@ impl Engine for WgpuEngine {
     }
 
     fn mesh(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
-        self.memory(slot).loaded.check(&self.plan, chunk)?;
+        self.check_loaded(slot, chunk)?;
         let kernels = self.kernels.clone();
         let memory = &mut self.memory[slot.index()];
         let (rows, cap_vertices) = (memory.rows, memory.cap_vertices);

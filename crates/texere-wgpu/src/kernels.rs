@@ -9,6 +9,7 @@ use wgpu::{
     BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType, ShaderStages,
 };
 
+use crate::attributes::AttributeKernels;
 use crate::crossings::CrossingsKernels;
 use crate::gpu::Gpu;
 use crate::settling::SettlingKernels;
@@ -30,6 +31,8 @@ pub(crate) struct Opened {
     pub(crate) round: Arc<Kernels>,
     /// For all yarns: compiled where they are wanted first.
     flattened: OnceLock<Arc<Kernels>>,
+    /// Those that make attributes, likewise.
+    attributes: OnceLock<Arc<AttributeKernels>>,
     /// Those that bring yarns to rest, for round yarns alone and for all yarns, likewise.
     settling: [OnceLock<Arc<SettlingKernels>>; 2],
     /// Those that bring crossings to rest, likewise.
@@ -47,6 +50,7 @@ impl Opened {
             schedule,
             round,
             flattened: OnceLock::new(),
+            attributes: OnceLock::new(),
             settling: <_>::default(),
             crossings: OnceLock::new(),
         })
@@ -57,6 +61,16 @@ impl Opened {
     /// **Errors**: [`BackendError::Compile`].
     pub(crate) fn flattened(&self) -> Result<Arc<Kernels>, BackendError> {
         compiled(&self.flattened, || Kernels::new(&self.gpu, self.schedule, true))
+    }
+
+    /// The shaders that make attributes.
+    ///
+    /// **Errors**: [`BackendError::NoAttributes`] in the schedule per-yarn, [`BackendError::Compile`].
+    pub(crate) fn attributes(&self) -> Result<Arc<AttributeKernels>, BackendError> {
+        if self.schedule != Schedule::PerRing {
+            return Err(BackendError::NoAttributes);
+        }
+        compiled(&self.attributes, || AttributeKernels::new(&self.gpu))
     }
 
     /// The shaders that bring yarns to rest, for all yarns or for round ones alone.
@@ -254,6 +268,7 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // - Divisors are `subdivisions + 1`, `sides`, at least 3, a lane's share `across`, at least 1 since a ring has at
     //   least 5 stores, and constants above zero; a yarn's `rings - 1` divides as a
     //   float only.
+    // - The lengths along yarns have one for each of the plan's blocks, and attributes one for each of the chunk's vertices.
     // In the shaders of settling it is so, too:
     // - Places, yarns and chords come from the tables of a settling's plan, bound whole, as is all that has a number each. An
     //   interval's place has one before it and two behind it. A number that a shader has written is below what it numbers, or

@@ -11,8 +11,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A viewer that has a wgpu device of its own gives it to [`WgpuBackend::from_device`], starts a
-//! [`WgpuSession`](WgpuBackend::lending_session) and draws from the very buffers that the mesh was written to.
+//! A viewer that has a wgpu device of its own gives it to [`WgpuBackend::from_device`] and draws from the very buffers that the mesh was written
+//! to: those of a [`LiveMesh`](texere_core::LiveMesh), which keeps all of it, with [`draw`](fn@draw), or chunk by chunk those of a
+//! [`WgpuSession`](WgpuBackend::lending_session).
 //!
 //! What is worth knowing:
 //!
@@ -26,11 +27,13 @@
 //!   session takes no other plan's chunks.
 
 mod answer;
+mod attributes;
 mod buffer;
 mod chunk_memory;
 mod clock;
 mod crossings;
 mod device;
+mod draw;
 mod engine;
 mod gpu;
 mod kernels;
@@ -44,6 +47,10 @@ mod tables;
 mod upload;
 
 pub use device::WgpuBackend;
+pub use draw::{ATTRIBUTE_LAYOUT, VERTEX_LAYOUT, draw};
 pub use engine::WgpuEngine;
 pub use session::WgpuSession;
 pub use texere_core::Schedule;
+/// The wgpu that devices and buffers are of, version 30: a program that gives texere its device makes that with this one. A new major version of it
+/// is a new minor version of texere.
+pub use wgpu;

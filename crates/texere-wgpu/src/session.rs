@@ -40,8 +40,8 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).vertices.buffer())
     }
 
-    /// The indices of `chunk`, likewise: [`Chunk::indices`] of four bytes. None with another topology than
-    /// [`Indexed`](texere_core::Topology::Indexed).
+    /// The indices of `chunk`, likewise: [`Chunk::indices`] of four bytes. With another topology than
+    /// [`Indexed`](texere_core::Topology::Indexed) there are none in it.
     ///
     /// Its usages are `INDEX`, `STORAGE` and `COPY_SRC`.
     ///
@@ -49,6 +49,17 @@ impl WgpuSession {
     pub fn index_buffer(&self, chunk: &Chunk) -> Result<&wgpu::Buffer, SessionError> {
         let slot = self.0.slot_of_mesh(chunk)?;
         Ok(self.0.engine().memory(slot).indices.buffer())
+    }
+
+    /// The attributes of `chunk`, which [`Session::attributes`] has been called for, likewise: an [`Attribute`](texere_core::Attribute) of 24 bytes
+    /// for each vertex.
+    ///
+    /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`] before [`Session::attributes`].
+    pub fn attribute_buffer(&self, chunk: &Chunk) -> Result<&wgpu::Buffer, SessionError> {
+        let slot = self.0.slot_of_attributes(chunk)?;
+        Ok(self.0.engine().memory(slot).attributes.buffer())
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of

@@ -1,7 +1,7 @@
 //! What stays on the device for as long as its engine: control points, the plan's tables and the rolls.
 
-use texere_core::{BackendError, Plan, index_pattern};
-use texere_gpu::{YarnRow, cap_pattern};
+use texere_core::{ArcLength, BackendError, Plan, index_pattern};
+use texere_gpu::{Params, YarnRow, cap_pattern};
 use wgpu::BufferUsages;
 
 use crate::buffer::Buffer;
@@ -14,9 +14,13 @@ pub(crate) struct Tables {
     pub(crate) points: wgpu::Buffer,
     pub(crate) yarns: Buffer,
     pub(crate) rolls: Buffer,
+    /// How long its yarn is at each block's start. Empty until it is asked for.
+    pub(crate) lengths: Buffer,
     pub(crate) outlines: Buffer,
     pub(crate) pattern: Buffer,
     pub(crate) cap_pattern: Buffer,
+    /// Parameters of the launch that makes rolls, or measures yarns.
+    pub(crate) of_yarns: Buffer,
 }
 
 impl Tables {
@@ -39,17 +43,31 @@ impl Tables {
             points: gpu.buffer("control points", plan.resident_bytes(), input | BufferUsages::COPY_SRC)?,
             yarns: table("yarns", bytemuck::cast_slice(&YarnRow::all(plan)))?,
             rolls,
+            lengths: Buffer::new(gpu, "lengths along yarns", BufferUsages::STORAGE)?,
             outlines: table("outlines", bytemuck::cast_slice(plan.outlines()))?,
             pattern: table("the index pattern", bytemuck::cast_slice(&index_pattern(plan.settings().sides)))?,
             cap_pattern: table("the cap pattern", bytemuck::cast_slice(&cap_pattern(plan)))?,
+            of_yarns: Buffer::new(gpu, "parameters", BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
         })
+    }
+
+    /// Makes room for the lengths along yarns.
+    pub(crate) fn reserve_lengths(&mut self, gpu: &Gpu, plan: &Plan) -> Result<(), BackendError> {
+        self.lengths.reserve(gpu, plan.block_count() * size_of::<ArcLength>() as u64)?;
+        Ok(())
+    }
+
+    /// Says which yarns the next rolls are made of.
+    pub(crate) fn set_yarns(&mut self, gpu: &Gpu, params: &Params) -> Result<(), BackendError> {
+        self.of_yarns.write(gpu, bytemuck::bytes_of(params))
     }
 }
 
 impl Tables {
     /// Bytes of all of them.
     pub(crate) fn bytes(&self) -> u64 {
-        let Self { points, yarns, rolls, outlines, pattern, cap_pattern } = self;
-        points.size() + [yarns, rolls, outlines, pattern, cap_pattern].map(Buffer::bytes).iter().sum::<u64>()
+        let Self { points, yarns, rolls, lengths, outlines, pattern, cap_pattern, of_yarns: _ } = self;
+        points.size()
+            + [yarns, rolls, lengths, outlines, pattern, cap_pattern].map(Buffer::bytes).iter().sum::<u64>()
     }
 }

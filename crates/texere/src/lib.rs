@@ -49,40 +49,97 @@
 //! # }
 //! ```
 //!
-//! Features: `opencl` and `wgpu` add GPU backends; without them the CPU does the work alone. `render` adds pictures.
+//! # What for what
 //!
-//! A cloth too large for memory is written piece by piece with [`stream`]. Yarns of any other origin come from
-//! [`Yarns::builder`].
+//! | to | take |
+//! |---|---|
+//! | read a design, or make one in code | [`read()`], [`Woven`], [`weft::Knitted`], [`warp::WarpKnitted`], [`Design::of`] |
+//! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`] |
+//! | let cloth come to rest | [`Structure::settle`] |
+//! | have a whole mesh in memory, write it | [`Pipeline::mesh`], [`write()`] |
+//! | write a mesh larger than memory, or a format of your own | [`stream`], [`Pipeline::stream`] |
+//! | have only what lies in a rectangle | [`Pipeline::within`] |
+//! | edit a cloth and keep its mesh on a device | [`Live`] |
+//! | draw with a pipeline of your own, on your own device | `WgpuBackend::from_device`, [`Live`], `draw`, `VERTEX_LAYOUT` (feature `wgpu`) |
+//! | know what lies under the mouse | [`Live::pick`] or [`Picker`]; [`YarnPlace::at`], [`Structure::place`] and [`Design::named`] say it in words |
+//! | know yarn, angle and length along the yarn of each vertex | [`Pipeline::attributes`], [`Live::keep_attributes`] |
+//! | make pictures | `Renderer`, `Scene`, `Camera` (feature `render`) |
+//! | say what is wrong with a cloth | [`clearance`], [`Diagnosis`], [`Measures`] |
+//!
+//! # Features
+//!
+//! | feature | adds |
+//! |---|---|
+//! | `opencl`, `wgpu` | GPU backends; without them the CPU does the work alone |
+//! | `render` | pictures of cloth; brings `wgpu` and `pictures` |
+//! | `pictures` | PNG files of drafts and pictures |
+//! | `images` | point paper in design files |
+//!
+//! # Words
+//!
+//! Lengths are in mm, angles in radians. x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles
+//! are counter-clockwise seen from outside. Yarns, control points, ends and picks count from 0 in calls, and from 1 where a weaver reads them.
+//!
+//! - *Control point*: a place of a yarn's centreline with its half width and half height. *Interval* j of the spline runs from point j to the next.
+//! - *Ring*: a cross-section of the mesh; there are K + 1 of them an interval ([`Settings::subdivisions`] is the paper's K). Its corners are
+//!   its *sides* ([`Settings::sides`], the paper's nc).
+//! - *Roll*: how far a ring is turned about the centreline. A *scan* works out rolls along yarns.
+//! - *Block*: up to 64 rings of one yarn. *Chunk*: blocks that are worked on, read and drawn together, cut to what a device can hold.
+//!   *Slot*: a place for a chunk in a device's memory. A chunk is *in flight* from its first stage until another takes its slot.
+//! - *Room*: memory between the yarns of a [`Live`] mesh, so that one may get longer without the others moving.
+//!
+//! Errors say what happened in one line; where a driver or a file system has more to say it is their
+//! [`source`](std::error::Error::source).
 
 mod device;
+mod live;
 
 #[cfg(feature = "render")]
 pub use device::open_renderer;
 pub use device::{Devices, devices, open};
+pub use live::{Live, LiveError, Update};
 pub use texere_core::{
-    Backend, BackendError, Boundary, BoundaryError, Chunk, ControlPoint, Counts, DeviceInfo, DeviceKind,
-    Ends, Frame, Limits, Material, Mesh, MeshPiece, Origin, Pipeline, PipelineError, Plan, PlanError,
-    Progress, Ring, Schedule, Section, SectionError, Settings, SettlingError, Topology, Trajectory, Vertex,
-    Yarn, YarnError, Yarns, YarnsBuilder,
+    ArcLength, Attribute, BLOCK_RINGS, Backend, BackendError, Block, Boundary, BoundaryError, Bounds,
+    COORDINATE_LIMIT, Cap, Change, Chunk, ChunkDraw, Chunks, ControlPoint, Counts, DeviceInfo, DeviceKind,
+    Ends, Frame, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace, NullBackend, Origin,
+    PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError, Progress, RADIUS_MAX, RADIUS_MIN,
+    RINGS_MAX, Ray, Ring, Sampling, Schedule, Section, SectionError, SectionPoint, Settings, SettlingError,
+    TWIST_LIMIT, TablesId, Topology, Trajectory, Vertex, YARN_RINGS_MAX, Yarn, YarnError, Yarns,
+    YarnsBuilder, crossings, settling,
 };
-pub use texere_core::{crossings, settling};
+pub use texere_core::{
+    Draw, End, Engine, Layout, MeshMut, Part, ScanChunks, Session, SessionError, Slot, StageTimings, Traffic,
+    take_over_host,
+};
+pub use texere_cpu::{Hit, PickError, Picker};
 pub use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, FabricError,
     FabricWarning, FaultKind, Faults, Finish, FinishError, Finished, JamReport, Jams, KnitMeasures,
-    LINKING_CHANGE, Linking, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat, Sett,
-    Settled, Shape, Shedding, Stretch, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd,
-    ThreadPlace, Tightness, Weave, Woven, WovenDesign, WovenRest, YarnPlace, clearance,
+    LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat,
+    Sett, Settled, Shape, Shedding, StitchPlace, Stretch, Structure, Thread, ThreadBend, ThreadContact,
+    ThreadCrowd, ThreadPlace, Tightness, Weave, Woven, WovenDesign, WovenRest, YarnPlace, clearance,
     clearance_with_progress, length_mm, lengths_mm, linking, linking_with_progress, settle, warp, weft,
     yarns_under,
 };
 pub use texere_formats::write::{
-    Format, Output, Side, Written, abandon, draft as write_draft, file as write_file,
-    knit_draft as write_knit_draft, knit_rows, mesh as write, picture as write_picture, stream,
-    warp_draft as write_warp_draft, warp_rows,
+    Format, Output, Written, abandon, file as write_file, mesh as write, mesh_to as write_to, stream,
+    stream_to, toml as write_toml, toml_to as write_toml_to, wif as write_wif, wif_to as write_wif_to,
 };
-pub use texere_formats::{Design, MachineFault, Place, ReadError, Told, WriteError, read};
+#[cfg(feature = "pictures")]
+pub use texere_formats::write::{
+    Side, draft as write_draft, draft_to as write_draft_to, knit_draft as write_knit_draft,
+    knit_draft_to as write_knit_draft_to, knit_rows, picture as write_picture,
+    picture_to as write_picture_to, warp_draft as write_warp_draft, warp_draft_to as write_warp_draft_to,
+    warp_rows,
+};
+pub use texere_formats::{Design, MachineFault, NamedPlace, Place, ReadError, Told, WriteError, read};
+#[cfg(feature = "opencl")]
+pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};
 #[cfg(feature = "render")]
 pub use texere_render::{
-    Camera, Cut, Extent, Picture, PictureTimings, Quality, RenderError, Renderer, Scene, chunk_limits,
+    Background, Camera, Cut, Extent, Picture, PictureTimings, Pose, Quality, RenderError, Renderer, Scene,
+    chunk_limits,
 };
+#[cfg(feature = "wgpu")]
+pub use texere_wgpu::{ATTRIBUTE_LAYOUT, VERTEX_LAYOUT, WgpuBackend, WgpuEngine, WgpuSession, draw, wgpu};

@@ -168,17 +168,21 @@ fn visibility_of(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
     return sum / weights;
 }
 
-fn sample_color(pixel: vec2<i32>, sample: i32) -> vec3<f32> {
+// Colour and alpha of a sample.
+fn sample_color(pixel: vec2<i32>, sample: i32) -> vec4<f32> {
     let here = surface_at(pixel, sample);
+    if !here.is_yarn && view.background_kind != GROUND {
+        return vec4(view.background, f32(view.background_kind == COLOR));
+    }
     let seen = visibility_of(here, pixel);
     if here.is_yarn {
-        return tone_mapped(shade_yarn(here, pixel, sample, seen));
+        return vec4(tone_mapped(shade_yarn(here, pixel, sample, seen)), 1.0);
     }
-    return tone_mapped(shade_ground(here.normal, seen));
+    return vec4(tone_mapped(shade_ground(here.normal, seen)), 1.0);
 }
 
 // The mean of a pixel's four samples; one is enough where all are of one yarn.
-fn pixel_color(pixel: vec2<i32>) -> vec3<f32> {
+fn pixel_color(pixel: vec2<i32>) -> vec4<f32> {
     let first = textureLoad(places, pixel, 0).xy;
     let is_ground = textureLoad(depths, pixel, 0) >= 1.0;
     var alike = true;
@@ -202,11 +206,14 @@ fn pixel_color(pixel: vec2<i32>) -> vec3<f32> {
 fn shade(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let factor = i32(view.supersampling);
     let corner = vec2<i32>(position.xy) * factor;
-    var sum = vec3(0.0);
+    var sum = vec4(0.0);
     for (var y = 0; y < factor; y++) {
         for (var x = 0; x < factor; x++) {
             sum += pixel_color(corner + vec2(x, y));
         }
     }
-    return vec4(clamp(sum / f32(factor * factor), vec3(0.0), vec3(1.0)), 1.0);
+    // A sample without alpha has no colour either, so it takes no part in the pixel's.
+    let alpha = sum.a / f32(factor * factor);
+    let color = sum.rgb / max(sum.a, 1e-3);
+    return vec4(clamp(color, vec3(0.0), vec3(1.0)), alpha);
 }

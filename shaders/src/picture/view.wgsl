@@ -1,6 +1,6 @@
 // What every picture shader reads: the view, and the encoding of visible samples until they are shaded.
 
-// Rust: texere_render's ViewUniform, 224 bytes. All positions are relative to the camera's target, since f32 has no
+// Rust: texere_render's ViewUniform, 240 bytes. All positions are relative to the camera's target, since f32 has no
 // tenth of a millimetre left at ten kilometres.
 struct View {
     clip_from_local: mat4x4<f32>,
@@ -30,7 +30,14 @@ struct View {
     has_ground: u32,
     // 1 where yarns may be seen from inside, else 0.
     sees_inside: u32,
+    // What is seen where no yarn is: a kind, and its colour in linear light.
+    background: vec3<f32>,
+    background_kind: u32,
 }
+
+// Kinds of background. Rust: texere_render's Background.
+const GROUND = 0u;
+const COLOR = 1u;
 
 @group(0) @binding(0) var<uniform> view: View;
 

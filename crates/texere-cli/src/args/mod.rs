@@ -39,6 +39,8 @@ pub(crate) enum Command {
     Mesh(MeshArgs),
     /// Draw a woven design's draft, or print its drawdown
     Draft(DraftArgs),
+    /// Write a design as a WIF draft or as a design file
+    Convert(ConvertArgs),
     /// Make a picture of a design's cloth
     Render(RenderArgs),
 }
@@ -107,7 +109,7 @@ pub(crate) struct DraftArgs {
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file: threading, tie-up, treadling and drawdown, or the point paper where there is no
     /// shaft draft; of a knit the stitch chart and the needle diagram
-    #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
+    #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]
     pub(crate) output: Option<PathBuf>,
     /// Print a row for each pick, the last pick first: 1 where the warp is on top, 0 where the weft is, end 1 on the left. Of a
     /// knit a row for each course, in the symbols of its charts
@@ -116,6 +118,15 @@ pub(crate) struct DraftArgs {
     /// Show the back of the cloth, turned over sideways: end 1 on the right
     #[arg(long)]
     pub(crate) back: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct ConvertArgs {
+    /// A woven design: a .toml design or a .wif draft
+    pub(crate) design: PathBuf,
+    /// The file to write: .wif, which other weaving programs read, or .toml, which holds all but the draft
+    #[arg(value_name = "OUTPUT", value_parser = file_of(&["wif", "toml"]))]
+    pub(crate) output: PathBuf,
 }
 
 /// A number from 0 to below 1.

@@ -1,5 +1,6 @@
 //! Paths, with the endings that they must have.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
@@ -13,13 +14,14 @@ pub(super) fn mesh_file() -> impl TypedValueParser<Value = PathBuf> {
     })
 }
 
-/// A path with this `ending`, in upper or lower case.
-pub(super) fn file_of(ending: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+/// A path with one of these `endings`, in upper or lower case.
+pub(super) fn file_of(endings: &'static [&'static str]) -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(move |path| {
-        if path.extension().is_some_and(|given| given.eq_ignore_ascii_case(ending)) {
+        let is_one = |given: &OsStr| endings.iter().any(|ending| given.eq_ignore_ascii_case(ending));
+        if path.extension().is_some_and(is_one) {
             Ok(path)
         } else {
-            Err(format!("{} does not end in .{ending}", path.display()))
+            Err(format!("{} does not end in .{}", path.display(), endings.join(" or .")))
         }
     })
 }

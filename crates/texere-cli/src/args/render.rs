@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use texere::Quality;
+use texere::{Background, Quality};
 
 use super::path::file_of;
 use super::{SettingsArgs, SettlingArgs};
@@ -13,7 +13,7 @@ pub(crate) struct RenderArgs {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file; a turntable numbers its pictures: OUT-001.png and so on
-    #[arg(short, long, value_name = "FILE", value_parser = file_of("png"))]
+    #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]
     pub(crate) output: PathBuf,
     /// Width and height, pixels
     #[arg(long, value_name = "WxH", default_value = "1600x1200", value_parser = size)]
@@ -37,6 +37,9 @@ pub(crate) struct RenderArgs {
     /// Pixels drawn for each pixel of the picture, each way; each has four samples
     #[arg(long, value_name = "N", default_value_t = Quality::default().supersampling, value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) supersampling: u32,
+    /// What is seen where no yarn is: ground, none for a transparent picture, or a colour as #rrggbb
+    #[arg(long, default_value = "ground", value_parser = background)]
+    pub(crate) background: Background,
     /// The device that draws: auto, wgpu, wgpu:1, wgpu:nvidia
     #[arg(long, default_value = "auto")]
     pub(crate) device: String,
@@ -75,6 +78,22 @@ fn size(text: &str) -> Result<[u32; 2], String> {
         _ => Err(format!("\"{text}\" is not a number of pixels")),
     };
     Ok([number(width)?, number(height)?])
+}
+
+/// A background from its name or its colour.
+fn background(text: &str) -> Result<Background, String> {
+    let is_hexadecimal =
+        |digits: &&str| digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let digits = text.strip_prefix('#').filter(is_hexadecimal);
+    match (text, digits.and_then(|digits| u32::from_str_radix(digits, 16).ok())) {
+        ("ground", _) => Ok(Background::Ground),
+        ("none", _) => Ok(Background::Nothing),
+        (_, Some(color)) => {
+            let [_, red, green, blue] = color.to_be_bytes();
+            Ok(Background::Color([red, green, blue]))
+        }
+        _ => Err("expected ground, none, or a colour such as #f4f1ea".into()),
+    }
 }
 
 /// A length from its number.

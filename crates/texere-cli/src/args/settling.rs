@@ -15,7 +15,7 @@ pub(crate) struct SettlingArgs {
     #[arg(long)]
     no_settle: bool,
     /// Draw how yarns came to rest, pass by pass, to an .svg file
-    #[arg(long, value_name = "FILE", conflicts_with = "no_settle", value_parser = file_of("svg"))]
+    #[arg(long, value_name = "FILE", conflicts_with = "no_settle", value_parser = file_of(&["svg"]))]
     pub(crate) settling_plot: Option<PathBuf>,
 }
 

@@ -3,6 +3,7 @@
 
 mod check;
 mod cli;
+mod convert;
 mod draft;
 mod hostile;
 mod inspect;

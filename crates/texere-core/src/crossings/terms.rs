@@ -50,8 +50,9 @@ const THICKNESS: usize = 3;
 /// Gathers all terms that the crossing at `site` is part of.
 pub(super) fn gather(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing], site: Site) -> Block {
     let mut block = Block::NOTHING;
-    for set in Set::BOTH {
-        let here = Here { plan, pass, all, site, set, row: set.first() };
+    let both = Set::BOTH.map(|set| Here { plan, pass, all, site, set, row: set.first() });
+    for here in both {
+        let set = here.set;
         here.own(&mut block);
         here.bends(&mut block);
         here.steps(&mut block);
@@ -70,25 +71,25 @@ pub(super) fn gather(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing
             }
         }
     }
-    contact(plan, pass, all, site, &mut block);
+    contact(&both, &mut block);
     block
 }
 
 /// Both threads of a crossing lie one on top of the other.
-fn contact(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing], site: Site, block: &mut Block) {
-    let crossing = &all[plan.number(site)];
+fn contact([warp, weft]: &[Here<'_>; 2], block: &mut Block) {
+    let Here { plan, pass, site, .. } = *warp;
+    let [end, pick] = [warp, weft].map(|thread| thread.lie(site));
     let side = plan.side(site, Set::Warp);
-    let apart = side * (crossing.warp.height - crossing.weft.height);
-    let reaches = Set::BOTH.map(|set| {
-        // Threads of two layers slope where they cross: along the slope of the other one an ellipse reaches further.
-        let slope = if plan.are_apart(site) { STEEPER * slope(plan, all, site, set.other()) } else { 0.0 };
-        Reach::new(crossing.lie(set), slope)
+    let apart = side * (end.height - pick.height);
+    // Threads of two layers slope where they cross: along the slope of the other one an ellipse reaches further.
+    let reaches = [(end, weft), (pick, warp)].map(|(lie, other)| {
+        Reach::new(lie, if plan.are_apart(site) { STEEPER * other.steepest() } else { 0.0 })
     });
     let need = reaches[0].reach + reaches[1].reach;
     block.see(apart / need);
     let room = apart - need - MARGIN;
     if room < NEAR {
-        let [warp, weft] = Set::BOTH.map(Set::first);
+        let [warp, weft] = [warp.row, weft.row];
         let slopes = [
             (warp + HEIGHT, side),
             (weft + HEIGHT, -side),
@@ -101,9 +102,10 @@ fn contact(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing], site: S
     }
 }
 
-/// How far an ellipse reaches upright where what lies on it slopes, and the slopes of that in its half width and half height.
+/// How far an ellipse reaches upright where what lies on it slopes, and the slopes of that in the slope, its half width and its half height.
 struct Reach {
     reach: f32,
+    steeper: f32,
     wider: f32,
     thicker: f32,
 }
@@ -112,21 +114,8 @@ impl Reach {
     fn new(lie: &Lie, slope: f32) -> Self {
         let (x, z) = (lie.half_width * slope, lie.half_height);
         let reach = (x * x + z * z).sqrt();
-        Self { reach, wider: x * slope / reach, thicker: z / reach }
+        Self { reach, steeper: lie.half_width * x / reach, wider: x * slope / reach, thicker: z / reach }
     }
-}
-
-/// How steeply a thread rises or falls next to a crossing, on the steeper side.
-fn slope(plan: &CrossingsPlan, all: &[Crossing], site: Site, set: Set) -> f32 {
-    let height = |site: Site| all[plan.number(site)].lie(set).height;
-    let side = |steps: i32| {
-        plan.beside(site, set, steps, 0).map_or(0.0, |other| {
-            let first = if steps < 0 { other } else { site };
-            let gap = plan.rows(set.other())[first.thread(set.other())].gap;
-            ((height(other) - height(site)) / gap).abs()
-        })
-    };
-    side(-1).max(side(1))
 }
 
 /// One thread at one crossing.
@@ -174,6 +163,17 @@ impl Here<'_> {
     fn of_level(&self, set: Set) -> [(i32, i32); 2] {
         let [before, after] = self.plan.rows(set)[self.site.thread(set)].beside;
         [(-1, before), (1, after)]
+    }
+
+    /// How steeply the thread rises or falls next to the crossing, on the steeper side.
+    fn steepest(&self) -> f32 {
+        let slope = |steps: i32| {
+            self.along(steps).map_or(0.0, |other| {
+                let pitch = self.pitch(if steps < 0 { other } else { self.site });
+                ((self.lie(other).height - self.lie(self.site).height) / pitch).abs()
+            })
+        };
+        slope(-1).max(slope(1))
     }
 
     fn radius(&self) -> f32 {
@@ -254,14 +254,13 @@ impl Here<'_> {
         let slope = side * (own.height - other.height) / across;
         // Upright, not across the slope.
         let length = (1.0 + slope * slope).sqrt();
-        let (x, z) = (under.half_width * slope, under.half_height);
-        let reach = (x * x + z * z).sqrt();
+        let Reach { reach, steeper, wider: widens, thicker: thickens } = Reach::new(under, slope);
         let above = side * (own.height - under.height);
         let need = reach + own.half_height * length;
         block.see(above / need);
         let room = above - need - MARGIN;
         if room < NEAR {
-            let steeper = under.half_width * x / reach + own.half_height * slope / length;
+            let steeper = steeper + own.half_height * slope / length;
             let row = crossed.first();
             let wider = steeper * slope / across;
             let shift = (row + SHIFT, if second { wider } else { -wider });
@@ -273,8 +272,8 @@ impl Here<'_> {
                     (self.row + HEIGHT, side * (1.0 - rise)),
                     (self.row + THICKNESS, -length),
                     (row + HEIGHT, -side),
-                    (row + WIDTH, -x * slope / reach),
-                    (row + THICKNESS, -z / reach),
+                    (row + WIDTH, -widens),
+                    (row + THICKNESS, -thickens),
                 ];
                 block.add(penalty, 2.0, room, slopes);
             } else {

@@ -31,4 +31,12 @@ pub struct Block {
     pub first_index: u32,
 }
 
+impl Block {
+    /// Whether the rings of `next` come right after those of this one, on the same yarn.
+    #[must_use]
+    pub const fn is_before(&self, next: &Self) -> bool {
+        self.yarn == next.yarn && self.first_ring + self.rings == next.first_ring
+    }
+}
+
 const _: () = assert!(size_of::<Block>() == 32 && std::mem::offset_of!(Block, first_index) == 28);

@@ -1,19 +1,33 @@
 //! The plan: every count, offset and byte size, worked out on the host before anything is launched.
 
 mod block;
+mod bounds;
 mod chunk;
+mod chunk_tables;
+mod counts;
+mod cut;
 mod limits;
+mod locate;
+mod offsets;
+mod region;
 
 pub use block::{BLOCK_RINGS, Block};
-pub use chunk::{Cap, Chunk, Chunks, Part, WINDOW_POINTS};
+pub use bounds::Bounds;
+pub use chunk::{Cap, Chunk, Part, TablesId};
+pub use counts::Counts;
+pub use cut::{Chunks, WINDOW_POINTS};
 pub use limits::Limits;
+pub use locate::MeshPlace;
 
+use offsets::Offsets;
+
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::{
-    Frame, Layout, PlanError, Ring, SIDES_MAX, SIDES_MIN, Sampling, Section, SectionPoint, Topology, Turn,
-    Vertex, Yarn, triangulate,
+    Frame, Layout, PlanError, Ring, SIDES_MAX, SIDES_MIN, Sampling, Section, SectionPoint, TWIST_LIMIT,
+    Topology, Turn, Yarn, triangulate,
 };
 
 /// The choices that a mesh is made with.
@@ -54,31 +68,6 @@ pub const RINGS_MAX: u64 = 1 << 36;
 /// The most rings that one yarn may have: what a `u32` counts.
 pub const YARN_RINGS_MAX: u64 = u32::MAX as u64;
 
-/// How many of everything a plan makes, uncut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Counts {
-    /// Yarns.
-    pub yarns: u64,
-    /// Control points.
-    pub control_points: u64,
-    /// Rings of all yarns.
-    pub rings: u64,
-    /// Vertices, caps included.
-    pub vertices: u64,
-    /// Triangles that get drawn, caps included.
-    pub triangles: u64,
-    /// Indices that are stored; with [`Topology::Shared`] far fewer than three a triangle.
-    pub indices: u64,
-}
-
-impl Counts {
-    /// Bytes of the mesh: 24 a vertex, 4 an index.
-    #[must_use]
-    pub const fn bytes(&self) -> u64 {
-        self.vertices * size_of::<Vertex>() as u64 + self.indices * 4
-    }
-}
-
 /// A fabric's counts and offsets for one choice of settings.
 ///
 /// ```
@@ -96,7 +85,10 @@ pub struct Plan {
     layout: Arc<Layout>,
     settings: Settings,
     sampling: Sampling,
-    offsets: Offsets,
+    offsets: Arc<Offsets>,
+    /// The blocks that it makes, in order: all, unless it is of a [region](Plan::within).
+    runs: Arc<[Range<u64>]>,
+    needs_scan: bool,
     outlines: Vec<SectionPoint>,
     cap_triangles: Vec<Vec<[u32; 3]>>,
     counts: Counts,
@@ -108,6 +100,39 @@ impl Plan {
     /// **Errors**: [`PlanError`] for settings out of range, a polygon section whose corners are not as many as the
     /// sides, more than [`YARN_RINGS_MAX`] rings in a yarn or [`RINGS_MAX`] in all.
     pub fn new(layout: Arc<Layout>, settings: Settings) -> Result<Self, PlanError> {
+        Self::planned(layout, settings, None)
+    }
+
+    /// The same with room for more control points: `room` says how many a yarn, by its number, may have at most. So many lie between the
+    /// offsets of one yarn and the next, and [`Plan::edited`] changes how many of them there are, but no offset.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// # let yarns = yarns.build()?;
+    /// let plan = Plan::with_room(yarns.layout().clone(), Settings::default(), |_| 10)?; // one yarn of three points
+    /// let longer = plan.edited(0, *plan.yarn(0), 7)?;
+    /// assert_eq!((plan.rings(0), longer.rings(0)), (5, 13));
+    /// assert_eq!(plan.padded_offsets(), longer.padded_offsets());
+    /// assert!(plan.edited(0, *plan.yarn(0), 11).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// **Errors**: those of [`Plan::new`], also for the rings that there is room for.
+    pub fn with_room(
+        layout: Arc<Layout>,
+        settings: Settings,
+        room: impl Fn(usize) -> u64,
+    ) -> Result<Self, PlanError> {
+        Self::planned(layout, settings, Some(&room))
+    }
+
+    fn planned(
+        layout: Arc<Layout>,
+        settings: Settings,
+        room: Option<&dyn Fn(usize) -> u64>,
+    ) -> Result<Self, PlanError> {
         let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
         if !(SIDES_MIN..=SIDES_MAX).contains(&settings.sides) {
             return Err(PlanError::Sides { sides: settings.sides, low: SIDES_MIN, high: SIDES_MAX });
@@ -121,10 +146,13 @@ impl Plan {
                 _ => {}
             }
         }
-        let offsets = Offsets::new(&layout, &sampling)?;
+        let offsets = Arc::new(Offsets::new(&layout, &sampling, room)?);
         let outlines = layout.sections().iter().flat_map(|section| section.outline(settings.sides)).collect();
+        let blocks = offsets.blocks.last().copied().unwrap_or(0);
         let mut plan = Self {
             id: PlanId::next(),
+            runs: std::iter::once(0..blocks).collect(),
+            needs_scan: layout.yarns().iter().any(|yarn| !settings.frame.is_level(yarn.twist)),
             layout,
             settings,
             sampling,
@@ -139,31 +167,49 @@ impl Plan {
         Ok(plan)
     }
 
-    fn count(&self) -> Counts {
-        let (yarns, sides) = (self.layout.yarns(), u64::from(self.settings.sides));
-        let rings = self.offsets.rings.last().copied().unwrap_or(0);
-        let gaps = rings - yarns.len() as u64;
-        let open = yarns.iter().filter(|yarn| !yarn.closed).count() as u64;
-        let caps = if self.settings.caps { 2 * open } else { 0 };
-        let triangles = 2 * sides * gaps + caps * (sides - 2);
-        Counts {
-            yarns: yarns.len() as u64,
-            control_points: self.layout.point_count(),
-            rings,
-            vertices: sides * (rings + caps),
-            triangles,
-            indices: match self.settings.topology {
-                Topology::Indexed => 3 * triangles,
-                Topology::Shared => self.shared_index_count(),
-                Topology::None => 0,
-            },
+    /// The same plan but that yarn number `yarn` is `what`, of `points` control points. Offsets stay, and so both plans own one another's
+    /// chunks: of those, the ones that hold some of the yarn are out of date ([`Plan::recut`]).
+    ///
+    /// **Errors**: [`PlanError::NoRoom`] where there is [room](Plan::with_room) for fewer points, [`PlanError::TooFewPoints`], and
+    /// [`PlanError::OtherPlan`] for what takes a new plan: an open yarn that is closed or the other way round, a section that the layout
+    /// lacks, a twist that is not sound, or one where no yarn's rolls are scanned.
+    ///
+    /// **Panics** past the last yarn.
+    pub fn edited(&self, yarn: usize, what: Yarn, points: u64) -> Result<Self, PlanError> {
+        let before = self.yarn(yarn);
+        let room = self.offsets.room(yarn, before.closed);
+        if points > room {
+            return Err(PlanError::NoRoom { yarn, points, room });
         }
+        if points < what.points_least() {
+            return Err(PlanError::TooFewPoints { yarn, points, least: what.points_least() });
+        }
+        let turns = !self.settings.frame.is_level(what.twist);
+        for (holds, what) in [
+            (what.closed == before.closed, "closed or opened"),
+            ((what.section as usize) < self.layout.sections().len(), "of a section that the plan lacks"),
+            ((-TWIST_LIMIT..=TWIST_LIMIT).contains(&what.twist), "so twisted"),
+            (self.needs_scan || !turns, "twisted, where no other yarn is"),
+        ] {
+            if !holds {
+                return Err(PlanError::OtherPlan { yarn, what });
+            }
+        }
+        let mut plan = self.clone();
+        plan.layout = Arc::new(self.layout.edited(yarn, what, points));
+        plan.counts = plan.count();
+        Ok(plan)
     }
 
-    /// Whether `chunk` was cut from this plan, or a clone of it, so that its tables fit the plan's counts.
+    /// Whether `chunk` was cut from this plan, a clone of it, one [edited](Plan::edited) or one of a [region](Plan::within), so that its tables fit the plan's offsets.
     #[must_use]
     pub fn owns(&self, chunk: &Chunk) -> bool {
         chunk.plan() == self.id
+    }
+
+    /// Whether yarns may get more control points.
+    pub(crate) fn is_roomy(&self) -> bool {
+        self.offsets.roomy
     }
 
     /// The identity that its chunks carry.
@@ -189,14 +235,14 @@ impl Plan {
         &self.sampling
     }
 
-    /// How many of everything there are, uncut.
+    /// How many of everything it makes, uncut.
     #[must_use]
     pub const fn counts(&self) -> &Counts {
         &self.counts
     }
 
     /// Where each yarn's rings start among all, and their total last (the paper's Ωp): yarns + 1 values. Times sides,
-    /// these are the paper's ΩM.
+    /// these are the paper's ΩM. [Room](Plan::with_room) for more counts as if it were used, here and in all other offsets.
     #[must_use]
     pub fn ring_offsets(&self) -> &[u64] {
         &self.offsets.rings
@@ -218,6 +264,15 @@ impl Plan {
         &self.offsets.blocks
     }
 
+    /// Where the padded control points of `yarn` lie among all, without room for more.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn padded_range(&self, yarn: usize) -> Range<u64> {
+        let (first, points) = (self.offsets.padded[yarn], self.layout.offsets());
+        first..first + points[yarn + 1] - points[yarn] + offsets::virtual_points(self.yarn(yarn).closed)
+    }
+
     /// Blocks of all yarns.
     #[must_use]
     pub fn block_count(&self) -> u64 {
@@ -229,7 +284,8 @@ impl Plan {
     /// **Panics** past the last yarn.
     #[must_use]
     pub fn rings(&self, yarn: usize) -> u32 {
-        (self.offsets.rings[yarn + 1] - self.offsets.rings[yarn]) as u32
+        let points = self.layout.offsets();
+        self.sampling.rings(points[yarn + 1] - points[yarn], self.yarn(yarn).closed) as u32
     }
 
     /// Material, section, twist and origin of `yarn`.
@@ -271,10 +327,10 @@ impl Plan {
         &self.cap_triangles[section]
     }
 
-    /// Whether any yarn needs its rolls scanned.
+    /// Whether any yarn needs its rolls scanned; of an [edited](Plan::edited) plan, whether any of the first one's did.
     #[must_use]
-    pub fn needs_scan(&self) -> bool {
-        self.layout.yarns().iter().any(|yarn| !self.settings.frame.is_level(yarn.twist))
+    pub const fn needs_scan(&self) -> bool {
+        self.needs_scan
     }
 
     /// Bytes that the padded control points take, for as long as a session lives.
@@ -287,7 +343,8 @@ impl Plan {
     /// control points, the block table and, where any yarn turns, the rolls. The yarns, which the caller has, are not in it.
     #[must_use]
     pub fn host_bytes(&self) -> u64 {
-        let rolls = if self.needs_scan() { self.counts.rings * size_of::<Turn>() as u64 } else { 0 };
+        let rings = self.offsets.rings.last().copied().unwrap_or(0);
+        let rolls = if self.needs_scan() { rings * size_of::<Turn>() as u64 } else { 0 };
         let blocks = self.block_count() * size_of::<Block>() as u64;
         self.counts.bytes() + blocks + self.resident_bytes() + rolls
     }
@@ -299,7 +356,8 @@ impl Plan {
     }
 }
 
-/// Identifies a plan within the process. A plan never changes, so its clones have the same identity.
+/// Identifies the offsets of a plan within the process, which never change: its clones have the same identity, resized ones, and those of a
+/// region of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlanId(u64);
 
@@ -307,38 +365,5 @@ impl PlanId {
     fn next() -> Self {
         static PLANS: AtomicU64 = AtomicU64::new(0);
         Self(PLANS.fetch_add(1, Ordering::Relaxed))
-    }
-}
-
-/// Prefix sums over the yarns: yarns + 1 values each.
-#[derive(Debug, Clone)]
-struct Offsets {
-    padded: Vec<u64>,
-    rings: Vec<u64>,
-    blocks: Vec<u64>,
-}
-
-impl Offsets {
-    fn new(layout: &Layout, sampling: &Sampling) -> Result<Self, PlanError> {
-        let mut offsets = Self { padded: vec![0], rings: vec![0], blocks: vec![0] };
-        let (mut padded, mut rings, mut blocks) = (0, 0, 0);
-        for (index, (yarn, bounds)) in layout.yarns().iter().zip(layout.offsets().windows(2)).enumerate() {
-            let points = bounds[1] - bounds[0];
-            // 2^32 points of 2^10 rings fit a u64; more points are too many whatever their rings.
-            let own = if points > YARN_RINGS_MAX { points } else { sampling.rings(points, yarn.closed) };
-            if own > YARN_RINGS_MAX {
-                return Err(PlanError::YarnRings { yarn: index, rings: own, limit: YARN_RINGS_MAX });
-            }
-            padded += points + if yarn.closed { 4 } else { 2 };
-            rings += own;
-            blocks += own.div_ceil(u64::from(BLOCK_RINGS));
-            if rings > RINGS_MAX {
-                return Err(PlanError::Rings { rings, limit: RINGS_MAX });
-            }
-            offsets.padded.push(padded);
-            offsets.rings.push(rings);
-            offsets.blocks.push(blocks);
-        }
-        Ok(offsets)
     }
 }

@@ -61,7 +61,7 @@ const REACH: f32 = (1 << 28) as f32;
 
 impl Scale {
     /// The finest scale for places up to `extent` mm from `origin`, on yarns of which the thinnest is `diameter` mm thick: its
-    /// unit is a power of two. None where that is coarser than [`COARSEST`] of the diameter.
+    /// unit is a power of two. None where that is coarser than 1/2048 of the diameter.
     #[must_use]
     pub fn new(origin: DVec3, extent: f32, diameter: f32) -> Option<Self> {
         let power = |least: f32| least.log2().ceil().exp2();

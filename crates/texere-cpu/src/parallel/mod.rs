@@ -1,5 +1,6 @@
 //! Equal ranges of rings over all cores: inside a yarn as well as across yarns.
 
+mod attributes;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
@@ -21,15 +22,18 @@ mod tiles;
 mod turns;
 mod vertices;
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use texere_core::{
-    BLOCK_RINGS, BackendError, Block, Chunk, MeshMut, PaddedPoints, Plan, Ring, Topology, Vertex,
+    ArcLength, Attribute, BLOCK_RINGS, BackendError, Block, Chunk, MeshMut, PaddedPoints, Plan, Ring,
+    Topology, Vertex,
 };
 
 use crate::caps::caps;
 use crate::engine::{Executor, Work};
 use crate::pages;
-use crate::rolls::Rolls;
+use crate::rolls::{Rolls, block_number};
 pub(crate) use crossings::ParallelCrossings;
 use instruction_set::InstructionSet;
 use lines::{IndexLines, IndexTable, Lines, VertexLines};
@@ -70,8 +74,14 @@ impl Parallel {
 impl Executor for Parallel {
     const FUSED: bool = true;
 
-    fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
-        scan::scan(self.0, plan, points, rolls)
+    fn scan(
+        self,
+        plan: &Plan,
+        points: &PaddedPoints,
+        rolls: &mut Rolls,
+        yarns: Range<usize>,
+    ) -> Result<(), BackendError> {
+        scan::scan(self.0, plan, points, rolls, yarns)
     }
 
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]) {
@@ -87,10 +97,18 @@ impl Executor for Parallel {
         let streams = size_of_val(out.vertices) + size_of_val(out.indices) >= STREAM_BYTES;
         let (maker, table) = (Maker::new(work), indexed.then(|| IndexTable::new(settings.sides)));
         let (maker, table) = (&maker, table.as_ref());
-        mesh_runs(chunk, settings.sides as usize, indexed, &mut out)
+        mesh_runs(chunk, settings.sides, indexed, &mut out)
             .into_par_iter()
             .for_each(|run| set.run(MeshJob { maker, table, streams, run }));
         caps(work, chunk, out);
+    }
+
+    fn measure(self, plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>) {
+        attributes::measure(plan, points, lengths, yarns);
+    }
+
+    fn attributes(self, work: &Work, chunk: &Chunk, out: &mut [Attribute]) {
+        attributes::attributes(work, chunk, out);
     }
 }
 
@@ -124,17 +142,10 @@ impl<'a> Maker<'a> {
         Source { plan: &self.work.plan, points: &self.work.points, seats: &self.seats }
     }
 
-    /// Gives `sink` the rings of `blocks`, which are one yarn's and follow each other, the first of them number `number`
-    /// among all of the plan: a vector of rings at a time, with their rolls, and how many of them there are. Without
-    /// `FLATTENED` all are taken for round.
+    /// Gives `sink` the rings of `blocks`, which are one yarn's and follow each other: a vector of rings at a time, with their
+    /// rolls, and how many of them there are. Without `FLATTENED` all are taken for round.
     #[cfg_attr(optimized, inline(always))]
-    fn rings<S: Simd, const FLATTENED: bool>(
-        &self,
-        simd: S,
-        blocks: &[Block],
-        number: u64,
-        sink: &mut impl Sink,
-    ) {
+    fn rings<S: Simd, const FLATTENED: bool>(&self, simd: S, blocks: &[Block], sink: &mut impl Sink) {
         let (Work { plan, rolls, .. }, stretch) = (self.work, Stretch::of(blocks));
         let mut walk = Walk::<S, FLATTENED>::new(simd, self.source(), stretch);
         let level = plan.settings().frame.is_level(plan.twist_turns(stretch.yarn));
@@ -144,6 +155,7 @@ impl<'a> Maker<'a> {
             }
             return;
         }
+        let number = block_number(plan, &blocks[0]);
         while let count @ 1.. = walk.left() {
             let block = number + u64::from(walk.done / BLOCK_RINGS);
             let roll = turns::rolls(simd, plan, rolls, stretch.yarn, stretch.first + walk.done, block);
@@ -190,12 +202,11 @@ struct RingJob<'a> {
 impl Job for RingJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
-        let Self { maker, run: RingRun { blocks, first_block: mut number, rings: mut rings_left } } = self;
-        for blocks in blocks.chunk_by(|a, b| a.yarn == b.yarn) {
-            let count = blocks.iter().map(|block| block.rings as usize).sum();
-            let rings = take(&mut rings_left, count);
-            maker.make(simd, RingPiece { maker, blocks, number, sink: RingSink { rings } }, blocks);
-            number += blocks.len() as u64;
+        let Self { maker, run: RingRun { blocks, first_ring, rings } } = self;
+        for blocks in blocks.chunk_by(|block, next| block.is_before(next)) {
+            let count: usize = blocks.iter().map(|block| block.rings as usize).sum();
+            let rings = &mut rings[(blocks[0].chunk_ring - first_ring) as usize..][..count];
+            maker.make(simd, RingPiece { maker, blocks, sink: RingSink { rings } }, blocks);
         }
     }
 }
@@ -203,15 +214,13 @@ impl Job for RingJob<'_> {
 struct RingPiece<'a> {
     maker: &'a Maker<'a>,
     blocks: &'a [Block],
-    /// Of the first block.
-    number: u64,
     sink: RingSink<'a>,
 }
 
 impl Piece for RingPiece<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn make<S: Simd, const FLATTENED: bool>(mut self, simd: S) {
-        self.maker.rings::<S, FLATTENED>(simd, self.blocks, self.number, &mut self.sink);
+        self.maker.rings::<S, FLATTENED>(simd, self.blocks, &mut self.sink);
     }
 }
 
@@ -253,20 +262,19 @@ impl Job for MeshJob<'_> {
         let floats = sides * VERTEX;
         let room = VertexLines::scratch(floats).max(TileLines::scratch(floats));
         let mut scratch = vec![Line([0.0; LINE]); room];
-        let (mut vertices_left, mut indices_left) = (run.vertices, run.indices);
-        let mut number = run.first_block;
-        for blocks in run.blocks.chunk_by(|a, b| a.yarn == b.yarn) {
+        for blocks in run.blocks.chunk_by(|block, next| block.is_before(next)) {
             let rings: usize = blocks.iter().map(|block| block.rings as usize).sum();
             let quads: usize = blocks.iter().map(|block| block.quads as usize).sum();
-            let own: &mut [Vertex] = take(&mut vertices_left, rings * sides);
+            let first = (blocks[0].first_vertex - run.first_vertex) as usize;
+            let own: &mut [Vertex] = &mut run.vertices[first..][..rings * sides];
             let out = Lines::new(bytemuck::cast_slice_mut(own), streams);
             let indices = table.map(|table| {
-                let own = take(&mut indices_left, quads * sides * 6);
+                let first = (blocks[0].first_index - run.first_index) as usize;
+                let own = &mut run.indices[first..][..quads * sides * 6];
                 IndexLines::new(own, streams, table, blocks[0].first_vertex)
             });
             let scratch = &mut scratch[..];
-            maker.make(simd, MeshPiece { maker, blocks, number, floats, out, scratch, indices }, blocks);
-            number += blocks.len() as u64;
+            maker.make(simd, MeshPiece { maker, blocks, floats, out, scratch, indices }, blocks);
         }
         simd.fence();
     }
@@ -275,8 +283,6 @@ impl Job for MeshJob<'_> {
 struct MeshPiece<'a> {
     maker: &'a Maker<'a>,
     blocks: &'a [Block],
-    /// Of the first block.
-    number: u64,
     /// Floats of the vertices of a ring, as many as it has indices.
     floats: usize,
     out: Lines<'a>,
@@ -287,7 +293,7 @@ struct MeshPiece<'a> {
 impl Piece for MeshPiece<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn make<S: Simd, const FLATTENED: bool>(self, simd: S) {
-        let Self { maker, blocks, number, floats, out, scratch, indices } = self;
+        let Self { maker, blocks, floats, out, scratch, indices } = self;
         let vertices = if TileLines::fit(&out, floats) {
             Way::Tiles(TileLines::new(out, floats, scratch))
         } else {
@@ -295,7 +301,7 @@ impl Piece for MeshPiece<'_> {
         };
         let section = maker.work.plan.yarn(blocks[0].yarn as usize).section as usize;
         let mut sink = MeshSink { surface: &maker.surfaces[section], floats, vertices, indices };
-        maker.rings::<S, FLATTENED>(simd, blocks, number, &mut sink);
+        maker.rings::<S, FLATTENED>(simd, blocks, &mut sink);
         match sink.vertices {
             Way::Tiles(tiles) => tiles.finish(simd),
             Way::Scratch(lines) => lines.finish(simd),

@@ -9,50 +9,73 @@ const RUN_BLOCKS: usize = 32;
 /// A run of blocks and where their rings go.
 pub(super) struct RingRun<'a> {
     pub(super) blocks: &'a [Block],
-    /// Number of the first block among all of the plan.
-    pub(super) first_block: u64,
+    /// Number of the first ring of `rings` among the chunk's.
+    pub(super) first_ring: u32,
     pub(super) rings: &'a mut [Ring],
 }
 
 /// A run of blocks and where their mesh goes.
 pub(super) struct MeshRun<'a> {
     pub(super) blocks: &'a [Block],
-    /// Number of the first block among all of the plan.
-    pub(super) first_block: u64,
+    /// Number of the first vertex of `vertices` among the chunk's, and of the first index of `indices`.
+    pub(super) first_vertex: u32,
+    pub(super) first_index: u32,
     pub(super) vertices: &'a mut [Vertex],
     pub(super) indices: &'a mut [u32],
 }
 
-/// The runs of a chunk with the number of each one's first block.
-fn runs(chunk: &Chunk) -> impl Iterator<Item = (&[Block], u64)> {
-    let numbers = (chunk.block_range().start..).step_by(RUN_BLOCKS);
-    chunk.blocks().chunks(RUN_BLOCKS).zip(numbers)
-}
-
-pub(super) fn ring_runs<'a>(chunk: &'a Chunk, mut rings_left: &'a mut [Ring]) -> Vec<RingRun<'a>> {
-    runs(chunk)
-        .map(|(blocks, first_block)| {
-            let count = blocks.iter().map(|block| block.rings as usize).sum();
-            RingRun { blocks, first_block, rings: take(&mut rings_left, count) }
-        })
-        .collect()
+pub(super) fn ring_runs<'a>(chunk: &'a Chunk, rings: &'a mut [Ring]) -> Vec<RingRun<'a>> {
+    let mut rings = Rest { first: 0, rest: rings };
+    let run = |blocks: &'a [Block]| {
+        let [first, last] = ends(blocks);
+        let rings = rings.take(first.chunk_ring, last.chunk_ring + last.rings);
+        RingRun { blocks, first_ring: first.chunk_ring, rings }
+    };
+    chunk.blocks().chunks(RUN_BLOCKS).map(run).collect()
 }
 
 pub(super) fn mesh_runs<'a>(
     chunk: &'a Chunk,
-    sides: usize,
+    sides: u32,
     indexed: bool,
     out: &'a mut MeshMut<'_>,
 ) -> Vec<MeshRun<'a>> {
-    let (mut vertices_left, mut indices_left) = (&mut out.vertices[..], &mut out.indices[..]);
-    runs(chunk)
-        .map(|(blocks, first_block)| {
-            let rings: usize = blocks.iter().map(|block| block.rings as usize).sum();
-            let quads: usize = blocks.iter().map(|block| block.quads as usize).sum();
-            let indices = take(&mut indices_left, if indexed { quads * sides * 6 } else { 0 });
-            MeshRun { blocks, first_block, vertices: take(&mut vertices_left, rings * sides), indices }
-        })
-        .collect()
+    let mut vertices = Rest { first: 0, rest: &mut out.vertices[..] };
+    let mut indices = Rest { first: 0, rest: &mut out.indices[..] };
+    let run = |blocks: &'a [Block]| {
+        let [first, last] = ends(blocks);
+        let vertices = vertices.take(first.first_vertex, last.first_vertex + last.rings * sides);
+        let end_index = if indexed { last.first_index + last.quads * sides * 6 } else { first.first_index };
+        let indices = indices.take(first.first_index, end_index);
+        MeshRun {
+            blocks,
+            first_vertex: first.first_vertex,
+            first_index: first.first_index,
+            vertices,
+            indices,
+        }
+    };
+    chunk.blocks().chunks(RUN_BLOCKS).map(run).collect()
+}
+
+/// The first and the last of some blocks.
+fn ends(blocks: &[Block]) -> [&Block; 2] {
+    [&blocks[0], &blocks[blocks.len() - 1]]
+}
+
+/// What no run has yet, from number `first` of the chunk's on.
+struct Rest<'a, T> {
+    first: u32,
+    rest: &'a mut [T],
+}
+
+impl<'a, T> Rest<'a, T> {
+    /// The values from number `first` up to `end`. Between runs there may be some that none has.
+    fn take(&mut self, first: u32, end: u32) -> &'a mut [T] {
+        take(&mut self.rest, (first - self.first) as usize);
+        self.first = end;
+        take(&mut self.rest, (end - first) as usize)
+    }
 }
 
 /// Splits the first `count` values off `left`.

@@ -1,5 +1,7 @@
 //! Rolls: each block adds up its own steps, then a running sum along each yarn.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use texere_core::{BLOCK_RINGS, BackendError, PaddedPoints, Plan, Turn};
 
@@ -24,23 +26,28 @@ pub(super) fn scan(
     plan: &Plan,
     points: &PaddedPoints,
     rolls: &mut Rolls,
+    yarns: Range<usize>,
 ) -> Result<(), BackendError> {
     let Rolls { at_block, in_block, whole } = rolls;
     resize("rolls", at_block, plan.block_count())?;
     // A vector may reach past the last ring.
-    resize("rolls", in_block, plan.counts().rings + LANES_MAX as u64)?;
+    let rings = plan.ring_offsets().last().copied().unwrap_or(0);
+    resize("rolls", in_block, rings + LANES_MAX as u64)?;
+    resize("whole turns", whole, plan.counts().yarns)?;
     let seats = Seats::at_each_place(plan);
     let source = Source { plan, points, seats: &seats };
-    runs(plan, at_block, in_block).into_par_iter().for_each(|run| set.run(ScanRun { source, run }));
-    whole.clear();
-    for bounds in plan.block_offsets().windows(2) {
+    runs(plan, yarns.clone(), at_block, in_block)
+        .into_par_iter()
+        .for_each(|run| set.run(ScanRun { source, run }));
+    for yarn in yarns {
+        let (first, blocks) = (plan.block_offsets()[yarn] as usize, plan.rings(yarn).div_ceil(BLOCK_RINGS));
         let mut roll = Turn::ZERO;
-        for turn in &mut at_block[bounds[0] as usize..bounds[1] as usize] {
+        for turn in &mut at_block[first..first + blocks as usize] {
             let here = roll;
             roll = roll + *turn;
             *turn = here;
         }
-        whole.push(roll);
+        whole[yarn] = roll;
     }
     Ok(())
 }
@@ -55,14 +62,23 @@ struct Run<'a> {
     rings: &'a mut [Turn],
 }
 
-fn runs<'a>(plan: &Plan, mut blocks: &'a mut [Turn], mut rings: &'a mut [Turn]) -> Vec<Run<'a>> {
+fn runs<'a>(plan: &Plan, yarns: Range<usize>, blocks: &'a mut [Turn], rings: &'a mut [Turn]) -> Vec<Run<'a>> {
     let mut runs = Vec::new();
-    for yarn in 0..plan.layout().yarns().len() {
+    let [mut blocks_left, mut rings_left] = [blocks, rings];
+    // Offsets of what is left.
+    let [mut block, mut ring] = [0, 0];
+    for yarn in yarns {
         let mut first_ring = 0;
+        // Between yarns there may be room for more.
+        let starts = [plan.block_offsets()[yarn] as usize, plan.ring_offsets()[yarn] as usize];
+        take(&mut blocks_left, starts[0] - block);
+        take(&mut rings_left, starts[1] - ring);
+        [block, ring] = starts;
         while first_ring < plan.rings(yarn) {
             let count = (plan.rings(yarn) - first_ring).min(RUN_RINGS);
-            let blocks = take(&mut blocks, count.div_ceil(BLOCK_RINGS) as usize);
-            runs.push(Run { yarn, first_ring, blocks, rings: take(&mut rings, count as usize) });
+            let blocks = take(&mut blocks_left, count.div_ceil(BLOCK_RINGS) as usize);
+            [block, ring] = [block + blocks.len(), ring + count as usize];
+            runs.push(Run { yarn, first_ring, blocks, rings: take(&mut rings_left, count as usize) });
             first_ring += count;
         }
     }

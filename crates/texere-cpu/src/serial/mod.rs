@@ -1,5 +1,6 @@
 //! The paper's serial algorithms: one loop inside the other, nothing clever.
 
+mod attributes;
 mod crossings;
 mod mesh;
 mod scan;
@@ -7,9 +8,13 @@ mod settling;
 mod trajectory;
 
 pub(crate) use crossings::SerialCrossings;
+pub(crate) use scan::scan_yarn;
 pub(crate) use settling::SerialSettler;
+pub(crate) use trajectory::rings;
 
-use texere_core::{BackendError, Chunk, MeshMut, PaddedPoints, Plan, Ring};
+use std::ops::Range;
+
+use texere_core::{ArcLength, Attribute, BackendError, Chunk, MeshMut, PaddedPoints, Plan, Ring};
 
 use crate::engine::{Executor, Work};
 use crate::rolls::Rolls;
@@ -20,9 +25,14 @@ pub(crate) struct Serial;
 impl Executor for Serial {
     const FUSED: bool = false;
 
-    fn scan(self, plan: &Plan, points: &PaddedPoints, rolls: &mut Rolls) -> Result<(), BackendError> {
-        *rolls = scan::scan(plan, points);
-        Ok(())
+    fn scan(
+        self,
+        plan: &Plan,
+        points: &PaddedPoints,
+        rolls: &mut Rolls,
+        yarns: Range<usize>,
+    ) -> Result<(), BackendError> {
+        scan::scan(plan, points, rolls, yarns)
     }
 
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]) {
@@ -31,5 +41,13 @@ impl Executor for Serial {
 
     fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>) {
         mesh::mesh(work, chunk, rings, out);
+    }
+
+    fn measure(self, plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>) {
+        attributes::measure(plan, points, lengths, yarns);
+    }
+
+    fn attributes(self, work: &Work, chunk: &Chunk, out: &mut [Attribute]) {
+        attributes::attributes(work, chunk, out);
     }
 }

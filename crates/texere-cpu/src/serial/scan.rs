@@ -1,31 +1,45 @@
 //! Rolls at block starts, added up ring by ring.
 
-use texere_core::{BLOCK_RINGS, PaddedPoints, Plan, Turn};
+use std::ops::Range;
 
+use texere_core::{BLOCK_RINGS, BackendError, PaddedPoints, Plan, Turn};
+
+use crate::engine::resize;
 use crate::rolls::Rolls;
 
-pub(super) fn scan(plan: &Plan, points: &PaddedPoints) -> Rolls {
-    let mut rolls = Rolls::default();
-    for yarn in 0..plan.layout().yarns().len() {
-        let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
-        let twist = plan.twist_turns(yarn);
-        let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
-
-        let mut roll = Turn::ZERO;
-        let mut here = at(0);
-        for ring in 0..rings {
-            if ring % BLOCK_RINGS == 0 {
-                rolls.at_block.push(roll);
-            }
-            if ring + 1 < rings {
-                let next = at(ring + 1);
-                let chord = here.chord_to(&next);
-                roll =
-                    roll + plan.settings().frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
-                here = next;
-            }
-        }
-        rolls.whole.push(roll);
+pub(super) fn scan(
+    plan: &Plan,
+    points: &PaddedPoints,
+    rolls: &mut Rolls,
+    yarns: Range<usize>,
+) -> Result<(), BackendError> {
+    resize("rolls", &mut rolls.at_block, plan.block_count())?;
+    resize("whole turns", &mut rolls.whole, plan.counts().yarns)?;
+    for yarn in yarns {
+        let first = plan.block_offsets()[yarn] as usize;
+        rolls.whole[yarn] = scan_yarn(plan, points, yarn, &mut rolls.at_block[first..]);
     }
-    rolls
+    Ok(())
+}
+
+/// The whole turn of `yarn`; its rolls at block starts go into `at_block`.
+pub(crate) fn scan_yarn(plan: &Plan, points: &PaddedPoints, yarn: usize, at_block: &mut [Turn]) -> Turn {
+    let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
+    let twist = plan.twist_turns(yarn);
+    let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
+
+    let mut roll = Turn::ZERO;
+    let mut here = at(0);
+    for ring in 0..rings {
+        if ring % BLOCK_RINGS == 0 {
+            at_block[(ring / BLOCK_RINGS) as usize] = roll;
+        }
+        if ring + 1 < rings {
+            let next = at(ring + 1);
+            let chord = here.chord_to(&next);
+            roll = roll + plan.settings().frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
+            here = next;
+        }
+    }
+    roll
 }

@@ -1,5 +1,8 @@
 //! Contacts of yarns: where they are, how near they come, and how many are looked for.
 
+use texere_core::{Segment, Yarns};
+
+use super::neighbours;
 use crate::grid;
 
 /// Contacts further apart than this factor are not looked for.
@@ -44,6 +47,37 @@ pub struct YarnPlace {
     pub position: [f64; 3],
     /// The source of the nearer of the interval's control points, if the yarns have sources.
     pub source: Option<u32>,
+}
+
+impl YarnPlace {
+    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`, such as a picked triangle has it. `tension` is that of the
+    /// yarns' splines. None where there is no such yarn or interval, and for a `t` that is none.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
+    /// use texere_fabric::YarnPlace;
+    /// let mut yarns = Yarns::builder();
+    /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// let yarns = yarns.build()?;
+    /// let place = YarnPlace::at(&yarns, 0, 1, 0.25, 0.0);
+    /// assert_eq!(place.map(|place| place.position), Some([1.25, 0.0, 0.0]));
+    /// assert!(YarnPlace::at(&yarns, 0, 2, 0.0, 0.0).is_none());
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    #[must_use]
+    pub fn at(yarns: &Yarns, yarn: usize, interval: usize, t: f64, tension: f32) -> Option<Self> {
+        let (points, range) = (yarns.yarn_points(yarn)?, yarns.range(yarn)?);
+        let closed = yarns.layout().yarns()[yarn].closed;
+        let intervals = if closed { points.len() } else { points.len() - 1 };
+        if interval >= intervals || !(0.0..=1.0).contains(&t) {
+            return None;
+        }
+        let segment = Segment::new(&neighbours(points, closed, interval), (1.0 - tension) / 2.0);
+        let position = segment.sample(t as f32).centre.to_array().map(f64::from);
+        let nearer = (interval + usize::from(t > 0.5)) % points.len();
+        let source = yarns.sources().and_then(|sources| sources.get(range.start + nearer).copied());
+        Some(Self { yarn, interval, t, position, source })
+    }
 }
 
 /// Where two yarns, or two parts of one, are nearer to one another than anywhere close by.

@@ -246,7 +246,7 @@ impl Trial<'_> {
         let first = (least.ln() / WIDER.ln()).ceil().max(1.0) as i32;
         let found = (first..first + WIDER_TIMES)
             .map(|times| WIDER.powi(times))
-            .find_map(|factor| Some((factor, self.clean(&self.spaced(factor)?)?)));
+            .find_map(|factor| Some((factor, self.clean(&self.cloth.spaced([factor; 2]).ok()?)?)));
         let Some((factor, Outcome { clearance, curvature, .. })) = found else { return Vec::new() };
         let mean =
             |set: &[Thread]| set.iter().map(|thread| thread.spacing_mm).sum::<f64>() / set.len() as f64;
@@ -256,14 +256,6 @@ impl Trial<'_> {
         [Remedy::Spacing { spacing_mm, factor }, Remedy::Diameter { thickest_mm }]
             .map(|remedy| Cure { remedy, clearance, curvature, leaves: Vec::new() })
             .into()
-    }
-
-    fn spaced(&self, factor: f64) -> Option<Woven> {
-        let [warp, weft] = [self.cloth.warp(), self.cloth.weft()].map(|set| {
-            let apart = |thread: &Thread| Thread { spacing_mm: thread.spacing_mm * factor, ..*thread };
-            set.iter().map(apart).collect()
-        });
-        like(self.cloth, self.cloth.drawdown().clone(), warp, weft).ok()
     }
 
     /// What `changed` comes to, if nothing is left of the faults. What still jams need not be measured.
@@ -297,20 +289,9 @@ impl Trial<'_> {
 fn piece(cloth: &Woven, [ends, picks]: &Sample) -> Result<Woven, FabricError> {
     let up = |end, pick| cloth.drawdown().up(ends.start + end, picks.start + pick);
     let drawdown = Drawdown::from_fn(ends.len(), picks.len(), up)?;
-    like(cloth, drawdown, cloth.warp()[ends.clone()].to_vec(), cloth.weft()[picks.clone()].to_vec())
-}
-
-/// A cloth of other threads that lie as those of `cloth` do.
-fn like(
-    cloth: &Woven,
-    drawdown: Drawdown,
-    warp: Vec<Thread>,
-    weft: Vec<Thread>,
-) -> Result<Woven, FabricError> {
-    let (materials, sections) = (cloth.materials().to_vec(), cloth.sections().to_vec());
-    let mut like = Woven::new(drawdown, warp, weft, materials, sections)?;
-    like.set_shape(cloth.shape());
-    like.set_crimp(Crimp::WarpShare(cloth.warp_share()))?;
-    like.set_selvedge(cloth.selvedge());
-    Ok(like)
+    let mut piece =
+        cloth.like(drawdown, cloth.warp()[ends.clone()].to_vec(), cloth.weft()[picks.clone()].to_vec())?;
+    // By the stiffness of its own threads alone it might have another one.
+    piece.set_crimp(Crimp::WarpShare(cloth.warp_share()))?;
+    Ok(piece)
 }

@@ -6,4 +6,6 @@ mod places;
 
 pub use cures::{Cure, Remedy};
 pub use faults::{Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams};
-pub use places::{ClothClearance, Crossing, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace};
+pub use places::{
+    ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
+};

@@ -1,5 +1,6 @@
 //! Clearance and bends, at places named as a weaver names them: by thread and crossing.
 
+use std::fmt;
 use std::ops::ControlFlow;
 
 use texere_core::{Origin, Settings, Yarns};
@@ -15,7 +16,16 @@ pub struct Crossing {
     pub pick: u32,
 }
 
-/// A place on a thread.
+/// A stitch of a knit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct StitchPlace {
+    /// The wale, from 1 at the left.
+    pub wale: u32,
+    /// The course, from 1 at the bottom.
+    pub course: u32,
+}
+
+/// A place on a thread. It is written as `end 12 at pick 7`, `carrier 1, wale 3, course 5`, or by the thread alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadPlace {
     /// The thread. Of a weft that turns round at selvedges it is the pick, although the yarn is many picks.
@@ -24,6 +34,25 @@ pub struct ThreadPlace {
     pub position_mm: [f64; 3],
     /// The nearest crossing. None at a yarn's end and in a turn of the weft.
     pub crossing: Option<Crossing>,
+    /// The stitch of a knit that the yarn makes there, in the whole cloth. None where it floats, and of what is not knitted.
+    pub stitch: Option<StitchPlace>,
+}
+
+impl fmt::Display for ThreadPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.thread, self.crossing, self.stitch) {
+            (thread @ Origin::End(_), Some(crossing), _) => write!(f, "{thread} at pick {}", crossing.pick),
+            (thread @ Origin::Pick(_), Some(crossing), _) => write!(f, "{thread} at end {}", crossing.end),
+            // The yarns of a repeat's copies have their course in the repeat alone.
+            (Origin::Course(_), _, Some(stitch)) => {
+                write!(f, "wale {}, course {}", stitch.wale, stitch.course)
+            }
+            (thread, _, Some(stitch)) => {
+                write!(f, "{thread}, wale {}, course {}", stitch.wale, stitch.course)
+            }
+            (thread, ..) => write!(f, "{thread}"),
+        }
+    }
 }
 
 /// Two threads that come near one another: a [`Contact`] with its threads' names.
@@ -181,7 +210,8 @@ impl Names<'_> {
 
     fn place(&self, place: &YarnPlace) -> ThreadPlace {
         let crossing = self.crossing(place);
-        ThreadPlace { thread: self.thread(place, crossing), position_mm: place.position, crossing }
+        let thread = self.thread(place, crossing);
+        ThreadPlace { thread, position_mm: place.position, crossing, stitch: None }
     }
 
     fn crossing(&self, place: &YarnPlace) -> Option<Crossing> {

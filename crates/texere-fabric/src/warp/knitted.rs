@@ -8,7 +8,7 @@ use super::{Bar, check};
 use crate::memory::room_for;
 use crate::settling::settled_together;
 use crate::weft::{self, Cells, Gauge, KnitYarn};
-use crate::{FabricError, Piece, Repeat};
+use crate::{FabricError, Piece, Repeat, StitchPlace, YarnPlace};
 
 /// A warp-knitted cloth: its guide bars, with sizes and yarns.
 ///
@@ -197,6 +197,12 @@ impl WarpKnitted {
         let tiles = settled_together(self.repeat, repeats);
         let size = [0, 1].map(|axis| self.repeat[axis] * tiles[axis]);
         Ok(Repeat { piece: self.piece_of(size)?, copies: [0, 1].map(|axis| repeats[axis] / tiles[axis]) })
+    }
+
+    /// The stitch at a place on one of the cloth's yarns: its course by the place's source, its wale by where it lies.
+    pub(crate) fn stitch_at(&self, place: &YarnPlace) -> Option<StitchPlace> {
+        let wale = (place.position[0] / self.gauge.wale_mm).clamp(0.0, f64::from(self.size()[0].max(1) - 1));
+        Some(StitchPlace { wale: wale as u32 + 1, course: place.source? })
     }
 
     fn piece_of(&self, size: [u32; 2]) -> Result<Piece, FabricError> {

@@ -252,7 +252,7 @@ pub(crate) fn thickest(yarns: impl Iterator<Item = KnitYarn>, sections: &[Sectio
 }
 
 /// The places of the first and of the last needle that any yarn comes to.
-fn extent(stitches: &Stitches) -> (f32, f32) {
+pub(super) fn extent(stitches: &Stitches) -> (f32, f32) {
     let steps = stitches.strands.iter().flat_map(|strand| &strand.steps);
     let places =
         stitches.loops.iter().map(|stitch| stitch.at).chain(steps.map(|step| stitches.visit(step).at));

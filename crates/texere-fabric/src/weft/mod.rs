@@ -15,6 +15,7 @@ mod form;
 mod gauge;
 pub(crate) mod knitted;
 mod layers;
+mod locate;
 mod machine;
 mod path;
 mod pen;

@@ -88,11 +88,23 @@ impl Woven {
         Ok(cloth)
     }
 
-    /// The same cloth of other threads.
-    pub(super) fn with_threads(&self, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Self, FabricError> {
-        let (materials, sections) = (self.materials.clone(), self.sections.clone());
-        let cloth = Self::new(self.drawdown.clone(), warp, weft, materials, sections)?;
+    /// A cloth of other threads, else like this one.
+    pub(crate) fn like(
+        &self,
+        drawdown: Drawdown,
+        warp: Vec<Thread>,
+        weft: Vec<Thread>,
+    ) -> Result<Self, FabricError> {
+        let cloth = Self::new(drawdown, warp, weft, self.materials.clone(), self.sections.clone())?;
         Ok(Self { shape: self.shape, crimp: self.crimp, selvedge: self.selvedge, ..cloth })
+    }
+
+    /// The same cloth with ends and picks so many times as far apart.
+    pub(crate) fn spaced(&self, times: [f64; 2]) -> Result<Self, FabricError> {
+        let [warp, weft] = [(&self.warp, times[0]), (&self.weft, times[1])].map(|(set, times)| {
+            set.iter().map(|thread| Thread { spacing_mm: thread.spacing_mm * times, ..*thread }).collect()
+        });
+        self.like(self.drawdown.clone(), warp, weft)
     }
 
     fn check_threads(&self, threads: &[Thread], origin: fn(u32) -> Origin) -> Result<(), FabricError> {
@@ -145,6 +157,10 @@ impl Woven {
     #[must_use]
     pub const fn drawdown(&self) -> &Drawdown {
         &self.drawdown
+    }
+
+    pub(super) const fn drawdown_mut(&mut self) -> &mut Drawdown {
+        &mut self.drawdown
     }
 
     /// The ends, from the left.

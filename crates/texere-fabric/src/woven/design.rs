@@ -58,6 +58,18 @@ impl WovenDesign {
         &self.jam_report
     }
 
+    /// What is done about its jammed threads.
+    #[must_use]
+    pub const fn relief(&self) -> Relief {
+        self.relief
+    }
+
+    /// The cloth as it was given, before its jammed threads were relieved.
+    #[must_use]
+    pub fn as_given(&self) -> &Woven {
+        self.given.as_ref().unwrap_or(&self.cloth)
+    }
+
     /// Whether the cloth is another than was given, because jammed threads were relieved.
     #[must_use]
     pub const fn is_relieved(&self) -> bool {

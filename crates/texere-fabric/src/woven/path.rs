@@ -1,5 +1,7 @@
 //! The path of threads over and under those that they cross.
 
+use std::sync::Arc;
+
 use super::bend::{Bend, STRIDE};
 use super::shape::Shape;
 
@@ -10,11 +12,12 @@ pub(super) struct ThreadPath<'a> {
     /// Where the threads come into the cloth and where they leave it, mm.
     edges: [f32; 2],
     /// What they cross, in the order in which they run.
-    stations: Vec<Station>,
+    stations: Arc<[Station]>,
 }
 
 /// A crossing, and the way to the next one.
-struct Station {
+#[derive(Debug, Clone)]
+pub(super) struct Station {
     /// Number of the crossed thread.
     number: usize,
     /// Place along the thread, mm.
@@ -47,16 +50,9 @@ pub(super) struct Stop {
 
 impl<'a> ThreadPath<'a> {
     /// `back` says whether threads run against the order of those that they cross.
-    pub(super) fn new(bend: Bend<'a>, back: bool) -> Self {
-        let count = bend.crossed.at.len();
-        let number = |step: usize| if back { count - 1 - step } else { step };
-        let stations = (0..count).map(|step| {
-            let before = step.checked_sub(1).map(number);
-            let after = (step + 1 < count).then(|| number(step + 1));
-            Station::new(&bend, number(step), before, after)
-        });
+    pub(super) fn new(bend: Bend<'a>, stations: Arc<[Station]>, back: bool) -> Self {
         let edges = [0.0, bend.crossed.extent];
-        Self { edges: if back { [edges[1], edges[0]] } else { edges }, stations: stations.collect(), bend }
+        Self { edges: if back { [edges[1], edges[0]] } else { edges }, stations, bend }
     }
 
     /// Control points of a thread, cut as in [`ThreadPath::walk`], where their number does not depend on sides.
@@ -68,7 +64,7 @@ impl<'a> ThreadPath<'a> {
     /// Calls `stop` with each control point in order. `above` says on which side of each crossed thread the thread lies,
     /// `cut` whether it is cut off at the cloth's edge at its beginning and at its end.
     pub(super) fn walk(&self, above: impl Fn(usize) -> bool, cut: [bool; 2], mut stop: impl FnMut(Stop)) {
-        let ([first, ..], [.., last]) = (self.stations.as_slice(), self.stations.as_slice()) else { return };
+        let ([first, ..], [.., last]) = (&self.stations[..], &self.stations[..]) else { return };
         if self.bend.shape == Shape::Crossing {
             // A cut end is half a pitch from the nearest crossing, in the cloth's middle.
             let end = |along| Stop { along, z: 0.0, crossing: None };
@@ -119,6 +115,18 @@ impl<'a> ThreadPath<'a> {
             stop(end(self.edges[1], last.number));
         }
     }
+}
+
+/// What threads of one height cross, in the order in which they run: against that of the crossed ones where they run `back`.
+pub(super) fn stations(bend: &Bend<'_>, back: bool) -> Arc<[Station]> {
+    let count = bend.crossed.at.len();
+    let number = |step: usize| if back { count - 1 - step } else { step };
+    let station = |step: usize| {
+        let before = step.checked_sub(1).map(number);
+        let after = (step + 1 < count).then(|| number(step + 1));
+        Station::new(bend, number(step), before, after)
+    };
+    (0..count).map(station).collect()
 }
 
 impl Station {

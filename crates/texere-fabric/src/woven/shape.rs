@@ -34,6 +34,7 @@ pub enum Shape {
 }
 
 /// The threads of one direction, as tables for those that cross them.
+#[derive(Debug, Clone)]
 pub(super) struct Set {
     /// Where each thread lies, mm.
     pub(super) at: Vec<f32>,

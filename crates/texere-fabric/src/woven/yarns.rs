@@ -1,10 +1,12 @@
 //! From cloth to yarns: the control points of every end and every pick.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns};
 
 use super::bend::Bend;
-use super::path::ThreadPath;
+use super::path::{self, Station, ThreadPath};
 use super::selvedge::{self, TURN_POINTS};
 use super::shape::Set;
 use super::{POINTS_MAX, Thread, Woven};
@@ -25,13 +27,23 @@ pub(super) enum Pass {
     Pick(usize, [bool; 2]),
 }
 
-/// A cloth's threads, measured.
-struct Loom<'a> {
-    cloth: &'a Woven,
+/// What the paths of a cloth's threads depend on beside the drawdown.
+#[derive(Debug, Clone)]
+pub(super) struct Measured {
     warp: Set,
     weft: Set,
     warp_share: f32,
 }
+
+/// A cloth's threads on their way to yarns.
+#[derive(Clone, Copy)]
+pub(super) struct Laying<'a> {
+    cloth: &'a Woven,
+    measured: &'a Measured,
+}
+
+/// Threads that take one path: ends or picks, those that run left, and the half height.
+pub(super) type Kind = (bool, bool, u32);
 
 impl Woven {
     /// The yarns of the cloth: all ends, then all picks.
@@ -53,8 +65,9 @@ impl Woven {
     /// **Source**: one control point a crossing is the paper's count; the height of a crossing and round threads follow
     /// Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937 (h₁ + h₂ = d₁ + d₂).
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
-        let (loom, passes) = (self.loom(), self.passes());
-        let counts = loom.counts(&passes);
+        let (measured, passes) = (self.measured(), self.passes());
+        let laying = self.laying(&measured);
+        let counts = laying.counts(&passes);
         let mut table = Vec::new();
         let mut offsets = Vec::new();
         let mut total = 0;
@@ -74,8 +87,8 @@ impl Woven {
         let mut points: Vec<ControlPoint> = zeroed("control points", total)?;
         let mut sources: Vec<u32> = zeroed("sources", total)?;
         let pens = Pen::all(&mut points, &mut sources, counts);
-        loom.each(&passes, pens, |path, pass, mut pen| {
-            loom.lay(path, pass, &mut |point, source| pen.write(point, source));
+        laying.each(&passes, pens, |path, pass, mut pen| {
+            laying.lay(path, pass, &mut |point, source| pen.write(point, source));
         });
 
         let layout = Layout::new(table, offsets, self.sections().to_vec())?;
@@ -85,16 +98,20 @@ impl Woven {
     /// Control points of all yarns, in the present [`Shape`](crate::Shape) and with or without selvedge.
     #[must_use]
     pub fn point_count(&self) -> u64 {
-        self.loom().counts(&self.passes()).into_iter().map(|count| count as u64).sum()
+        let measured = self.measured();
+        self.laying(&measured).counts(&self.passes()).into_iter().map(|count| count as u64).sum()
     }
 
-    fn loom(&self) -> Loom<'_> {
-        Loom {
-            cloth: self,
+    pub(super) fn measured(&self) -> Measured {
+        Measured {
             warp: Set::new(self.warp(), self.sections()),
             weft: Set::new(self.weft(), self.sections()),
             warp_share: self.warp_share(),
         }
+    }
+
+    pub(super) const fn laying<'a>(&'a self, measured: &'a Measured) -> Laying<'a> {
+        Laying { cloth: self, measured }
     }
 
     /// All ends, then all picks.
@@ -147,7 +164,7 @@ impl Woven {
     }
 }
 
-impl Loom<'_> {
+impl<'a> Laying<'a> {
     /// Calls `work` on all threads for each pass and what there is for it, with the path that passes of its kind take.
     fn each<T: Send>(
         &self,
@@ -155,25 +172,36 @@ impl Loom<'_> {
         with: impl IntoIterator<Item = T>,
         work: impl Fn(&ThreadPath<'_>, Pass, T) + Sync,
     ) {
-        let kind = |pass: Pass| match pass {
-            Pass::End(end) => (false, false, self.warp.half_height[end].to_bits()),
-            Pass::Pick(pick, _) => (true, self.runs_left(pick), self.weft.half_height[pick].to_bits()),
-        };
         let mut passes: Vec<(Pass, T)> = passes.iter().copied().zip(with).collect();
-        passes.sort_by_key(|(pass, _)| kind(*pass));
+        passes.sort_by_key(|(pass, _)| self.kind(*pass));
         let mut kinds = Vec::new();
         while let Some(&(first, _)) = passes.last() {
-            let start = passes.partition_point(|(pass, _)| kind(*pass) < kind(first));
+            let start = passes.partition_point(|(pass, _)| self.kind(*pass) < self.kind(first));
             kinds.push(passes.split_off(start));
         }
         kinds.into_par_iter().for_each(|passes| {
             let Some(&(first, _)) = passes.first() else { return };
-            let path = match first {
-                Pass::End(end) => ThreadPath::new(self.warp_bend(end), false),
-                Pass::Pick(pick, _) => ThreadPath::new(self.weft_bend(pick), self.runs_left(pick)),
-            };
+            let path = self.path(first, self.stations(first));
             passes.into_par_iter().for_each(|(pass, with)| work(&path, pass, with));
         });
+    }
+
+    pub(super) fn kind(&self, pass: Pass) -> Kind {
+        let Measured { warp, weft, .. } = self.measured;
+        match pass {
+            Pass::End(end) => (false, false, warp.half_height[end].to_bits()),
+            Pass::Pick(pick, _) => (true, self.runs_left(pick), weft.half_height[pick].to_bits()),
+        }
+    }
+
+    /// The stations of the path that passes of the kind of `pass` take.
+    pub(super) fn stations(&self, pass: Pass) -> Arc<[Station]> {
+        path::stations(&self.bend(pass), self.kind(pass).1)
+    }
+
+    /// The path itself.
+    pub(super) fn path(&self, pass: Pass, stations: Arc<[Station]>) -> ThreadPath<'a> {
+        ThreadPath::new(self.bend(pass), stations, self.kind(pass).1)
     }
 
     /// Control points of each pass.
@@ -187,12 +215,13 @@ impl Loom<'_> {
     }
 
     /// Calls `write` with each control point of a pass and its source.
-    fn lay(&self, path: &ThreadPath<'_>, pass: Pass, write: &mut impl FnMut(ControlPoint, u32)) {
-        let (drawdown, ends) = (self.cloth.drawdown(), self.warp.at.len());
+    pub(super) fn lay(&self, path: &ThreadPath<'_>, pass: Pass, write: &mut impl FnMut(ControlPoint, u32)) {
+        let Measured { warp, weft, .. } = self.measured;
+        let (drawdown, ends) = (self.cloth.drawdown(), warp.at.len());
         let cut = pass.cut();
         match pass {
             Pass::End(end) => {
-                let (x, halves) = (self.warp.at[end], self.cloth.warp()[end].halves());
+                let (x, halves) = (warp.at[end], self.cloth.warp()[end].halves());
                 let above = |pick| drawdown.up(end, pick);
                 path.walk(above, cut, |stop| {
                     let source = stop.crossing.map_or(NO_CROSSING, |pick| (pick * ends + end) as u32);
@@ -203,7 +232,7 @@ impl Loom<'_> {
                 if pass.turns() {
                     self.turn(pick).into_iter().for_each(|point| write(point, NO_CROSSING));
                 }
-                let (y, halves) = (self.weft.at[pick], self.cloth.weft()[pick].halves());
+                let (y, halves) = (weft.at[pick], self.cloth.weft()[pick].halves());
                 let above = |end| !drawdown.up(end, pick);
                 path.walk(above, cut, |stop| {
                     let source = stop.crossing.map_or(NO_CROSSING, |end| (pick * ends + end) as u32);
@@ -213,14 +242,17 @@ impl Loom<'_> {
         }
     }
 
-    fn warp_bend(&self, end: usize) -> Bend<'_> {
-        let (shape, half_height) = (self.cloth.shape(), self.warp.half_height[end]);
-        Bend { shape, crossed: &self.weft, half_height, share: self.warp_share }
-    }
-
-    fn weft_bend(&self, pick: usize) -> Bend<'_> {
-        let (shape, half_height) = (self.cloth.shape(), self.weft.half_height[pick]);
-        Bend { shape, crossed: &self.warp, half_height, share: 1.0 - self.warp_share }
+    fn bend(&self, pass: Pass) -> Bend<'a> {
+        let Measured { warp, weft, warp_share } = self.measured;
+        let shape = self.cloth.shape();
+        match pass {
+            Pass::End(end) => {
+                Bend { shape, crossed: weft, half_height: warp.half_height[end], share: *warp_share }
+            }
+            Pass::Pick(pick, _) => {
+                Bend { shape, crossed: warp, half_height: weft.half_height[pick], share: 1.0 - warp_share }
+            }
+        }
     }
 
     fn runs_left(&self, pick: usize) -> bool {
@@ -231,15 +263,17 @@ impl Loom<'_> {
     /// that the two can't touch whatever the end's height, or a quarter of the picks' distance, so that the turn's steps
     /// are not much longer than the one that leads to it.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
+        let Measured { warp, weft, .. } = self.measured;
         let right = self.runs_left(pick);
-        let (end, outwards) = if right { (self.warp.at.len() - 1, 1.0) } else { (0, -1.0) };
-        let widest = self.weft.half_width[pick].max(self.weft.half_width[pick - 1]);
-        let touching = self.warp.half_width[end] + widest;
-        let apart = self.weft.at[pick] - self.weft.at[pick - 1];
-        let x = self.warp.at[end] + outwards * touching.max(apart / 4.0);
+        let (end, outwards) = if right { (warp.at.len() - 1, 1.0) } else { (0, -1.0) };
+        let widest = weft.half_width[pick].max(weft.half_width[pick - 1]);
+        let touching = warp.half_width[end] + widest;
+        let apart = weft.at[pick] - weft.at[pick - 1];
+        let x = warp.at[end] + outwards * touching.max(apart / 4.0);
         let [from, to] = [pick - 1, pick].map(|pick| {
-            let z = self.weft_bend(pick).leaving_z(end, |end| !self.cloth.drawdown().up(end, pick));
-            ControlPoint { x, y: self.weft.at[pick], z, halves: self.cloth.weft()[pick].halves() }
+            let bend = self.bend(Pass::Pick(pick, [true; 2]));
+            let z = bend.leaving_z(end, |end| !self.cloth.drawdown().up(end, pick));
+            ControlPoint { x, y: weft.at[pick], z, halves: self.cloth.weft()[pick].halves() }
         });
         selvedge::turn(x, outwards, &from, &to)
     }

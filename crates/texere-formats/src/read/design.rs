@@ -1,9 +1,10 @@
 //! A design, read and checked.
 
+use std::fmt;
 use std::path::{self, Path, PathBuf};
 
 use texere_core::Yarns;
-use texere_fabric::{FabricError, Finish, Stretch, Structure};
+use texere_fabric::{FabricError, Finish, Stretch, Structure, ThreadPlace, YarnPlace};
 
 use super::knit::KnittedFrom;
 
@@ -50,10 +51,56 @@ pub struct Told {
     pub instructions: Vec<String>,
 }
 
+/// A place on a yarn in a designer's words. It is written as `end 3 at pick 4, cotton`, of a knit with what [`Told`] says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedPlace {
+    /// The thread, and the crossing or the stitch.
+    pub thread: ThreadPlace,
+    /// The name of its material, perhaps empty.
+    pub material: String,
+    /// What told a machine to make it. None of what is not knitted by one.
+    pub told: Option<Told>,
+}
+
+impl fmt::Display for NamedPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.thread)?;
+        if !self.material.is_empty() {
+            write!(f, ", {}", self.material)?;
+        }
+        if let Some(Told { place, instructions }) = &self.told {
+            write!(f, ": {place}")?;
+            if !instructions.is_empty() {
+                write!(f, ": {}", instructions.join("; "))?;
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Layers of a cloth that are listed.
 const LAYERS_LISTED: usize = 4;
 
 impl Design {
+    /// A design of a program's own, whose yarns settle.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign};
+    /// use texere_formats::Design;
+    /// let thread = Thread::new(1.0, 0.2);
+    /// let plain = Weave::parse("plain")?.drawdown(8, 6)?;
+    /// let cloth =
+    ///     Woven::new(plain, vec![thread; 8], vec![thread; 6], vec![Material::default()], vec![Section::Circle])?;
+    /// let design = Design::of("Muslin", Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?));
+    /// assert!(design.settle && design.files().is_empty());
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    #[must_use]
+    pub fn of(name: impl Into<String>, structure: Structure) -> Self {
+        Self::new(name.into(), structure, Vec::new())
+    }
+
     /// A design whose yarns settle.
     pub(super) fn new(name: String, structure: Structure, mut remarks: Vec<String>) -> Self {
         remarks.extend(layers(&structure));
@@ -71,13 +118,8 @@ impl Design {
     }
 
     /// The same design with what it says about how its yarns settle.
-    pub(super) fn finished(self, settle: Option<bool>, finish: Finish) -> Self {
-        Self { settle: settle.unwrap_or(self.settle), finish, ..self }
-    }
-
-    /// The same design, stretched before it comes to rest.
-    pub(super) fn stretched(self, stretch: Option<Stretch>) -> Self {
-        Self { stretch, ..self }
+    pub(super) fn finished(self, settle: Option<bool>, finish: Finish, stretch: Option<Stretch>) -> Self {
+        Self { settle: settle.unwrap_or(self.settle), finish, stretch, ..self }
     }
 
     /// The same design, left as it is woven unless somebody asks for more.
@@ -121,6 +163,40 @@ impl Design {
     #[must_use]
     pub fn told(&self, source: u32) -> Option<Told> {
         self.knitted_from.as_ref().map(|from| from.told(source))
+    }
+
+    /// A place on one of `yarns`, the design's own, settled or not, in a designer's words: thread and crossing or stitch, yarn, and what told a machine
+    /// to make it.
+    ///
+    /// **Panics** past the last yarn.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign, YarnPlace};
+    /// use texere_formats::Design;
+    /// let thread = Thread::new(1.0, 0.2);
+    /// let plain = Weave::parse("plain")?.drawdown(8, 6)?;
+    /// let cotton = vec![Material { name: "cotton".into(), ..Material::default() }];
+    /// let cloth = Woven::new(plain, vec![thread; 8], vec![thread; 6], cotton, vec![Section::Circle])?;
+    /// let design = Design::of("Muslin", Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?));
+    /// let yarns = design.yarns()?;
+    /// let places = (0..20).filter_map(|interval| YarnPlace::at(&yarns, 2, interval, 0.0, 0.0));
+    /// let said = places.map(|place| design.named(&yarns, &place).to_string()).collect::<Vec<_>>();
+    /// assert!(said.contains(&"end 3 at pick 4, cotton".to_owned()));
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    #[must_use]
+    pub fn named(&self, yarns: &Yarns, place: &YarnPlace) -> NamedPlace {
+        let material = yarns.layout().yarns()[place.yarn].material as usize;
+        NamedPlace {
+            thread: self.structure.place(yarns, place),
+            material: yarns
+                .materials()
+                .get(material)
+                .map(|material| material.name.clone())
+                .unwrap_or_default(),
+            told: place.source.and_then(|source| self.told(source)),
+        }
     }
 
     /// What the reader had to assume or leave out.

@@ -111,6 +111,16 @@ impl fmt::Display for Place {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {
+    /// A kind of file that this build was made without.
+    #[error("{file}: this build reads no {what}; texere's feature `{feature}` adds them", file = file.display())]
+    Feature {
+        /// The file.
+        file: PathBuf,
+        /// What the file is.
+        what: &'static str,
+        /// The feature that reads it.
+        feature: &'static str,
+    },
     /// The file can't be opened or read.
     #[error("can't read {}", named(.file))]
     Io {

@@ -50,7 +50,7 @@ fn options() -> OpenOptions {
     use std::os::unix::fs::OpenOptionsExt;
     let mut options = File::options();
     // Opening a pipe then does not wait either, should one have taken the file's place.
-    options.read(true).custom_flags(libc::O_NONBLOCK);
+    options.read(true).custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());
     options
 }
 

@@ -4,6 +4,8 @@ mod design;
 mod design_file;
 mod error;
 mod file;
+#[cfg(feature = "images")]
+mod image_file;
 mod knit;
 mod knitout;
 mod memory;
@@ -11,15 +13,35 @@ mod point_paper;
 mod threads;
 mod wif;
 
+#[cfg(not(feature = "images"))]
+mod image_file {
+    //! A build without images refuses them by name.
+
+    use std::path::Path;
+
+    use super::ReadError;
+    use super::point_paper::Image;
+
+    pub(super) fn decode(path: &Path) -> Result<Image, ReadError> {
+        Err(ReadError::Feature { file: path.into(), what: "images", feature: "images" })
+    }
+}
+
 use std::path::Path;
 
 use file::file_name;
 use knitout::LoopLengths;
 use texere_fabric::{Relief, WovenDesign};
 
-pub use design::{Design, MachineFault, Told};
+pub use design::{Design, MachineFault, NamedPlace, Told};
 pub use error::{Place, ReadError};
 pub use texere_fabric::Structure;
+
+pub(crate) use design_file::limits;
+pub(crate) use wif::{
+    FILE_LIMIT as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM, LOOM_LIMIT, PROGRAM as WIF_PROGRAM,
+    UNITS_MM as WIF_UNITS_MM,
+};
 
 /// Reads the design in `path`: a WIF draft (`.wif`), a program of a knitting machine (knitout, `.k`), or texere's own design file
 /// (`.toml`).

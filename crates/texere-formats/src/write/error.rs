@@ -29,6 +29,12 @@ pub enum WriteError {
         /// What the system said.
         source: io::Error,
     },
+    /// The caller's writer refused. What it got so far is no whole file.
+    #[error("the writer refused")]
+    Writer {
+        /// What it said.
+        source: io::Error,
+    },
     /// The output is a file that must not be replaced, under this name or another.
     #[error("writing {} would replace {}, which must stay", .path.display(), .spared.display())]
     Spared {
@@ -60,6 +66,9 @@ pub enum WriteError {
         /// The most that the format can have.
         limit: u64,
     },
+    /// The mesh is of a region that nothing lies in.
+    #[error("the mesh has no triangles: nothing lies in the box that it is of")]
+    Empty,
     /// The mesh has another number of vertices than its plan says.
     #[error("mesh has {given} vertices in order; {planned} were planned")]
     VertexCount {
@@ -81,6 +90,46 @@ pub enum WriteError {
     NotPng {
         /// The path.
         path: PathBuf,
+    },
+    /// A design's file ends in what its format asks for, and the path ends otherwise.
+    #[error("{} does not end in .{expected}", .path.display())]
+    NotEnding {
+        /// The path.
+        path: PathBuf,
+        /// The ending, without its dot.
+        expected: &'static str,
+    },
+    /// A design, or something of it, that the format has no way to say.
+    #[error("{format} can't hold {what}")]
+    Unheld {
+        /// The format.
+        format: &'static str,
+        /// What it can't hold.
+        what: String,
+    },
+    /// A number that no reader of the format takes.
+    #[error("{field} is {value}; {format} takes {low} to {high}")]
+    OutOfRange {
+        /// The format.
+        format: &'static str,
+        /// Section and key, as the format writes them.
+        field: String,
+        /// The number.
+        value: f64,
+        /// Least taken.
+        low: f64,
+        /// Most taken.
+        high: f64,
+    },
+    /// A design that takes a larger file than readers of the format take.
+    #[error("{format} of {bytes} bytes or more; {limit} at most are read")]
+    TextTooLarge {
+        /// The format.
+        format: &'static str,
+        /// Bytes that the file would have at least.
+        bytes: u64,
+        /// Most bytes that are read.
+        limit: u64,
     },
     /// A cloth of more threads than a picture has pixels for.
     #[error(

@@ -1,7 +1,6 @@
 //! Feeds a mesh to a format's writer, and checks that every vertex comes once, in order, and finite.
 
 use std::borrow::Borrow;
-use std::fmt::Debug;
 use std::io::{Seek, Write};
 
 use texere_core::{Chunk, Material, Plan, Vertex};
@@ -13,7 +12,6 @@ use super::target::Target;
 use super::{Format, WriteError};
 
 /// A file under way, and how many of its vertices have come.
-#[derive(Debug)]
 pub(super) struct Feed<'a, W: Write + Seek> {
     writer: Box<dyn MeshWriter<W> + 'a>,
     sides: u32,
@@ -21,7 +19,7 @@ pub(super) struct Feed<'a, W: Write + Seek> {
     planned: u64,
 }
 
-impl<'a, W: Write + Seek + Debug + 'a> Feed<'a, W> {
+impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
     /// Starts a file for the mesh of `plan`, which is of shared topology, cut into `chunks`.
     pub(super) fn open(
         format: Format,
@@ -35,6 +33,9 @@ impl<'a, W: Write + Seek + Debug + 'a> Feed<'a, W> {
                 let (material, materials) = (each.material, materials.len());
                 return Err(WriteError::UnknownMaterial { yarn, material, materials });
             }
+        }
+        if plan.counts().triangles == 0 {
+            return Err(WriteError::Empty);
         }
         let mut planned = 0;
         let chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));

@@ -1,6 +1,5 @@
 //! What the writers of all formats share.
 
-use std::fmt::Debug;
 use std::io::{Seek, Write};
 use std::ops::Range;
 
@@ -10,7 +9,7 @@ use super::WriteError;
 use super::target::Target;
 
 /// A format's way to write.
-pub(super) trait MeshWriter<W: Write + Seek>: Debug {
+pub(super) trait MeshWriter<W: Write + Seek> {
     /// Takes a chunk's vertices from number `first` on. All vertices of all chunks come in order.
     fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError>;
 

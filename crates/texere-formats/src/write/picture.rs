@@ -1,12 +1,12 @@
 //! Pixels to a PNG file.
 
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Write};
 
 use super::target::Target;
 use super::{Output, WriteError};
 
-/// Writes a picture of `size` pixels (width, height) to a PNG file: `rgb` is three bytes a pixel, sRGB, rows from the
-/// top.
+/// Writes a picture of `size` pixels (width, height) to a PNG file: `pixels` are red, green and blue of each, sRGB, a byte each, or these
+/// and alpha, rows from the top.
 ///
 /// **Errors**: [`WriteError::NotPng`] where `output` does not end in `.png`, [`WriteError::Spared`], [`WriteError::Io`],
 /// also for pixels that are not as many as `size` says.
@@ -19,22 +19,54 @@ use super::{Output, WriteError};
 /// assert!(texere_formats::write::picture([2, 2], &[0; 6], &path).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn picture([width, height]: [u32; 2], rgb: &[u8], output: impl Into<Output>) -> Result<(), WriteError> {
+pub fn picture(size: [u32; 2], pixels: &[u8], output: impl Into<Output>) -> Result<(), WriteError> {
     let mut target = Target::create(png(output.into())?)?;
+    encode(size, pixels, &mut target)?;
+    target.commit()?;
+    Ok(())
+}
+
+/// Writes a picture to `out`: the bytes that [`picture`](fn@picture) writes to a file.
+///
+/// **Errors**: [`WriteError::Writer`] where `out` refuses, also for pixels that are not as many as `size` says.
+///
+/// ```
+/// let mut png = Vec::new();
+/// texere_formats::write::picture_to([2, 1], &[255, 0, 0, 128, 0, 0], &mut png)?;
+/// assert!(png.starts_with(b"\x89PNG"));
+/// assert_eq!(png[25], 2); // the kind of a PNG without alpha
+///
+/// let mut half_seen = Vec::new();
+/// texere_formats::write::picture_to([1, 1], &[255, 0, 0, 128], &mut half_seen)?;
+/// assert_eq!(half_seen[25], 6);
+/// # Ok::<(), texere_formats::WriteError>(())
+/// ```
+pub fn picture_to(size: [u32; 2], pixels: &[u8], out: impl Write) -> Result<(), WriteError> {
+    let mut target = Target::straight(out);
+    encode(size, pixels, &mut target)?;
+    target.done()?;
+    Ok(())
+}
+
+fn encode<W: Write>(
+    [width, height]: [u32; 2],
+    pixels: &[u8],
+    target: &mut Target<W>,
+) -> Result<(), WriteError> {
     encoder_room().map_err(|source| target.failed(source))?;
-    let mut encoder = png::Encoder::new(&mut target, width, height);
-    encoder.set_color(png::ColorType::Rgb);
+    let mut encoder = png::Encoder::new(&mut *target, width, height);
+    // Any other number of bytes is refused as one for pixels without alpha.
+    let has_alpha = pixels.len() as u64 == 4 * u64::from(width) * u64::from(height);
+    encoder.set_color(if has_alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
     // Cloth is full of detail: stronger compression takes longer and gains little.
     encoder.set_compression(png::Compression::Fast);
     let written = encoder.write_header().and_then(|mut writer| {
-        writer.write_image_data(rgb)?;
+        writer.write_image_data(pixels)?;
         writer.finish()
     });
-    written.map_err(|error| target.failed(error.into()))?;
-    target.commit()?;
-    Ok(())
+    written.map_err(|error| target.failed(error.into()))
 }
 
 /// Fails where there is no memory for an encoder, which would end the program itself.

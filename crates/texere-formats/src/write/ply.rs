@@ -77,7 +77,7 @@ impl<'a, W: Write + Seek> PlyWriter<'a, W> {
     }
 }
 
-impl<W: Write + Seek + std::fmt::Debug> MeshWriter<W> for PlyWriter<'_, W> {
+impl<W: Write + Seek> MeshWriter<W> for PlyWriter<'_, W> {
     fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError> {
         let number = chunk.first_vertex() + u64::from(first);
         self.target.go_to(self.vertices_at + number * VERTEX_BYTES as u64)?;

@@ -1,7 +1,7 @@
 //! A buffered file under way.
 
 use std::io::{self, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::unfinished::Unfinished;
 use super::{Output, WriteError};
@@ -9,27 +9,42 @@ use super::{Output, WriteError};
 /// Bytes gathered before the system is called. With more, calls cost nothing beside the copying.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// A file that is written piece by piece, and takes its place only when it is complete.
+/// A file that is written piece by piece: one that takes its place only when it is complete, or bytes to a writer of the
+/// caller's.
 #[derive(Debug)]
-pub(super) struct Target<W: Write + Seek> {
-    path: PathBuf,
+pub(super) struct Target<W: Write> {
+    /// The path that was asked for; none where the writer is the caller's.
+    path: Option<PathBuf>,
     out: W,
+    /// Where `out` stood when the file began.
+    start: u64,
     /// Bytes that `out` has not got yet. Without memory for this buffer, every write goes straight to `out`.
     waiting: Vec<u8>,
+    /// From the file's start, in bytes.
     position: u64,
+    /// The furthest that the file reaches, likewise.
+    end: u64,
 }
 
-impl<W: Write + Seek> Target<W> {
-    /// A target that is written to `out`, which stands at its start.
-    pub(super) fn over(out: W, path: &Path) -> Self {
+impl<W: Write> Target<W> {
+    /// A target that is written to `out` from where it stands, which is byte `start` of it.
+    pub(super) fn over(out: W, start: u64, path: Option<PathBuf>) -> Self {
         let mut waiting = Vec::new();
         let _ = waiting.try_reserve_exact(BUFFER_BYTES);
-        Self { path: path.to_owned(), out, waiting, position: 0 }
+        Self { path, out, start, waiting, position: 0, end: 0 }
+    }
+
+    /// A target that is written from its first byte to its last, to the caller's `out`.
+    pub(super) fn straight(out: W) -> Self {
+        Self::over(out, 0, None)
     }
 
     /// The error for a write that failed.
     pub(super) fn failed(&self, source: io::Error) -> WriteError {
-        WriteError::io("write", &self.path, source)
+        match &self.path {
+            Some(path) => WriteError::io("write", path, source),
+            None => WriteError::Writer { source },
+        }
     }
 
     /// Writes on from where the last call ended.
@@ -49,24 +64,45 @@ impl<W: Write + Seek> Target<W> {
         Ok(())
     }
 
-    /// Goes to byte `position`, where the next call writes.
+    /// Writes what is still waiting, and gives back the inner writer.
+    pub(super) fn into_inner(mut self) -> Result<W, WriteError> {
+        self.flush().map_err(|source| self.failed(source))?;
+        Ok(self.out)
+    }
+
+    /// Hands everything over to the caller's writer. Gives the file's length in bytes.
+    pub(super) fn done(mut self) -> Result<u64, WriteError> {
+        self.flush().and_then(|()| self.out.flush()).map_err(|source| self.failed(source))?;
+        Ok(self.end)
+    }
+}
+
+impl<W: Write + Seek> Target<W> {
+    /// A target that is written to the caller's `out`, from where it stands.
+    pub(super) fn within(mut out: W) -> Result<Self, WriteError> {
+        let start = out.stream_position().map_err(|source| WriteError::Writer { source })?;
+        Ok(Self::over(out, start, None))
+    }
+
+    /// Goes to byte `position` of the file, where the next call writes.
     pub(super) fn go_to(&mut self, position: u64) -> Result<(), WriteError> {
         if position != self.position {
-            let moved = self.flush().and_then(|()| self.out.seek(SeekFrom::Start(position)));
+            let moved = self.flush().and_then(|()| self.out.seek(SeekFrom::Start(self.start + position)));
             moved.map_err(|source| self.failed(source))?;
             self.position = position;
         }
         Ok(())
     }
 
-    /// Writes what is still waiting, and gives back the inner writer.
-    pub(super) fn into_inner(mut self) -> Result<W, WriteError> {
-        self.flush().map_err(|source| self.failed(source))?;
-        Ok(self.out)
+    /// Hands everything over to the caller's writer, and leaves that behind the file's last byte. Gives the file's length
+    /// in bytes.
+    pub(super) fn close(mut self) -> Result<u64, WriteError> {
+        self.go_to(self.end)?;
+        self.done()
     }
 }
 
-impl<W: Write + Seek> Write for Target<W> {
+impl<W: Write> Write for Target<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.write_all(bytes)?;
         Ok(bytes.len())
@@ -83,6 +119,7 @@ impl<W: Write + Seek> Write for Target<W> {
             self.out.write_all(bytes)?;
         }
         self.position += bytes.len() as u64;
+        self.end = self.end.max(self.position);
         Ok(())
     }
 
@@ -98,7 +135,7 @@ impl Target<Unfinished> {
     pub(super) fn create(output: Output) -> Result<Self, WriteError> {
         let file = Unfinished::beside(output.place()?)?;
         let path = file.path().to_owned();
-        Ok(Self::over(file, &path))
+        Ok(Self::over(file, 0, Some(path)))
     }
 
     /// Puts the file in its place. Gives its length in bytes.

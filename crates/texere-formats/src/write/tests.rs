@@ -7,7 +7,9 @@ use tempfile::NamedTempFile;
 use texere_core::{ControlPoint, Limits, Material, Mesh, Pipeline, Topology, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 
-use super::{Feed, Format, Target, WriteError};
+use super::feed::Feed;
+use super::target::Target;
+use super::{Format, WriteError};
 
 /// A file on a disk that is full after so many bytes more.
 #[derive(Debug)]
@@ -55,7 +57,7 @@ fn mesh() -> Mesh {
 
 /// Writes `mesh` to `out` in pieces of at most `piece` vertices, empty ones among them: all but the last step, taking the file's place.
 fn write(mesh: &Mesh, format: Format, piece: usize, out: Failing) -> Result<Failing, WriteError> {
-    let target = Target::over(out, "fabric".as_ref());
+    let target = Target::over(out, 0, Some("fabric".into()));
     let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials)?;
     for chunk in &mesh.chunks {
         let own = &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
@@ -109,7 +111,7 @@ fn pieces_of_any_size_give_the_same_file() {
 fn a_piece_out_of_order_is_refused() {
     let mesh = mesh();
     let out = Failing { file: NamedTempFile::new().unwrap(), room: usize::MAX };
-    let target = Target::over(out, "fabric".as_ref());
+    let target = Target::over(out, 0, Some("fabric".into()));
     let mut feed = Feed::open(Format::Ply, target, &mesh.plan, &mesh.chunks, &mesh.materials).unwrap();
     feed.vertices(&mesh.chunks[0], 0, &mesh.vertices[..6]).unwrap();
     let error = feed.vertices(&mesh.chunks[0], 12, &mesh.vertices[12..18]).unwrap_err();

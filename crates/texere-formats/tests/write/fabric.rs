@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use texere_core::{
-    ControlPoint, Limits, Material, Mesh, Origin, Pipeline, Section, Settings, Topology, Vertex, Yarn, Yarns,
+    Bounds, ControlPoint, Limits, Material, Mesh, Origin, Pipeline, Section, Settings, Topology, Vertex,
+    Yarn, Yarns,
 };
 use texere_cpu::SerialBackend;
 
@@ -107,4 +108,9 @@ fn tiny_chunks_cut_where_it_hurts() {
     assert!(parts().any(|part| part.rings == 1), "a lone ring, which no triangle has");
     assert!(chunks.iter().any(|chunk| chunk.parts().len() > 1), "two yarns share a chunk");
     assert!(chunks.iter().any(|chunk| chunk.caps().len() == 1), "one end of a yarn without the other");
+}
+
+/// A box in the fabric that only some blocks of the closed yarn reach into, and the half of another yarn.
+pub(crate) fn region() -> Bounds {
+    Bounds::rectangle([-12.0, 5.0], [0.4, 12.0])
 }

@@ -169,7 +169,7 @@ fn a_limit_that_nothing_fits_is_told_with_its_cause() {
     let limits = Limits { binding_bytes: 16, ..Limits::NONE };
     leaves_no_trace(
         |path| stream(Pipeline::new(&yarns).limits(limits), path).unwrap_err(),
-        |error| error.source().is_some_and(|plan| plan.source().unwrap().to_string().contains("limit is 16")),
+        |error| error.source().is_some_and(|plan| plan.to_string().contains("limit is 16")),
     );
 }
 

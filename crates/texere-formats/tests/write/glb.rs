@@ -7,7 +7,7 @@ use texere_core::{Limits, Mesh, Topology, Yarns};
 use texere_cpu::SerialBackend;
 use texere_formats::write;
 
-use crate::fabric::{Triangle, fabric, long_yarn, pipeline, triangles, ways, whole};
+use crate::fabric::{Triangle, fabric, long_yarn, pipeline, region, triangles, ways, whole};
 
 /// What a reader makes of one yarn.
 struct ReadYarn {
@@ -73,9 +73,9 @@ fn read_yarn(node: &gltf::Node<'_>, blob: &[u8]) -> ReadYarn {
 fn assert_holds(bytes: &[u8], mesh: &Mesh, what: &str) {
     let (read, expected) = (read(bytes), triangles(mesh));
     assert_eq!(read.len(), expected.len(), "yarns, {what}");
-    for (yarn, (read, triangles)) in read.iter().zip(expected.values()).enumerate() {
+    for (read, (&yarn, triangles)) in read.iter().zip(&expected) {
         assert!(read.triangles == *triangles, "triangles of yarn {yarn}, {what}");
-        let material = &mesh.materials[mesh.plan.yarn(yarn).material as usize];
+        let material = &mesh.materials[mesh.plan.yarn(yarn as usize).material as usize];
         let [red, green, blue] = material.linear_rgb();
         assert_eq!((&read.material, read.colour), (&material.name, [red, green, blue, 1.0]), "{what}");
     }
@@ -149,4 +149,17 @@ fn a_mesh_and_a_stream_give_the_same_bytes() {
     write::mesh(&pipeline(&yarns, true, way).mesh(&SerialBackend::new()).unwrap(), &one).unwrap();
     write::stream(pipeline(&yarns, true, way), &SerialBackend::new(), &other).unwrap();
     assert!(std::fs::read(one).unwrap() == std::fs::read(other).unwrap());
+}
+
+#[test]
+fn a_region_is_read_back() {
+    let yarns = fabric();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("region.glb");
+    for way in ways() {
+        let part = || pipeline(&yarns, true, way).within(region());
+        let mesh = part().topology(Topology::Indexed).mesh(&SerialBackend::new()).unwrap();
+        write::stream(part(), &SerialBackend::new(), &path).unwrap();
+        assert_holds(&std::fs::read(&path).unwrap(), &mesh, &format!("{way:?}"));
+    }
 }

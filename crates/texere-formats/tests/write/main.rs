@@ -1,6 +1,7 @@
 //! What is written, read back by others; and what is left when writing fails.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
+mod designs;
 mod draft;
 mod fabric;
 mod files;
@@ -8,3 +9,5 @@ mod glb;
 mod knit_draft;
 mod outputs;
 mod ply;
+mod random_designs;
+mod writers;

@@ -2,11 +2,11 @@
 
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
-use texere_core::Mesh;
+use texere_core::{Bounds, Mesh, Topology};
 use texere_cpu::SerialBackend;
-use texere_formats::write;
+use texere_formats::{WriteError, write};
 
-use crate::fabric::{Triangle, fabric, long_yarn, pipeline, triangles, ways, whole};
+use crate::fabric::{Triangle, fabric, long_yarn, pipeline, region, triangles, ways, whole};
 
 /// A triangle and the colours of its corners.
 type Coloured = (Triangle, [[u8; 3]; 3]);
@@ -73,4 +73,26 @@ fn every_triangle_is_read_back() {
             assert_eq!((written.bytes, written.triangles), (bytes.len() as u64, expected.len() as u64));
         }
     }
+}
+
+#[test]
+fn a_region_is_read_back() {
+    let yarns = fabric();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("region.ply");
+    let whole = expected(&whole(&yarns, true));
+    for way in ways() {
+        let part = || pipeline(&yarns, true, way).within(region());
+        let mesh = part().topology(Topology::Indexed).mesh(&SerialBackend::new()).unwrap();
+        let expected = expected(&mesh);
+        assert!(!expected.is_empty() && expected.len() < whole.len());
+        assert!(expected.iter().all(|triangle| whole.binary_search(triangle).is_ok()));
+        let written = write::stream(part(), &SerialBackend::new(), &path).unwrap();
+        assert_eq!(written.triangles, expected.len() as u64);
+        assert!(read(&std::fs::read(&path).unwrap()) == expected, "{way:?}");
+    }
+    let nothing = pipeline(&yarns, true, ways()[0]).within(Bounds::rectangle([90.0; 2], [91.0; 2]));
+    let refused = write::stream(nothing, &SerialBackend::new(), &path);
+    assert!(matches!(refused, Err(WriteError::Empty)), "{refused:?}");
+    assert!(read(&std::fs::read(&path).unwrap()).len() < whole.len(), "what was there is still there");
 }

@@ -74,7 +74,7 @@ fn tables() -> Vec<Table> {
         structure!(Params {
             blocks,
             caps,
-            first_block,
+            first_yarn,
             yarns,
             sides,
             subdivisions,

@@ -8,6 +8,20 @@ use crate::FabricError;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ChartError {
+    /// A cell outside the chart.
+    #[error(
+        "wale {wale}, course {course}, both counted from 0, but the chart has {wales} wales and {courses} courses"
+    )]
+    NoCell {
+        /// The wale.
+        wale: usize,
+        /// The course.
+        course: usize,
+        /// Wales of the chart.
+        wales: usize,
+        /// Its courses.
+        courses: usize,
+    },
     /// No stitches at all, or more in a direction than are taken.
     #[error("a chart of {wales} wales and {rows} rows; each must be 1 to {limit}")]
     Size {

@@ -188,6 +188,30 @@ impl Chart {
         self.courses.len()
     }
 
+    /// Puts another stitch into a cell, both counted from 0: the wale from the left, the course from the first.
+    ///
+    /// ```
+    /// use texere_fabric::weft::{Beds, Cell, Chart};
+    /// let mut chart = Chart::parse("kk\nkk", Beds::One)?;
+    /// chart.set(1, 0, Cell::Tuck)?;
+    /// assert_eq!(chart, Chart::parse("kk\nkt", Beds::One)?);
+    /// // A needle that never knits would pile up loops.
+    /// assert!(chart.set(1, 1, Cell::Tuck).is_err());
+    /// # Ok::<(), texere_fabric::weft::ChartError>(())
+    /// ```
+    ///
+    /// **Errors**: [`ChartError::NoCell`] outside the chart, and those of [`Chart::new`]; the chart is then as it was.
+    pub fn set(&mut self, wale: usize, course: usize, cell: Cell) -> Result<(), ChartError> {
+        let (wales, courses) = (self.wales, self.courses());
+        if wale >= wales || course >= courses {
+            return Err(ChartError::NoCell { wale, course, wales, courses });
+        }
+        let mut changed = self.clone();
+        changed.cells[course * wales + wale] = cell;
+        *self = changed.checked()?;
+        Ok(())
+    }
+
     /// The cells of a course, from left to right.
     fn course(&self, course: usize) -> &[Cell] {
         &self.cells[course * self.wales..][..self.wales]

@@ -124,10 +124,7 @@ pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricErr
     let [ends, picks] = [left(cloth.warp().len(), repeat[0]), left(cloth.weft().len(), repeat[1])];
     let drawdown = Drawdown::from_fn(ends, picks, |end, pick| cloth.drawdown().up(end, pick))?;
     let (warp, weft) = (cloth.warp()[..ends].to_vec(), cloth.weft()[..picks].to_vec());
-    let (materials, sections) = (cloth.materials().to_vec(), cloth.sections().to_vec());
-    let mut piece = Woven::new(drawdown, warp, weft, materials, sections)?;
-    piece.set_selvedge(cloth.selvedge());
-    Ok(piece)
+    cloth.like(drawdown, warp, weft)
 }
 
 /// Makes threads thinner where contacts are nearer than wanted, each by the worst of its contacts at a crossing, and less high where they bend

@@ -6,7 +6,7 @@ use texere_core::Backend;
 use texere_core::crossings::Set;
 
 use super::certificate::crop;
-use crate::{FabricError, Finish, FinishError, Thread, Woven, lengths_mm};
+use crate::{FabricError, Finish, FinishError, Woven, lengths_mm};
 
 /// The least crimp that is left of threads that are pulled straight.
 const STRAIGHT: f64 = 0.002;
@@ -107,13 +107,5 @@ impl Woven {
         let (size, ends) = (piece.size_mm(), piece.warp().len());
         let [warp, weft]: [f64; 2] = [&lengths[..ends], &lengths[ends..]].map(|lengths| lengths.iter().sum());
         Ok([warp / (ends as f64 * size[1]) - 1.0, weft / (piece.weft().len() as f64 * size[0]) - 1.0])
-    }
-
-    /// The same cloth with ends and picks so many times as far apart.
-    fn spaced(&self, times: [f64; 2]) -> Result<Self, FabricError> {
-        let apart = |set: &[Thread], times: f64| -> Vec<Thread> {
-            set.iter().map(|thread| Thread { spacing_mm: thread.spacing_mm * times, ..*thread }).collect()
-        };
-        self.with_threads(apart(self.warp(), times[0]), apart(self.weft(), times[1]))
     }
 }

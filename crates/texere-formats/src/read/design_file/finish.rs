@@ -5,6 +5,7 @@ use texere_core::settling::Length;
 use texere_fabric::{Finish, Stretch};
 use toml::Spanned;
 
+use super::limits::{STRETCH, TIMES_MOST};
 use super::schema::{FinishTable, Source, real};
 use crate::read::ReadError;
 
@@ -13,12 +14,6 @@ const LENGTHS: (f64, f64) = (0.5, 2.0);
 
 /// The most tension that draws yarns in.
 const TENSION_MOST: f64 = 0.1;
-
-/// The most times relaxed cloth's that woven cloth is taut or pressed.
-const TIMES_MOST: f64 = 10.0;
-
-/// How many times as long woven cloth may become.
-const STRETCH: (f64, f64) = (0.5, 2.0);
 
 /// Distances of plates that are taken, mm.
 const PRESS_MM: (f64, f64) = (0.001, 1000.0);
@@ -87,7 +82,7 @@ impl FinishTable {
             }
         };
         let number = source.float(field, given, "a number, how many times as long the cloth becomes")?;
-        let by = source.number(field, &number, STRETCH.0, STRETCH.1)?;
+        let by = source.number(field, &number, STRETCH[0], STRETCH[1])?;
         Ok(Some(Stretch { along, by }))
     }
 

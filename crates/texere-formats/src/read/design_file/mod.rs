@@ -3,7 +3,7 @@
 //! ```toml
 //! name = "Denim"
 //!
-//! [weave]                         # a notation with a size, or else image = "motif.png" or wif = "draft.wif"
+//! [weave]                         # a notation with a size, or else a drawdown, image = "motif.png" or wif = "draft.wif"
 //! notation = "3/1"
 //! ends = 120
 //! picks = 80
@@ -33,14 +33,15 @@
 //! spacing_mm = 1.0
 //! ```
 //!
-//! Every key of `[weave]`, which has exactly one of the first three:
+//! Every key of `[weave]`, which has exactly one of the first four:
 //!
 //! | key | value |
 //! |---|---|
 //! | `notation` | a weave by notation or name, as [`Weave`] reads it; `ends` and `picks` say how large the cloth is |
+//! | `drawdown` | a row for each pick, the last one on top: `1` where the warp is up, `0` where it is not; repeated over `ends` and `picks` |
 //! | `image` | point paper, each pixel a crossing: a PNG, BMP or TIFF file beside the design |
 //! | `wif` | a draft, in a WIF file beside the design |
-//! | `ends`, `picks` | the size of a cloth by notation; with an image they may stand, and must then be right |
+//! | `ends`, `picks` | the size of a cloth by notation or drawdown; with an image they may stand, and must then be right |
 //! | `rows` | which pick the image's top row is: `"last-pick-first"`, as weavers draw, or `"first-pick-first"` |
 //! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` where not given |
 //! | `[weave.colors]` | what each colour of the image is woven in: `"#203040" = "satin 8(3)"` |
@@ -115,6 +116,7 @@ mod colors;
 mod finish;
 mod knit;
 mod laid;
+pub(crate) mod limits;
 mod schema;
 mod threads;
 mod warp_knit;
@@ -140,11 +142,8 @@ use cloth::Cloth;
 use schema::{DesignFile, Source};
 use threads::YarnTable;
 
-/// The largest design file that is read: one that names each of a million threads takes as much.
-const FILE_LIMIT: u64 = 1 << 24;
-
 pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
-    let bytes = bytes_of(path, FILE_LIMIT)?;
+    let bytes = bytes_of(path, limits::FILE)?;
     let source = Source::new(path, &bytes)?;
     let file: DesignFile = source.parse()?;
     let (settle, finish) = file.finish.read(&source, file.weave.is_some())?;
@@ -155,10 +154,10 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let weave = match (&file.weave, &file.knit, &file.warp_knit) {
         (Some(weave), None, None) => weave,
         (None, Some(table), None) => {
-            return Ok(knit::read(&source, &file, table, &yarns)?.finished(settle, finish));
+            return Ok(knit::read(&source, &file, table, &yarns)?.finished(settle, finish, stretch));
         }
         (None, None, Some(table)) => {
-            return Ok(warp_knit::read(&source, &file, table, &yarns)?.finished(settle, finish));
+            return Ok(warp_knit::read(&source, &file, table, &yarns)?.finished(settle, finish, stretch));
         }
         _ => {
             let keys = "[weave], [knit] and [warp_knit]";
@@ -166,15 +165,16 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
         }
     };
     let mut warnings = Vec::new();
-    let drawdown = match (&weave.notation, &weave.image, &weave.wif) {
-        (Some(notation), None, None) => weave::from_notation(&source, weave, notation)?,
-        (None, Some(image), None) => weave::from_image(&source, weave, image, &mut warnings)?,
-        (None, None, Some(wif)) => {
+    let drawdown = match (&weave.notation, &weave.drawdown, &weave.image, &weave.wif) {
+        (Some(notation), None, None, None) => weave::from_notation(&source, weave, notation)?,
+        (None, Some(rows), None, None) => weave::from_rows(&source, weave, rows)?,
+        (None, None, Some(image), None) => weave::from_image(&source, weave, image, &mut warnings)?,
+        (None, None, None, Some(wif)) => {
             let design = from_wif(&source, &file, weave, wif, &yarns, laid)?;
-            return Ok(design.remarking(unused(&file, rests)).finished(settle, finish).stretched(stretch));
+            return Ok(design.remarking(unused(&file, rests)).finished(settle, finish, stretch));
         }
         _ => {
-            let keys = "weave.notation, weave.image and weave.wif";
+            let keys = "weave.notation, weave.drawdown, weave.image and weave.wif";
             return Err(ReadError::ExactlyOne { file: path.into(), keys });
         }
     };
@@ -183,7 +183,7 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let name = file.name.clone().unwrap_or_else(|| file_name(path));
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
     let design = Design::new(name, Structure::Woven(woven), warnings);
-    let design = design.remarking(unused(&file, rests)).finished(settle, finish).stretched(stretch);
+    let design = design.remarking(unused(&file, rests)).finished(settle, finish, stretch);
     Ok(match &weave.image {
         Some(image) => design.noting(&source.beside(image)),
         None => design,

@@ -33,6 +33,7 @@ pub(super) struct DesignFile {
 #[serde(deny_unknown_fields)]
 pub(super) struct WeaveTable {
     pub(super) notation: Option<Spanned<String>>,
+    pub(super) drawdown: Option<Spanned<String>>,
     pub(super) wif: Option<Spanned<String>>,
     pub(super) image: Option<Spanned<String>>,
     pub(super) rows: Option<Spanned<RowOrder>>,

@@ -6,16 +6,11 @@ use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::{COTTON_DENSITY, FLATNESS_MAX, FLATNESS_MIN, Thread};
 use toml::Spanned;
 
+use super::limits::{LENGTH_MM, TEX, TWIST_PER_M};
 use super::schema::{SectionSpec, Source, ThreadSet, YarnSpec, real};
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
 use crate::read::memory::room;
-
-/// Thinnest and thickest diameter, and narrowest and widest spacing, that a design file may ask for, mm.
-const LENGTH_MM: (f64, f64) = (1e-3, 1e3);
-
-/// Finest and coarsest yarn, tex: a single filament, and a rope.
-const TEX: (f64, f64) = (1e-3, 1e7);
 
 /// Coarsest and finest yarn by the English cotton count, hanks of 840 yards to the pound.
 const COTTON_COUNT: (f64, f64) = (0.01, 10_000.0);
@@ -25,9 +20,6 @@ const DENSITY: (f64, f64) = (0.05, 20.0);
 
 /// Limpest and stiffest yarn, in the stiffness of cotton.
 const STIFFNESS: (f64, f64) = (0.01, 100.0);
-
-/// Hardest twist, turns per metre either way.
-const TWIST_PER_M: f64 = 1e5;
 
 /// The most yarns in turn of a knit.
 const TURN_MAX: usize = 100_000;
@@ -52,7 +44,7 @@ impl YarnTable {
                 (Some(_), Some(count)) => {
                     return Err(source.bad(&field("cotton_count"), count, "it or tex, not both"));
                 }
-                (Some(tex), None) => Some(source.number(&field("tex"), tex, TEX.0, TEX.1)?),
+                (Some(tex), None) => Some(source.number(&field("tex"), tex, TEX[0], TEX[1])?),
                 (None, Some(count)) => {
                     let count =
                         source.number(&field("cotton_count"), count, COTTON_COUNT.0, COTTON_COUNT.1)?;
@@ -67,7 +59,7 @@ impl YarnTable {
             let density = density.transpose()?.unwrap_or(COTTON_DENSITY);
             let diameter_mm = match (&spec.diameter_mm, tex) {
                 (Some(diameter), _) => {
-                    source.number(&field("diameter_mm"), diameter, LENGTH_MM.0, LENGTH_MM.1)?
+                    source.number(&field("diameter_mm"), diameter, LENGTH_MM[0], LENGTH_MM[1])?
                 }
                 (None, Some(tex)) => texere_fabric::diameter_mm(tex, density),
                 (None, None) => {
@@ -132,7 +124,7 @@ impl YarnTable {
         spec: &ThreadSet,
         count: usize,
     ) -> Result<Vec<Thread>, ReadError> {
-        let (low, high) = LENGTH_MM;
+        let [low, high] = LENGTH_MM;
         let spacing = |key: &str, per: &Spanned<f64>, mm: f64| {
             let per = source.number(&format!("{set}.{key}"), per, mm / high, mm / low)?;
             Ok::<_, ReadError>(vec![mm / per])
@@ -236,7 +228,7 @@ impl YarnTable {
 /// One spacing for all threads, or a list of them.
 fn spacings(source: &Source<'_>, field: &str, value: &Spanned<toml::Value>) -> Result<Vec<f64>, ReadError> {
     let expected = "a number of mm, or a list of them such as [0.9, 0.3]";
-    let (low, high) = LENGTH_MM;
+    let [low, high] = LENGTH_MM;
     let Some(list) = value.as_ref().as_array() else {
         return Ok(vec![source.number(field, &source.float(field, value, expected)?, low, high)?]);
     };

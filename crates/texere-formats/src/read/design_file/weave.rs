@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::schema::{Source, WeaveTable};
 use crate::read::ReadError;
-use crate::read::error::{first_few, named};
+use crate::read::error::{first_few, named, shown};
 use crate::read::point_paper::PointPaper;
 
 /// One weave over the whole cloth.
@@ -27,6 +27,41 @@ pub(super) fn from_notation(
     let (ends, picks) = (source.count("weave.ends", ends)?, source.count("weave.picks", picks)?);
     let weave = source.weave("weave.notation", notation)?;
     weave.drawdown(ends, picks).map_err(|error| source.fabric(error))
+}
+
+/// A drawdown in rows of digits, repeated over the whole cloth.
+pub(super) fn from_rows(
+    source: &Source<'_>,
+    table: &WeaveTable,
+    text: &Spanned<String>,
+) -> Result<Drawdown, ReadError> {
+    without_image(source, table)?;
+    let field = "weave.drawdown";
+    let rows: Vec<_> = text.as_ref().lines().map(str::trim).filter(|row| !row.is_empty()).collect();
+    let width = rows.first().map_or(0, |row| row.len());
+    if width == 0 {
+        return Err(source.bad(field, text, "a row of 1 and 0 for each pick"));
+    }
+    for (row, number) in rows.iter().zip(1..) {
+        let odd = |expected: String| {
+            let place = source.place(&format!("{field}, row {number} from the top,"), text.span());
+            ReadError::BadValue { place, value: shown(row), expected }
+        };
+        if !row.bytes().all(|digit| matches!(digit, b'0' | b'1')) {
+            return Err(odd("1 where the warp is up, 0 where it is not".into()));
+        }
+        if row.len() != width {
+            return Err(odd(format!("{width} digits, as in the row on top")));
+        }
+    }
+    let size = |field, given: &Option<Spanned<i64>>, own| {
+        given.as_ref().map_or(Ok(own), |count| source.count(field, count))
+    };
+    let (ends, picks) =
+        (size("weave.ends", &table.ends, width)?, size("weave.picks", &table.picks, rows.len())?);
+    // The last pick is the row on top.
+    let up = |end: usize, pick: usize| rows[rows.len() - 1 - pick].as_bytes()[end] == b'1';
+    Drawdown::repeating(ends, picks, (width, rows.len()), up).map_err(|error| source.fabric(error))
 }
 
 /// Refuses keys that say something of an image.

@@ -26,8 +26,9 @@ pub(super) struct Ini<'a> {
     sections: HashMap<Cow<'a, str>, Section<'a>>,
 }
 
-/// The sections that a cloth is made of. Others may be as large as they like: nothing of them is kept.
-const READ: [&str; 16] = [
+/// The sections that a cloth is made of, and who wrote them. Others may be as large as they like: nothing of them is kept.
+const READ: [&str; 17] = [
+    "wif",
     "text",
     "weaving",
     "warp",

@@ -8,7 +8,8 @@
 //! for more treadles, it has those too, with a warning; what then lifts a shaft or presses a treadle beyond them is
 //! refused. Without a declaration the loom has as many as the file uses.
 //!
-//! A thickness that leaves threads no room to cross is taken for how wide they are drawn: see [`threads::roomy`].
+//! A thickness that leaves threads no room to cross is taken for how wide they are drawn, unless we have written it: see
+//! [`threads::roomy`].
 
 mod colors;
 mod ini;
@@ -24,13 +25,18 @@ use super::ReadError;
 use super::file::{bytes_of, file_name};
 use super::threads::only_used;
 use ini::Ini;
-use numbers::{LOOM_LIMIT, integer, lists};
+pub(crate) use numbers::LOOM_LIMIT;
+use numbers::{integer, lists};
+pub(crate) use threads::{LENGTH_MM, UNITS_MM};
 
 /// Most threads of a warp or weft.
 const THREAD_LIMIT: u32 = 1_000_000;
 
 /// The largest WIF file that is read: a lift plan of 10,000 picks by 5,000 hooks takes half as much.
-const FILE_LIMIT: u64 = 1 << 28;
+pub(crate) const FILE_LIMIT: u64 = 1 << 28;
+
+/// The program that drafts of our own name as their source: in these a thickness is the yarn's, however close threads lie.
+pub(crate) const PROGRAM: &str = "texere";
 
 /// A WIF file, read.
 #[derive(Debug)]

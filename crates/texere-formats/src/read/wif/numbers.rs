@@ -6,7 +6,7 @@ use crate::read::memory::filled;
 use crate::read::{Place, ReadError};
 
 /// Most shafts or treadles of a loom: enough for a Jacquard machine with a hook for each end.
-pub(super) const LOOM_LIMIT: u32 = 100_000;
+pub(crate) const LOOM_LIMIT: u32 = 100_000;
 
 /// Where an entry stands, as WIF writes it: `[WARP COLORS] 3`.
 pub(super) fn place(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Place {

@@ -3,6 +3,7 @@
 use texere_core::{Material, Section};
 use texere_fabric::{Drawdown, FabricError, Thread, Woven};
 
+use super::PROGRAM;
 use super::colors::{NO_COLOR, Palette};
 use super::ini::Ini;
 use super::numbers::{bad, length, numbered};
@@ -13,7 +14,11 @@ use crate::read::memory::{filled, room};
 const DEFAULT_SPACING_MM: f64 = 1.0;
 
 /// The least and the widest spacing or thickness that is taken, mm: as in a design file.
-const LENGTH_MM: [f64; 2] = [1e-3, 1e3];
+pub(crate) const LENGTH_MM: [f64; 2] = [1e-3, 1e3];
+
+/// The units of the standard, in mm. A decipoint is a tenth of a point, of which 72 make an inch.
+pub(crate) const UNITS_MM: [(&str, f64); 3] =
+    [("Centimeters", 10.0), ("Inches", 25.4), ("Decipoints", 25.4 / 720.0)];
 
 /// How much room threads get to cross where the file leaves it to us, in least pitches: what half the spacing is in a cloth
 /// of threads alike, and what keeps them clear beside gaps of up to twelve times their pitch, tested.
@@ -54,11 +59,13 @@ pub(super) fn read(
         }
     }
     let diameter = warp_pitch.unwrap_or(fallback).min(weft_pitch.unwrap_or(fallback)) / 2.0;
-    let drawn = [&warp, &weft].map(Set::is_drawn);
+    let ours = ini.get("wif", "source program").is_some_and(|program| program.value == PROGRAM);
+    let drawn = [&warp, &weft].map(|set| !ours && set.is_drawn());
     let missing = [&warp, &weft].map(|set| mean(&set.thickness_mm).is_none());
-    let threads =
-        |name: &str, set: Set, warnings: &mut Vec<String>| set.threads(name, fallback, diameter, warnings);
-    let threads = [threads("WARP", warp, warnings)?, threads("WEFT", weft, warnings)?];
+    let threads = [
+        warp.threads("WARP", drawn[0], fallback, diameter, warnings)?,
+        weft.threads("WEFT", drawn[1], fallback, diameter, warnings)?,
+    ];
     Ok((threads, drawn == [false; 2] && missing != [true; 2]))
 }
 
@@ -159,16 +166,16 @@ impl Set {
                 .is_some_and(|ratio| ratio >= 1.0 - ALIKE)
     }
 
-    /// The threads, with `spacing` and `diameter` where the file gives none.
+    /// The threads, with `spacing` and `diameter` where the file gives none. Where thicknesses are `drawn`, they say nothing.
     fn threads(
         self,
         name: &str,
+        drawn: bool,
         spacing: f64,
         diameter: f64,
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Thread>, ReadError> {
         let count = self.material.len();
-        let drawn = self.is_drawn();
         let thickness_mm =
             if drawn { filled("thicknesses of threads", count, None)? } else { self.thickness_mm };
         let thin = thickness_mm.iter().filter(|thickness| thickness.is_none()).count();
@@ -205,18 +212,17 @@ impl Set {
 
 /// The unit of a section's lengths in mm.
 fn unit_mm(ini: &Ini<'_>, section: &str, warnings: &mut Vec<String>) -> Result<f64, ReadError> {
-    /// A decipoint is a tenth of a point, of which 72 make an inch.
-    const DECIPOINT_MM: f64 = 25.4 / 720.0;
     let Some(entry) = ini.get(section, "units") else {
         if ini.get(section, "spacing").is_some() || ini.get(section, "thickness").is_some() {
             warnings.push(format!("[{}] has no Units; centimeters are taken", section.to_uppercase()));
         }
         return Ok(10.0);
     };
+    let [(_, centimeters), (_, inches), (_, decipoints)] = UNITS_MM;
     match entry.value.to_lowercase().as_str() {
-        "centimeters" | "centimetres" | "centimeter" | "cm" => Ok(10.0),
-        "inches" | "inch" | "in" => Ok(25.4),
-        "decipoints" | "decipoint" => Ok(DECIPOINT_MM),
+        "centimeters" | "centimetres" | "centimeter" | "cm" => Ok(centimeters),
+        "inches" | "inch" | "in" => Ok(inches),
+        "decipoints" | "decipoint" => Ok(decipoints),
         "millimeters" | "millimetres" | "millimeter" | "mm" => Ok(1.0),
         _ => Err(bad(ini, section, "units", entry, "Decipoints, Inches or Centimeters")),
     }

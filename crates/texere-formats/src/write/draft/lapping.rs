@@ -9,6 +9,8 @@
 //! A diagram for each bar has one of its guides, or all where the bar is a Jacquard bar; the one on the right has all guides of all bars. A
 //! guide passes behind the needles between two dots, goes round a dot above it, and moves on to the next course.
 
+use std::io::Write;
+
 use texere_fabric::warp::{Lap, LapKind, WarpKnitted};
 
 use super::super::picture::png;
@@ -60,6 +62,22 @@ pub fn warp_draft(
     output: impl Into<Output>,
 ) -> Result<[u32; 2], WriteError> {
     let output = png(output.into())?;
+    drawn(cloth, side, |sheet| sheet.save(output))
+}
+
+/// Draws a warp knit's lapping diagram to `out`: the bytes that [`warp_draft`] writes to a file. Gives the picture's width and height in pixels.
+///
+/// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] where `out` refuses.
+pub fn warp_draft_to(cloth: &WarpKnitted, side: Side, out: impl Write) -> Result<[u32; 2], WriteError> {
+    drawn(cloth, side, |sheet| sheet.save_to(out))
+}
+
+/// Draws a knit on a sheet, and saves it as `save` does.
+fn drawn(
+    cloth: &WarpKnitted,
+    side: Side,
+    save: impl FnOnce(&Sheet<'_>) -> Result<[u32; 2], WriteError>,
+) -> Result<[u32; 2], WriteError> {
     let drawing = Drawing::new(cloth, side);
     let sheet = drawing.sheet(side);
     let [width, height] = sheet.size;
@@ -67,7 +85,7 @@ pub fn warp_draft(
         let [wales, courses] = drawing.size.map(|side| side as usize);
         return Err(WriteError::ChartTooLarge { wales, courses, side: SIDE_MAX, squares: wales * courses });
     }
-    sheet.save(output)
+    save(&sheet)
 }
 
 /// A line for each bar of a warp knit, the front one first: its chain, as chains are written.

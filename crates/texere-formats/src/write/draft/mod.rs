@@ -17,12 +17,14 @@ mod knit;
 mod lapping;
 mod sheet;
 
+use std::io::Write;
+
 use texere_fabric::{Draft, Shedding, Thread, Woven};
 
 use super::picture::png;
 use super::{Output, WriteError};
-pub use knit::{NEEDLES_MAX, knit_draft, knit_rows};
-pub use lapping::{warp_draft, warp_rows};
+pub use knit::{NEEDLES_MAX, knit_draft, knit_draft_to, knit_rows};
+pub use lapping::{warp_draft, warp_draft_to, warp_rows};
 use sheet::{Block, INK, PAPER, Rgb, Sheet};
 
 /// The most shafts, and the most treadles, that are drawn: more than any loom with treadles or a dobby has.
@@ -75,6 +77,28 @@ pub fn draft(
     output: impl Into<Output>,
 ) -> Result<[u32; 2], WriteError> {
     let output = png(output.into())?;
+    drawn(cloth, draft, side, |sheet| sheet.save(output))
+}
+
+/// Draws a cloth to `out`: the bytes that [`draft`](fn@draft) writes to a file. Gives the picture's width and height in pixels.
+///
+/// **Errors**: [`WriteError::DraftTooLarge`], [`WriteError::Writer`] where `out` refuses.
+pub fn draft_to(
+    cloth: &Woven,
+    draft: Option<&Draft>,
+    side: Side,
+    out: impl Write,
+) -> Result<[u32; 2], WriteError> {
+    drawn(cloth, draft, side, |sheet| sheet.save_to(out))
+}
+
+/// Draws a cloth on a sheet, and saves it as `save` does.
+fn drawn(
+    cloth: &Woven,
+    draft: Option<&Draft>,
+    side: Side,
+    save: impl FnOnce(&Sheet<'_>) -> Result<[u32; 2], WriteError>,
+) -> Result<[u32; 2], WriteError> {
     let loom = draft.filter(|_| side == Side::Face).map(Loom::new).filter(Loom::fits);
     let sheet = lay_out(cloth, loom.as_ref(), side);
     let [width, height] = sheet.size;
@@ -82,7 +106,7 @@ pub fn draft(
         let (ends, picks) = (cloth.drawdown().ends(), cloth.drawdown().picks());
         return Err(WriteError::DraftTooLarge { ends, picks, width, height, limit: SIDE_MAX });
     }
-    sheet.save(output)
+    save(&sheet)
 }
 
 /// A draft, with the number of shafts and treadles that it really uses.

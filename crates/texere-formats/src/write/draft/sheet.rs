@@ -100,11 +100,24 @@ impl<'a> Sheet<'a> {
     ///
     /// **Errors**: [`WriteError::Spared`], [`WriteError::Io`].
     pub(super) fn save(&self, output: Output) -> Result<[u32; 2], WriteError> {
-        let mut target = Target::create(output)?;
-        encoder_room().map_err(|source| target.failed(source))?;
-        self.write(&mut target).map_err(|error| target.failed(error.into()))?;
+        let target = self.encoded(Target::create(output)?)?;
         target.commit()?;
         Ok(self.size.map(|side| side as u32))
+    }
+
+    /// Writes the sheet to `out` as PNG. Gives its width and height in pixels.
+    ///
+    /// **Errors**: [`WriteError::Writer`].
+    pub(super) fn save_to(&self, out: impl Write) -> Result<[u32; 2], WriteError> {
+        let target = self.encoded(Target::straight(out))?;
+        target.done()?;
+        Ok(self.size.map(|side| side as u32))
+    }
+
+    fn encoded<W: Write>(&self, mut target: Target<W>) -> Result<Target<W>, WriteError> {
+        encoder_room().map_err(|source| target.failed(source))?;
+        self.write(&mut target).map_err(|error| target.failed(error.into()))?;
+        Ok(target)
     }
 
     fn write(&self, out: impl Write) -> Result<(), png::EncodingError> {

@@ -67,6 +67,8 @@ impl Document {
                 material: yarns[draw.yarn as usize].material,
             });
         }
+        // A region may have nothing of a yarn, and glTF has no mesh without triangles.
+        meshes.retain(|mesh| !mesh.primitives.is_empty());
         let views = buffer_views(plan.counts().indices * INDEX_BYTES, vertices * VERTEX_BYTES);
         let gltf = Gltf {
             asset: Asset { version: "2.0", generator: concat!("texere ", env!("CARGO_PKG_VERSION")) },

@@ -59,7 +59,7 @@ impl<W: Write + Seek> GlbWriter<W> {
     }
 }
 
-impl<W: Write + Seek + std::fmt::Debug> MeshWriter<W> for GlbWriter<W> {
+impl<W: Write + Seek> MeshWriter<W> for GlbWriter<W> {
     fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError> {
         self.document.include(chunk.first_vertex() + u64::from(first), vertices);
         self.target.write_words(bytemuck::cast_slice(vertices))

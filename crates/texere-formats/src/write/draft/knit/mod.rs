@@ -7,6 +7,8 @@ mod grid;
 mod needles;
 mod symbols;
 
+use std::io::Write;
+
 use texere_fabric::weft::Knitted;
 
 use super::super::picture::png;
@@ -52,6 +54,22 @@ const DARK: u32 = 300;
 /// ```
 pub fn knit_draft(cloth: &Knitted, side: Side, output: impl Into<Output>) -> Result<[u32; 2], WriteError> {
     let output = png(output.into())?;
+    drawn(cloth, side, |sheet| sheet.save(output))
+}
+
+/// Draws a knit's stitch chart to `out`: the bytes that [`knit_draft`] writes to a file. Gives the picture's width and height in pixels.
+///
+/// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] where `out` refuses.
+pub fn knit_draft_to(cloth: &Knitted, side: Side, out: impl Write) -> Result<[u32; 2], WriteError> {
+    drawn(cloth, side, |sheet| sheet.save_to(out))
+}
+
+/// Draws a knit on a sheet, and saves it as `save` does.
+fn drawn(
+    cloth: &Knitted,
+    side: Side,
+    save: impl FnOnce(&Sheet<'_>) -> Result<[u32; 2], WriteError>,
+) -> Result<[u32; 2], WriteError> {
     let (size, left) = sized(cloth)?;
     let grid = Grid::new(cloth.stitches());
     let small = size[0] <= NEEDLES_MAX && side == Side::Face;
@@ -61,7 +79,7 @@ pub fn knit_draft(cloth: &Knitted, side: Side, output: impl Into<Output>) -> Res
     if width.max(height) > SIDE_MAX {
         return Err(too_large(size));
     }
-    sheet.save(output)
+    save(&sheet)
 }
 
 /// A row of letters for each course of a knit's stitch chart, the last course first, with those of charts in design files: `.` where

@@ -1,0 +1,137 @@
+//! Yarns moved, put together and taken apart.
+
+use crate::{ControlPoint, Layout, Material, Section, Yarn, YarnError, Yarns};
+
+/// Where a cloth goes: it is scaled, then turned, then moved.
+///
+/// It is turned in its own plane alone. Flattened yarns lie level, and would not if cloth were tilted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// Turn about z, from x towards y, rad.
+    pub turn: f64,
+    /// How many times as large it becomes, above 0.
+    pub scale: f32,
+    /// Where its origin goes, mm.
+    pub at: [f32; 3],
+}
+
+impl Default for Placement {
+    /// Where it is.
+    fn default() -> Self {
+        Self { turn: 0.0, scale: 1.0, at: [0.0; 3] }
+    }
+}
+
+impl Yarns {
+    /// The same yarns in another place. Sizes grow with the scale, and twist becomes slower, so that the mesh is the same but for the
+    /// placement.
+    ///
+    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`], where yarns leave the limits of size, twist and place; a scale or a turn
+    /// that is none is found so, too.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Placement, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
+    /// # let yarns = yarns.build()?;
+    /// // A yarn of radius 0.125 mm from the origin to (2, 0, 0), twice as large and along y.
+    /// let turn = std::f64::consts::FRAC_PI_2;
+    /// let placed = yarns.placed(&Placement { turn, scale: 2.0, at: [5.0, 0.0, 0.0] })?;
+    /// let end = placed.points()[2];
+    /// assert_eq!((end.x, end.y, end.half_width()), (5.0, 4.0, 0.25));
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    pub fn placed(&self, placement: &Placement) -> Result<Self, YarnError> {
+        let Placement { turn, scale, at } = *placement;
+        let ((sin, cos), scale_exact) = (turn.sin_cos(), f64::from(scale));
+        let place = |point: &ControlPoint| {
+            let [x, y, z] = [point.x, point.y, point.z].map(|at| f64::from(at) * scale_exact);
+            let turned = [cos * x - sin * y, sin * x + cos * y, z];
+            let [x, y, z] = [0, 1, 2].map(|axis| (turned[axis] + f64::from(at[axis])) as f32);
+            let (half_width, half_height) = (point.half_width() * scale, point.half_height() * scale);
+            ControlPoint { x, y, z, ..*point }.flattened(half_width, half_height)
+        };
+        let layout = self.layout();
+        // Untwisted yarns stay so at any scale.
+        let twist = |twist: f32| if twist == 0.0 { 0.0 } else { twist / scale };
+        let yarns = layout.yarns().iter().map(|yarn| Yarn { twist: twist(yarn.twist), ..*yarn }).collect();
+        let layout = Layout::new(yarns, layout.offsets().to_vec(), layout.sections().to_vec())?;
+        let placed = Self::new(layout, self.materials().to_vec(), self.points().iter().map(place).collect())?;
+        placed.with_sources_of([self])
+    }
+
+    /// All yarns of several cloths, one after the other. Materials and sections that are equal are kept once; sources are kept where all
+    /// cloths have some.
+    ///
+    /// **Errors**: [`YarnError::NoYarns`] where there is no cloth.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Placement, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
+    /// # let yarns = yarns.build()?;
+    /// let beside = yarns.placed(&Placement { at: [0.0, 1.0, 0.0], ..Placement::default() })?;
+    /// let both = Yarns::merged([&yarns, &beside])?;
+    /// assert_eq!((both.layout().yarns().len(), both.materials().len()), (2, 1));
+    /// assert_eq!(both.only([1])?.points(), beside.points());
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    pub fn merged<'a>(cloths: impl IntoIterator<Item = &'a Self>) -> Result<Self, YarnError> {
+        let cloths: Vec<_> = cloths.into_iter().collect();
+        let (mut materials, mut sections) = (Vec::<Material>::new(), Vec::<Section>::new());
+        let (mut yarns, mut offsets, mut points) = (Vec::new(), vec![0], Vec::new());
+        for cloth in &cloths {
+            let layout = cloth.layout();
+            let of_material: Vec<_> =
+                cloth.materials().iter().map(|material| number_of(&mut materials, material)).collect();
+            let of_section: Vec<_> =
+                layout.sections().iter().map(|section| number_of(&mut sections, section)).collect();
+            yarns.extend(layout.yarns().iter().map(|yarn| Yarn {
+                material: of_material[yarn.material as usize],
+                section: of_section[yarn.section as usize],
+                ..*yarn
+            }));
+            let before = points.len() as u64;
+            offsets.extend(layout.offsets()[1..].iter().map(|offset| before + offset));
+            points.extend_from_slice(cloth.points());
+        }
+        Self::new(Layout::new(yarns, offsets, sections)?, materials, points)?.with_sources_of(cloths)
+    }
+
+    /// Some of the yarns, in the order in which they are named. Materials and sections keep their numbers.
+    ///
+    /// **Errors**: [`YarnError::UnknownYarn`], and [`YarnError::NoYarns`] where none is named.
+    pub fn only(&self, yarns: impl IntoIterator<Item = usize>) -> Result<Self, YarnError> {
+        let (mut table, mut offsets) = (Vec::new(), vec![0]);
+        let (mut points, mut sources) = (Vec::new(), Vec::new());
+        for yarn in yarns {
+            let all = self.layout().yarns();
+            let range = self.range(yarn).ok_or(YarnError::UnknownYarn { yarn, yarns: all.len() })?;
+            table.push(all[yarn]);
+            points.extend_from_slice(&self.points()[range.clone()]);
+            offsets.push(points.len() as u64);
+            sources.extend_from_slice(self.sources().map_or(&[], |sources| &sources[range]));
+        }
+        let layout = Layout::new(table, offsets, self.layout().sections().to_vec())?;
+        let only = Self::new(layout, self.materials().to_vec(), points)?;
+        if self.sources().is_some() { only.with_sources(sources) } else { Ok(only) }
+    }
+
+    /// The sources of several cloths' points, one after the other, where all have some.
+    fn with_sources_of<'a>(self, cloths: impl IntoIterator<Item = &'a Self>) -> Result<Self, YarnError> {
+        let sources: Option<Vec<_>> = cloths.into_iter().map(Self::sources).collect();
+        match sources {
+            Some(sources) => self.with_sources(sources.concat()),
+            None => Ok(self),
+        }
+    }
+}
+
+/// The number of `item` among `items`, which it joins where it is new.
+fn number_of<T: Clone + PartialEq>(items: &mut Vec<T>, item: &T) -> u32 {
+    let number = items.iter().position(|known| known == item).unwrap_or_else(|| {
+        items.push(item.clone());
+        items.len() - 1
+    });
+    number as u32
+}

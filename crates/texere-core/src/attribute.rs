@@ -1,0 +1,114 @@
+//! What a shader or a texture asks of a vertex beside where it lies, and lengths along yarns.
+
+use std::iter::Sum;
+use std::ops::Add;
+
+use bytemuck::{Pod, Zeroable};
+
+/// What a vertex is, for shaders and textures: there is one for each [`Vertex`](crate::Vertex) of a chunk, in the same order.
+///
+/// **Shape**: six 4-byte values, 24 bytes. **Units**: radians and mm.
+///
+/// Vertices of a ring are not repeated where its angle begins again: between the last corner and the first the angle falls back to 0.
+/// A shader that draws a texture there asks which corner it has, or takes sine and cosine of the angle along.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct Attribute {
+    /// The yarn, from 0 among all.
+    pub yarn: u32,
+    /// The way round the section, from its first corner: corner k of n has 2πk/n, rad. It turns with the yarn's twist.
+    pub angle: f32,
+    /// The length of the yarn from its start to the vertex's ring, mm.
+    pub along: f32,
+    /// The unit tangent of the yarn there.
+    pub tangent: [f32; 3],
+}
+
+const _: () = assert!(size_of::<Attribute>() == 24 && std::mem::offset_of!(Attribute, tangent) == 12);
+
+/// The angle of a corner of a section of so many, rad.
+///
+/// ```
+/// assert_eq!(texere_core::corner_angle(2, 8), std::f32::consts::FRAC_PI_2);
+/// ```
+#[must_use]
+#[inline]
+pub fn corner_angle(corner: u32, sides: u32) -> f32 {
+    corner as f32 * (std::f32::consts::TAU / sides as f32)
+}
+
+/// A length along a yarn: whole steps of 2⁻³² mm, so that a sum has the same bits in whatever order it is made. It holds 4,294 km;
+/// what is longer begins again at 0.
+///
+/// ```
+/// use texere_core::ArcLength;
+/// let quarter = ArcLength::from_mm(0.25);
+/// assert_eq!([quarter; 4].into_iter().sum::<ArcLength>(), ArcLength::from_mm(1.0));
+/// assert_eq!((quarter + ArcLength::from_mm(3.0)).mm(), 3.25);
+/// ```
+#[repr(transparent)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Pod, Zeroable)]
+pub struct ArcLength(pub u64);
+
+impl ArcLength {
+    /// No length at all.
+    pub const ZERO: Self = Self(0);
+
+    /// Steps in a millimetre.
+    pub const STEPS: f32 = 4_294_967_296.0;
+
+    /// The most whole millimetres: the greatest `f32` below 2³².
+    pub const MM_MAX: f32 = 4_294_967_040.0;
+
+    /// A length in mm, rounded down to a step. What is no length, below 0 or not a number, is none.
+    #[must_use]
+    #[inline]
+    pub fn from_mm(mm: f32) -> Self {
+        let mm = mm.max(0.0);
+        let whole = mm.floor();
+        let part = ((mm - whole) * Self::STEPS) as u32;
+        Self((whole.min(Self::MM_MAX) as u64) << 32 | u64::from(part))
+    }
+
+    /// The length in mm.
+    #[must_use]
+    #[inline]
+    pub fn mm(self) -> f32 {
+        (self.0 >> 32) as f32 + (self.0 as u32) as f32 / Self::STEPS
+    }
+}
+
+impl Add for ArcLength {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.wrapping_add(other.0))
+    }
+}
+
+impl Sum for ArcLength {
+    fn sum<I: Iterator<Item = Self>>(lengths: I) -> Self {
+        lengths.fold(Self::ZERO, Add::add)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_keep_their_digits_and_odd_ones_do_no_harm() {
+        for mm in [0.0, 1e-9, 0.1, 0.999_999_94, 1.0, 37.25, 16_777_216.0, 4e9] {
+            let back = f64::from(ArcLength::from_mm(mm).mm());
+            assert!((back - f64::from(mm)).abs() <= f64::from(mm) * 1e-7 + 1e-9, "{mm} {back}");
+        }
+        for odd in [-1.0, -0.5, f32::NAN, f32::NEG_INFINITY] {
+            assert_eq!(ArcLength::from_mm(odd), ArcLength::ZERO, "{odd}");
+        }
+        assert_eq!(ArcLength::from_mm(f32::INFINITY).0 >> 32, 4_294_967_040);
+        // A million steps of a tenth of a micrometre: f32 would be off by a hundredth.
+        let sum: ArcLength = (0..1_000_000).map(|_| ArcLength::from_mm(1e-4)).sum();
+        assert!((sum.mm() - 100.0).abs() < 1e-3, "{}", sum.mm());
+    }
+}

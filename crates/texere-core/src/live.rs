@@ -1,0 +1,386 @@
+//! A whole mesh that stays on its device while yarns are edited.
+
+use std::collections::BTreeMap;
+use std::ops::{ControlFlow, Range};
+use std::sync::Arc;
+
+use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
+use crate::yarns::check_points;
+use crate::{
+    Backend, BackendError, Chunk, ControlPoint, Limits, MeshPiece, Part, Plan, SessionError, Topology,
+    Traffic, Vertex, Yarn,
+};
+
+/// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and made again.
+///
+/// Unlike a [`Session`](crate::Session), which works chunk by chunk in the memory of two, it keeps the meshes of all chunks. With
+/// [room](Plan::with_room) in the plan a yarn may get more control points, or fewer, and all others stay where they are.
+///
+/// ```
+/// use std::sync::Arc;
+/// use texere_core::{ControlPoint, LiveMesh, NullBackend, Plan, Settings, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # for y in 0..3 {
+/// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));
+/// # }
+/// # let yarns = yarns.build()?;
+/// let device = NullBackend::default(); // any backend
+/// let plan = Plan::with_room(yarns.layout().clone(), Settings::default(), |_| 16)?; // three yarns of three points
+/// let mut live = LiveMesh::new(&device, Arc::new(plan))?;
+/// live.upload(0, yarns.points())?;
+/// live.update()?; // the whole mesh
+///
+/// // Yarn 1 is raised in its middle, and gets a fourth point.
+/// let raised = [(0.0, 0.0), (0.8, 0.2), (1.2, 0.2), (2.0, 0.0)].map(|(x, z)| ControlPoint::new(x, 1.0, z, 0.1));
+/// live.set_yarn(1, *live.plan().yarn(1), &raised)?;
+/// let changes = live.update()?;
+/// assert_eq!(live.plan().rings(1), 7);
+/// assert_eq!(changes[0].vertices.len(), 7 * 6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct LiveMesh<E: Engine + ?Sized = dyn Engine> {
+    plan: Arc<Plan>,
+    chunks: Vec<Chunk>,
+    /// Rings that are to be made again, yarn by yarn.
+    stale: BTreeMap<usize, Range<u32>>,
+    /// Whether attributes are made, too.
+    attributes: bool,
+    traffic: Traffic,
+    engine: Box<E>,
+}
+
+/// What an update has made again in a row: vertices and indices of a chunk, counted from its start.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    /// The chunk, an index into [`LiveMesh::chunks`].
+    pub chunk: usize,
+    /// Its vertices; those of caps, which lie behind all others, are not in it.
+    pub vertices: Range<u32>,
+    /// Its indices, likewise; none but with [`Topology::Indexed`].
+    pub indices: Range<u32>,
+    /// Its caps, an index range of [`Chunk::caps`].
+    pub caps: Range<usize>,
+}
+
+impl LiveMesh {
+    /// Makes room for the whole mesh of `plan` on `device`, in chunks that are cut to the device's limits.
+    ///
+    /// **Errors**: [`SessionError::Backend`] where memory, the device or its schedule does not allow it, and those of [`LiveMesh::with_engine`].
+    pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
+        Self::with_engine(device.engine(plan.clone())?, &device.info().limits, plan)
+    }
+}
+
+impl<E: Engine + ?Sized> LiveMesh<E> {
+    /// The same with an engine that was opened for `plan`, on a device of `limits`. For backends whose engines can do more than the trait
+    /// [`Engine`].
+    ///
+    /// **Errors**: [`SessionError::Region`] for a plan of only a region, [`SessionError::Plan`] where not even one block fits, [`BackendError::OutOfMemory`] where all chunks together do not, and
+    /// [`BackendError::NoEditing`] for an engine that is not [editable](Engine::is_editable).
+    pub fn with_engine(engine: Box<E>, limits: &Limits, plan: Arc<Plan>) -> Result<Self, SessionError> {
+        if !engine.is_editable() {
+            return Err(BackendError::NoEditing.into());
+        }
+        if !plan.is_whole() {
+            return Err(SessionError::Region);
+        }
+        let chunks: Vec<_> = plan.chunks(limits)?.collect();
+        let bytes = |chunk: &Chunk| {
+            u64::from(chunk.vertices()) * size_of::<Vertex>() as u64 + u64::from(chunk.indices()) * 4
+        };
+        let bytes = plan.resident_bytes() + chunks.iter().map(bytes).sum::<u64>();
+        if bytes > limits.memory_bytes {
+            return Err(BackendError::OutOfMemory { what: "the whole mesh", bytes }.into());
+        }
+        let all = (0..plan.layout().yarns().len()).map(|yarn| (yarn, 0..plan.rings(yarn)));
+        Ok(Self {
+            stale: all.collect(),
+            plan,
+            chunks,
+            attributes: false,
+            traffic: Traffic::default(),
+            engine,
+        })
+    }
+
+    /// The plan as it is now.
+    #[must_use]
+    pub const fn plan(&self) -> &Arc<Plan> {
+        &self.plan
+    }
+
+    /// The chunks as they are now. Each has its own memory on the device, in the [slot](Slot) of its index.
+    #[must_use]
+    pub fn chunks(&self) -> &[Chunk] {
+        &self.chunks
+    }
+
+    /// Where a yarn's rings lie: each chunk that holds some, an index into [`LiveMesh::chunks`], with the part of it that they are.
+    ///
+    /// **Panics** past the last yarn.
+    pub fn parts(&self, yarn: usize) -> impl Iterator<Item = (usize, &Part)> {
+        self.chunks_of(yarn).filter_map(move |number| {
+            let parts = self.chunks[number].parts();
+            let at = parts.binary_search_by_key(&yarn, |part| part.yarn as usize).ok()?;
+            Some((number, &parts[at]))
+        })
+    }
+
+    /// The engine that does the work.
+    #[must_use]
+    pub const fn engine(&self) -> &E {
+        &self.engine
+    }
+
+    /// Bytes moved so far.
+    #[must_use]
+    pub const fn traffic(&self) -> Traffic {
+        self.traffic
+    }
+
+    /// Time spent in each stage so far. Waits for all that has been launched.
+    pub fn timings(&mut self) -> StageTimings {
+        self.engine.timings()
+    }
+
+    /// Takes control points, the first of which is number `first` of the fabric as it is now. All rings that they have a part in are made
+    /// again by the next [`LiveMesh::update`].
+    ///
+    /// **Errors**: [`SessionError::UploadRange`] past the last control point, [`SessionError::Yarns`] for a point that is not sound, and what
+    /// the device says.
+    pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
+        let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
+        if end > total {
+            return Err(SessionError::UploadRange { first, end, points: total });
+        }
+        let yarns = self.plan.layout().yarns_of(first..end);
+        for yarn in yarns.clone() {
+            let [_, sent] = self.plan.layout().points_of(yarn, &(first..end));
+            check_points(yarn, &points[sent])?;
+        }
+        for yarn in yarns {
+            let [own, _] = self.plan.layout().points_of(yarn, &(first..end));
+            self.note(yarn, self.rings_of(yarn, &own));
+        }
+        self.traffic.uploaded += self.engine.upload(first, points)?;
+        Ok(())
+    }
+
+    /// Makes yarn number `yarn`, from 0, another one, of other control points, perhaps of more or fewer.
+    ///
+    /// **Errors**: [`SessionError::NoYarn`]; those of [`Plan::edited`]; [`SessionError::Yarns`] for a point that is not sound; and what the device
+    /// says. All but the last leave everything as it was.
+    pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), SessionError> {
+        let yarns = self.plan.layout().yarns().len();
+        if yarn >= yarns {
+            return Err(SessionError::NoYarn { yarn, yarns });
+        }
+        check_points(yarn, points)?;
+        let plan = self.plan.edited(yarn, what, points.len() as u64)?;
+        if *plan.layout() != *self.plan.layout() {
+            let plan = Arc::new(plan);
+            self.engine.replan(plan.clone(), yarn..yarn + 1)?;
+            self.plan = plan;
+            for number in self.chunks_of(yarn) {
+                self.chunks[number] = self.plan.recut(&self.chunks[number]);
+            }
+        }
+        self.note(yarn, 0..self.plan.rings(yarn));
+        self.traffic.uploaded += self.engine.upload(self.plan.layout().offsets()[yarn], points)?;
+        Ok(())
+    }
+
+    /// Makes again what has changed, and says where that lies, chunk by chunk. May return before it is done: what is read or drawn later
+    /// has it.
+    ///
+    /// **Errors**: what the device says. What was to be made again still is.
+    pub fn update(&mut self) -> Result<Vec<Change>, SessionError> {
+        if self.plan.needs_scan() {
+            self.go_through(E::scan)?;
+        }
+        if self.attributes {
+            self.go_through(E::measure)?;
+        }
+        let mut changes = Vec::new();
+        for (number, rows) in self.stale_rows() {
+            let patch = self.plan.patch(&self.chunks[number], &rows);
+            let slot = Slot::new(number as u32);
+            self.engine.load(slot, &patch)?;
+            if self.engine.mesh_reads_rings() {
+                self.engine.trajectory(slot, &patch)?;
+            }
+            self.engine.mesh(slot, &patch)?;
+            if self.attributes {
+                self.engine.attributes(slot, &patch)?;
+            }
+            changes.extend(rows.into_iter().map(|rows| self.change(number, rows)));
+        }
+        self.stale.clear();
+        Ok(changes)
+    }
+
+    /// Makes [attributes](crate::Attribute) beside the mesh from the next update on, which makes all of it again. A yarn that is edited then
+    /// changes as a whole: what follows the edit lies further along.
+    pub fn keep_attributes(&mut self) {
+        if !self.attributes {
+            self.attributes = true;
+            (0..self.plan.layout().yarns().len()).for_each(|yarn| self.note(yarn, 0..self.plan.rings(yarn)));
+        }
+    }
+
+    /// Whether attributes are made beside the mesh.
+    #[must_use]
+    pub const fn keeps_attributes(&self) -> bool {
+        self.attributes
+    }
+
+    /// Waits for the attributes of chunk number `chunk` of [`LiveMesh::chunks`] and lends them piece by piece, as
+    /// [`Session::read_attributes`](crate::Session::read_attributes) does, in the order of the mesh's vertices.
+    ///
+    /// **Errors**: [`SessionError::OutOfOrder`] before [`LiveMesh::keep_attributes`], and those of [`LiveMesh::read_mesh`].
+    pub fn read_attributes(
+        &mut self,
+        chunk: usize,
+        sink: AttributeSink<'_>,
+    ) -> Result<ControlFlow<()>, SessionError> {
+        if !self.attributes {
+            return Err(SessionError::OutOfOrder { call: "read_attributes", needed: "keep_attributes" });
+        }
+        if !self.is_made("read_attributes", chunk)? {
+            return Ok(ControlFlow::Continue(()));
+        }
+        let here = &self.chunks[chunk];
+        let mut bytes = 0;
+        let flow = self.engine.read_attributes(Slot::new(chunk as u32), here, &mut |first, piece| {
+            bytes += size_of_val(piece) as u64;
+            sink(first, piece)
+        });
+        self.count_read(bytes);
+        Ok(flow?)
+    }
+
+    /// Waits for the mesh of chunk number `chunk` of [`LiveMesh::chunks`] and lends it piece by piece, as [`Session::read_mesh`](crate::Session::read_mesh)
+    /// does. What there is only room for is lent, too, and means nothing: [`Chunk::parts`] say where yarns lie.
+    ///
+    /// **Errors**: [`SessionError::OutOfOrder`] before an update that is needed, [`SessionError::NotInFlight`] past the last chunk, and what the
+    /// device says.
+    pub fn read_mesh(&mut self, chunk: usize, sink: MeshSink<'_>) -> Result<ControlFlow<()>, SessionError> {
+        if !self.is_made("read_mesh", chunk)? {
+            return Ok(ControlFlow::Continue(()));
+        }
+        let here = &self.chunks[chunk];
+        let mut bytes = 0;
+        let flow = self.engine.read_mesh(Slot::new(chunk as u32), here, &mut |piece| {
+            bytes += match piece {
+                MeshPiece::Vertices { vertices, .. } => size_of_val(vertices),
+                MeshPiece::Indices { indices, .. } => size_of_val(indices),
+            } as u64;
+            sink(piece)
+        });
+        self.count_read(bytes);
+        Ok(flow?)
+    }
+
+    /// Whether `call` has anything to read of a chunk, in which there may be only room.
+    fn is_made(&self, call: &'static str, chunk: usize) -> Result<bool, SessionError> {
+        let here = self.chunks.get(chunk).ok_or(SessionError::NotInFlight { chunk: chunk as u64 })?;
+        if !self.stale.is_empty() {
+            return Err(SessionError::OutOfOrder { call, needed: "update" });
+        }
+        Ok(!here.parts().is_empty())
+    }
+
+    fn count_read(&mut self, bytes: u64) {
+        if !self.engine.lends_its_own() {
+            self.traffic.read += bytes;
+        }
+    }
+
+    /// The rings that control points `own` of `yarn`, counted from its first, have a part in. A yarn with rolls has all of them: what turns at
+    /// one place turns the rest.
+    fn rings_of(&self, yarn: usize, own: &Range<usize>) -> Range<u32> {
+        let rings = self.plan.rings(yarn);
+        let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
+        let (first, end) = (own.start as u64, own.end as u64);
+        // A point has a part in the two intervals before it and the two behind, the last ring of which is that of a knot.
+        let (from, to) = (first.saturating_sub(2) * per_interval, (end + 1).saturating_mul(per_interval) + 1);
+        if self.attributes || self.plan.needs_scan() || self.plan.yarn(yarn).closed {
+            return 0..rings;
+        }
+        from.min(u64::from(rings)) as u32..to.min(u64::from(rings)) as u32
+    }
+
+    fn note(&mut self, yarn: usize, rings: Range<u32>) {
+        let stale = self.stale.entry(yarn).or_insert(rings.clone());
+        *stale = stale.start.min(rings.start)..stale.end.max(rings.end);
+    }
+
+    /// The chunks that hold some of `yarn`, or have room for some.
+    fn chunks_of(&self, yarn: usize) -> Range<usize> {
+        let blocks = &self.plan.block_offsets()[yarn..yarn + 2];
+        let first = self.chunks.partition_point(|chunk| chunk.block_range().end <= blocks[0]);
+        let end = self.chunks.partition_point(|chunk| chunk.block_range().start < blocks[1]);
+        first..end
+    }
+
+    /// Calls `scan` for all yarns that have changed, a run of neighbours at a time.
+    fn go_through(
+        &mut self,
+        scan: impl Fn(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
+    ) -> Result<(), SessionError> {
+        let stale: Vec<_> = self.stale.keys().copied().collect();
+        for run in stale.chunk_by(|one, next| one + 1 == *next) {
+            let yarns = run[0]..run[run.len() - 1] + 1;
+            let chunks = self.chunks_of(yarns.start).start..self.chunks_of(yarns.end - 1).end;
+            let (plan, cut) = (&self.plan, &self.chunks);
+            let mut patches = chunks.filter_map(|number| {
+                let chunk = &cut[number];
+                let all = 0..u32::MAX;
+                let rows = chunk.rows(yarns.start, all.clone()).start..chunk.rows(yarns.end - 1, all).end;
+                let chunk = (!rows.is_empty()).then(|| plan.patch(chunk, &[rows]))?;
+                Some(ScanChunk { slot: Slot::new(number as u32), chunk, loaded: false })
+            });
+            scan(&mut self.engine, ScanChunks::new(&mut patches, yarns.clone()))?;
+        }
+        Ok(())
+    }
+
+    /// The rows of each chunk that are to be made again.
+    fn stale_rows(&self) -> BTreeMap<usize, Vec<Range<usize>>> {
+        let mut stale = BTreeMap::<usize, Vec<Range<usize>>>::new();
+        for (&yarn, rings) in &self.stale {
+            for number in self.chunks_of(yarn) {
+                let rows = self.chunks[number].rows(yarn, rings.clone());
+                if rows.is_empty() {
+                    continue;
+                }
+                let all = stale.entry(number).or_default();
+                match all.last_mut() {
+                    Some(last) if last.end == rows.start => last.end = rows.end,
+                    _ => all.push(rows),
+                }
+            }
+        }
+        stale
+    }
+
+    fn change(&self, number: usize, rows: Range<usize>) -> Change {
+        let (chunk, sides) = (&self.chunks[number], self.plan.settings().sides);
+        let [first, last] = [&chunk.blocks()[rows.start], &chunk.blocks()[rows.end - 1]];
+        let indexed = self.plan.settings().topology == Topology::Indexed;
+        let indices = if indexed { last.quads * sides * 6 } else { 0 };
+        let before = |yarn: u32| chunk.caps().partition_point(|cap| cap.yarn < yarn);
+        Change {
+            chunk: number,
+            vertices: first.first_vertex..last.first_vertex + last.rings * sides,
+            indices: first.first_index..last.first_index + indices,
+            caps: before(first.yarn)..before(last.yarn + 1),
+        }
+    }
+}
+
+const _: () = {
+    const fn sends<T: Send + ?Sized>() {}
+    sends::<LiveMesh>();
+};

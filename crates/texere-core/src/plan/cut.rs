@@ -1,0 +1,315 @@
+//! How a plan is cut into chunks.
+
+use std::ops::Range;
+
+use super::chunk::{Chunk, TablesId};
+use super::{BLOCK_RINGS, Block, Limits, Plan};
+use crate::{ControlPoint, PlanError, Ring, Topology, Vertex};
+
+/// Windows start at multiples of this many control points: 256 bytes, an offset that every device allows for a binding.
+pub const WINDOW_POINTS: u64 = 16;
+
+/// What a chunk takes, in the units of [`Limits`].
+#[derive(Debug, Clone, Copy, Default)]
+struct Size {
+    blocks: u64,
+    rings: u64,
+    vertices: u64,
+    indices: u64,
+    window: u64,
+}
+
+impl Size {
+    fn buffers(&self) -> [(&'static str, u64); 5] {
+        let bytes = |count: u64, each: usize| count * each as u64;
+        [
+            ("vertices", bytes(self.vertices, size_of::<Vertex>())),
+            ("indices", bytes(self.indices, 4)),
+            ("rings", bytes(self.rings, size_of::<Ring>())),
+            ("the block table", bytes(self.blocks, size_of::<Block>())),
+            ("control points", bytes(self.window, size_of::<ControlPoint>())),
+        ]
+    }
+
+    /// The first limit that is exceeded.
+    fn excess(&self, resident: u64, limits: &Limits) -> Option<PlanError> {
+        let rings = self.rings as u32;
+        // Of an indexed draw the first index is a `u32`, the first vertex an `i32`.
+        let (index_limit, vertex_limit) = (u64::from(u32::MAX), i32::MAX as u64);
+        let counts = [
+            ("blocks", self.blocks, limits.blocks),
+            ("vertices", self.vertices, vertex_limit),
+            ("indices", self.indices, index_limit),
+        ];
+        if let Some((what, needed, limit)) = counts.into_iter().find(|(_, needed, limit)| needed > limit) {
+            return Some(PlanError::BlockOverCount { rings, what, needed, limit });
+        }
+        // Two chunks in flight; the window is part of the resident control points.
+        let each: u64 = self.buffers()[..4].iter().map(|(_, bytes)| bytes).sum();
+        let memory = [("all buffers", resident + 2 * each, limits.memory_bytes)];
+        let bindings = self.buffers().into_iter().map(|(what, bytes)| (what, bytes, limits.binding_bytes));
+        let (what, needed, limit) =
+            memory.into_iter().chain(bindings).find(|(_, needed, limit)| needed > limit)?;
+        Some(PlanError::BlockTooLarge { rings, what, needed, limit })
+    }
+}
+
+impl Plan {
+    /// Cuts the work into chunks that fit `limits`, in order. Two chunks and the control points fit
+    /// `limits.memory_bytes` together.
+    ///
+    /// **Errors**: [`PlanError::BlockTooLarge`] or [`PlanError::BlockOverCount`] when not even one block fits.
+    pub fn chunks(&self, limits: &Limits) -> Result<Chunks<'_>, PlanError> {
+        Chunks::new(self, *limits)
+    }
+}
+
+/// The chunks of a plan, cut as they are asked for.
+#[derive(Debug, Clone)]
+pub struct Chunks<'a> {
+    plan: &'a Plan,
+    limits: Limits,
+    index: u64,
+    next: Cursor,
+    /// What the plan's region is known by; 0 for all of it.
+    region: u64,
+    first_vertex: u64,
+    first_index: u64,
+}
+
+/// A block of a plan: the run that it lies in, its number and its yarn. Past the last run there is none.
+#[derive(Debug, Clone, Copy)]
+struct Cursor {
+    run: usize,
+    block: u64,
+    yarn: usize,
+}
+
+impl<'a> Chunks<'a> {
+    fn of(plan: &'a Plan, limits: Limits) -> Self {
+        let region = if plan.is_whole() { 0 } else { TablesId::next(0..0).edit };
+        let mut chunks = Self {
+            plan,
+            limits,
+            index: 0,
+            next: Cursor { run: 0, block: 0, yarn: 0 },
+            region,
+            first_vertex: 0,
+            first_index: 0,
+        };
+        chunks.next = chunks.run_start(0);
+        chunks
+    }
+
+    pub(super) fn new(plan: &'a Plan, limits: Limits) -> Result<Self, PlanError> {
+        let chunks = Self::of(plan, limits);
+        // Where any block fits, yarns need not be looked at one by one: a session asks for chunks with each scan.
+        if chunks.largest_block().excess(plan.resident_bytes(), &limits).is_none() {
+            return Ok(chunks);
+        }
+        for yarn in 0..plan.layout().yarns().len() {
+            let offsets = plan.block_offsets();
+            // The first, the last and, standing for those between, the second block of the yarn.
+            let (first, end) = (offsets[yarn], offsets[yarn + 1]);
+            for block in [first, (first + 1).min(end - 1), end - 1] {
+                let size = chunks.extended(&Size::default(), None, yarn, block).1;
+                if let Some(excess) = size.excess(plan.resident_bytes(), &limits) {
+                    return Err(excess);
+                }
+            }
+        }
+        Ok(chunks)
+    }
+
+    fn run_start(&self, run: usize) -> Cursor {
+        let block = self.plan.runs().get(run).map_or(0, |run| run.start);
+        Cursor { run, block, yarn: self.plan.yarn_of_block(block) }
+    }
+
+    /// The block after `at`, and whether it lies elsewhere.
+    fn after(&self, at: Cursor) -> (Cursor, bool) {
+        let block = at.block + 1;
+        if block == self.plan.runs()[at.run].end {
+            return (self.run_start(at.run + 1), true);
+        }
+        let yarn = at.yarn + usize::from(block == self.plan.block_offsets()[at.yarn + 1]);
+        (Cursor { block, yarn, ..at }, false)
+    }
+
+    /// No less than any block takes, with both its caps and the ring that it may repeat.
+    fn largest_block(&self) -> Size {
+        let (sides, rings) = (u64::from(self.plan.settings().sides), u64::from(BLOCK_RINGS) + 1);
+        Size {
+            blocks: 2,
+            rings,
+            vertices: (rings + 2) * sides,
+            indices: (rings + 1) * sides * 6,
+            // Each ring in an interval of its own, then the other points that the last one and the step to the next ring read.
+            window: rings + 5 + WINDOW_POINTS,
+        }
+    }
+
+    /// The padded control points that `count` rings of `yarn` from `first` read, and the step to the ring after them.
+    fn points_read(&self, yarn: usize, first: u32, count: u32) -> Range<u64> {
+        let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
+        let start = self.plan.padded_offsets()[yarn];
+        let end = self.plan.padded_offsets()[yarn + 1];
+        // The ring after the last one read falls in interval (first + count) / (K + 1), which reads four points.
+        let last = (u64::from(first) + u64::from(count)) / per_interval + 4;
+        start + self.first_interval(yarn, first)..(start + last).min(end)
+    }
+
+    /// The interval whose points ring `ring` of `yarn` is evaluated from: the last ring of an open yarn is t = 1 of the
+    /// interval before.
+    fn first_interval(&self, yarn: usize, ring: u32) -> u64 {
+        let interval = u64::from(ring) / (u64::from(self.plan.settings().subdivisions) + 1);
+        // Where the yarn may be resized, any ring may become its last.
+        let last = |ring: u32| self.plan.is_roomy() && ring > 0 || ring + 1 == self.plan.rings(yarn);
+        let at_end = !self.plan.yarn(yarn).closed && last(ring);
+        if at_end { interval.saturating_sub(1) } else { interval }
+    }
+
+    /// Caps of a block that there is room for. A yarn that may be resized may end in any of its blocks, but only in one.
+    fn cap_count(&self, yarn: usize, first: u32, goes_on: bool) -> u64 {
+        if self.plan.settings().caps && !self.plan.yarn(yarn).closed {
+            u64::from(first == 0) + u64::from(!goes_on || self.plan.is_roomy())
+        } else {
+            0
+        }
+    }
+
+    /// `size` with one block more: as it is when others follow, and as it is when the chunk ends there, where a ring
+    /// may have to be repeated. `window` is where the chunk's control points start.
+    fn extended(&self, size: &Size, window: Option<u64>, yarn: usize, block: u64) -> (Size, Size) {
+        let (sides, indexed) =
+            (u64::from(self.plan.settings().sides), self.plan.settings().topology == Topology::Indexed);
+        let (first, rings, goes_on) = self.plan.block_rings(yarn, block);
+        let caps = self.cap_count(yarn, first, goes_on);
+        let quads = u64::from(if goes_on { rings } else { rings - 1 });
+        let points = self.points_read(yarn, first, rings + u32::from(goes_on));
+        // Where the window is not known yet, the worst case: it starts up to WINDOW_POINTS - 1 points earlier, to be aligned.
+        let window = window.unwrap_or(points.start.saturating_sub(WINDOW_POINTS - 1));
+        let inner = Size {
+            blocks: size.blocks + 1,
+            rings: size.rings + u64::from(rings),
+            vertices: size.vertices + (u64::from(rings) + caps) * sides,
+            indices: size.indices + if indexed { quads * sides * 6 + caps * (sides - 2) * 3 } else { 0 },
+            window: points.end - window,
+        };
+        let repeat = u64::from(goes_on);
+        let ended = Size {
+            blocks: inner.blocks + repeat,
+            rings: inner.rings + repeat,
+            vertices: inner.vertices + repeat * sides,
+            ..inner
+        };
+        (inner, ended)
+    }
+
+    /// The end of the next chunk: the block that the one after it begins with, and the end of its window.
+    fn cut(&self, window: u64) -> (Cursor, u64) {
+        let (mut size, mut at) = (Size::default(), self.next);
+        let mut cut = (at, window);
+        while at.run < self.plan.runs().len() {
+            let (inner, ended) = self.extended(&size, Some(window), at.yarn, at.block);
+            let (next, ends_run) = self.after(at);
+            size = if ends_run { ended } else { inner };
+            if size.excess(self.plan.resident_bytes(), &self.limits).is_some() {
+                break;
+            }
+            at = next;
+            if ended.excess(self.plan.resident_bytes(), &self.limits).is_none() {
+                cut = (at, window + ended.window);
+            }
+        }
+        cut
+    }
+
+    /// The blocks from the next one on and before `end`.
+    fn runs_to(&self, end: Cursor) -> Vec<Range<u64>> {
+        let runs = (self.next.run..=end.run).filter_map(|run| {
+            let all = self.plan.runs().get(run)?;
+            let start = if run == self.next.run { self.next.block } else { all.start };
+            Some(start..if run == end.run { end.block } else { all.end })
+        });
+        runs.filter(|run| !run.is_empty()).collect()
+    }
+}
+
+impl Iterator for Chunks<'_> {
+    type Item = Chunk;
+
+    fn next(&mut self) -> Option<Chunk> {
+        if self.next.run == self.plan.runs().len() {
+            return None;
+        }
+        let (yarn, block) = (self.next.yarn, self.next.block);
+        let (first_of_first, ..) = self.plan.block_rings(yarn, block);
+        let start = self.plan.padded_offsets()[yarn] + self.first_interval(yarn, first_of_first);
+        let window = start / WINDOW_POINTS * WINDOW_POINTS;
+        let (end, window_end) = self.cut(window);
+        let runs = self.runs_to(end);
+        let blocks = block..runs.last().map_or(block, |run| run.end);
+        let mut chunk = Chunk {
+            plan: self.plan.id(),
+            index: self.index,
+            tables: TablesId { blocks, edit: self.region },
+            window: window..window_end,
+            blocks: Vec::with_capacity(runs.iter().map(|run| (run.end - run.start) as usize + 1).sum()),
+            runs,
+            parts: Vec::new(),
+            caps: Vec::new(),
+            repeats_ring: false,
+            rings: 0,
+            vertices: 0,
+            indices: 0,
+            first_vertex: self.first_vertex,
+            first_index: self.first_index,
+        };
+        self.plan.fill(&mut chunk);
+        self.index += 1;
+        self.next = end;
+        self.first_vertex += u64::from(chunk.vertices);
+        self.first_index += u64::from(chunk.indices);
+        Some(chunk)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Frame, Settings, Yarn, Yarns};
+
+    #[test]
+    fn no_block_takes_more_than_the_largest() {
+        let mut yarns = Yarns::builder();
+        for count in [3, 64, 65, 66, 130, 500] {
+            let points: Vec<_> = (0..count).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
+            yarns.yarn(Yarn::default(), &points);
+            yarns.yarn(Yarn { closed: true, ..Yarn::default() }, &points);
+        }
+        let yarns = yarns.build().unwrap();
+        for (sides, subdivisions, caps) in
+            [(3, 0, true), (3, 0, false), (6, 1, true), (256, 0, true), (5, 7, false)]
+        {
+            let settings =
+                Settings { sides, subdivisions, caps, frame: Frame::Upright, ..Settings::default() };
+            let plan = Plan::new(yarns.layout().clone(), settings).unwrap();
+            let chunks = plan.chunks(&Limits::NONE).unwrap();
+            let largest = chunks.largest_block();
+            for yarn in 0..plan.layout().yarns().len() {
+                for block in plan.block_offsets()[yarn]..plan.block_offsets()[yarn + 1] {
+                    let size = chunks.extended(&Size::default(), None, yarn, block).1;
+                    let pairs = [
+                        (size.blocks, largest.blocks),
+                        (size.rings, largest.rings),
+                        (size.vertices, largest.vertices),
+                        (size.indices, largest.indices),
+                        (size.window, largest.window),
+                    ];
+                    assert!(pairs.iter().all(|(size, largest)| size <= largest), "{size:?} of {largest:?}");
+                }
+            }
+        }
+    }
+}

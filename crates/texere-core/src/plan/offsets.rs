@@ -1,0 +1,62 @@
+//! Where what belongs to each yarn starts, with room for more or without.
+
+use super::Plan;
+use crate::{BLOCK_RINGS, Layout, PlanError, RINGS_MAX, Sampling, YARN_RINGS_MAX};
+
+/// Prefix sums over the yarns: yarns + 1 values each.
+#[derive(Debug)]
+pub(super) struct Offsets {
+    pub(super) padded: Vec<u64>,
+    pub(super) rings: Vec<u64>,
+    pub(super) blocks: Vec<u64>,
+    /// Whether yarns may have more control points than they have.
+    pub(super) roomy: bool,
+}
+
+impl Offsets {
+    /// `room` says how many control points a yarn may have at most, where that is more than it has.
+    pub(super) fn new(
+        layout: &Layout,
+        sampling: &Sampling,
+        room: Option<&dyn Fn(usize) -> u64>,
+    ) -> Result<Self, PlanError> {
+        let mut offsets = Self { padded: vec![0], rings: vec![0], blocks: vec![0], roomy: room.is_some() };
+        let (mut padded, mut rings, mut blocks) = (0, 0, 0);
+        for (index, (yarn, bounds)) in layout.yarns().iter().zip(layout.offsets().windows(2)).enumerate() {
+            let points = (bounds[1] - bounds[0]).max(room.map_or(0, |room| room(index)));
+            // 2^32 points of 2^10 rings fit a u64; more points are too many whatever their rings.
+            let own = if points > YARN_RINGS_MAX { points } else { sampling.rings(points, yarn.closed) };
+            if own > YARN_RINGS_MAX {
+                return Err(PlanError::YarnRings { yarn: index, rings: own, limit: YARN_RINGS_MAX });
+            }
+            padded += points + virtual_points(yarn.closed);
+            rings += own;
+            blocks += own.div_ceil(u64::from(BLOCK_RINGS));
+            if rings > RINGS_MAX {
+                return Err(PlanError::Rings { rings, limit: RINGS_MAX });
+            }
+            offsets.padded.push(padded);
+            offsets.rings.push(rings);
+            offsets.blocks.push(blocks);
+        }
+        Ok(offsets)
+    }
+
+    /// The most control points of `yarn`.
+    pub(super) fn room(&self, yarn: usize, closed: bool) -> u64 {
+        self.padded[yarn + 1] - self.padded[yarn] - virtual_points(closed)
+    }
+}
+
+impl Plan {
+    /// Whether this plan and `other` are clones, or [edited](Plan::edited) from the same one, so that all their offsets are the same.
+    #[must_use]
+    pub fn shares_offsets(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}
+
+/// Padded control points of a yarn that are none of its own.
+pub(super) const fn virtual_points(closed: bool) -> u64 {
+    if closed { 4 } else { 2 }
+}

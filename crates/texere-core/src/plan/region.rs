@@ -1,0 +1,88 @@
+//! Plans of only a part of a cloth.
+
+use std::iter;
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::{BLOCK_RINGS, Bounds, Plan};
+use crate::PaddedPoints;
+
+impl Plan {
+    /// The same plan but that it makes only what lies in a box: those blocks of [`BLOCK_RINGS`] rings whose own
+    /// [box](Plan::part_bounds) touches `bounds`. So what lies in it is all there, as in the whole mesh to the bit, and up to a block of each yarn
+    /// beyond. `points` are this plan's.
+    ///
+    /// Numbers of yarns, rings and control points stay, and all offsets; a session of either plan makes chunks of both. Only
+    /// [counts](Plan::counts) and [chunks](Plan::chunks) are of the region.
+    ///
+    /// ```
+    /// use texere_core::{Bounds, ControlPoint, Limits, PaddedPoints, Plan, Settings, Yarn, Yarns};
+    /// let points: Vec<_> = (0..1000).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
+    /// let mut yarns = Yarns::builder();
+    /// yarns.yarn(Yarn::default(), &points);
+    /// let yarns = yarns.build()?;
+    /// let plan = Plan::new(yarns.layout().clone(), Settings::default())?; // two rings a millimetre
+    /// let mut points = PaddedPoints::new(&plan)?;
+    /// points.upload(&plan, 0, yarns.points());
+    ///
+    /// let part = plan.within(&points, &Bounds::rectangle([500.0, -1.0], [540.0, 1.0]));
+    /// let chunk = part.chunks(&Limits::NONE)?.next().ok_or("empty")?;
+    /// // Blocks of 64 rings, 32 mm, and the first ring of the next one.
+    /// assert_eq!((chunk.parts()[0].first_ring, chunk.rings()), (15 * 64, 2 * 64 + 1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn within(&self, points: &PaddedPoints, bounds: &Bounds) -> Self {
+        let mut runs = Vec::<Range<u64>>::new();
+        let blocks = self.offsets.blocks.windows(2).enumerate();
+        for (yarn, block) in
+            blocks.flat_map(|(yarn, ends)| (ends[0]..ends[1]).map(move |block| (yarn, block)))
+        {
+            let first = (block - self.offsets.blocks[yarn]) as u32 * BLOCK_RINGS;
+            // Its last triangles reach to the ring after it.
+            let rings = first..first.saturating_add(BLOCK_RINGS + 1);
+            if self.part_bounds(points, yarn, rings).touches(bounds) {
+                match runs.last_mut() {
+                    Some(last) if last.end == block => last.end += 1,
+                    _ => runs.push(block..block + 1),
+                }
+            }
+        }
+        let mut plan = Self { runs: Arc::from(runs), ..self.clone() };
+        plan.counts = plan.count();
+        plan
+    }
+
+    /// The same plan, but that it makes all that there is.
+    #[must_use]
+    pub fn whole(&self) -> Self {
+        let mut plan = self.clone();
+        if !plan.is_whole() {
+            plan.runs = iter::once(0..self.block_count()).collect();
+            plan.counts = plan.count();
+        }
+        plan
+    }
+
+    /// Whether it makes all that there is.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.runs.len() == 1 && self.runs[0] == (0..self.block_count())
+    }
+
+    /// The blocks that it makes: runs of neighbours, in order.
+    pub(super) fn runs(&self) -> &[Range<u64>] {
+        &self.runs
+    }
+
+    /// Whether it makes block number `block`.
+    pub(super) fn makes(&self, block: u64) -> bool {
+        let after = self.runs.partition_point(|run| run.start <= block);
+        after > 0 && block < self.runs[after - 1].end
+    }
+
+    /// The yarn that a block is of.
+    pub(super) fn yarn_of_block(&self, block: u64) -> usize {
+        self.offsets.blocks.partition_point(|&start| start <= block) - 1
+    }
+}

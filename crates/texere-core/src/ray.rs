@@ -1,0 +1,24 @@
+//! Half lines, to pick with.
+
+/// A half line.
+///
+/// ```
+/// use texere_core::Ray;
+/// let down = Ray { origin: [1.0, 2.0, 10.0], direction: [0.0, 0.0, -2.0] };
+/// assert_eq!(down.at(4.5), [1.0, 2.0, 1.0]);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    /// Where it begins, mm.
+    pub origin: [f64; 3],
+    /// Where it goes; it may be of any length but 0.
+    pub direction: [f64; 3],
+}
+
+impl Ray {
+    /// The point that lies `distance` lengths of its direction along it, mm.
+    #[must_use]
+    pub fn at(&self, distance: f64) -> [f64; 3] {
+        std::array::from_fn(|axis| self.origin[axis] + distance * self.direction[axis])
+    }
+}

@@ -1,0 +1,39 @@
+//! Lengths along yarns and attributes of vertices, a block an item.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+use texere_core::{ArcLength, Attribute, Block, Chunk, PaddedPoints, Plan};
+
+use super::runs::take;
+use crate::attributes::{block, block_length, blocks_of, caps, sum_up};
+use crate::engine::Work;
+
+pub(super) fn measure(plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>) {
+    // Each block with its place, so that one long yarn feeds all cores and so do many short ones.
+    let (mut left, mut first, mut blocks) = (&mut *lengths, 0, Vec::new());
+    for yarn in yarns.clone() {
+        let own = blocks_of(plan, yarn);
+        take(&mut left, own.start - first);
+        first = own.end;
+        blocks.extend((0..).zip(take(&mut left, own.len())).map(|(number, length)| (yarn, number, length)));
+    }
+    blocks.into_par_iter().for_each(|(yarn, number, length)| {
+        *length = block_length(plan, points, yarn, number);
+    });
+    yarns.for_each(|yarn| sum_up(&mut lengths[blocks_of(plan, yarn)]));
+}
+
+pub(super) fn attributes(work: &Work, chunk: &Chunk, out: &mut [Attribute]) {
+    let sides = work.plan.settings().sides;
+    let (mut left, mut first) = (&mut *out, 0);
+    let own = |row: &Block| {
+        // Between blocks there may be room for more.
+        take(&mut left, (row.first_vertex - first) as usize);
+        first = row.first_vertex + row.rings * sides;
+        take(&mut left, (row.rings * sides) as usize)
+    };
+    let rows: Vec<_> = chunk.blocks().iter().map(own).collect();
+    chunk.blocks().par_iter().zip(rows).for_each(|(row, out)| block(work, row, out));
+    caps(work, chunk, out);
+}

@@ -1,0 +1,179 @@
+//! The way of one ray through the mesh, which is made where the ray comes by.
+
+use texere_core::{BLOCK_RINGS, Bounds, End, MeshPlace, Ring};
+
+use super::beam::{Beam, Touch};
+use super::{Hit, Picker};
+use crate::serial::rings;
+
+/// Rings of a block, and the one after it that its last triangles end at.
+const RINGS: usize = BLOCK_RINGS as usize + 1;
+
+/// What sections and frames may reach further than they should, by rounding.
+const REACH_SLACK: f32 = 1.0 + 1e-5;
+
+/// A ray on its way.
+#[derive(Debug)]
+pub(super) struct Search<'a> {
+    picker: &'a Picker,
+    beam: Beam,
+    /// The vertices of two rings.
+    corners: Vec<[f32; 3]>,
+    nearest: Option<Nearest>,
+}
+
+/// The nearest triangle so far.
+#[derive(Debug, Clone, Copy)]
+struct Nearest {
+    touch: Touch,
+    corners: [[f32; 3]; 3],
+    place: MeshPlace,
+    /// How far the point lies from the place's ring to the next, from 0 to 1.
+    onward: f64,
+}
+
+impl Nearest {
+    /// Of two at the same distance the one counts that comes first on the yarns, so that a hit does not depend on the way through the boxes.
+    fn order(&self) -> (f64, u32, u32, Option<bool>, u32) {
+        let MeshPlace { yarn, ring, side, cap } = self.place;
+        (self.touch.along, yarn, ring, cap.map(|end| end == End::Finish), side)
+    }
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(picker: &'a Picker, beam: Beam) -> Self {
+        Self { picker, beam, corners: Vec::new(), nearest: None }
+    }
+
+    /// Goes through the whole cloth.
+    pub(super) fn run(mut self) -> Option<Hit> {
+        let picker = self.picker;
+        let (mut most, beam) = (f64::INFINITY, self.beam);
+        picker.cloth.visit(&beam, &mut most, &mut |position| {
+            let yarn = picker.order[position] as usize;
+            let mut most = self.most();
+            picker.yarns[yarn].visit(&beam, &mut most, &mut |block| {
+                self.block(yarn, block as u32);
+                self.most()
+            });
+            most
+        });
+        self.hit()
+    }
+
+    /// How far triangles matter still.
+    fn most(&self) -> f64 {
+        self.nearest.map_or(f64::INFINITY, |nearest| nearest.touch.along)
+    }
+
+    /// Tries the triangles of a block.
+    fn block(&mut self, yarn: usize, block: u32) {
+        let plan = &self.picker.work.plan;
+        let (first, all) = (block * BLOCK_RINGS, plan.rings(yarn));
+        let left = all - first;
+        let mut made = [Ring::default(); RINGS];
+        let made = &mut made[..RINGS.min(left as usize)];
+        rings(&self.picker.work, yarn, first, made);
+        for (k, pair) in (first..).zip(made.windows(2)) {
+            if self.may_meet(yarn, pair) {
+                self.tube(yarn, k, pair);
+            }
+        }
+        if plan.settings().caps && !plan.yarn(yarn).closed {
+            if first == 0 {
+                self.cap(yarn, End::Start, 0, &made[0]);
+            }
+            if left <= BLOCK_RINGS {
+                self.cap(yarn, End::Finish, all - 1, &made[made.len() - 1]);
+            }
+        }
+    }
+
+    /// Whether the ray comes near enough to some rings.
+    fn may_meet(&self, yarn: usize, rings: &[Ring]) -> bool {
+        let section = self.picker.work.plan.yarn(yarn).section;
+        let reach = self.picker.reaches[section as usize] * REACH_SLACK;
+        let around = |ring: &Ring| {
+            let reach = ring.half_width.max(ring.half_height) * reach;
+            let slack = ring.centre.iter().fold(reach, |most, at| most.max(at.abs())) * (4.0 * f32::EPSILON);
+            Bounds {
+                low: ring.centre.map(|at| at - reach - slack),
+                high: ring.centre.map(|at| at + reach + slack),
+            }
+        };
+        let bounds = rings.iter().map(around).fold(Bounds::NOTHING, |all, one| all.joined(&one));
+        self.beam.enters(&bounds, self.most()).is_some()
+    }
+
+    /// Tries the triangles between ring number `ring` and the next.
+    fn tube(&mut self, yarn: usize, ring: u32, pair: &[Ring]) {
+        self.stand(yarn, pair);
+        let picker = self.picker;
+        for (triangle, indices) in (0..).zip(picker.pattern.as_chunks::<3>().0) {
+            let place = MeshPlace { yarn: yarn as u32, ring, side: triangle / 2, cap: None };
+            // The next ring's vertices come after the first one's.
+            let sides = self.corners.len() / 2;
+            let beyond = |touch: &Touch| {
+                let weights = indices.iter().zip(touch.weights);
+                weights.filter(|(index, _)| **index as usize >= sides).map(|(_, weight)| weight).sum()
+            };
+            self.triangle(*indices, place, beyond);
+        }
+    }
+
+    /// Tries the triangles of a cap on the ring with the number `number`.
+    fn cap(&mut self, yarn: usize, end: End, number: u32, ring: &Ring) {
+        if !self.may_meet(yarn, std::slice::from_ref(ring)) {
+            return;
+        }
+        self.stand(yarn, std::slice::from_ref(ring));
+        let picker = self.picker;
+        let plan = &picker.work.plan;
+        let place = MeshPlace { yarn: yarn as u32, ring: number, side: 0, cap: Some(end) };
+        let mut indices = plan.cap_indices(plan.yarn(yarn).section as usize, end);
+        while let (Some(a), Some(b), Some(c)) = (indices.next(), indices.next(), indices.next()) {
+            self.triangle([a, b, c], place, |_| 0.0);
+        }
+    }
+
+    /// Makes the vertices of some rings.
+    fn stand(&mut self, yarn: usize, rings: &[Ring]) {
+        let plan = &self.picker.work.plan;
+        let outline = plan.outline(plan.yarn(yarn).section as usize);
+        self.corners.clear();
+        for ring in rings {
+            let stance = ring.stance();
+            self.corners.extend(outline.iter().map(|point| ring.vertex(&stance, point).position));
+        }
+    }
+
+    fn triangle(&mut self, indices: [u32; 3], place: MeshPlace, onward: impl Fn(&Touch) -> f64) {
+        let corners = indices.map(|index| self.corners[index as usize]);
+        let Some(touch) = self.beam.touches(corners) else { return };
+        let found = Nearest { touch, corners, place, onward: onward(&touch) };
+        if self.nearest.is_none_or(|nearest| found.order() < nearest.order()) {
+            self.nearest = Some(found);
+        }
+    }
+
+    fn hit(&self) -> Option<Hit> {
+        let Nearest { touch, corners, place, onward } = self.nearest?;
+        let plan = &self.picker.work.plan;
+        let along = |axis: usize| {
+            corners.iter().zip(touch.weights).map(|(corner, weight)| f64::from(corner[axis]) * weight).sum()
+        };
+        let per_interval = plan.settings().subdivisions + 1;
+        let (mut interval, step) = (place.ring / per_interval, place.ring % per_interval);
+        let mut t = (f64::from(step) + onward) / f64::from(per_interval);
+        if place.cap == Some(End::Finish) {
+            (interval, t) = (interval - 1, 1.0);
+        }
+        Some(Hit {
+            distance: self.beam.unscaled(touch.along),
+            place,
+            position: [0, 1, 2].map(along),
+            interval,
+            t: t.min(1.0),
+        })
+    }
+}

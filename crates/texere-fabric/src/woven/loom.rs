@@ -1,0 +1,136 @@
+//! A cloth whose lifts are edited: single yarns are laid anew.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::sync::Arc;
+
+use texere_core::{ControlPoint, Yarn};
+
+use super::Woven;
+use super::path::Station;
+use super::yarns::{Kind, Measured, Pass};
+use crate::FabricError;
+
+/// A cloth on the loom: its lifts are changed, and the yarns that this changes are laid anew, each for itself.
+///
+/// Yarns are as [`Woven::yarns`] has them, to the bit, and have its numbers. A lift changes the end and the pick that cross there, and no other yarn.
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::{Loom, Thread, Weave, Woven};
+/// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 6], vec![Thread::new(1.0, 0.2); 4]);
+/// let plain = Weave::parse("plain")?.drawdown(6, 4)?;
+/// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+/// let mut loom = Loom::new(cloth);
+/// let up = loom.cloth().drawdown().up(2, 1);
+/// // The end is yarn 2, and the picks come after six ends.
+/// assert_eq!(loom.set_lift(2, 1, !up)?, [2, 7]);
+/// let mut points = Vec::new();
+/// loom.lay(7, &mut points);
+/// assert_eq!(points, loom.cloth().yarns()?.yarn_points(7).unwrap_or_default());
+/// # Ok::<(), texere_fabric::FabricError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Loom {
+    cloth: Woven,
+    measured: Measured,
+    passes: Vec<Pass>,
+    /// The passes of each yarn.
+    yarns: Vec<Range<usize>>,
+    /// The path of threads of each kind, for as long as no thread changes.
+    paths: BTreeMap<Kind, Arc<[Station]>>,
+}
+
+impl Loom {
+    /// Puts `cloth` on the loom.
+    #[must_use]
+    pub fn new(cloth: Woven) -> Self {
+        let (measured, passes) = (cloth.measured(), cloth.passes());
+        let starts: Vec<_> = (0..passes.len()).filter(|pass| !passes[*pass].turns()).collect();
+        let ends = starts.iter().skip(1).copied().chain([passes.len()]);
+        let yarns = starts.iter().zip(ends).map(|(start, end)| *start..end).collect();
+        let mut paths = BTreeMap::new();
+        for pass in &passes {
+            let laying = cloth.laying(&measured);
+            paths.entry(laying.kind(*pass)).or_insert_with(|| laying.stations(*pass));
+        }
+        Self { cloth, measured, passes, yarns, paths }
+    }
+
+    /// The cloth as it is now.
+    #[must_use]
+    pub const fn cloth(&self) -> &Woven {
+        &self.cloth
+    }
+
+    /// The cloth as it is now, off the loom.
+    #[must_use]
+    pub fn into_cloth(self) -> Woven {
+        self.cloth
+    }
+
+    /// Says whether the warp is up at a crossing, both counted from 0. Gives the numbers of the yarns that this changes; none where it was so before.
+    ///
+    /// **Errors**: [`FabricError::NoCrossing`] outside the cloth.
+    pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<Vec<usize>, FabricError> {
+        self.set_lifts(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
+    }
+
+    /// Says whether the warp is up at all crossings of some ends and picks, counted from 0. Gives the numbers of the yarns that this changes, in order.
+    ///
+    /// **Errors**: [`FabricError::NoCrossing`] where a crossing lies outside the cloth, which is then as it was.
+    pub fn set_lifts(
+        &mut self,
+        ends: Range<usize>,
+        picks: Range<usize>,
+        up: impl Fn(usize, usize) -> bool,
+    ) -> Result<Vec<usize>, FabricError> {
+        let first_pick = self.cloth.warp().len();
+        let drawdown = self.cloth.drawdown_mut();
+        if ends.end > drawdown.ends() || picks.end > drawdown.picks() {
+            // Counted from 1, as weavers do.
+            let (end, pick) = (ends.end, picks.end);
+            return Err(FabricError::NoCrossing {
+                end,
+                pick,
+                ends: drawdown.ends(),
+                picks: drawdown.picks(),
+            });
+        }
+        let (mut changed_ends, mut changed_picks) = (BTreeSet::new(), BTreeSet::new());
+        for pick in picks {
+            for end in ends.clone() {
+                let up = up(end, pick);
+                if drawdown.up(end, pick) != up {
+                    drawdown.set(end, pick, up)?;
+                    changed_ends.insert(end);
+                    changed_picks.insert(first_pick + pick);
+                }
+            }
+        }
+        let yarn = |pass: usize| self.yarns.partition_point(|passes| passes.end <= pass);
+        let mut yarns: Vec<_> = changed_ends.into_iter().chain(changed_picks).map(yarn).collect();
+        yarns.dedup();
+        Ok(yarns)
+    }
+
+    /// What yarn number `yarn` is beside its control points.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn yarn(&self, yarn: usize) -> Yarn {
+        self.cloth.yarn(&self.passes[self.yarns[yarn].start]).unwrap_or_default()
+    }
+
+    /// Lays yarn number `yarn`, one of [`Woven::yarns`]: `points` becomes its control points.
+    ///
+    /// **Panics** past the last yarn.
+    pub fn lay(&self, yarn: usize, points: &mut Vec<ControlPoint>) {
+        points.clear();
+        let laying = self.cloth.laying(&self.measured);
+        for pass in &self.passes[self.yarns[yarn].clone()] {
+            let path = laying.path(*pass, self.paths[&laying.kind(*pass)].clone());
+            laying.lay(&path, *pass, &mut |point, _| points.push(point));
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Image files: PNG, BMP and TIFF.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use image::{ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use texere_fabric::THREADS_MAX;
+
+use super::error::said;
+use super::memory::{filled, room};
+use super::point_paper::Image;
+use super::{ReadError, file};
+
+/// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
+const PIXELS_MAX: u64 = 1 << 28;
+
+/// The most memory for an image's pixels, bytes: four for each.
+const MEMORY_MAX: u64 = 4 * PIXELS_MAX;
+
+/// The most memory for what a decoder needs beside the pixels, bytes: a line or a tile of them, and what the file says of
+/// its picture. A colour profile has no more than a few MiB; compressed, one of a gigabyte fits a small file.
+const ASIDE_MAX: u64 = 1 << 25;
+
+/// The largest image file that is read: one that is not compressed.
+const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
+
+/// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
+/// one bit. So a short file takes no memory for pixels that it can't have.
+const PIXELS_PER_BYTE: u64 = 8 * 1032;
+
+pub(super) fn decode(path: &Path) -> Result<Image, ReadError> {
+    let io = |source| ReadError::Io { file: path.into(), source };
+    // Decoders say much, and what a file says, too.
+    let undecodable =
+        |error: ImageError| ReadError::Image { file: path.into(), source: said(&error.to_string()).into() };
+    let file = file::open(path, FILE_LIMIT)?;
+    let file_bytes = file.metadata().map_err(io)?.len();
+    let file = BufReader::new(file);
+    let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
+    let format = reader.format();
+    if format == Some(ImageFormat::Png) {
+        let mut file = reader.into_inner();
+        if let Some(bytes) = broken_palette(&mut file).map_err(io)? {
+            let source = format!("it has a palette of {bytes} bytes, not three for each of 1 to 256 colours");
+            return Err(ReadError::Image { file: path.into(), source: source.into() });
+        }
+        file.rewind().map_err(io)?;
+        reader = ImageReader::with_format(file, ImageFormat::Png);
+    }
+    // These are for what stands before the pixels; a PNG's text and colour profile are not asked for their own.
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(ASIDE_MAX);
+    reader.limits(limits.clone());
+    let mut decoder = reader.into_decoder().map_err(undecodable)?;
+    let (width, height) = decoder.dimensions();
+    let side_limit = THREADS_MAX as u32;
+    if width.max(height) > side_limit || u64::from(width) * u64::from(height) > PIXELS_MAX {
+        let file = path.into();
+        return Err(ReadError::ImageTooLarge { file, width, height, side_limit, limit: PIXELS_MAX });
+    }
+    let is_png = format == Some(ImageFormat::Png);
+    if is_png && u64::from(width) * u64::from(height) > PIXELS_PER_BYTE * file_bytes {
+        let source = format!("its {file_bytes} bytes are too few for {width} × {height} pixels");
+        return Err(ReadError::Image { file: path.into(), source: source.into() });
+    }
+    let (channels, size) = (decoder.color_type().channel_count(), decoder.total_bytes());
+    limits.max_alloc = Some(MEMORY_MAX);
+    limits.reserve(size).map_err(undecodable)?;
+    limits.max_alloc = Some(2 * size + ASIDE_MAX);
+    decoder.set_limits(limits).map_err(undecodable)?;
+
+    let mut bytes = filled("an image", size as usize, 0)?;
+    // Decoders take up to as much again and do not ask whether it is there.
+    drop(room::<u8>("decoding an image", (size + ASIDE_MAX) as usize)?);
+    decoder.read_image(&mut bytes).map_err(undecodable)?;
+    Ok(Image { width: width as usize, height: height as usize, channels: channels.into(), bytes })
+}
+
+/// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder takes that for granted.
+fn broken_palette(file: &mut BufReader<File>) -> io::Result<Option<u32>> {
+    // Behind the signature each chunk has its length, its name, its data and a checksum.
+    file.seek(SeekFrom::Start(8))?;
+    let mut head = [0; 8];
+    loop {
+        match file.read_exact(&mut head) {
+            // What is missing the decoder will miss too.
+            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(None),
+            other => other?,
+        }
+        let [a, b, c, d, name @ ..] = head;
+        let length = u32::from_be_bytes([a, b, c, d]);
+        match &name {
+            b"IDAT" | b"IEND" => return Ok(None),
+            b"PLTE" if !length.is_multiple_of(3) || !(3..=768).contains(&length) => return Ok(Some(length)),
+            _ => file.seek_relative(i64::from(length) + 4)?,
+        }
+    }
+}

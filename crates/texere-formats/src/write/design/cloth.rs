@@ -1,0 +1,89 @@
+//! What a format leaves out of a woven design.
+
+use texere_core::Section;
+use texere_core::crossings::Set;
+use texere_fabric::{Crimp, Finish, Relief, Shape, Thread, Woven, WovenDesign};
+
+use crate::Design;
+
+/// What of a design's finish is not as it is where nothing is said, as keys of a design file and their values. Those of knits, and
+/// what only a program can ask for, have none.
+pub(super) struct Finished {
+    /// Keys of woven cloth, each with what stands behind it.
+    pub(super) keys: Vec<(&'static str, f64)>,
+    /// What is asked of it that no design file says of woven cloth.
+    pub(super) unsaid: Vec<String>,
+}
+
+impl Finished {
+    pub(super) fn new(design: &Design) -> Self {
+        let Finish { length, press_mm, passes, record, taut, calender } = design.finish;
+        let usual = Finish::default();
+        let times = [
+            ("warp_tension", taut[0], usual.taut[0]),
+            ("weft_tension", taut[1], usual.taut[1]),
+            ("calender", calender, usual.calender),
+        ];
+        let times = times.into_iter().filter(|(_, value, usual)| value != usual);
+        let mut keys: Vec<_> = times.map(|(key, value, _)| (key, f64::from(value))).collect();
+        if let Some(stretch) = design.stretch {
+            let key = match stretch.along {
+                Set::Warp => "stretch_warp",
+                Set::Weft => "stretch_weft",
+            };
+            keys.push((key, stretch.by));
+        }
+        let unsaid = [
+            (length != usual.length, "finish.length, which only knits have"),
+            (press_mm != usual.press_mm, "finish.press, which only knits have"),
+            (passes != usual.passes, "the most passes of settling"),
+            (record != usual.record, "whether the course of settling is kept"),
+        ];
+        Self { keys, unsaid: named(&unsaid) }
+    }
+}
+
+/// What of a woven design a WIF draft has no keys for, apart from names.
+pub(super) fn beyond_wif(design: &Design, woven: &WovenDesign) -> Vec<String> {
+    let cloth = woven.cloth();
+    let any = |what: &dyn Fn(&Thread) -> bool| cloth.warp().iter().chain(cloth.weft()).any(what);
+    let section = |thread: &Thread| cloth.sections()[thread.section as usize] != Section::Circle;
+    let tex = |thread: &Thread| cloth.materials()[thread.material as usize].tex.is_some();
+    let said = [
+        (any(&tex), "yarns.tex"),
+        (any(&|thread| thread.flatness != 1.0), "yarns.flatness"),
+        (any(&|thread| thread.stiffness != 1.0), "yarns.stiffness"),
+        (any(&section), "yarns.section"),
+        (any(&|thread| thread.twist != 0.0), "yarns.twist_per_m"),
+        (cloth.shape() != Shape::default(), "cloth.shape"),
+        (cloth.crimp() != Crimp::default(), "cloth.warp_crimp"),
+        (cloth.selvedge(), "cloth.selvedge"),
+        (woven.relief() != Relief::Report, "cloth.jam"),
+        (design.settle, "finish.settle: a draft is left as it is woven"),
+    ];
+    let finished = Finished::new(design);
+    let keys = finished.keys.iter().map(|(key, _)| format!("finish.{key}"));
+    named(&said).into_iter().chain(keys).chain(finished.unsaid.clone()).collect()
+}
+
+/// Keys of `[cloth]` that are not as where nothing is said, and their values.
+pub(super) fn cloth_keys(cloth: &Woven) -> Vec<String> {
+    let shape = match cloth.shape() {
+        Shape::Crossing => Some("shape = \"crossing\"".into()),
+        _ => None,
+    };
+    let crimp = match cloth.crimp() {
+        Crimp::WarpShare(share) => {
+            let (share, _) = super::text::nearest(f64::from(share), |read| read as f32 == share);
+            Some(format!("warp_crimp = {share:?}"))
+        }
+        _ => None,
+    };
+    let selvedge = cloth.selvedge().then(|| "selvedge = true".into());
+    [shape, crimp, selvedge].into_iter().flatten().collect()
+}
+
+/// Those that are so.
+fn named(said: &[(bool, &str)]) -> Vec<String> {
+    said.iter().filter(|(so, _)| *so).map(|(_, what)| (*what).to_owned()).collect()
+}

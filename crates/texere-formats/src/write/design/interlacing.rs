@@ -1,0 +1,139 @@
+//! What differs among the ends and picks of a drawdown, and where they begin again.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+
+use texere_fabric::{Draft, Drawdown, Shedding};
+
+use super::super::WriteError;
+
+/// The most shafts and treadles of a draft with a tie-up; beyond them a lift plan is shorter.
+const TIED_MAX: usize = 100;
+
+/// Threads by what they do: those of one kind do the same everywhere.
+pub(super) struct Kinds {
+    /// The kind of each thread, from 0 in the order in which they come.
+    pub(super) of: Vec<u32>,
+    /// The first thread of each kind.
+    pub(super) firsts: Vec<usize>,
+}
+
+impl Kinds {
+    pub(super) fn new<K: Hash + Eq>(count: usize, key: impl Fn(usize) -> K) -> Self {
+        let mut known = HashMap::new();
+        let mut firsts = Vec::new();
+        let of = (0..count).map(|thread| {
+            *known.entry(key(thread)).or_insert_with(|| {
+                firsts.push(thread);
+                firsts.len() as u32 - 1
+            })
+        });
+        let of = of.collect();
+        Self { of, firsts }
+    }
+
+    /// The kind that most threads have.
+    pub(super) fn commonest(&self) -> usize {
+        let mut counts = vec![0_usize; self.firsts.len()];
+        self.of.iter().for_each(|kind| counts[*kind as usize] += 1);
+        (0..counts.len()).rev().max_by_key(|kind| counts[*kind]).unwrap_or(0)
+    }
+}
+
+/// The kinds of ends and picks of a drawdown.
+pub(super) struct Interlacing<'a> {
+    drawdown: &'a Drawdown,
+    ends: Kinds,
+    picks: Kinds,
+}
+
+impl<'a> Interlacing<'a> {
+    pub(super) fn new(drawdown: &'a Drawdown) -> Self {
+        let picks =
+            Kinds::new(drawdown.picks(), |pick| packed(drawdown.ends(), |end| drawdown.up(end, pick)));
+        let ends = Kinds::new(drawdown.ends(), |end| {
+            packed(picks.firsts.len(), |kind| drawdown.up(end, picks.firsts[kind]))
+        });
+        Self { drawdown, ends, picks }
+    }
+
+    /// Ends and picks after which the drawdown begins again.
+    pub(super) fn repeat(&self) -> [usize; 2] {
+        [&self.ends, &self.picks].map(|kinds| period(&kinds.of))
+    }
+
+    /// A draft with a shaft for each kind of end, and a treadle for each kind of pick where there are few of both.
+    ///
+    /// **Errors**: [`WriteError::TextTooLarge`] where its lift plan alone is larger than `limit`.
+    pub(super) fn draft(&self, format: &'static str, limit: u64) -> Result<Draft, WriteError> {
+        let shafts = &self.ends.firsts;
+        let lifted = |kind: usize| {
+            let up = move |end: usize| self.drawdown.up(end, self.picks.firsts[kind]);
+            (1..).zip(shafts).filter(move |(_, end)| up(**end)).map(|(shaft, _)| shaft)
+        };
+        let threading = self.ends.of.iter().map(|kind| vec![kind + 1]).collect();
+        let kinds = 0..self.picks.firsts.len();
+        let shedding = if shafts.len().max(kinds.len()) <= TIED_MAX {
+            let treadling = self.picks.of.iter().map(|kind| vec![kind + 1]).collect();
+            Shedding::TieUp { tie_up: kinds.map(|kind| lifted(kind).collect()).collect(), treadling }
+        } else {
+            let counts: Vec<_> = kinds.map(|kind| lifted(kind).count() as u64).collect();
+            // A digit and what separates it from the next.
+            let bytes = self.picks.of.iter().map(|kind| 2 * counts[*kind as usize]).sum();
+            if bytes > limit {
+                return Err(WriteError::TextTooLarge { format, bytes, limit });
+            }
+            Shedding::LiftPlan(self.picks.of.iter().map(|kind| lifted(*kind as usize).collect()).collect())
+        };
+        Ok(Draft { threading, shedding, rising_shed: true })
+    }
+}
+
+/// Bits in words.
+fn packed(count: usize, bit: impl Fn(usize) -> bool) -> Vec<u64> {
+    let word = |from: usize| {
+        (from..count.min(from + 64)).fold(0, |word, at| word | u64::from(bit(at)) << (at - from))
+    };
+    (0..count).step_by(64).map(word).collect()
+}
+
+/// After how many items they begin again, the last time perhaps not to the end.
+///
+/// **Source**: Knuth, Morris and Pratt, "Fast pattern matching in strings", SIAM Journal on Computing 6, 1977.
+pub(super) fn period<T: PartialEq>(items: &[T]) -> usize {
+    // The longest proper beginning of each beginning that is also its end.
+    let mut borders = vec![0; items.len()];
+    for at in 1..items.len() {
+        let mut border = borders[at - 1];
+        while border > 0 && items[at] != items[border] {
+            border = borders[border - 1];
+        }
+        borders[at] = border + usize::from(items[at] == items[border]);
+    }
+    items.len() - borders.last().unwrap_or(&0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_period_is_the_shortest_that_gives_all_items_back() {
+        for (items, expected) in [
+            ("", 0),
+            ("a", 1),
+            ("aaaa", 1),
+            ("abab", 2),
+            ("ababa", 2),
+            ("abba", 3),
+            ("aabaaab", 4),
+            ("abcd", 4),
+        ] {
+            let items = items.as_bytes();
+            assert_eq!(period(items), expected);
+            // By trying all.
+            let holds = |period: &usize| (*period..items.len()).all(|at| items[at] == items[at - period]);
+            assert_eq!((1..items.len()).find(holds).unwrap_or(items.len()), expected);
+        }
+    }
+}

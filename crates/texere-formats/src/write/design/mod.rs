@@ -1,0 +1,119 @@
+//! Designs to files that are read again: WIF drafts, and texere's own design file.
+
+mod cloth;
+mod interlacing;
+mod text;
+mod toml;
+mod wif;
+mod wif_threads;
+mod yarns;
+
+use std::io::Write;
+
+use self::toml::TomlFile;
+use super::target::Target;
+use super::{Output, WriteError};
+use crate::Design;
+use wif::WifFile;
+
+/// Writes a woven design as a WIF 1.1 draft. Gives what the file leaves out, each by its key in a design file.
+///
+/// The draft is the design's own; where it has none, one shaft for each kind of end, with a tie-up where no more than a hundred
+/// treadles are needed, else with a lift plan. Spacing and thickness are each thread's, in the unit that holds them with the fewest
+/// digits, and are read again to the last of sixteen digits; so are colours. Jammed threads that were relieved are written as they
+/// then are.
+///
+/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.wif`, [`WriteError::Unheld`] for a knit,
+/// [`WriteError::OutOfRange`] for threads and shafts beyond what a reader takes, [`WriteError::TextTooLarge`],
+/// [`WriteError::Spared`], [`WriteError::Io`].
+///
+/// ```
+/// use texere_formats::{read, write};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("poplin.toml");
+/// # std::fs::write(&path, "weave = { notation = \"plain\", ends = 6, picks = 6 }\nyarns.white.diameter_mm = 0.143\n\
+/// #     warp = { yarns = [\"white\"], spacing_mm = 0.19 }\nweft = { yarns = [\"white\"], spacing_mm = 0.35 }\n")?;
+/// let design = read(&path)?;
+/// let left_out = write::wif(&design, folder.path().join("poplin.wif"))?;
+/// assert!(left_out.iter().any(|what| what.contains("finish.settle")));
+/// let draft = read(folder.path().join("poplin.wif"))?;
+/// let [written, given] = [&draft, &design].map(|design| design.structure.woven().unwrap().cloth());
+/// assert_eq!(written.drawdown(), given.drawdown());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn wif(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, WriteError> {
+    let output = ending(output.into(), "wif")?;
+    let file = WifFile::new(design)?;
+    file.write(Target::create(output)?)?.commit()?;
+    Ok(file.left_out)
+}
+
+/// Writes a woven design to `out` as a WIF 1.1 draft: the bytes that [`wif`](fn@wif) writes to a file.
+///
+/// **Errors**: those of [`wif`](fn@wif), with [`WriteError::Writer`] where `out` refuses.
+pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
+    let file = WifFile::new(design)?;
+    file.write(Target::straight(out))?.done()?;
+    Ok(file.left_out)
+}
+
+/// Writes a woven design as texere's own design file, which needs no other file beside it. Gives what the file leaves out, each by its
+/// key or its name.
+///
+/// Reading it gives an equal design: its drawdown, its threads with sizes, spacings, colours, sections and twist, how they lie and how
+/// they come to rest. The weaver's draft is left out, which WIF holds. Yarns that share a name get numbers behind it.
+///
+/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.toml`, [`WriteError::Unheld`] for a knit,
+/// [`WriteError::OutOfRange`] for a value that no design file may have, [`WriteError::TextTooLarge`] for a drawdown whose repeat has
+/// more than some sixteen million crossings, [`WriteError::Spared`], [`WriteError::Io`].
+///
+/// ```
+/// use texere_core::{Material, Section};
+/// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign};
+/// use texere_formats::{Design, read, write};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("denim.toml");
+/// let twill = Weave::parse("3/1")?.drawdown(24, 16)?;
+/// let (warp, weft) = (vec![Thread::new(0.4, 0.15); 24], vec![Thread::new(0.6, 0.15); 16]);
+/// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+/// let design = Design::of("Denim", Structure::Woven(WovenDesign::new(cloth.clone(), None, Relief::Report)?));
+/// assert!(write::toml(&design, &path)?.is_empty());
+/// assert_eq!(read(&path)?.structure.woven().unwrap().cloth(), &cloth);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn toml(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, WriteError> {
+    let output = ending(output.into(), "toml")?;
+    let file = TomlFile::new(design)?;
+    file.write(Target::create(output)?)?.commit()?;
+    Ok(file.left_out)
+}
+
+/// Writes a woven design to `out` as texere's own design file: the bytes that [`toml`](fn@toml) writes to a file.
+///
+/// **Errors**: those of [`toml`](fn@toml), with [`WriteError::Writer`] where `out` refuses.
+pub fn toml_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
+    let file = TomlFile::new(design)?;
+    file.write(Target::straight(out))?.done()?;
+    Ok(file.left_out)
+}
+
+/// Gives `output` back if it ends so.
+fn ending(output: Output, expected: &'static str) -> Result<Output, WriteError> {
+    if output.path().extension().is_some_and(|ending| ending.eq_ignore_ascii_case(expected)) {
+        Ok(output)
+    } else {
+        Err(WriteError::NotEnding { path: output.path().to_owned(), expected })
+    }
+}
+
+/// The woven design in a design.
+fn woven<'a>(format: &'static str, design: &'a Design) -> Result<&'a texere_fabric::WovenDesign, WriteError> {
+    use texere_fabric::Structure;
+    let what = match &design.structure {
+        Structure::Woven(woven) => return Ok(woven),
+        Structure::Weft(_) => "a weft knit, whose chart or program is not kept",
+        Structure::Warp(_) => "a warp knit",
+        _ => "a structure of this kind",
+    };
+    Err(WriteError::Unheld { format, what: what.into() })
+}

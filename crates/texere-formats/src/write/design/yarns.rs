@@ -1,0 +1,200 @@
+//! The yarns of a design file: one for each kind of thread, by name.
+
+use std::collections::{HashMap, HashSet};
+
+use texere_core::{Material, Section, SectionPoint};
+use texere_fabric::{COTTON_DENSITY, Thread, Woven, diameter_mm};
+
+use super::super::WriteError;
+use super::interlacing::{Kinds, period};
+use super::text::{nearest, shortest, within};
+use super::toml::{FORMAT, quoted};
+use crate::read::limits;
+
+/// The yarns of a cloth.
+pub(super) struct Yarns {
+    names: Vec<String>,
+    /// The same, to look for one.
+    taken: HashSet<String>,
+    /// The yarn of each end, then of each pick.
+    kinds: Kinds,
+    ends: usize,
+    /// The table of each yarn.
+    tables: Vec<String>,
+    /// A name that was changed, and what it became.
+    pub(super) renamed: Option<[String; 2]>,
+}
+
+impl Yarns {
+    pub(super) fn new(cloth: &Woven) -> Result<Self, WriteError> {
+        let (warp, weft) = (cloth.warp(), cloth.weft());
+        let thread = |number: usize| {
+            warp.get(number).or_else(|| weft.get(number - warp.len())).copied().unwrap_or(warp[0])
+        };
+        let key = |number: usize| {
+            let Thread { spacing_mm: _, radius_mm, flatness, stiffness, material, section, twist } =
+                thread(number);
+            ([radius_mm, flatness, stiffness, twist].map(f32::to_bits), material, section)
+        };
+        let kinds = Kinds::new(warp.len() + weft.len(), key);
+        let (mut names, mut tables, mut renamed) = (Vec::new(), Vec::new(), None);
+        let mut given = Names::default();
+        for first in &kinds.firsts {
+            let thread = thread(*first);
+            let material = &cloth.materials()[thread.material as usize];
+            let name = given.give(&material.name);
+            if name != material.name {
+                renamed.get_or_insert_with(|| [material.name.clone(), name.clone()]);
+            }
+            tables.push(table(&name, &thread, material, &cloth.sections()[thread.section as usize])?);
+            names.push(name);
+        }
+        Ok(Self { names, kinds, ends: warp.len(), tables, renamed, taken: given.taken })
+    }
+
+    /// The tables, each with its heading.
+    pub(super) fn tables(&self) -> impl Iterator<Item = String> {
+        self.names
+            .iter()
+            .zip(&self.tables)
+            .map(|(name, table)| format!("\n[yarns.{}]\n{table}", quoted(name)))
+    }
+
+    /// The keys of the warp, or of the weft: yarns in turn, and how far they lie apart.
+    ///
+    /// **Errors**: [`WriteError::OutOfRange`] for a spacing that no design file may have.
+    pub(super) fn set(&self, name: &str, threads: &[Thread]) -> Result<String, WriteError> {
+        let (ends, picks) = self.kinds.of.split_at(self.ends);
+        let kinds = if name == "warp" { ends } else { picks };
+        let turn: Vec<_> = kinds[..period(kinds)].chunk_by(|one, other| one == other).collect();
+        let items: Vec<_> = turn.iter().flat_map(|run| self.items(run[0], run.len())).collect();
+        for (number, thread) in (1..).zip(threads) {
+            let field = || format!("{name}.spacing_mm, number {number},");
+            within(FORMAT, field, thread.spacing_mm, limits::LENGTH_MM)?;
+        }
+        let spacings: Vec<_> = threads.iter().map(|thread| thread.spacing_mm).collect();
+        let spacing = match &spacings[..period(&spacings)] {
+            [all] => one_spacing(*all),
+            list => format!("spacing_mm = {list:?}"),
+        };
+        Ok(format!("\n[{name}]\nyarns = [{}]\n{spacing}\n", items.join(", ")))
+    }
+
+    /// So many threads of one yarn: an item with a number, or one for each where that would be another yarn's name.
+    fn items(&self, yarn: u32, times: usize) -> Vec<String> {
+        let name = &self.names[yarn as usize];
+        let counted = format!("{times} {name}");
+        if times == 1 || self.taken.contains(&counted) {
+            vec![quoted(name); times]
+        } else {
+            vec![quoted(&counted)]
+        }
+    }
+}
+
+/// Names that lists can have, each once.
+#[derive(Default)]
+struct Names {
+    taken: HashSet<String>,
+    /// The number that was last tried behind each name.
+    last: HashMap<String, usize>,
+}
+
+impl Names {
+    /// `name`, or one like it that none has yet.
+    fn give(&mut self, name: &str) -> String {
+        let name = if name.trim().is_empty() { "yarn" } else { name.trim() };
+        let mut own = name.to_owned();
+        let last = self.last.entry(own.clone()).or_insert(1);
+        while !self.taken.insert(own.clone()) {
+            *last += 1;
+            own = format!("{name} ({last})");
+        }
+        own
+    }
+}
+
+/// One spacing of all threads, by the key that takes the fewest digits.
+fn one_spacing(spacing_mm: f64) -> String {
+    const FEW: usize = 6;
+    let keys = [("per_cm", 10.0), ("per_inch", 25.4)];
+    let direct = shortest(spacing_mm, FEW, |read| read == spacing_mm);
+    let sett = || {
+        keys.into_iter().find_map(|(key, mm)| {
+            let per = shortest(mm / spacing_mm, FEW, |read| mm / read == spacing_mm)?;
+            Some(format!("{key} = {per:?}"))
+        })
+    };
+    match direct {
+        Some(spacing) => format!("spacing_mm = {spacing:?}"),
+        None => sett().unwrap_or_else(|| format!("spacing_mm = {spacing_mm:?}")),
+    }
+}
+
+/// The keys of a yarn.
+fn table(name: &str, thread: &Thread, material: &Material, section: &Section) -> Result<String, WriteError> {
+    let field = |key: &str| format!("yarns.{name}.{key}");
+    let mut keys = Vec::new();
+    let tex = match material.tex {
+        Some(tex) => {
+            let value = within(FORMAT, || field("tex"), tex.into(), limits::TEX)?;
+            Some(nearest(value, |read| read as f32 == tex).0)
+        }
+        None => None,
+    };
+    keys.extend(tex.map(|tex| format!("tex = {tex:?}")));
+    let reads = |diameter: f64| (diameter / 2.0) as f32 == thread.radius_mm;
+    if !tex.is_some_and(|tex| reads(diameter_mm(tex, COTTON_DENSITY))) {
+        let diameter = nearest(2.0 * f64::from(thread.radius_mm), reads).0;
+        within(FORMAT, || field("diameter_mm"), diameter, limits::LENGTH_MM)?;
+        keys.push(format!("diameter_mm = {diameter:?}"));
+    }
+    let [red, green, blue] = material.srgb;
+    keys.push(format!("color = \"#{red:02x}{green:02x}{blue:02x}\""));
+    keys.extend(section_keys(name, section)?);
+    for (key, value) in [("flatness", thread.flatness), ("stiffness", thread.stiffness)] {
+        if value != 1.0 {
+            keys.push(format!("{key} = {:?}", nearest(value.into(), |read| read as f32 == value).0));
+        }
+    }
+    if thread.twist != 0.0 {
+        let reads = |per_m: f64| (per_m * std::f64::consts::TAU / 1000.0) as f32 == thread.twist;
+        let per_m = nearest(f64::from(thread.twist) * 1000.0 / std::f64::consts::TAU, reads).0;
+        let most = limits::TWIST_PER_M;
+        within(FORMAT, || field("twist_per_m"), per_m, [-most, most])?;
+        keys.push(format!("twist_per_m = {per_m:?}"));
+    }
+    Ok(keys.join("\n") + "\n")
+}
+
+/// The section of a yarn, unless it is a circle.
+fn section_keys(name: &str, section: &Section) -> Result<Option<String>, WriteError> {
+    let number = |value: f32| format!("{:?}", nearest(value.into(), |read| read as f32 == value).0);
+    let shape = match section {
+        Section::Circle => return Ok(None),
+        Section::Lobed { plies } => return Ok(Some(format!("plies = {plies}"))),
+        Section::Ellipse { aspect } => format!("\"ellipse\", aspect = {}", number(*aspect)),
+        Section::Lenticular { aspect, distortion } => {
+            format!("\"lenticular\", aspect = {}, distortion = {}", number(*aspect), number(*distortion))
+        }
+        Section::PowerEllipse { aspect, exponent } => {
+            format!("\"power-ellipse\", aspect = {}, exponent = {}", number(*aspect), number(*exponent))
+        }
+        Section::Polygon(corners) if faces(section, corners.len()) => {
+            let corners: Vec<_> =
+                corners.iter().map(|[x, y]| format!("[{}, {}]", number(*x), number(*y))).collect();
+            format!("\"polygon\", corners = [{}]", corners.join(", "))
+        }
+        _ => {
+            let what = format!("yarns.{name}.section, {section:?}");
+            return Err(WriteError::Unheld { format: FORMAT, what });
+        }
+    };
+    Ok(Some(format!("section = {{ shape = {shape} }}")))
+}
+
+/// Whether all corners of a polygon face somewhere, as a reader asks.
+fn faces(section: &Section, corners: usize) -> bool {
+    let sound = |corner: &SectionPoint| corner.normal_x.is_finite() && corner.normal_y.is_finite();
+    u32::try_from(corners).is_ok_and(|corners| section.outline(corners).iter().all(sound))
+}

@@ -1,0 +1,178 @@
+//! Meshes to files: whole, or piece by piece as a device makes them.
+
+use std::io::{Seek, Write};
+use std::ops::ControlFlow;
+
+use texere_core::{Backend, Mesh, MeshPiece, Pipeline, PipelineError, Plan, Settings, Topology};
+
+use super::feed::Feed;
+use super::target::Target;
+use super::{Format, Output, WriteError};
+
+/// How much was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Written {
+    /// Bytes of the file.
+    pub bytes: u64,
+    /// Vertices in it; a ring that chunks repeat counts twice.
+    pub vertices: u64,
+    /// Triangles in it.
+    pub triangles: u64,
+}
+
+/// Writes a mesh that lies in memory, in the format that the extension of `output` stands for.
+///
+/// Triangles are those of the mesh's plan; its `indices` are not read, so that any topology will do.
+///
+/// **Errors**: [`WriteError`] where the format can't hold the mesh, the mesh is not what its plan says or not finite, or
+/// the file system refuses.
+///
+/// ```
+/// use texere_core::{ControlPoint, NullBackend, Pipeline, Yarn, Yarns};
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("yarn.glb");
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// // Any device does; this one leaves all vertices at the origin.
+/// let mesh = Pipeline::new(&yarns.build()?).mesh(&NullBackend::default())?;
+/// texere_formats::write::mesh(&mesh, &path)?;
+/// assert_eq!(std::fs::read(&path)?[..4], *b"glTF");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
+    let output = output.into();
+    let format = Format::from_path(output.path())?;
+    whole(mesh, format, || Target::create(output))?.commit()?;
+    Ok(())
+}
+
+/// Writes a mesh that lies in memory to `out`, from where that stands: the bytes that [`mesh`](fn@mesh) writes to a file. Then `out`
+/// stands behind the last of them.
+///
+/// **Errors**: those of [`mesh`](fn@mesh), with [`WriteError::Writer`] where `out` refuses. What it has then is no whole file.
+///
+/// ```
+/// use std::io::Cursor;
+/// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+/// use texere_cpu::ParallelBackend;
+/// use texere_formats::write::{self, Format};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let mesh = Pipeline::new(&yarns.build()?).mesh(&ParallelBackend::open()?)?;
+/// let mut glb = Cursor::new(Vec::new());
+/// write::mesh_to(&mesh, Format::Glb, &mut glb)?;
+/// assert!(glb.into_inner().starts_with(b"glTF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn mesh_to(mesh: &Mesh, format: Format, out: impl Write + Seek) -> Result<(), WriteError> {
+    whole(mesh, format, || Target::within(out))?.close()?;
+    Ok(())
+}
+
+/// Writes a mesh to the target that `start` gives.
+fn whole<W: Write + Seek>(
+    mesh: &Mesh,
+    format: Format,
+    start: impl FnOnce() -> Result<Target<W>, WriteError>,
+) -> Result<Target<W>, WriteError> {
+    let shared = Settings { topology: Topology::Shared, ..*mesh.plan.settings() };
+    let plan = Plan::new(mesh.plan.layout().clone(), shared).map_err(PipelineError::from)?;
+    let mut feed = Feed::open(format, start()?, &plan, &mesh.chunks, &mesh.materials)?;
+    let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
+    if given != planned {
+        return Err(WriteError::VertexCount { given, planned });
+    }
+    let mut left = &mesh.vertices[..];
+    for chunk in &mesh.chunks {
+        let (vertices, others) = left.split_at(chunk.vertices() as usize);
+        feed.vertices(chunk, 0, vertices)?;
+        left = others;
+    }
+    feed.finish()
+}
+
+/// Runs a pipeline on `device` and writes its mesh piece by piece, in the format that the extension of `output`
+/// stands for. At most two chunks of it are in memory.
+///
+/// The pipeline's topology is replaced by [`Topology::Shared`], so that the device writes no index.
+///
+/// **Errors**: those of [`mesh`](fn@mesh), and [`WriteError::Pipeline`] where the pipeline fails or its progress asks to stop.
+///
+/// ```
+/// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_formats::WriteError> {
+/// use texere_core::{Limits, Pipeline};
+/// // Half a gigabyte for control points and two chunks, however large the fabric.
+/// let limits = Limits { memory_bytes: 1 << 29, ..Limits::default() };
+/// let written = texere_formats::write::stream(Pipeline::new(yarns).limits(limits), device, "damask.ply")?;
+/// println!("{} triangles in {} bytes", written.triangles, written.bytes);
+/// # Ok(())
+/// # }
+/// ```
+pub fn stream(
+    pipeline: Pipeline<'_>,
+    device: &dyn Backend,
+    output: impl Into<Output>,
+) -> Result<Written, WriteError> {
+    let output = output.into();
+    let format = Format::from_path(output.path())?;
+    let (target, written) = streamed(pipeline, device, format, || Target::create(output))?;
+    Ok(Written { bytes: target.commit()?, ..written })
+}
+
+/// Runs a pipeline on `device` and writes its mesh to `out` piece by piece, from where `out` stands: the bytes that [`stream`] writes
+/// to a file. Then `out` stands behind the last of them.
+///
+/// **Errors**: those of [`stream`], with [`WriteError::Writer`] where `out` refuses. What it has then is no whole file.
+///
+/// ```
+/// use std::io::Cursor;
+/// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+/// use texere_cpu::ParallelBackend;
+/// use texere_formats::write::{self, Format};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let yarns = yarns.build()?;
+/// let mut ply = Cursor::new(Vec::new());
+/// let written = write::stream_to(Pipeline::new(&yarns), &ParallelBackend::open()?, Format::Ply, &mut ply)?;
+/// assert_eq!(ply.into_inner().len() as u64, written.bytes);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn stream_to(
+    pipeline: Pipeline<'_>,
+    device: &dyn Backend,
+    format: Format,
+    out: impl Write + Seek,
+) -> Result<Written, WriteError> {
+    let (target, written) = streamed(pipeline, device, format, || Target::within(out))?;
+    Ok(Written { bytes: target.close()?, ..written })
+}
+
+/// Runs a pipeline and writes its mesh to the target that `start` gives. How many bytes it has, its end tells.
+fn streamed<W: Write + Seek>(
+    pipeline: Pipeline<'_>,
+    device: &dyn Backend,
+    format: Format,
+    start: impl FnOnce() -> Result<Target<W>, WriteError>,
+) -> Result<(Target<W>, Written), WriteError> {
+    let pipeline = pipeline.topology(Topology::Shared);
+    let plan = pipeline.plan()?;
+    let chunks = plan.chunks(&pipeline.limits_on(device)).map_err(PipelineError::from)?;
+    let materials = pipeline.yarns().materials().clone();
+    let mut feed = Feed::open(format, start()?, &plan, chunks, &materials)?;
+    let answer = pipeline.stream(device, |chunk, piece| {
+        let fed = match piece {
+            MeshPiece::Vertices { first, vertices } => feed.vertices(chunk, first, vertices),
+            _ => Ok(()),
+        };
+        match fed {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => ControlFlow::Break(error),
+        }
+    })?;
+    if let ControlFlow::Break(error) = answer {
+        return Err(error);
+    }
+    let vertices = feed.planned();
+    let written = Written { bytes: 0, vertices, triangles: plan.counts().triangles };
+    Ok((feed.finish()?, written))
+}

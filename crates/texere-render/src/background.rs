@@ -1,0 +1,26 @@
+//! What is seen where no yarn is.
+
+use texere_core::Material;
+
+/// What a picture has where no yarn is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Background {
+    /// Light grey ground that the cloth lies on and casts its shadow on.
+    #[default]
+    Ground,
+    /// One colour, sRGB.
+    Color([u8; 3]),
+    /// Nothing: [`Picture::alpha`](crate::Picture::alpha) says how much of each pixel is yarn.
+    Nothing,
+}
+
+impl Background {
+    /// Linear colour, and what kind it is, as `view.wgsl` has them.
+    pub(crate) fn encoded(self) -> ([f32; 3], u32) {
+        match self {
+            Self::Ground => ([0.0; 3], 0),
+            Self::Color(srgb) => (Material { srgb, ..Material::default() }.linear_rgb(), 1),
+            Self::Nothing => ([0.0; 3], 2),
+        }
+    }
+}

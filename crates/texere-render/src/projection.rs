@@ -1,0 +1,103 @@
+//! From a place on the cloth to a pixel, and back: the matrices of a camera, and its lines of sight.
+
+use glam::dcamera::rh::proj::directx;
+use glam::dcamera::rh::view;
+use glam::{DMat4, DVec3};
+use texere_core::Ray;
+
+use crate::Camera;
+use crate::camera::Projection;
+
+impl Camera {
+    /// The matrix from the cloth's coordinates, mm, to clip space as wgpu has it: x to the right and y up from -1 to 1, depth from 0 at
+    /// the near plane to 1 at the far one, which stand as near to the cloth as may be.
+    ///
+    /// **Shape**: four columns of four. `f64`, since a cloth may be metres wide and a pixel micrometres.
+    ///
+    /// ```
+    /// # use texere_core::{ControlPoint, Yarn, Yarns};
+    /// # use texere_render::{Camera, Extent};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 10.0].map(|x| ControlPoint::new(x, 2.0, 0.0, 0.25)));
+    /// # let extent = Extent::of(&yarns.build()?);
+    /// let camera = Camera::true_scale(&extent, 0.1)?; // 105 by 5 pixels
+    /// let [x, y] = [5.0, 2.0]; // the cloth's middle
+    /// let clip = camera.clip_from_cloth();
+    /// assert!((0..2).all(|row| (clip[0][row] * x + clip[1][row] * y + clip[3][row]).abs() < 1e-6));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn clip_from_cloth(&self) -> [[f64; 4]; 4] {
+        (self.clip_from_local() * DMat4::from_translation(-self.target.as_dvec3())).to_cols_array_2d()
+    }
+
+    /// The line of sight through a point of the picture, in pixels from its left and upper edges: a pixel's middle is at a half. It begins
+    /// at the eye or, where lines of sight are parallel, before the cloth; its direction has length 1. A picker says what it hits.
+    #[must_use]
+    pub fn ray(&self, [x, y]: [f32; 2]) -> Ray {
+        let [width, height] = self.size().map(f64::from);
+        let across = [f64::from(x) / width * 2.0 - 1.0, 1.0 - f64::from(y) / height * 2.0];
+        let [right, above] = self.across().map(|axis| axis.as_dvec3().normalize());
+        let (target, toward) = (self.target.as_dvec3(), self.toward.as_dvec3().normalize());
+        let half = 0.5 * self.exact_height_at_target();
+        let aside = right * (across[0] * half * width / height) + above * (across[1] * half);
+        let (origin, direction) = match self.projection {
+            Projection::Orthographic { .. } => {
+                let near = if self.cuts { 0.0 } else { self.depths()[0] };
+                (target + toward * near + aside, -toward)
+            }
+            Projection::Perspective { distance, .. } => {
+                let eye = toward * f64::from(distance);
+                (target + eye, (aside - eye).normalize())
+            }
+        };
+        Ray { origin: origin.to_array(), direction: direction.to_array() }
+    }
+
+    /// What the picture's height shows at the target, mm.
+    pub(crate) fn height_at_target(&self) -> f32 {
+        self.exact_height_at_target() as f32
+    }
+
+    fn exact_height_at_target(&self) -> f64 {
+        match self.projection {
+            Projection::Orthographic { height } => f64::from(height),
+            Projection::Perspective { distance, field_of_view } => {
+                2.0 * f64::from(distance) * (0.5 * f64::from(field_of_view)).tan()
+            }
+        }
+    }
+
+    /// How far before the target the cloth begins and ends, mm: the nearer first.
+    fn depths(&self) -> [f64; 2] {
+        let depths = self.extent.corners().map(|corner| (corner - self.target).dot(self.toward));
+        let (far, near) =
+            depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
+        let spare = self.extent.radius;
+        [f64::from(near + spare), f64::from(far - spare)]
+    }
+
+    /// Where a point relative to the target lies in clip space.
+    pub(crate) fn clip_from_local(&self) -> DMat4 {
+        // As near as the fabric is, and no farther: depth has 24 bits to tell yarns apart.
+        let [near, far] = self.depths();
+        let (toward, up) = (self.toward.as_dvec3(), self.up.as_dvec3());
+        let aspect = f64::from(self.aspect());
+        match self.projection {
+            Projection::Orthographic { height } => {
+                let near = if self.cuts { 0.0 } else { near };
+                let (above, aside) = (0.5 * f64::from(height), 0.5 * f64::from(height) * aspect);
+                let look = view::look_to_mat4(DVec3::ZERO, -toward, up);
+                directx::orthographic(-aside, aside, -above, above, -near, -far) * look
+            }
+            Projection::Perspective { distance, field_of_view } => {
+                let eye = f64::from(distance);
+                let look = view::look_to_mat4(toward * eye, -toward, up);
+                // The near plane: in front of the eye, and far enough from it to leave the far end enough depth resolution.
+                let nearest = (eye - near).max(eye * 0.02);
+                let farthest = (eye - far).max(nearest * 1.01);
+                directx::perspective(f64::from(field_of_view), aspect, nearest, farthest) * look
+            }
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Free cameras, backgrounds, and several cloths in one scene.
+
+use std::f64::consts::FRAC_PI_3;
+use std::sync::Arc;
+
+use texere_core::{Layout, Placement, Plan, Ray, Settings, Topology, Yarn, Yarns};
+use texere_cpu::Picker;
+
+use super::{SETTINGS, SIZE, TWILL, renderer, two_yarns};
+use crate::{Background, Camera, Extent, Picture, Pose, Quality, RenderError};
+
+/// Two cloths of warp in red and green and weft in blue, one beside the other, turned and larger.
+fn cloths() -> Yarns {
+    let twill = TWILL.yarns();
+    let mut colored = Yarns::builder();
+    for srgb in [[255, 0, 0], [0, 255, 0], [0, 0, 255]] {
+        colored.material(texere_core::Material { srgb, ..Default::default() });
+    }
+    twill.layout().sections().iter().for_each(|section| {
+        colored.section(section.clone());
+    });
+    for number in 0..twill.layout().yarns().len() {
+        let yarn: &Yarn = &twill.layout().yarns()[number];
+        colored.yarn(*yarn, twill.yarn_points(number).unwrap());
+    }
+    let one = colored.build().unwrap();
+    let other = one.placed(&Placement { turn: FRAC_PI_3, scale: 1.5, at: [22.0, -4.0, 1.0] }).unwrap();
+    Yarns::merged([&one, &other]).unwrap()
+}
+
+fn drawn(yarns: &Yarns, camera: &Camera, background: Background) -> Picture {
+    let renderer = renderer().lock().unwrap();
+    let mut scene = renderer.scene(yarns, &SETTINGS).unwrap();
+    scene.set_background(background);
+    scene.picture(camera, Quality { supersampling: 1 }).unwrap()
+}
+
+/// From aside, from near with a wide view and a tilted head, from below, and along parallel lines.
+fn cameras(extent: &Extent) -> [(&'static str, Camera); 4] {
+    let pose = |eye, target, up| Pose { eye, target, up };
+    let aside = pose([30.0, -25.0, 22.0], [13.0, 3.0, 0.0], [0.0, 0.0, 1.0]);
+    let near = pose([4.0, 2.0, 3.0], [6.5, 4.5, 0.0], [0.3, 0.2, 1.0]);
+    let below = pose([10.0, -14.0, -24.0], [12.0, 4.0, 0.0], [0.0, 1.0, 0.0]);
+    [
+        ("aside", Camera::perspective(extent, &aside, 0.6, SIZE).unwrap()),
+        ("near", Camera::perspective(extent, &near, 1.4, SIZE).unwrap()),
+        ("below", Camera::perspective(extent, &below, 0.7, SIZE).unwrap()),
+        ("parallel", Camera::orthographic(extent, &aside, 16.0, SIZE).unwrap()),
+    ]
+}
+
+/// A picture and a picker know nothing of one another but the camera.
+#[test]
+fn a_pixel_shows_the_yarn_that_its_ray_hits() {
+    let yarns = cloths();
+    let layout: &Arc<Layout> = yarns.layout();
+    let settings = Settings { topology: Topology::None, caps: true, ..SETTINGS };
+    let plan = Arc::new(Plan::new(layout.clone(), settings).unwrap());
+    let picker = Picker::new(plan, yarns.points()).unwrap();
+    let material = |ray: &Ray| picker.pick(ray).map(|hit| layout.yarns()[hit.place.yarn as usize].material);
+    for (name, camera) in cameras(&Extent::of(&yarns)) {
+        let picture = drawn(&yarns, &camera, Background::Nothing);
+        let mut seen = [0; 4];
+        for (x, y) in (0..SIZE[1]).step_by(3).flat_map(|y| (0..SIZE[0]).step_by(3).map(move |x| (x, y))) {
+            // The corners, and where devices take their four samples.
+            let within = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].into_iter();
+            let within = within.chain([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]]);
+            let hit = |[right, down]: [f32; 2]| material(&camera.ray([x as f32 + right, y as f32 + down]));
+            let hits: Vec<_> = within.map(hit).collect();
+            if hits.iter().any(|hit| *hit != hits[0]) {
+                continue; // an edge
+            }
+            let pixel = (y * SIZE[0] + x) as usize;
+            let rgb: [u8; 3] = picture.rgb[3 * pixel..][..3].try_into().unwrap();
+            match hits[0] {
+                Some(material) => {
+                    let material = material as usize;
+                    assert!(rgb.iter().all(|&channel| channel <= rgb[material]), "{name} {x} {y}: {rgb:?}");
+                    assert!(picture.alpha[pixel] == 255 && rgb[material] > 0, "{name} {x} {y}: {rgb:?}");
+                    seen[material] += 1;
+                }
+                None => {
+                    assert_eq!(picture.alpha[pixel], 0, "{name} {x} {y}");
+                    seen[3] += 1;
+                }
+            }
+        }
+        assert!(seen.iter().all(|&count| count > 20), "{name}: {seen:?}");
+    }
+}
+
+/// The matrix and the lines of sight say the same of where a point is seen.
+#[test]
+fn a_point_on_a_ray_lies_at_its_pixel() {
+    for (name, camera) in cameras(&Extent::of(&cloths())) {
+        let matrix = camera.clip_from_cloth();
+        for pixel in [[0.0, 0.0], [SIZE[0] as f32, 11.5], [97.25, SIZE[1] as f32], [120.0, 90.0]] {
+            for distance in [3.0, 20.0, 50.0] {
+                let [x, y, z] = camera.ray(pixel).at(distance);
+                let clip: [f64; 4] = std::array::from_fn(|row| {
+                    matrix[0][row] * x + matrix[1][row] * y + matrix[2][row] * z + matrix[3][row]
+                });
+                let across = (clip[0] / clip[3] + 1.0) / 2.0 * f64::from(SIZE[0]);
+                let down = (1.0 - clip[1] / clip[3]) / 2.0 * f64::from(SIZE[1]);
+                let off = (across - f64::from(pixel[0])).abs() + (down - f64::from(pixel[1])).abs();
+                assert!(off < 1e-3, "{name} {pixel:?}: {across} {down}");
+            }
+        }
+    }
+}
+
+#[test]
+fn backgrounds_change_no_pixel_that_is_all_yarn() {
+    let yarns = cloths();
+    let (_, camera) = cameras(&Extent::of(&yarns)).into_iter().next().unwrap();
+    let [ground, plum, nothing] = [Background::Ground, Background::Color([120, 40, 90]), Background::Nothing]
+        .map(|background| drawn(&yarns, &camera, background));
+    assert!(ground.alpha.iter().chain(&plum.alpha).all(|&alpha| alpha == 255));
+    let (mut yarn, mut mixed, mut empty) = (0, 0, 0);
+    for (pixel, &alpha) in nothing.alpha.iter().enumerate() {
+        let rgb = |picture: &Picture| <[u8; 3]>::try_from(&picture.rgb[3 * pixel..][..3]).unwrap();
+        match alpha {
+            255 => {
+                yarn += 1;
+                assert_eq!([rgb(&plum), rgb(&nothing)], [rgb(&ground); 2]);
+            }
+            0 => {
+                empty += 1;
+                assert_eq!([rgb(&plum), rgb(&nothing)], [[120, 40, 90], [0; 3]]);
+            }
+            _ => mixed += 1,
+        }
+    }
+    assert!(yarn > 4000 && mixed > 300 && empty > 4000, "{yarn} {mixed} {empty}");
+    assert_eq!(nothing.rgba()[..4], [0; 4]);
+}
+
+#[test]
+fn eyes_that_see_nothing_are_refused() {
+    let extent = Extent::of(&two_yarns());
+    let good = Pose { eye: [0.0, 0.0, 9.0], target: [0.0; 3], up: [0.0, 1.0, 0.0] };
+    assert!(Camera::perspective(&extent, &good, 0.5, SIZE).is_ok());
+    let poses = [
+        Pose { eye: [0.0; 3], ..good },
+        Pose { eye: [f32::NAN, 0.0, 9.0], ..good },
+        Pose { eye: [0.0, 0.0, f32::MAX], target: [0.0, 0.0, f32::MIN], ..good },
+        Pose { target: [0.0, f32::INFINITY, 0.0], ..good },
+        Pose { up: [0.0, 0.0, 3.0], ..good },
+        Pose { up: [0.0; 3], ..good },
+        Pose { up: [f32::NAN; 3], ..good },
+    ];
+    for pose in poses {
+        for refused in
+            [Camera::perspective(&extent, &pose, 0.5, SIZE), Camera::orthographic(&extent, &pose, 4.0, SIZE)]
+        {
+            assert!(matches!(refused, Err(RenderError::Camera { .. })), "{pose:?}");
+        }
+    }
+    for value in [0.0, -1.0, 3.15, f32::NAN, f32::INFINITY] {
+        let refused = Camera::perspective(&extent, &good, value, SIZE);
+        assert!(matches!(refused, Err(RenderError::Camera { .. })), "{value}");
+    }
+    for value in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        let refused = Camera::orthographic(&extent, &good, value, SIZE);
+        assert!(matches!(refused, Err(RenderError::Camera { .. })), "{value}");
+    }
+}

@@ -1,0 +1,277 @@
+//! A fabric that is edited while its mesh stays on a device.
+
+mod edits;
+mod error;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use texere_core::{
+    Backend, Change, ControlPoint, LiveMesh, Material, Plan, Ray, SessionError, Settings, Yarn, Yarns,
+};
+use texere_cpu::{Hit, Picker};
+use texere_fabric::{Loom, Structure};
+
+pub use self::error::LiveError;
+
+/// A fabric that is being edited, and its whole mesh on a device.
+///
+/// Lifts, yarns, control points and colours change one by one, and [`Live::update`] makes again what has changed and no more. Each ends as if the fabric
+/// had been made anew; to undo is to set the old value again. Yarns lie as they are woven or knitted, at once and not at rest: [`Live::set_rest`] takes
+/// those that have come to rest since, and what is edited then lies as it is woven among them, until the next.
+///
+/// The first update makes the whole mesh. Where a later one says that it is [`anew`](Update::anew), take the mesh's buffers again.
+///
+/// ```
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// use std::sync::Arc;
+/// use texere::{Live, Material, Section, Settings, Thread, Weave, Woven};
+/// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 40], vec![Thread::new(1.0, 0.2); 30]);
+/// let twill = Weave::parse("2/2")?.drawdown(40, 30)?;
+/// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+/// let mut live = Live::weave(Arc::from(texere::open("cpu")?), cloth, Settings::default())?;
+/// live.update()?; // the whole mesh
+///
+/// let up = live.woven().is_some_and(|cloth| cloth.drawdown().up(7, 3));
+/// live.set_lift(7, 3, !up)?;
+/// // End 8 and pick 4 were made again, and they alone.
+/// let update = live.update()?;
+/// assert!(!update.anew);
+/// assert_eq!(update.changes.len(), 2);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Live {
+    device: Arc<dyn Backend>,
+    settings: Settings,
+    source: Source,
+    /// Yarns that were set, one by one, to others than the source's.
+    set: BTreeMap<usize, (Yarn, Vec<ControlPoint>)>,
+    materials: Vec<Material>,
+    mesh: LiveMesh,
+    /// Whether the mesh is another one since the last update.
+    anew: bool,
+    /// What picks, from the first ray on, until the mesh is another one.
+    picker: Option<Picker>,
+}
+
+/// Where yarns come from.
+#[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "a fabric has one source")]
+enum Source {
+    Loom(Loom),
+    Given(Yarns),
+}
+
+/// What [`Live::update`] has done.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Update {
+    /// The vertices and indices that were made again, chunk by chunk.
+    pub changes: Vec<Change>,
+    /// Whether all memory is new, with other chunks: a yarn had outgrown its room.
+    pub anew: bool,
+}
+
+impl Live {
+    /// Woven cloth, its mesh on `device`.
+    ///
+    /// **Errors**: [`LiveError::Fabric`] where its yarns can't be made, [`LiveError::Session`] where the mesh can't be planned or has no room on
+    /// the device.
+    pub fn weave(
+        device: Arc<dyn Backend>,
+        cloth: texere_fabric::Woven,
+        settings: Settings,
+    ) -> Result<Self, LiveError> {
+        let yarns = cloth.yarns()?;
+        Self::of(device, &yarns, Source::Loom(Loom::new(cloth)), settings)
+    }
+
+    /// Any structure: woven cloth as [`Live::weave`] takes it, knits by their yarns.
+    ///
+    /// **Errors**: those of [`Live::weave`].
+    pub fn new(
+        device: Arc<dyn Backend>,
+        structure: &Structure,
+        settings: Settings,
+    ) -> Result<Self, LiveError> {
+        match structure.woven() {
+            Some(design) => Self::weave(device, design.cloth().clone(), settings),
+            None => Self::given(device, structure.yarns()?, settings),
+        }
+    }
+
+    /// Yarns of any origin.
+    ///
+    /// **Errors**: [`LiveError::Session`] where the mesh can't be planned or has no room on the device.
+    pub fn given(device: Arc<dyn Backend>, yarns: Yarns, settings: Settings) -> Result<Self, LiveError> {
+        let all = yarns.clone();
+        Self::of(device, &all, Source::Given(yarns), settings)
+    }
+
+    fn of(
+        device: Arc<dyn Backend>,
+        yarns: &Yarns,
+        source: Source,
+        settings: Settings,
+    ) -> Result<Self, LiveError> {
+        let mesh = start(&*device, yarns, settings)?;
+        let materials = yarns.materials().to_vec();
+        Ok(Self {
+            device,
+            settings,
+            source,
+            set: BTreeMap::new(),
+            materials,
+            mesh,
+            anew: false,
+            picker: None,
+        })
+    }
+
+    /// The cloth as it is now, where it is woven. Yarns that were [set](Live::set_yarn) are not in it.
+    #[must_use]
+    pub const fn woven(&self) -> Option<&texere_fabric::Woven> {
+        match &self.source {
+            Source::Loom(loom) => Some(loom.cloth()),
+            Source::Given(_) => None,
+        }
+    }
+
+    /// The mesh: its plan, its chunks, and how to read it. It is that of the last [`Live::update`].
+    #[must_use]
+    pub const fn mesh(&self) -> &LiveMesh {
+        &self.mesh
+    }
+
+    /// The same, to be read.
+    pub const fn mesh_mut(&mut self) -> &mut LiveMesh {
+        &mut self.mesh
+    }
+
+    /// The materials that yarns refer to.
+    #[must_use]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Makes again what has changed since the last time. May return before it is done: what is read or drawn later has it.
+    ///
+    /// **Errors**: [`LiveError::Session`] of the device; what was to be made again still is.
+    pub fn update(&mut self) -> Result<Update, LiveError> {
+        let changes = self.mesh.update()?;
+        Ok(Update { changes, anew: std::mem::take(&mut self.anew) })
+    }
+
+    /// Makes what shaders and textures ask of vertices beside the mesh from the next update on: [`Attribute`](texere_core::Attribute)s, which
+    /// [`LiveMesh::read_attributes`] reads and backends lend.
+    pub fn keep_attributes(&mut self) {
+        self.mesh.keep_attributes();
+    }
+
+    /// The first triangle that `ray` hits, of all yarns as they are now, updated or not; none where it hits nothing. The first ray makes boxes round all
+    /// yarns ([`Picker`]); edits keep them up.
+    ///
+    /// **Errors**: those of [`Live::yarns`], and [`LiveError::Pick`] where there is no memory for it.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # use std::sync::Arc;
+    /// # use texere::{Live, Material, Section, Settings, Thread, Weave, Woven};
+    /// use texere::{Ray, YarnPlace};
+    /// # let (warp, weft) = (vec![Thread::new(1.0, 0.2); 40], vec![Thread::new(1.0, 0.2); 30]);
+    /// # let twill = Weave::parse("2/2")?.drawdown(40, 30)?;
+    /// # let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let mut live = Live::weave(Arc::from(texere::open("cpu")?), cloth, Settings::default())?; // of 40 ends and 30 picks
+    /// let above = Ray { origin: [7.5, 3.5, 9.0], direction: [0.0, 0.0, -1.0] }; // end 8 and pick 4
+    /// for up in [true, false] {
+    ///     live.set_lift(7, 3, up)?;
+    ///     let hit = live.pick(&above)?.ok_or("nothing is there")?;
+    ///     assert_eq!(hit.place.yarn, if up { 7 } else { 43 });
+    /// }
+    ///
+    /// // What a weaver calls the place; Design::named says it with the line of the design.
+    /// let hit = live.pick(&above)?.ok_or("nothing is there")?;
+    /// let yarns = live.yarns()?;
+    /// let place = YarnPlace::at(&yarns, hit.place.yarn as usize, hit.interval as usize, hit.t, 0.0);
+    /// let place = live.woven().ok_or("not woven")?.place(&yarns, &place.ok_or("no such place")?);
+    /// assert_eq!(place.to_string(), "pick 4 at end 8");
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn pick(&mut self, ray: &Ray) -> Result<Option<Hit>, LiveError> {
+        let picker = match self.picker.take() {
+            Some(picker) => picker,
+            None => Picker::new(self.mesh.plan().clone(), self.yarns()?.points())?,
+        };
+        Ok(self.picker.insert(picker).pick(ray))
+    }
+
+    /// All yarns as they are now, with their [sources](Yarns::sources) for as long as none was [set](Live::set_yarn).
+    ///
+    /// **Errors**: [`LiveError::Fabric`] and [`LiveError::Yarns`] where they can't be made.
+    pub fn yarns(&self) -> Result<Yarns, LiveError> {
+        let yarns = match &self.source {
+            Source::Loom(loom) => loom.cloth().yarns()?,
+            Source::Given(yarns) => yarns.clone(),
+        };
+        let mut offsets = vec![0];
+        let (mut table, mut points) = (Vec::new(), Vec::with_capacity(yarns.points().len()));
+        for (yarn, what) in yarns.layout().yarns().iter().enumerate() {
+            let own = yarns.yarn_points(yarn).unwrap_or_default();
+            let (what, own) = self.set.get(&yarn).map_or((*what, own), |(what, points)| (*what, &points[..]));
+            table.push(what);
+            points.extend_from_slice(own);
+            offsets.push(points.len() as u64);
+        }
+        let layout = texere_core::Layout::new(table, offsets, yarns.layout().sections().to_vec())?;
+        let all = Yarns::new(layout, self.materials.clone(), points)?;
+        Ok(match yarns.sources().filter(|_| self.set.is_empty()) {
+            Some(sources) => all.with_sources(sources.to_vec())?,
+            None => all,
+        })
+    }
+
+    /// What yarn number `yarn` is.
+    fn yarn(&self, yarn: usize) -> Yarn {
+        match (self.set.get(&yarn), &self.source) {
+            (Some((what, _)), _) => *what,
+            (None, Source::Loom(loom)) => loom.yarn(yarn),
+            (None, Source::Given(yarns)) => yarns.layout().yarns()[yarn],
+        }
+    }
+
+    /// The control points of yarn number `yarn`, into `points`.
+    fn lay(&self, yarn: usize, points: &mut Vec<ControlPoint>) {
+        points.clear();
+        match (self.set.get(&yarn), &self.source) {
+            (Some((_, own)), _) => points.extend_from_slice(own),
+            (None, Source::Loom(loom)) => loom.lay(yarn, points),
+            (None, Source::Given(yarns)) => {
+                points.extend_from_slice(yarns.yarn_points(yarn).unwrap_or_default());
+            }
+        }
+    }
+
+    /// A mesh of other yarns, with attributes where this one has them.
+    fn another(&self, yarns: &Yarns) -> Result<LiveMesh, LiveError> {
+        let mut mesh = start(&*self.device, yarns, self.settings)?;
+        if self.mesh.keeps_attributes() {
+            mesh.keep_attributes();
+        }
+        Ok(mesh)
+    }
+}
+
+/// A mesh of `yarns` with room for more control points: an eighth of what each yarn has, and a few.
+fn start(device: &dyn Backend, yarns: &Yarns, settings: Settings) -> Result<LiveMesh, LiveError> {
+    let offsets = yarns.layout().offsets();
+    let room = |yarn: usize| {
+        let own = offsets[yarn + 1] - offsets[yarn];
+        own + own / 8 + 16
+    };
+    let plan = Plan::with_room(yarns.layout().clone(), settings, room).map_err(SessionError::from)?;
+    let mut mesh = LiveMesh::new(device, Arc::new(plan))?;
+    mesh.upload(0, yarns.points())?;
+    Ok(mesh)
+}

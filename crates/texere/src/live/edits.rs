@@ -1,0 +1,189 @@
+//! What is edited: lifts, yarns, structures, colours.
+
+use std::ops::Range;
+
+use texere_core::{ControlPoint, Material, PlanError, SessionError, Yarn, Yarns};
+use texere_fabric::{Loom, Structure};
+
+use super::{Live, LiveError, Source};
+
+impl Live {
+    /// Changes a material: a colour is none of the mesh's, so nothing is made again.
+    ///
+    /// **Errors**: [`LiveError::NoMaterial`].
+    pub fn set_material(&mut self, number: usize, material: Material) -> Result<(), LiveError> {
+        let materials = self.materials.len();
+        let Some(place) = self.materials.get_mut(number) else {
+            return Err(LiveError::NoMaterial { material: number, materials });
+        };
+        *place = material;
+        Ok(())
+    }
+
+    /// Says whether the warp is up at a crossing, end and pick counted from 0 (errors name them from 1, as weavers do). Both yarns are those of the weave then, even if they were
+    /// [set](Live::set_yarn) before.
+    ///
+    /// **Errors**: [`LiveError::NotWoven`], [`LiveError::Fabric`] outside the cloth, and [`LiveError::Session`] of the device.
+    pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), LiveError> {
+        self.set_drawdown(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
+    }
+
+    /// The same for all crossings of some ends and picks.
+    ///
+    /// **Errors**: those of [`Live::set_lift`].
+    pub fn set_drawdown(
+        &mut self,
+        ends: Range<usize>,
+        picks: Range<usize>,
+        up: impl Fn(usize, usize) -> bool,
+    ) -> Result<(), LiveError> {
+        let Source::Loom(loom) = &mut self.source else { return Err(LiveError::NotWoven) };
+        let changed = loom.set_lifts(ends, picks, up)?;
+        self.set.retain(|yarn, _| changed.binary_search(yarn).is_err());
+        self.show_all(changed)
+    }
+
+    /// Makes yarn number `yarn`, from 0, another one: its material, section and twist, and its control points, mm.
+    ///
+    /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], [`LiveError::Session`] for what no yarn can be and for a device that fails.
+    pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), LiveError> {
+        let yarns = self.mesh.plan().layout().yarns().len();
+        if yarn >= yarns {
+            return Err(LiveError::NoYarn { yarn, yarns });
+        }
+        let (material, materials) = (what.material as usize, self.materials.len());
+        if material >= materials {
+            return Err(LiveError::NoMaterial { material, materials });
+        }
+        let before = self.set.insert(yarn, (what, points.to_vec()));
+        let shown = self.show(yarn, what, points);
+        if shown.is_err() {
+            match before {
+                Some(before) => self.set.insert(yarn, before),
+                None => self.set.remove(&yarn),
+            };
+        }
+        shown
+    }
+
+    /// Moves yarn number `yarn`, from 0: gives it other control points, perhaps more or fewer.
+    ///
+    /// **Errors**: those of [`Live::set_yarn`].
+    pub fn set_points(&mut self, yarn: usize, points: &[ControlPoint]) -> Result<(), LiveError> {
+        let yarns = self.mesh.plan().layout().yarns().len();
+        if yarn >= yarns {
+            return Err(LiveError::NoYarn { yarn, yarns });
+        }
+        self.set_yarn(yarn, self.yarn(yarn), points)
+    }
+
+    /// Takes another structure in place of this one: a knit with other stitches, a cloth with other threads. Yarns that stay as they are
+    /// are not made again.
+    ///
+    /// **Errors**: those of [`Live::new`].
+    pub fn set_structure(&mut self, structure: &Structure) -> Result<(), LiveError> {
+        self.set_yarns(structure.yarns()?)?;
+        if let Some(design) = structure.woven() {
+            self.source = Source::Loom(Loom::new(design.cloth().clone()));
+        }
+        Ok(())
+    }
+
+    /// Takes other yarns in place of these: such as have come to rest. Yarns that stay as they are are not made again. The fabric is known by its
+    /// yarns alone from then on.
+    ///
+    /// **Errors**: [`LiveError::Session`] of the device.
+    pub fn set_yarns(&mut self, yarns: Yarns) -> Result<(), LiveError> {
+        let (before, after) = (self.mesh.plan().layout().clone(), yarns.layout().clone());
+        if before.yarns().len() != after.yarns().len() || before.sections() != after.sections() {
+            self.mesh = self.another(&yarns)?;
+            self.materials = yarns.materials().to_vec();
+            (self.source, self.anew, self.picker) = (Source::Given(yarns), true, None);
+            self.set.clear();
+        } else {
+            let mut old = Vec::new();
+            let differs = |yarn: &usize| {
+                self.lay(*yarn, &mut old);
+                after.yarns()[*yarn] != self.yarn(*yarn) || yarns.yarn_points(*yarn) != Some(&old)
+            };
+            let changed: Vec<_> = (0..after.yarns().len()).filter(differs).collect();
+            self.materials = yarns.materials().to_vec();
+            self.source = Source::Given(yarns);
+            self.set.clear();
+            self.show_all(changed)?;
+        }
+        Ok(())
+    }
+
+    /// Lays all yarns as `rest` has them, which were brought to rest since, and keeps the weave: yarns that are lifted later are laid as woven, among
+    /// those at rest, until the next call. Yarns that stay as they are are not made again.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// use std::ops::ControlFlow;
+    /// use std::sync::Arc;
+    /// use texere::{Finish, Live, Material, Relief, Section, Settings, Structure, Thread, Weave, Woven, WovenDesign};
+    /// # let (warp, weft) = (vec![Thread::new(0.35, 0.15); 12], vec![Thread::new(0.35, 0.15); 8]);
+    /// # let plain = Weave::parse("plain")?.drawdown(12, 8)?;
+    /// # let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::default())?); // dense plain weave
+    /// let device = Arc::from(texere::open("cpu")?);
+    /// let mut live = Live::new(Arc::clone(&device), &structure, Settings::default())?; // to be seen at once
+    /// let finished = structure.settle(&Finish::default(), 0.0, &*device, |_| ControlFlow::Continue(()))?;
+    /// live.set_rest(finished.yarns())?;
+    /// live.set_lift(3, 2, false)?; // end 4 and pick 3 lie as woven
+    /// live.update()?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// **Errors**: [`LiveError::OtherYarns`] for yarns or sections that are not as many as the fabric's, and those of [`Live::set_yarn`].
+    pub fn set_rest(&mut self, rest: &Yarns) -> Result<(), LiveError> {
+        let (layout, own) = (rest.layout(), self.mesh.plan().layout());
+        if layout.yarns().len() != own.yarns().len() || layout.sections() != own.sections() {
+            return Err(LiveError::OtherYarns {
+                given: layout.yarns().len(),
+                sections: layout.sections().len(),
+                yarns: own.yarns().len(),
+                own: own.sections().len(),
+            });
+        }
+        let mut old = Vec::new();
+        for (yarn, what) in layout.yarns().iter().enumerate() {
+            let points = rest.yarn_points(yarn).unwrap_or_default();
+            self.lay(yarn, &mut old);
+            if (self.yarn(yarn), &old[..]) != (*what, points) {
+                self.set_yarn(yarn, *what, points)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn show_all(&mut self, yarns: Vec<usize>) -> Result<(), LiveError> {
+        let mut points = Vec::new();
+        yarns.into_iter().try_for_each(|yarn| {
+            self.lay(yarn, &mut points);
+            self.show(yarn, self.yarn(yarn), &points)
+        })
+    }
+
+    /// Gives the mesh a yarn, or begins another mesh where this one has no room for it.
+    fn show(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), LiveError> {
+        match self.mesh.set_yarn(yarn, what, points) {
+            Err(SessionError::Plan(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. })) => {
+                self.mesh = self.another(&self.yarns()?)?;
+                (self.anew, self.picker) = (true, None);
+                Ok(())
+            }
+            shown => {
+                shown?;
+                let plan = self.mesh.plan().clone();
+                // A picker that does not take the yarn is made anew.
+                let picker = self.picker.take();
+                self.picker =
+                    picker.and_then(|mut picker| picker.set_yarn(plan, yarn, points).ok().and(Some(picker)));
+                Ok(())
+            }
+        }
+    }
+}

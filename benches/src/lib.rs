@@ -15,6 +15,8 @@ pub mod measure;
 #[cfg(feature = "gpu")]
 pub mod phases;
 #[cfg(feature = "gpu")]
+pub mod pictures;
+#[cfg(feature = "gpu")]
 pub mod settling;
 #[cfg(feature = "gpu")]
 pub mod stages;

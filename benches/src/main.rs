@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::Parser;
 use texere::DeviceKind;
-use texere_bench::{crossings, edits, figure_7, floor, settling, stages, tables};
+use texere_bench::{crossings, edits, figure_7, floor, pictures, settling, stages, tables};
 
 /// Measures devices.
 #[derive(Debug, Parser)]
@@ -69,6 +69,24 @@ enum Args {
         /// The device, such as opencl:0
         #[arg(long, default_value = "wgpu:0")]
         device: String,
+    },
+    /// Pictures of a cloth, from all of it to some of its yarns
+    Pictures {
+        /// .wif drafts, .toml designs or knitout programs
+        #[arg(required = true)]
+        designs: Vec<PathBuf>,
+        /// The device that draws, such as wgpu:1
+        #[arg(long, default_value = "wgpu:0")]
+        device: String,
+        /// Width and height, pixels
+        #[arg(long, default_value = "1600x1200")]
+        size: Size,
+        /// How many times nearer than a view of all of it
+        #[arg(long, value_delimiter = ',', default_value = "1,4,20,100,400")]
+        nearer: Vec<f32>,
+        /// Runs of each
+        #[arg(long, default_value_t = 11)]
+        rounds: usize,
     },
     /// The paper's tables and figures, with ours beside them
     Tables {
@@ -183,6 +201,9 @@ fn main() -> Result<(), Box<dyn Error>> {
                 devices
             };
             edits::print(&devices, (yarns.0, yarns.1), (lifts.0, lifts.1), rounds)
+        }
+        Args::Pictures { designs, device, size: Size(width, height), nearer, rounds } => {
+            pictures::print(&designs, &device, [width.try_into()?, height.try_into()?], &nearer, rounds)
         }
         Args::Stages { designs, device } => {
             stages::print(&designs, &device)?;

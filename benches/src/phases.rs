@@ -7,11 +7,14 @@ use std::time::{Duration, Instant};
 
 use texere::{
     Backend, BackendError, Camera, Chunk, DeviceInfo, Extent, Limits, MeshPiece, Plan, Quality, Renderer,
-    Schedule, Settings, Topology, Vertex, Yarns, chunk_limits,
+    Schedule, Settings, Topology, Vertex, Yarns,
 };
 use texere_core::Session;
 use texere_wgpu::WgpuBackend;
 use wgpu::BufferUsages;
+
+/// Memory for two chunks of mesh, bytes.
+const CHUNK_MEMORY: u64 = 128 << 20;
 
 use crate::fill::Gpu;
 
@@ -94,8 +97,7 @@ impl PhaseTimer {
         scene.picture(&camera, Quality::default())?;
         let start = Instant::now();
         scene.picture(&camera, Quality::default())?;
-        // A picture makes its mesh, which is not part of this phase.
-        let rendering = start.elapsed().saturating_sub(parallel_geometry);
+        let rendering = start.elapsed();
         drop(scene);
 
         let (serial_geometry, serial_buffers) = self.serial(yarns, settings)?;
@@ -164,9 +166,9 @@ impl PhaseTimer {
         Ok(self.idle()?)
     }
 
-    /// What chunks are cut to, as those of pictures are.
+    /// What chunks are cut to: two of them are enough to keep any device busy.
     fn limits(&self, plan: &Plan) -> Limits {
-        chunk_limits(plan).min(&self.info().limits)
+        Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..self.info().limits }
     }
 
     /// Waits until the device has done all that it was given.

@@ -176,9 +176,15 @@ const fn write(resource: Resource) -> Binding {
     Binding { resource, access: Access::Write }
 }
 
+/// `rings.wgsl` for stages that write a block's own rings alone.
+macro_rules! rings {
+    () => {
+        concat!("const RINGS_BEYOND = 0u;\n", include_str!("rings.wgsl"))
+    };
+}
+
 const SCAN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("scan.wgsl"));
-const MESH_SOURCE: &str =
-    concat!(include_str!("common.wgsl"), include_str!("rings.wgsl"), include_str!("mesh.wgsl"));
+const MESH_SOURCE: &str = concat!(include_str!("common.wgsl"), rings!(), include_str!("mesh.wgsl"));
 const ATTRIBUTES_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("attributes.wgsl"));
 const PER_YARN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("per_yarn.wgsl"));
 
@@ -207,7 +213,7 @@ pub const YARN_ROLLS: Shader = Shader {
 /// Rings of a chunk: a workgroup a row.
 pub const TRAJECTORY: Shader = Shader {
     entry_point: "trajectory",
-    source: concat!(include_str!("common.wgsl"), include_str!("rings.wgsl"), include_str!("trajectory.wgsl")),
+    source: concat!(include_str!("common.wgsl"), rings!(), include_str!("trajectory.wgsl")),
     workgroup: 64,
     bindings: &[
         uniform(Resource::Params),

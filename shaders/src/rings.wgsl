@@ -1,6 +1,10 @@
-// A block's rings in workgroup memory: what the stages of the schedule per-ring begin with. After common.wgsl.
+// A block's rings in workgroup memory: what the stages of the schedule per-ring begin with. After common.wgsl, and after
+// RINGS_BEYOND: 1 where the ring that the block's last quads lead to is wanted, too, else 0.
 //
 // rings.cl is the twin of this file.
+
+// Rings that there is room for: whole eights, for the scan.
+const RINGS_HELD = BLOCK_RINGS + 8u * RINGS_BEYOND;
 
 // The whole turn of each yarn, then the roll at each block's start: one buffer, since eight are all that WebGPU promises.
 @group(0) @binding(4) var<storage, read> rolls: array<u32>;
@@ -9,27 +13,33 @@
 // less memory a workgroup takes, the more of them run at a time.
 struct BlockRings {
     // Centre, half width.
-    centre: array<vec4<f32>, BLOCK_RINGS>,
+    centre: array<vec4<f32>, RINGS_HELD>,
     // Unit tangent, growth of the half width.
-    tangent: array<vec4<f32>, BLOCK_RINGS>,
+    tangent: array<vec4<f32>, RINGS_HELD>,
     // As `side_of` gives it, and the half height.
-    side: array<vec4<f32>, BLOCK_RINGS>,
-    height_growth: array<f32, BLOCK_RINGS>,
+    side: array<vec4<f32>, RINGS_HELD>,
+    height_growth: array<f32, RINGS_HELD>,
     // Sine and cosine of the roll: where yarns are FLATTENED.
-    sin_cos: array<vec2<f32>, BLOCK_RINGS>,
-    roll: array<u32, BLOCK_RINGS>,
+    sin_cos: array<vec2<f32>, RINGS_HELD>,
+    roll: array<u32, RINGS_HELD>,
     // The turns of each eight rings.
-    eights: array<u32, BLOCK_RINGS / 8u>,
+    eights: array<u32, RINGS_HELD / 8u>,
 }
 
 var<workgroup> standing: BlockRings;
 
+// Rings of `block` that are made.
+fn rings_made(block: Block) -> u32 {
+    return min(block.rings + RINGS_BEYOND, max(block.rings, block.quads + 1u));
+}
+
 // Makes the rings of `block`: one lane a ring. Every lane of the workgroup, which has
-// at least BLOCK_RINGS, must come here.
+// at least RINGS_HELD, must come here.
 fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
+    let rings = rings_made(block);
     var here: RingSample;
     var roll = 0u;
-    if lane < block.rings {
+    if lane < rings {
         here = ring_sample(yarn, block, lane);
         standing.tangent[lane] = vec4(here.sample.tangent, here.sample.width_growth);
         // The step from the ring before needs the offset; the side takes its place afterwards.
@@ -38,17 +48,17 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
     if params.rolled != 0u {
         workgroupBarrier();
         var turn = 0u;
-        if lane + 1u < block.rings {
+        if lane + 1u < rings {
             let chord = chord_to(here, standing.side[lane + 1u].xyz);
             turn = frame_step(params.frame, here.sample.tangent, standing.tangent[lane + 1u].xyz, chord, yarn.twist);
         }
-        if lane < BLOCK_RINGS {
+        if lane < RINGS_HELD {
             standing.roll[lane] = turn;
         }
         // An inclusive scan of the steps, first within eight lanes, then across the eights.
         workgroupBarrier();
         var sum = 0u;
-        if lane < BLOCK_RINGS {
+        if lane < RINGS_HELD {
             for (var before = lane / 8u * 8u; before <= lane; before++) {
                 sum += standing.roll[before];
             }
@@ -57,7 +67,7 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
             }
         }
         workgroupBarrier();
-        if lane < block.rings {
+        if lane < rings {
             for (var before = 0u; before < lane / 8u; before++) {
                 sum += standing.eights[before];
             }
@@ -65,7 +75,7 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
             roll = closed_up(yarn, block.first_ring + lane, start + sum - turn, rolls[block.yarn]);
         }
     }
-    if lane < block.rings {
+    if lane < rings {
         standing.centre[lane] = vec4(here.sample.centre, here.sample.half_width);
         standing.side[lane] = vec4(side_of(here.sample.tangent, roll), here.sample.half_height);
         standing.height_growth[lane] = here.sample.height_growth;

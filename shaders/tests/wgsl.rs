@@ -26,10 +26,14 @@ fn parse(shader: &Shader) -> (Module, ModuleInfo) {
 }
 
 fn parse_source(source: &str) -> (Module, ModuleInfo) {
+    // Core WGSL, no feature that a device may lack: all but OpenGL's read half floats.
+    parse_with(source, Capabilities::SHADER_FLOAT16_IN_FLOAT32)
+}
+
+fn parse_with(source: &str, capabilities: Capabilities) -> (Module, ModuleInfo) {
     let module = naga::front::wgsl::parse_str(source)
         .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
-    // Core WGSL, no feature that a device may lack: all but OpenGL's read half floats.
-    let info = Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16_IN_FLOAT32)
+    let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
     (module, info)
@@ -37,14 +41,33 @@ fn parse_source(source: &str) -> (Module, ModuleInfo) {
 
 #[test]
 fn picture_shaders_have_their_entry_points() {
-    for (source, vertex, fragment) in [
-        (picture::YARNS, "yarn_corner", "yarn_sample"),
-        (picture::VISIBILITY, "screen", "visibility"),
-        (picture::SHADE, "screen", "shade"),
+    for (source, entries) in [
+        (picture::YARNS, &["yarn_corner", "yarn_sample"][..]),
+        (picture::VISIBILITY, &["visibility"]),
+        (picture::SHADE, &["shade"]),
     ] {
         let (module, _) = parse_source(source);
         let names: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
-        assert_eq!(names, [vertex, fragment]);
+        assert_eq!(names, entries);
+    }
+}
+
+/// What draws without a mesh stands after the prelude, with round yarns and with all.
+#[test]
+fn drawing_shaders_have_their_entry_points() {
+    let core = Capabilities::SHADER_FLOAT16_IN_FLOAT32;
+    let long = core | Capabilities::SHADER_INT64 | Capabilities::SHADER_INT64_ATOMIC_ALL_OPS;
+    for (source, capabilities, entries) in [
+        (picture::CULL, core, &["cull", "count_groups"][..]),
+        (picture::RASTER_IN_ROUNDS, core, &["raster", "raster_caps"]),
+        (picture::RASTER, long, &["raster", "raster_caps"]),
+        (picture::RESOLVE, core, &["resolve"]),
+    ] {
+        for flattened in [false, true] {
+            let (module, _) = parse_with(&(prelude(Language::Wgsl, flattened) + source), capabilities);
+            let names: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
+            assert_eq!(names, entries);
+        }
     }
 }
 

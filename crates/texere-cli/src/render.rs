@@ -57,8 +57,9 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     for (output, camera) in outputs.into_iter().zip(cameras) {
         let picture = scene.picture(&camera, quality)?;
         stages.add("screen", picture.timings.screen);
-        stages.add("mesh and draw", picture.timings.draw);
+        stages.add("draw", picture.timings.draw);
         stages.add("light", picture.timings.shade);
+        stages.add("copy", picture.timings.copy);
         let pixels = if args.background == Background::Nothing { picture.rgba() } else { picture.rgb };
         let [width, height] = picture.size;
         let path = line(output.path().display());

@@ -327,6 +327,13 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
+    /// Sends the tables of `chunk` unless they are there, and starts no stage: for a backend that lends them to kernels of its caller's.
+    ///
+    /// **Errors**: those of [`Session::trajectory`].
+    pub fn slot_of_tables(&mut self, chunk: &Chunk) -> Result<Slot, SessionError> {
+        self.start("slot_of_tables", chunk)
+    }
+
     /// Where the mesh of `chunk` lies on the device, for a backend that lends its memory.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::mesh`] has been called

@@ -6,9 +6,9 @@
 //!                     normals
 //! ```
 //!
-//! A [`Renderer`] is an open device with its shaders, a [`Scene`] a fabric on it, a [`Camera`] a view of the fabric. The
-//! mesh is drawn from the very buffers that the mesh stage wrote, chunk after chunk into one depth buffer; then the visible
-//! pixels are lit, once.
+//! A [`Renderer`] is an open device with its shaders, a [`Scene`] a fabric on it, a [`Camera`] a view of the fabric. Every
+//! triangle is drawn from control points, by compute shaders and without a mesh, chunk after chunk; then the visible pixels are
+//! lit, once.
 
 mod background;
 mod camera;
@@ -16,10 +16,11 @@ mod error;
 mod extent;
 mod memory;
 mod projection;
+mod raster;
+mod rasteriser;
 mod renderer;
 mod scene;
 mod screen;
-mod sieve;
 #[cfg(test)]
 mod tests;
 mod uniform;
@@ -29,4 +30,4 @@ pub use camera::{Camera, Cut, Pose};
 pub use error::RenderError;
 pub use extent::Extent;
 pub use renderer::Renderer;
-pub use scene::{Picture, PictureTimings, Quality, Scene, chunk_limits};
+pub use scene::{Picture, PictureTimings, Quality, Scene};

@@ -1,7 +1,7 @@
-//! Buffers of a renderer's device, and what binds them.
+//! Buffers of a renderer's device.
 
 use texere_core::BackendError;
-use wgpu::{BindingResource, BufferUsages};
+use wgpu::BufferUsages;
 
 use crate::Renderer;
 
@@ -28,25 +28,16 @@ impl Renderer {
         self.device.buffer(what, bytes, usage | BufferUsages::COPY_DST)
     }
 
+    /// Makes `buffer` anew where it is shorter than `bytes`.
+    pub(crate) fn reserve(&self, buffer: &mut wgpu::Buffer, bytes: u64) -> Result<(), BackendError> {
+        if buffer.size() < bytes {
+            *buffer = self.buffer("a picture's buffer", bytes, buffer.usage())?;
+        }
+        Ok(())
+    }
+
     /// Writes `bytes` to the start of `buffer`.
     pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), BackendError> {
         self.device.scoped("Queue::write_buffer", || self.device.queue().write_buffer(buffer, 0, bytes))
-    }
-
-    /// Binds `resources` in the order of their numbers.
-    pub(crate) fn bind(
-        &self,
-        layout: &wgpu::BindGroupLayout,
-        resources: &[BindingResource<'_>],
-    ) -> Result<wgpu::BindGroup, BackendError> {
-        let entries: Vec<_> = (0..)
-            .zip(resources)
-            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
-            .collect();
-        let device = &self.device;
-        device.scoped("Device::create_bind_group", || {
-            let descriptor = wgpu::BindGroupDescriptor { label: None, layout, entries: &entries };
-            device.device().create_bind_group(&descriptor)
-        })
     }
 }

@@ -1,5 +1,6 @@
 //! A fabric on the device, and pictures of it.
 
+use std::borrow::Borrow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -10,16 +11,14 @@ use texere_core::{
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
 
-use crate::screen::Screen;
-use crate::sieve::Sieve;
+use crate::raster::Raster;
+use crate::rasteriser::group;
+use crate::screen::{SCREEN_GROUP, Screen};
 use crate::uniform::{ViewUniform, YarnLook};
 use crate::{Background, Camera, Extent, RenderError, Renderer};
 
-/// Memory for two chunks of mesh, bytes: enough to keep any device busy, little beside the memory of pictures.
-const CHUNK_MEMORY: u64 = 128 << 20;
-
-// The list of one chunk's triangles is a single binding.
-const _: () = assert!(Sieve::list_bytes(CHUNK_MEMORY / 2) <= 128 << 20);
+/// Chunks whose tables a session keeps on the device.
+const CHUNKS_KEPT: usize = 2;
 
 /// The quality of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,28 +62,30 @@ impl Picture {
 pub struct PictureTimings {
     /// Textures of its size, where the picture before had another.
     pub screen: Duration,
-    /// Meshing and drawing, chunk after chunk.
+    /// Drawing, chunk after chunk: what each sample shows.
     pub draw: Duration,
-    /// Visibility, light, and the copy to the host.
+    /// Visibility and light.
     pub shade: Duration,
+    /// The copy to the host.
+    pub copy: Duration,
 }
 
-/// A fabric on a device: control points and tables. Its mesh is made anew, chunk by chunk, for each picture. Whatever the
-/// fabric, only two chunks and one chunk's list of visible triangles are in memory, 214 MiB together.
+/// A fabric on a device: control points and tables. No mesh is made for a picture: what it takes beside them is its samples, eight bytes each
+/// while they are found, 21 until they are lit.
 #[derive(Debug)]
 pub struct Scene {
-    renderer: Renderer,
-    plan: Arc<Plan>,
+    pub(crate) renderer: Renderer,
+    pub(crate) plan: Arc<Plan>,
+    pub(crate) session: WgpuSession,
     limits: Limits,
-    session: WgpuSession,
+    /// All chunks, where they are few enough to stay in the session; else none. Not known before the first picture.
+    chunks: Option<Vec<Chunk>>,
     extent: Extent,
-    /// For each yarn, the mean length from ring to ring, mm.
-    ring_lengths: Vec<f32>,
     looks: wgpu::Buffer,
-    sieve: Sieve,
-    view: wgpu::Buffer,
+    raster: Raster,
+    pub(crate) view: wgpu::Buffer,
     background: Background,
-    screen: Option<Screen>,
+    pub(crate) screen: Option<Screen>,
 }
 
 impl Renderer {
@@ -119,7 +120,6 @@ impl Renderer {
     ) -> Result<Scene, RenderError> {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-        let limits = chunk_limits(&plan).min(&self.info().limits);
         let mut session = self.device.lending_session(plan.clone())?;
         send(&mut session)?;
         session.scan()?;
@@ -128,13 +128,17 @@ impl Renderer {
             renderer: self.clone(),
             session,
             extent,
-            ring_lengths: ring_lengths(yarns, &plan),
-            looks: buffer("looks", bytemuck::cast_slice(&YarnLook::all(yarns)), BufferUsages::STORAGE)?,
-            sieve: Sieve::new(self)?,
+            looks: buffer(
+                "looks",
+                bytemuck::cast_slice(&YarnLook::all(yarns, &ring_lengths(yarns, &plan))),
+                BufferUsages::STORAGE,
+            )?,
+            raster: Raster::new(self, &plan)?,
             view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
             background: Background::Ground,
             screen: None,
-            limits,
+            chunks: None,
+            limits: Raster::chunk_limits(&plan, &self.info().limits),
             plan,
         })
     }
@@ -162,7 +166,7 @@ impl Scene {
     /// Cuts chunks to `limits` where the scene's own are wider.
     #[must_use]
     pub fn with_limits(self, limits: &Limits) -> Self {
-        Self { limits: self.limits.min(limits), ..self }
+        Self { limits: self.limits.min(limits), chunks: None, ..self }
     }
 
     /// What its pictures have from now on where no yarn is; at first ground.
@@ -175,23 +179,33 @@ impl Scene {
     /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for one that the device has no textures for,
     /// [`RenderError::Plan`] where not even one block fits the limits, [`RenderError::Backend`].
     pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
-        let (size, supersampling) = (camera.size(), quality.supersampling);
-        self.check_size(size, supersampling)?;
         let start = Instant::now();
-        let device = &self.renderer.device;
-        if self.screen.as_ref().is_none_or(|screen| !screen.fits(size, supersampling)) {
-            self.screen = None;
-            self.screen = Some(Screen::new(device, size, supersampling)?);
-        }
-        let view = ViewUniform::new(camera, self.background, supersampling, self.plan.settings().sides);
-        self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
+        self.look(camera, quality)?;
         let screened = Instant::now();
         self.draw(camera)?;
         let drawn = Instant::now();
-        let [rgb, alpha] = self.shade()?;
-        let timings =
-            PictureTimings { screen: screened - start, draw: drawn - screened, shade: drawn.elapsed() };
-        Ok(Picture { size, rgb, alpha, timings })
+        self.shade()?;
+        let shaded = Instant::now();
+        let [rgb, alpha] = self.copy()?;
+        let timings = PictureTimings {
+            screen: screened - start,
+            draw: drawn - screened,
+            shade: shaded - drawn,
+            copy: shaded.elapsed(),
+        };
+        Ok(Picture { size: camera.size(), rgb, alpha, timings })
+    }
+
+    /// Makes room for a picture, and sends the view.
+    pub(crate) fn look(&mut self, camera: &Camera, quality: Quality) -> Result<(), RenderError> {
+        let (size, supersampling) = (camera.size(), quality.supersampling);
+        self.check_size(size, supersampling)?;
+        if self.screen.as_ref().is_none_or(|screen| !screen.fits(size, supersampling)) {
+            self.screen = None;
+            self.screen = Some(Screen::new(&self.renderer.device, size, supersampling)?);
+        }
+        let view = ViewUniform::new(camera, self.background, supersampling, self.plan.settings().sides);
+        Ok(self.renderer.write(&self.view, bytemuck::bytes_of(&view))?)
     }
 
     fn check_size(&self, [width, height]: [u32; 2], supersampling: u32) -> Result<(), RenderError> {
@@ -206,13 +220,36 @@ impl Scene {
         Ok(())
     }
 
-    /// Meshes and draws chunk after chunk. While one is drawn the next is made.
+    /// Draws chunk after chunk.
     fn draw(&mut self, camera: &Camera) -> Result<(), RenderError> {
         let plan = self.plan.clone();
+        if self.chunks.is_none() {
+            let first: Vec<_> = plan.chunks(&self.limits)?.take(CHUNKS_KEPT + 1).collect();
+            self.chunks = Some(if first.len() > CHUNKS_KEPT { Vec::new() } else { first });
+        }
+        let kept = self.chunks.take().unwrap_or_default();
+        let drawn = if kept.is_empty() {
+            self.draw_chunks(plan.chunks(&self.limits)?, camera)
+        } else {
+            self.draw_chunks(kept.iter(), camera)
+        };
+        self.chunks = Some(kept);
+        drawn
+    }
+
+    /// Draws these. While one is drawn the next one's tables are sent.
+    fn draw_chunks(
+        &mut self,
+        chunks: impl Iterator<Item: Borrow<Chunk>>,
+        camera: &Camera,
+    ) -> Result<(), RenderError> {
         let mut before = None;
-        for chunk in plan.chunks(&self.limits)? {
-            self.session.mesh(&chunk)?;
-            let drawn = self.draw_chunk(&chunk, camera)?;
+        for chunk in chunks {
+            let chunk = chunk.borrow();
+            let tables = self.session.chunk_tables(chunk)?;
+            let Some(screen) = &self.screen else { break };
+            let drawn =
+                self.raster.draw(&self.renderer, tables, chunk, &self.view, screen, camera.shares())?;
             // No more than two chunks are under way, so that each wait is for a chunk and not for a fabric.
             if let Some(submission) = before.replace(drawn) {
                 self.renderer.device.wait(submission)?;
@@ -224,61 +261,38 @@ impl Scene {
         }
     }
 
-    /// Lists the triangles that may be seen, and draws them.
-    fn draw_chunk(&mut self, chunk: &Chunk, camera: &Camera) -> Result<wgpu::SubmissionIndex, RenderError> {
-        let renderer = &self.renderer;
-        self.sieve.fill(renderer, &self.plan, chunk, &self.ring_lengths)?;
-        let vertices = self.session.vertex_buffer(chunk)?.as_entire_binding();
-        let [runs, triangles] = self.sieve.bindings();
-        let listed = [self.view.as_entire_binding(), vertices, runs, triangles];
-        let drawn = renderer.bind(&renderer.layouts.yarns, &listed)?;
-        let all = [&listed[..], &[self.sieve.draw.as_entire_binding()]].concat();
-        let sieved = renderer.bind(&renderer.layouts.sieve, &all)?;
+    /// Visibility, then light.
+    pub(crate) fn shade(&self) -> Result<(), RenderError> {
+        let (renderer, Some(screen)) = (&self.renderer, &self.screen) else { return Ok(()) };
+        let texture = BindingResource::TextureView;
+        let (view, visibility) = (self.view.as_entire_binding(), texture(&screen.visibility));
+        let kept = [(0, view), (1, texture(&screen.depths)), (2, texture(&screen.surfaces)), (3, visibility)];
+        let lit = [(4, self.looks.as_entire_binding()), (5, screen.picture.as_entire_binding())];
         let device = &renderer.device;
         let submission = device.scoped("Queue::submit", || {
             let mut encoder = device.device().create_command_encoder(&Default::default());
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                pass.set_pipeline(&renderer.sieve);
-                pass.set_bind_group(0, &sieved, &[]);
-                let (columns, rows) = self.sieve.groups();
-                pass.dispatch_workgroups(columns, rows, 1);
-            }
-            if let Some(screen) = &self.screen {
-                let mut pass = screen.yarn_pass(&mut encoder, chunk.index() == 0);
-                pass.set_pipeline(if camera.sees_inside() {
-                    &renderer.all_sides
-                } else {
-                    &renderer.outsides
-                });
-                pass.set_bind_group(0, &drawn, &[]);
-                pass.draw_indirect(&self.sieve.draw, 0);
+                let mut fill = |pipeline: &wgpu::ComputePipeline, own: &[_], size: [u32; 2]| {
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(1, &group(device.device(), pipeline, 1, own), &[]);
+                    let [columns, rows] = size.map(|pixels| pixels.div_ceil(SCREEN_GROUP));
+                    pass.dispatch_workgroups(columns, rows, 1);
+                };
+                fill(&renderer.visibility, &kept, screen.large());
+                fill(&renderer.shade, &[&kept[..], &lit].concat(), screen.size());
             }
             device.queue().submit([encoder.finish()])
         })?;
-        Ok(submission)
+        Ok(device.wait(submission)?)
     }
 
-    /// Visibility, then light, then the copy to the host.
-    fn shade(&self) -> Result<[Vec<u8>; 2], RenderError> {
-        let (renderer, Some(screen)) = (&self.renderer, &self.screen) else {
-            return Ok([Vec::new(), Vec::new()]);
-        };
-        let view = |view| BindingResource::TextureView(view);
-        let kept = [
-            self.view.as_entire_binding(),
-            view(&screen.depths),
-            view(&screen.directions),
-            view(&screen.places),
-        ];
-        let seen = renderer.bind(&renderer.layouts.visibility, &kept)?;
-        let all = [&kept[..], &[view(&screen.visibility), self.looks.as_entire_binding()]].concat();
-        let lit = renderer.bind(&renderer.layouts.shade, &all)?;
-        let device = &renderer.device;
+    /// Colours and alpha, on the host.
+    pub(crate) fn copy(&self) -> Result<[Vec<u8>; 2], RenderError> {
+        let Some(screen) = &self.screen else { return Ok([Vec::new(), Vec::new()]) };
+        let device = &self.renderer.device;
         let submission = device.scoped("Queue::submit", || {
             let mut encoder = device.device().create_command_encoder(&Default::default());
-            Screen::fill(&mut encoder, &screen.visibility, &renderer.visibility, &seen);
-            Screen::fill(&mut encoder, &screen.color, &renderer.shade, &lit);
             screen.copy(&mut encoder);
             let submission = device.queue().submit([encoder.finish()]);
             screen.map();
@@ -287,21 +301,6 @@ impl Scene {
         device.wait(submission)?;
         Ok(screen.take(device)?)
     }
-}
-
-/// The limits that chunks of a picture's mesh are cut to, on any device.
-///
-/// ```
-/// # use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
-/// # let mut yarns = Yarns::builder();
-/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
-/// let plan = Plan::new(yarns.build()?.layout().clone(), Settings::default())?;
-/// assert_eq!(plan.chunks(&texere_render::chunk_limits(&plan))?.count(), 1);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[must_use]
-pub fn chunk_limits(plan: &Plan) -> Limits {
-    Limits { memory_bytes: plan.resident_bytes() + CHUNK_MEMORY, ..Limits::NONE }
 }
 
 /// The mean length from ring to ring of each yarn, mm, by its first control points: it only places the fibres' pattern.

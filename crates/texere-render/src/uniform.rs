@@ -96,17 +96,17 @@ pub(crate) struct YarnLook {
     volume_width: f32,
     grain: f32,
     diffuse: f32,
-    padding: f32,
+    ring_length: f32,
 }
 
 const _: () = assert!(size_of::<YarnLook>() == 32);
 
 impl YarnLook {
-    /// How each yarn of a fabric looks. A yarn without twist is taken for filament, smooth as silk, one with twist for
+    /// How each yarn of a fabric looks, whose rings are so far apart, mm. A yarn without twist is taken for filament, smooth as silk, one with twist for
     /// spun staple; widths are of the order that Sadeghi et al. 2013 measured on silk and on linen.
-    pub(crate) fn all(yarns: &Yarns) -> Vec<Self> {
+    pub(crate) fn all(yarns: &Yarns, ring_lengths: &[f32]) -> Vec<Self> {
         let degrees = f32::to_radians;
-        let look = |yarn: &texere_core::Yarn| {
+        let look = |(yarn, &ring_length): (&texere_core::Yarn, &f32)| {
             let color = yarns.materials()[yarn.material as usize].linear_rgb();
             let (surface, volume, grain, diffuse) =
                 if yarn.twist == 0.0 { (9.0, 16.0, 0.35, 0.35) } else { (16.0, 28.0, 0.6, 0.5) };
@@ -116,9 +116,9 @@ impl YarnLook {
                 volume_width: degrees(volume),
                 grain,
                 diffuse,
-                padding: 0.0,
+                ring_length,
             }
         };
-        yarns.layout().yarns().iter().map(look).collect()
+        yarns.layout().yarns().iter().zip(ring_lengths).map(look).collect()
     }
 }

@@ -21,6 +21,12 @@ use crate::settling::WgpuSettler;
 /// software device.
 const LAUNCH_BLOCKS: u64 = 1 << 18;
 
+/// Features that a device is opened with where it has them: the device's clock, and what pictures are drawn faster with.
+const WANTED: Features = Features::TIMESTAMP_QUERY
+    .union(Features::SHADER_INT64)
+    .union(Features::SHADER_INT64_ATOMIC_MIN_MAX)
+    .union(Features::SHADER_INT64_ATOMIC_ALL_OPS);
+
 /// A wgpu device that is open and can start sessions.
 ///
 /// ```no_run
@@ -68,7 +74,7 @@ impl WgpuBackend {
             adapters.get(index).ok_or_else(|| none(device_name("wgpu", Some(index), schedule), &adapters))?;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("texere"),
-            required_features: adapter.features() & Features::TIMESTAMP_QUERY,
+            required_features: adapter.features() & WANTED,
             required_limits: adapter.limits(),
             ..Default::default()
         }))

@@ -12,6 +12,7 @@ use texere_core::{
 use texere_gpu::{Params, YarnEnds, YarnRow, check_schedule, part_rows, settles_flattened};
 
 use texere_shaders::Resource;
+use wgpu::BindingResource;
 
 use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Timed};
@@ -62,6 +63,16 @@ impl WgpuEngine {
     /// The memory of the chunk in `slot`.
     pub(crate) fn memory(&self, slot: Slot) -> &ChunkMemory {
         &self.memory[slot.index()]
+    }
+
+    /// What a shader that works on the chunk in `slot` sees as `resource`.
+    pub(crate) fn resource(&self, slot: Slot, resource: Resource) -> Option<BindingResource<'_>> {
+        self.memory(slot).resource(&self.tables, resource)
+    }
+
+    /// Whether a control point that is not round was uploaded.
+    pub(crate) fn is_flattened(&self) -> bool {
+        self.ends.flattened()
     }
 
     /// **Errors**: [`BackendError::NotLoaded`] unless `chunk` is of the plan, and its tables are in `slot`.

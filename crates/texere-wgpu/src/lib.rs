@@ -49,7 +49,7 @@ mod upload;
 pub use device::WgpuBackend;
 pub use draw::{ATTRIBUTE_LAYOUT, VERTEX_LAYOUT, draw};
 pub use engine::WgpuEngine;
-pub use session::WgpuSession;
+pub use session::{ChunkTables, WgpuSession};
 pub use texere_core::Schedule;
 /// The wgpu that devices and buffers are of, version 30: a program that gives texere its device makes that with this one. A new major version of it
 /// is a new minor version of texere.

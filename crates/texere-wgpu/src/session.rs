@@ -2,7 +2,8 @@
 
 use std::ops::{Deref, DerefMut};
 
-use texere_core::{Chunk, Session, SessionError};
+use texere_core::{Chunk, Session, SessionError, Slot};
+use texere_shaders::Resource;
 
 use crate::engine::WgpuEngine;
 
@@ -62,12 +63,42 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).attributes.buffer())
     }
 
+    /// The control points and tables that shaders make `chunk` from, for shaders of the caller's. No stage is run, and no memory is taken for
+    /// its results.
+    ///
+    /// **Errors**: those of [`Session::trajectory`].
+    pub fn chunk_tables(&mut self, chunk: &Chunk) -> Result<ChunkTables<'_>, SessionError> {
+        let slot = self.0.slot_of_tables(chunk)?;
+        Ok(ChunkTables { engine: self.0.engine(), slot })
+    }
+
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of
     /// [`device_buffers`](texere_gpu::device_buffers), each a multiple of 16 bytes, and the rings where
     /// [`Session::trajectory`] was called. Not what wgpu maps to send and read through.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()
+    }
+}
+
+/// What shaders make a chunk from, on the device.
+#[derive(Debug, Clone, Copy)]
+pub struct ChunkTables<'a> {
+    engine: &'a WgpuEngine,
+    slot: Slot,
+}
+
+impl<'a> ChunkTables<'a> {
+    /// The binding of `resource`; none for what is not of a mesh.
+    #[must_use]
+    pub fn resource(&self, resource: Resource) -> Option<wgpu::BindingResource<'a>> {
+        self.engine.resource(self.slot, resource)
+    }
+
+    /// Whether yarns may be wider than high somewhere, which is what the constant FLATTENED of shaders says.
+    #[must_use]
+    pub fn are_flattened(&self) -> bool {
+        self.engine.is_flattened()
     }
 }
 

@@ -139,7 +139,6 @@ pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};
 #[cfg(feature = "render")]
 pub use texere_render::{
     Background, Camera, Cut, Extent, Picture, PictureTimings, Pose, Quality, RenderError, Renderer, Scene,
-    chunk_limits,
 };
 #[cfg(feature = "wgpu")]
 pub use texere_wgpu::{ATTRIBUTE_LAYOUT, VERTEX_LAYOUT, WgpuBackend, WgpuEngine, WgpuSession, draw, wgpu};

@@ -3,25 +3,67 @@
 //! | file | entry points | work |
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
+//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next five |
+//! | `cull.wgsl` | `cull`, `count_groups` | the blocks that the view may show |
+//! | `weights.wgsl` | | shares of a triangle's corners |
+//! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
+//! | `cover.wgsl` | | the samples that a triangle covers |
+//! | `raster.wgsl` | `raster`, `raster_caps` | draws a chunk from its control points |
+//! | `kept.wgsl` | | what is kept of a sample until it is lit |
+//! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
 //! | `chunk.wgsl` | | a chunk's mesh: stands before the two that follow |
-//! | `sieve.wgsl` | `sieve` | the triangles that a sample may see |
 //! | `yarns.wgsl` | `yarn_corner`, `yarn_sample` | what is nearest in each sample, unlit |
-//! | `screen.wgsl` | `screen` | reads that back: stands before the two that follow |
+//! | `screen.wgsl` | | reads that back: stands before the two that follow |
 //! | `visibility.wgsl` | `visibility` | ambient occlusion and shadow, on the screen |
 //! | `shade.wgsl` | `shade` | light, tone mapping, the picture's own pixels |
 
-/// `sieve`.
-pub const SIEVE: &str =
-    concat!(include_str!("view.wgsl"), include_str!("chunk.wgsl"), include_str!("sieve.wgsl"));
-
 /// `yarn_corner` and `yarn_sample`.
-pub const YARNS: &str =
-    concat!(include_str!("view.wgsl"), include_str!("chunk.wgsl"), include_str!("yarns.wgsl"));
+pub const YARNS: &str = concat!(
+    include_str!("view.wgsl"),
+    include_str!("chunk.wgsl"),
+    include_str!("kept.wgsl"),
+    include_str!("yarns.wgsl")
+);
 
-/// `screen` and `visibility`.
+/// What stands before shaders that draw without a mesh.
+macro_rules! fabric {
+    () => {
+        concat!(include_str!("../common.wgsl"), include_str!("view.wgsl"), include_str!("fabric.wgsl"))
+    };
+}
+
+/// `raster` and `raster_caps` with a kind of keys.
+macro_rules! raster {
+    ($keys:literal) => {
+        concat!(
+            fabric!(),
+            "const RINGS_BEYOND = 1u;\n",
+            include_str!("../rings.wgsl"),
+            include_str!("weights.wgsl"),
+            include_str!($keys),
+            include_str!("cover.wgsl"),
+            include_str!("raster.wgsl")
+        )
+    };
+}
+
+/// `cull` and `count_groups`. This one and the next three stand after `texere_gpu::prelude`.
+pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
+
+/// `raster` and `raster_caps`, for devices with atomics of 64 bits.
+pub const RASTER: &str = raster!("keys_64.wgsl");
+
+/// The same for any device.
+pub const RASTER_IN_ROUNDS: &str = raster!("keys_32.wgsl");
+
+/// `resolve`.
+pub const RESOLVE: &str =
+    concat!(fabric!(), include_str!("weights.wgsl"), include_str!("kept.wgsl"), include_str!("resolve.wgsl"));
+
+/// `visibility`.
 pub const VISIBILITY: &str =
     concat!(include_str!("view.wgsl"), include_str!("screen.wgsl"), include_str!("visibility.wgsl"));
 
-/// `screen` and `shade`.
+/// `shade`.
 pub const SHADE: &str =
     concat!(include_str!("view.wgsl"), include_str!("screen.wgsl"), include_str!("shade.wgsl"));

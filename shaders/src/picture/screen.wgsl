@@ -1,13 +1,22 @@
-// Reads back what the yarns' pass drew on the screen. After view.wgsl.
+// Reads back what is nearest in each sample of the screen. After view.wgsl.
 
-@group(0) @binding(1) var depths: texture_depth_multisampled_2d;
-@group(0) @binding(2) var directions: texture_multisampled_2d<u32>;
-@group(0) @binding(3) var places: texture_multisampled_2d<u32>;
+// A layer for each sample of a pixel: depth, 1 where no yarn is; and what resolve.wgsl kept of the surface.
+@group(1) @binding(1) var depths: texture_2d_array<f32>;
+@group(1) @binding(2) var surfaces: texture_2d_array<u32>;
 
-// A triangle that covers the screen.
-@vertex
-fn screen(@builtin(vertex_index) number: u32) -> @builtin(position) vec4<f32> {
-    return vec4(f32(number / 2u) * 4.0 - 1.0, f32(number % 2u) * 4.0 - 1.0, 0.0, 1.0);
+const SCREEN_GROUP = 8u;
+
+fn depth_at(pixel: vec2<i32>, sample: i32) -> f32 {
+    return textureLoad(depths, pixel, sample, 0).x;
+}
+
+// Normal, fibre, the yarn's number, and the place on it: a number each, as `packed` of kept.wgsl has them.
+fn kept_at(pixel: vec2<i32>, sample: i32) -> vec4<u32> {
+    return textureLoad(surfaces, pixel, sample, 0);
+}
+
+fn halves(both: u32) -> vec2<u32> {
+    return vec2(both & 0xffffu, both >> 16u);
 }
 
 fn local_at(pixel: vec2<f32>, depth: f32) -> vec3<f32> {
@@ -42,11 +51,11 @@ fn ground_at(pixel: vec2<f32>) -> Surface {
 // What one sample of a pixel shows.
 fn surface_at(pixel: vec2<i32>, sample: i32) -> Surface {
     let middle = vec2<f32>(pixel) + 0.5;
-    let depth = textureLoad(depths, pixel, sample);
+    let depth = depth_at(pixel, sample);
     if depth >= 1.0 {
         return ground_at(middle);
     }
-    let normal = from_octahedron(textureLoad(directions, pixel, sample).xy);
+    let normal = from_octahedron(halves(kept_at(pixel, sample).x));
     return Surface(local_at(middle, depth), normal, true, false);
 }
 

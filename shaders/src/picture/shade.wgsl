@@ -11,11 +11,14 @@ struct YarnLook {
     grain: f32,
     // The share of light from within that goes everywhere.
     diffuse: f32,
-    padding: f32,
+    // From ring to ring, mm.
+    ring_length: f32,
 }
 
-@group(0) @binding(4) var visibilities: texture_2d<f32>;
-@group(0) @binding(5) var<storage, read> looks: array<YarnLook>;
+@group(1) @binding(3) var visibilities: texture_2d<f32>;
+@group(1) @binding(4) var<storage, read> looks: array<YarnLook>;
+// Red, green, blue and alpha, a byte each, sRGB; rows from the top.
+@group(1) @binding(5) var<storage, read_write> picture: array<u32>;
 
 const PI = 3.14159265;
 const SAMPLES = 4;
@@ -92,12 +95,12 @@ fn fill_direction() -> vec3<f32> {
 }
 
 fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> vec3<f32> {
-    let packed = textureLoad(directions, pixel, sample);
-    let place = textureLoad(places, pixel, sample);
-    let number = place.x | place.y << 16u;
+    let kept = kept_at(pixel, sample);
+    let number = kept.z;
+    let place = halves(kept.w);
     let yarn = number & ~CUT;
     let look = looks[yarn];
-    let fibre = from_octahedron(packed.zw);
+    let fibre = from_octahedron(halves(kept.y));
     let eye = to_eye(here.local);
     if (number & CUT) != 0u {
         // Fibres seen end on absorb the light that falls between them. Nothing stands before a cut's plane, and the depth kept
@@ -106,7 +109,7 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
         return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * open);
     }
     let fade = clamp(view.reach_pixels / 120.0 - 0.25, 0.0, 1.0);
-    let color = look.color * grain(look, yarn, f32(place.z) / 65536.0, f32(place.w) / 32.0, fade);
+    let color = look.color * grain(look, yarn, f32(place.x) / 65536.0, f32(place.y) * (look.ring_length / 8.0), fade);
     let fill = fill_direction();
     // The yarn's body shades its own far side, softly, since light goes through its outer fibres.
     let facing = clamp((dot(here.normal, view.light) + 0.15) / 1.15, 0.0, 1.0);
@@ -151,7 +154,7 @@ fn visibility_of(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
     for (var y = -2; y < 2; y++) {
         for (var x = -2; x < 2; x++) {
             let there = clamp(pixel + vec2(x, y), vec2(0), last);
-            let depth = textureLoad(depths, there, 0);
+            let depth = depth_at(there, 0);
             var weight = 1.0;
             if depth < 1.0 {
                 let away = local_at(vec2<f32>(there) + 0.5, depth) - here.local;
@@ -181,15 +184,19 @@ fn sample_color(pixel: vec2<i32>, sample: i32) -> vec4<f32> {
     return vec4(tone_mapped(shade_ground(here.normal, seen)), 1.0);
 }
 
+// What a sample shows: a yarn's number, or NO_YARN.
+const NO_YARN = 0xffffffffu;
+
+fn yarn_at(pixel: vec2<i32>, sample: i32) -> u32 {
+    return select(kept_at(pixel, sample).z, NO_YARN, depth_at(pixel, sample) >= 1.0);
+}
+
 // The mean of a pixel's four samples; one is enough where all are of one yarn.
 fn pixel_color(pixel: vec2<i32>) -> vec4<f32> {
-    let first = textureLoad(places, pixel, 0).xy;
-    let is_ground = textureLoad(depths, pixel, 0) >= 1.0;
+    let first = yarn_at(pixel, 0);
     var alike = true;
     for (var sample = 1; sample < SAMPLES; sample++) {
-        let place = textureLoad(places, pixel, sample).xy;
-        let same_ground = (textureLoad(depths, pixel, sample) >= 1.0) == is_ground;
-        alike &= all(place == first) && same_ground;
+        alike &= yarn_at(pixel, sample) == first;
     }
     var sum = sample_color(pixel, 0);
     if alike {
@@ -201,11 +208,20 @@ fn pixel_color(pixel: vec2<i32>) -> vec4<f32> {
     return sum / f32(SAMPLES);
 }
 
-// A pixel of the picture: the mean of its part of the screen.
-@fragment
-fn shade(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+fn srgb(light: vec3<f32>) -> vec3<f32> {
+    let curved = 1.055 * pow(max(light, vec3(1e-9)), vec3(1.0 / 2.4)) - 0.055;
+    return select(curved, light * 12.92, light <= vec3(0.0031308));
+}
+
+// A lane a pixel of the picture: the mean of its part of the screen.
+@compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
+fn shade(@builtin(global_invocation_id) place: vec3<u32>) {
     let factor = i32(view.supersampling);
-    let corner = vec2<i32>(position.xy) * factor;
+    let size = vec2<u32>(view.size) / view.supersampling;
+    if any(place.xy >= size) {
+        return;
+    }
+    let corner = vec2<i32>(place.xy) * factor;
     var sum = vec4(0.0);
     for (var y = 0; y < factor; y++) {
         for (var x = 0; x < factor; x++) {
@@ -214,6 +230,6 @@ fn shade(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     }
     // A sample without alpha has no colour either, so it takes no part in the pixel's.
     let alpha = sum.a / f32(factor * factor);
-    let color = sum.rgb / max(sum.a, 1e-3);
-    return vec4(clamp(color, vec3(0.0), vec3(1.0)), alpha);
+    let color = clamp(sum.rgb / max(sum.a, 1e-3), vec3(0.0), vec3(1.0));
+    picture[place.y * size.x + place.x] = pack4x8unorm(vec4(srgb(color), alpha));
 }

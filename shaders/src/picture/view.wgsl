@@ -39,7 +39,7 @@ struct View {
 const GROUND = 0u;
 const COLOR = 1u;
 
-@group(0) @binding(0) var<uniform> view: View;
+@group(1) @binding(0) var<uniform> view: View;
 
 // Marks the inside of a yarn, seen where the yarn is cut, in the number of a yarn.
 const CUT = 0x80000000u;

@@ -1,5 +1,7 @@
 // Ambient occlusion and the key light's shadow at each pixel, both found on the screen. After view.wgsl and screen.wgsl.
 
+@group(1) @binding(3) var seen: texture_storage_2d<rgba8unorm, write>;
+
 const OCCLUSION_TAPS = 14u;
 const SHADOW_STEPS = 18u;
 
@@ -24,7 +26,7 @@ fn ambient(here: Surface, pixel: vec2<i32>, turn: f32) -> f32 {
         let angle = (share * SPIRAL_TURNS + turn) * 6.2831853;
         let offset = vec2(cos(angle), sin(angle)) * share * view.reach_pixels;
         let there = clamp(pixel + vec2<i32>(round(offset)), vec2(0), last);
-        let depth = textureLoad(depths, there, 0);
+        let depth = depth_at(there, 0);
         if depth >= 1.0 {
             continue;
         }
@@ -56,7 +58,7 @@ fn lit(here: Surface, phase: f32) -> f32 {
         if any(pixel < vec2(0)) || any(pixel > last) {
             break;
         }
-        let depth = textureLoad(depths, pixel, 0);
+        let depth = depth_at(pixel, 0);
         if depth < min(ndc.z, 1.0) {
             let before = dot(local_at(vec2<f32>(pixel) + 0.5, depth) - local, to_eye(local));
             if before > 0.02 * view.thickness && before < view.thickness {
@@ -67,9 +69,17 @@ fn lit(here: Surface, phase: f32) -> f32 {
     return 1.0;
 }
 
-@fragment
-fn visibility(@builtin(position) position: vec4<f32>) -> @location(0) vec2<f32> {
-    let pixel = vec2<i32>(position.xy);
+// A lane a pixel.
+@compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
+fn visibility(@builtin(global_invocation_id) place: vec3<u32>) {
+    let pixel = vec2<i32>(place.xy);
+    if any(pixel >= vec2<i32>(view.size)) {
+        return;
+    }
+    textureStore(seen, pixel, vec4(visibility_at(pixel), 0.0, 1.0));
+}
+
+fn visibility_at(pixel: vec2<i32>) -> vec2<f32> {
     let here = surface_at(pixel, 0);
     if !here.is_yarn && !here.is_ground {
         return vec2(1.0);

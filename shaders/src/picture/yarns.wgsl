@@ -1,4 +1,4 @@
-// The yarns themselves: what is nearest in each sample, unlit. After view.wgsl and chunk.wgsl.
+// The yarns themselves: what is nearest in each sample, unlit. After view.wgsl, chunk.wgsl and kept.wgsl.
 
 struct Seen {
     @builtin(position) position: vec4<f32>,
@@ -6,16 +6,14 @@ struct Seen {
     // Along the facet, as its first corner has it: the fibres' direction, since a twisted yarn's corners turn with its
     // twist. A facet's own, so that it does not depend on where a chunk is cut.
     @location(1) @interpolate(flat) fibre: vec3<f32>,
-    // Where on the yarn: cosine and sine round it, mm along it.
+    // Where on the yarn: cosine and sine round it, rings along it.
     @location(2) around: vec2<f32>,
     @location(3) along: f32,
     @location(4) @interpolate(flat) yarn: u32,
 }
 
-const TAU = 6.2831853;
-
 // Three vertices and the run, for each triangle.
-@group(0) @binding(3) var<storage, read> triangles: array<vec4<u32>>;
+@group(1) @binding(3) var<storage, read> triangles: array<vec4<u32>>;
 
 @vertex
 fn yarn_corner(@builtin(vertex_index) corner: u32) -> Seen {
@@ -36,33 +34,13 @@ fn yarn_corner(@builtin(vertex_index) corner: u32) -> Seen {
         seen.fibre = position_of(number + view.sides) - position;
     }
     seen.around = vec2(cos(angle), sin(angle));
-    seen.along = f32(inside / view.sides + run.first_ring) * run.ring_length;
+    seen.along = f32(inside / view.sides + run.first_ring);
     seen.yarn = select(run.yarn, run.yarn | CUT, is_cap);
     return seen;
 }
 
-struct Kept {
-    // Normal and fibre direction, each as an octahedron.
-    @location(0) directions: vec4<u32>,
-    // The yarn's number, low and high; the angle round the yarn, 65,536 a turn; 1/32 mm along it.
-    @location(1) place: vec4<u32>,
-}
-
 @fragment
 fn yarn_sample(seen: Seen, @builtin(front_facing) is_front: bool) -> Kept {
-    var normal = normalize(seen.normal);
-    var yarn = seen.yarn;
-    if !is_front {
-        // The inside shows only where the yarn is cut: it is filled with fibre that ends there, and faces the eye.
-        normal = normalize(view.eye.xyz);
-        yarn |= CUT;
-    }
-    let across = seen.fibre - normal * dot(seen.fibre, normal);
-    let is_level = dot(across, across) > 1e-12 * dot(seen.fibre, seen.fibre);
-    let fibre = select(normal, normalize(across), is_level && (yarn & CUT) == 0u);
     let angle = fract(atan2(seen.around.y, seen.around.x) / TAU);
-    var kept: Kept;
-    kept.directions = vec4(octahedron(normal), octahedron(fibre));
-    kept.place = vec4(yarn & 0xffffu, yarn >> 16u, u32(angle * 65535.0), u32(seen.along * 32.0) & 0xffffu);
-    return kept;
+    return kept_of(seen.normal, seen.fibre, angle, seen.along, seen.yarn, is_front);
 }

@@ -147,7 +147,10 @@ impl Woven {
     }
 
     /// A place on one of the cloth's `yarns`, named by thread and crossing.
-    pub(crate) fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn place(&self, yarns: &Yarns, place: &YarnPlace) -> ThreadPlace {
         Names { cloth: Some(self), yarns }.place(place)
     }
 }

@@ -1,0 +1,199 @@
+//! A chunk drawn without a mesh: which blocks, which triangle in each sample, and what that shows.
+
+use bytemuck::{Pod, Zeroable};
+use texere_core::{BLOCK_RINGS, BackendError, Chunk, ControlPoint, Limits, Plan};
+use texere_shaders::{Resource, grid};
+use texere_wgpu::ChunkTables;
+use wgpu::{BindingResource, BufferUsages};
+
+use crate::rasteriser::{Keys, Pipelines, group};
+use crate::screen::{SAMPLES, SCREEN_GROUP, Screen};
+use crate::{RenderError, Renderer};
+
+/// `Sweep` of `fabric.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+struct Sweep {
+    first_row: u32,
+    rows: u32,
+    number: u32,
+    shares: u32,
+    reach: f32,
+    is_first: u32,
+    padding: [u32; 2],
+}
+
+const _: () = assert!(size_of::<Sweep>() == 32);
+
+/// Bytes of a sample's key.
+const KEY_BYTES: u64 = 8;
+
+/// Most bytes of keys: sixteen samples for each of two million pixels.
+const KEYS_MOST: u64 = 256 << 20;
+
+/// `CULL_GROUP` of `cull.wgsl`.
+const CULL_GROUP: u32 = 64;
+
+/// The buffers of one chunk at a time, as large as the largest so far.
+#[derive(Debug)]
+pub(crate) struct Raster {
+    /// One for each round.
+    sweeps: [wgpu::Buffer; 2],
+    listed: wgpu::Buffer,
+    groups: wgpu::Buffer,
+    keys: wgpu::Buffer,
+    ring_rolls: wgpu::Buffer,
+    /// How far a section reaches from its centre, in half widths or half heights.
+    reach: f32,
+}
+
+impl Raster {
+    pub(crate) fn new(renderer: &Renderer, plan: &Plan) -> Result<Self, BackendError> {
+        let buffer = |what, bytes, usage| renderer.buffer(what, bytes, usage);
+        let sweep = || buffer("sweep", size_of::<Sweep>() as u64, BufferUsages::UNIFORM);
+        let reach = plan.outlines().iter().map(|point| point.x.hypot(point.y)).fold(0.0, f32::max);
+        Ok(Self {
+            sweeps: [sweep()?, sweep()?],
+            listed: buffer("listed blocks", 0, BufferUsages::STORAGE)?,
+            groups: buffer("workgroups", 12, BufferUsages::STORAGE | BufferUsages::INDIRECT)?,
+            keys: buffer("samples", 0, BufferUsages::STORAGE)?,
+            ring_rolls: buffer("rolls of rings", 0, BufferUsages::STORAGE)?,
+            reach,
+        })
+    }
+
+    /// The limits that chunks are cut to: their tables fit a binding, and their triangles a number of 32 bits.
+    pub(crate) fn chunk_limits(plan: &Plan, device: &Limits) -> Limits {
+        let settings = plan.settings();
+        let triangles = 2 * u64::from(BLOCK_RINGS) * u64::from(settings.sides);
+        // A row has two caps at most, each with as many numbers as a block.
+        let numbered = u64::from(u32::MAX) / triangles / 3;
+        let points = u64::from(BLOCK_RINGS) / (u64::from(settings.subdivisions) + 1) + 24;
+        let bound = device.binding_bytes / (points * size_of::<ControlPoint>() as u64);
+        Limits { blocks: device.blocks.min(numbered).min(bound).max(2), ..Limits::NONE }
+    }
+
+    /// Draws a chunk over what earlier ones left on the screen, and hands the work over. `shares`: workgroups that share a block.
+    pub(crate) fn draw(
+        &mut self,
+        renderer: &Renderer,
+        tables: ChunkTables<'_>,
+        chunk: &Chunk,
+        view: &wgpu::Buffer,
+        screen: &Screen,
+        shares: u32,
+    ) -> Result<wgpu::SubmissionIndex, RenderError> {
+        let pipelines = renderer.rasteriser.pipelines(&renderer.device, tables.are_flattened())?;
+        let [width, height] = screen.large();
+        let row_bytes = u64::from(width) * u64::from(SAMPLES) * KEY_BYTES;
+        let most = KEYS_MOST.min(renderer.info().limits.binding_bytes);
+        let rows = ((most / row_bytes) as u32).clamp(1, height);
+        renderer.reserve(&mut self.keys, u64::from(rows) * row_bytes)?;
+        renderer.reserve(&mut self.listed, 4 * (chunk.blocks().len() as u64 + 1))?;
+        renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
+        let mut submission = None;
+        for first_row in (0..height).step_by(rows as usize) {
+            let rows = rows.min(height - first_row);
+            for (number, buffer) in (0..).zip(&self.sweeps) {
+                let is_first = (chunk.index() == 0).into();
+                let reach = self.reach;
+                let sweep = Sweep { first_row, rows, number, shares, reach, is_first, padding: [0; 2] };
+                renderer.write(buffer, bytemuck::bytes_of(&sweep))?;
+            }
+            let device = &renderer.device;
+            let handed = device.scoped("Queue::submit", || {
+                let mut encoder = device.device().create_command_encoder(&Default::default());
+                encoder.clear_buffer(&self.keys, 0, Some(u64::from(rows) * row_bytes));
+                encoder.clear_buffer(&self.listed, 0, Some(4));
+                {
+                    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                    let of = Binder { raster: self, device: device.device(), tables, view };
+                    of.find(&mut pass, &pipelines, chunk, renderer.rasteriser.keys);
+                    of.show(&mut pass, &pipelines.resolve, screen, [width, rows]);
+                }
+                device.queue().submit([encoder.finish()])
+            })?;
+            submission = Some(handed);
+        }
+        submission.ok_or(RenderError::Size { width, height, limit: renderer.side_limit() })
+    }
+}
+
+/// What the passes over a chunk bind.
+struct Binder<'a> {
+    raster: &'a Raster,
+    device: &'a wgpu::Device,
+    tables: ChunkTables<'a>,
+    view: &'a wgpu::Buffer,
+}
+
+impl Binder<'_> {
+    /// Sets `pipeline` with `fabric` of the session, and the view, a sweep and `own` of the picture.
+    fn set(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        pipeline: &wgpu::ComputePipeline,
+        sweep: usize,
+        fabric: &[Resource],
+        own: &[(u32, BindingResource<'_>)],
+    ) {
+        let tables: Vec<_> = fabric
+            .iter()
+            .filter_map(|&wanted| Some((wanted as u32, self.tables.resource(wanted)?)))
+            .collect();
+        let mut bound = vec![(1, self.raster.sweeps[sweep].as_entire_binding())];
+        bound.extend_from_slice(own);
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group(self.device, pipeline, 0, &tables), &[]);
+        pass.set_bind_group(1, &group(self.device, pipeline, 1, &bound), &[]);
+    }
+
+    /// Records what finds the nearest triangle of each sample.
+    fn find(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, chunk: &Chunk, keys: Keys) {
+        use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Rolls, Yarns};
+        let Raster { listed, groups, keys: samples, ring_rolls, .. } = self.raster;
+        let view = (0, self.view.as_entire_binding());
+        let [listed, counted, samples, rolls] = [(2, listed), (3, groups), (4, samples), (5, ring_rolls)]
+            .map(|(number, buffer)| (number, buffer.as_entire_binding()));
+        let Pipelines { cull, count, tubes, caps, .. } = pipelines;
+        self.set(pass, cull, 0, &[Params, Points, Blocks], &[view.clone(), listed.clone()]);
+        let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULL_GROUP));
+        pass.dispatch_workgroups(columns, rows, 1);
+        self.set(pass, count, 0, &[], &[listed.clone(), counted]);
+        pass.dispatch_workgroups(1, 1, 1);
+        for round in 0..keys.rounds() {
+            let fabric = [Params, Points, Yarns, Blocks, Rolls, Outlines];
+            let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
+            self.set(pass, tubes, round, &fabric, &own);
+            pass.dispatch_workgroups_indirect(groups, 0);
+            if !chunk.caps().is_empty() {
+                let fabric = [Params, Points, Yarns, Outlines, CapRows, CapPattern];
+                let own = [view.clone(), samples.clone(), rolls.clone()];
+                self.set(pass, caps, round, &fabric, &own);
+                let (columns, rows) = grid(chunk.caps().len() as u32);
+                pass.dispatch_workgroups(columns, rows, 1);
+            }
+        }
+    }
+
+    /// Records what works out what these show, in as many columns and rows of the screen.
+    fn show(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        resolve: &wgpu::ComputePipeline,
+        screen: &Screen,
+        [columns, rows]: [u32; 2],
+    ) {
+        use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Yarns};
+        let fabric = [Params, Points, Yarns, Blocks, Outlines, CapRows, CapPattern];
+        let own = [
+            (0, self.view.as_entire_binding()),
+            (4, self.raster.keys.as_entire_binding()),
+            (5, self.raster.ring_rolls.as_entire_binding()),
+            (6, BindingResource::TextureView(&screen.depths)),
+            (7, BindingResource::TextureView(&screen.surfaces)),
+        ];
+        self.set(pass, resolve, 0, &fabric, &own);
+        pass.dispatch_workgroups(columns.div_ceil(SCREEN_GROUP), rows.div_ceil(SCREEN_GROUP), SAMPLES);
+    }
+}

@@ -1,0 +1,143 @@
+//! The compiled shaders that draw a fabric without a mesh.
+
+use std::borrow::Cow;
+use std::sync::{Arc, OnceLock};
+
+use texere_core::BackendError;
+use texere_gpu::{Language, prelude};
+use texere_shaders::picture;
+use texere_wgpu::WgpuBackend;
+use wgpu::{BindGroupEntry, BindingResource, Features};
+
+/// What the nearest triangle of a sample is found with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Keys {
+    /// Atomics of 64 bits: depth and triangle at once.
+    Whole,
+    /// Atomics of 32 bits: first the depth, then the triangle.
+    InRounds,
+}
+
+impl Keys {
+    /// The faster ones of those that `device` can do.
+    pub(crate) fn of(device: &WgpuBackend) -> Self {
+        let wanted = Features::SHADER_INT64
+            | Features::SHADER_INT64_ATOMIC_MIN_MAX
+            | Features::SHADER_INT64_ATOMIC_ALL_OPS;
+        if device.device().features().contains(wanted) { Self::Whole } else { Self::InRounds }
+    }
+
+    /// How often all triangles are gone through.
+    pub(crate) const fn rounds(self) -> usize {
+        match self {
+            Self::Whole => 1,
+            Self::InRounds => 2,
+        }
+    }
+}
+
+/// The shaders of a device, for round yarns and for all yarns, each compiled where it is wanted first.
+#[derive(Debug)]
+pub(crate) struct Rasteriser {
+    pub(crate) keys: Keys,
+    raster: &'static str,
+    resolve: Cow<'static, str>,
+    kinds: [OnceLock<Arc<Pipelines>>; 2],
+}
+
+/// The shaders for one kind of yarns.
+#[derive(Debug)]
+pub(crate) struct Pipelines {
+    pub(crate) cull: wgpu::ComputePipeline,
+    pub(crate) count: wgpu::ComputePipeline,
+    pub(crate) tubes: wgpu::ComputePipeline,
+    pub(crate) caps: wgpu::ComputePipeline,
+    pub(crate) resolve: wgpu::ComputePipeline,
+}
+
+impl Rasteriser {
+    pub(crate) fn new(keys: Keys) -> Self {
+        let raster = match keys {
+            Keys::Whole => picture::RASTER,
+            Keys::InRounds => picture::RASTER_IN_ROUNDS,
+        };
+        Self { keys, raster, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
+    }
+
+    /// The same with another shader of what samples show, such as a broken one that a test must find.
+    #[cfg(test)]
+    pub(crate) fn with_resolve(self, resolve: String) -> Self {
+        Self { resolve: Cow::Owned(resolve), ..self }
+    }
+
+    /// The shaders for all yarns, or for round ones alone.
+    ///
+    /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
+    pub(crate) fn pipelines(
+        &self,
+        device: &WgpuBackend,
+        flattened: bool,
+    ) -> Result<Arc<Pipelines>, BackendError> {
+        let place = &self.kinds[usize::from(flattened)];
+        if let Some(compiled) = place.get() {
+            return Ok(compiled.clone());
+        }
+        let compiled = device.scoped("Device::create_compute_pipeline", || {
+            let device = device.device();
+            let before = prelude(Language::Wgsl, flattened);
+            let module = |source: &str| module(device, before.clone() + source);
+            let (cull, raster, resolve) = (module(picture::CULL), module(self.raster), module(&self.resolve));
+            Arc::new(Pipelines {
+                cull: pipeline(device, &cull, "cull"),
+                count: pipeline(device, &cull, "count_groups"),
+                tubes: pipeline(device, &raster, "raster"),
+                caps: pipeline(device, &raster, "raster_caps"),
+                resolve: pipeline(device, &resolve, "resolve"),
+            })
+        })?;
+        // Another scene may have been faster.
+        Ok(place.get_or_init(|| compiled).clone())
+    }
+}
+
+pub(crate) fn module(device: &wgpu::Device, source: impl Into<Cow<'static, str>>) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    })
+}
+
+/// A compute pipeline that binds what its shader uses.
+pub(crate) fn pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    entry_point: &str,
+) -> wgpu::ComputePipeline {
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry_point),
+        layout: None,
+        module,
+        entry_point: Some(entry_point),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            // Every shader writes its workgroup memory before it reads it.
+            zero_initialize_workgroup_memory: false,
+            ..Default::default()
+        },
+        cache: None,
+    })
+}
+
+/// Binds resources to group `number` of a pipeline.
+pub(crate) fn group(
+    device: &wgpu::Device,
+    pipeline: &wgpu::ComputePipeline,
+    number: u32,
+    resources: &[(u32, BindingResource<'_>)],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = resources
+        .iter()
+        .map(|(binding, resource)| BindGroupEntry { binding: *binding, resource: resource.clone() })
+        .collect();
+    let layout = &pipeline.get_bind_group_layout(number);
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+}

@@ -1,0 +1,249 @@
+// The samples that a triangle covers. After fabric.wgsl and one of keys_64.wgsl and keys_32.wgsl.
+//
+// The rules are those of any rasteriser, so that triangles with a common edge leave no sample out and have none twice: corners
+// are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
+// top or left edge that is.
+
+// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in 1/256 pixels.
+const SAMPLE_X = array(96, 224, 32, 160);
+const SAMPLE_ROW = 64;
+const FIRST_SAMPLE_Y = 32;
+const SUBPIXELS = 256.0;
+
+// Corners at most this far from the screen's middle, pixels: edges are exact up to there.
+const REACHED = 16384.0;
+
+// A triangle of fewer 1/256 pixels across takes edges of 32 bits.
+const EXTENT = 32768;
+
+// A triangle whose box has more samples is left to the whole workgroup.
+const ALONE = 96;
+
+// A corner on the screen.
+struct Corner {
+    // 1/256 pixels right of the middle and below it.
+    place: vec2<i32>,
+    depth: f32,
+    // The sides of the view that it lies beyond, a bit each, and BEYOND.
+    sides: u32,
+}
+
+// Marks a corner that lies behind the eye or too far aside to have a place.
+const BEYOND = 64u;
+
+fn corner_of(clip: vec4<f32>) -> Corner {
+    let pixels = clip.xy / clip.w * vec2(0.5, -0.5) * view.size;
+    let is_beyond = clip.w < 1e-6 || any(abs(pixels) > vec2(REACHED));
+    let over = vec3<u32>(clip.xyz > vec3(clip.w)) * vec3(1u, 2u, 4u);
+    let under = vec3<u32>(clip.xyz < vec3(-clip.w, -clip.w, 0.0)) * vec3(8u, 16u, 32u);
+    let sides = over.x | over.y | over.z | under.x | under.y | under.z | select(0u, BEYOND, is_beyond);
+    let place = select(vec2<i32>(floor(pixels * SUBPIXELS + 0.5)), vec2(0), vec2(is_beyond));
+    return Corner(place, clip.z / clip.w, sides);
+}
+
+fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
+    return edge.x * to.y - edge.y * to.x;
+}
+
+// The samples of a triangle's box: rows of samples, and pixels.
+struct Span {
+    first: vec2<i32>,
+    last: vec2<i32>,
+}
+
+fn middle() -> vec2<i32> {
+    return vec2<i32>(view.size * (0.5 * SUBPIXELS));
+}
+
+// A sample of pixel `x` in row `row`, in 1/256 pixels from the middle.
+fn sample_place(x: i32, row: i32) -> vec2<i32> {
+    return vec2(x * 256 + SAMPLE_X[row & 3], row * SAMPLE_ROW + FIRST_SAMPLE_Y) - middle();
+}
+
+fn span_of(low: vec2<i32>, high: vec2<i32>) -> Span {
+    let least = low + middle();
+    let most = high + middle();
+    let first_row = max((least.y - FIRST_SAMPLE_Y + SAMPLE_ROW - 1) >> 6u, i32(4u * sweep.first_row));
+    let last_row = min((most.y - FIRST_SAMPLE_Y) >> 6u, i32(4u * (sweep.first_row + sweep.rows)) - 1);
+    // The sample of a pixel that lies farthest left is at 32, the one farthest right at 224.
+    let first_x = max((least.x - 224 + 255) >> 8u, 0);
+    let last_x = min((most.x - 32) >> 8u, i32(view.size.x) - 1);
+    return Span(vec2(first_x, first_row), vec2(last_x, last_row));
+}
+
+// Offers the triangle in the sample of pixel `x` in row `row`.
+fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
+    if depth < 0.0 || depth > 1.0 {
+        return;
+    }
+    let pixel = u32(row >> 2u) - sweep.first_row;
+    let sample = (pixel * u32(view.size.x) + u32(x)) * 4u + u32(row & 3);
+    // Complements: the greatest key is that of the nearest triangle, and of those as near of the first one.
+    offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
+}
+
+// Whether a triangle may have samples: none, few or many. One that lies partly beyond what is reached may have many.
+const NONE = 0u;
+const FEW = 1u;
+const MANY = 2u;
+
+fn look_of(p: Corner, q: Corner, r: Corner) -> u32 {
+    let low = min(p.place, min(q.place, r.place));
+    let high = max(p.place, max(q.place, r.place));
+    let span = span_of(low, high);
+    let across = span.last - span.first + 1;
+    let pq = vec2<f32>(q.place - p.place);
+    let pr = vec2<f32>(r.place - p.place);
+    // Only its sign is wanted, which rounding does not change but where edges are as long as the screen. Outsides are
+    // counter-clockwise as seen with y up.
+    let area = pq.x * pr.y - pq.y * pr.x;
+    let is_seen = area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
+    let extent = max(high.x - low.x, high.y - low.y);
+    let is_small = across.x * across.y <= ALONE && extent < EXTENT;
+    let look = select(MANY, FEW, is_small);
+    let has_samples = is_seen && min(across.x, across.y) > 0;
+    let is_beyond = ((p.sides | q.sides | r.sides) & BEYOND) != 0u;
+    let is_aside = (p.sides & q.sides & r.sides & ~BEYOND) != 0u;
+    return select(select(select(NONE, look, has_samples), MANY, is_beyond), NONE, is_aside);
+}
+
+// A triangle in the order in which edges go round it clockwise as seen on the screen.
+struct Turned {
+    p: Corner,
+    q: Corner,
+    r: Corner,
+}
+
+fn turned(p: Corner, q: Corner, r: Corner) -> Turned {
+    let pq = vec2<f32>(q.place - p.place);
+    let pr = vec2<f32>(r.place - p.place);
+    if pq.x * pr.y - pq.y * pr.x < 0.0 {
+        return Turned(p, r, q);
+    }
+    return Turned(p, q, r);
+}
+
+// 0 for an edge that its samples belong to, a top or a left one, else -1.
+fn edge_bias(edge: vec2<i32>) -> i32 {
+    return select(-1, 0, edge.y < 0 || (edge.y == 0 && edge.x > 0));
+}
+
+struct Coverage {
+    is_covered: bool,
+    depth: f32,
+}
+
+fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
+    let pq = turned.q.place - turned.p.place;
+    let qr = turned.r.place - turned.q.place;
+    let rp = turned.p.place - turned.r.place;
+    let over_r = cross_of(pq, place - turned.p.place);
+    let over_p = cross_of(qr, place - turned.q.place);
+    let over_q = cross_of(rp, place - turned.r.place);
+    let is_covered =
+        over_r + edge_bias(pq) >= 0 && over_p + edge_bias(qr) >= 0 && over_q + edge_bias(rp) >= 0;
+    let share = 1.0 / f32(cross_of(pq, -rp));
+    let depth = turned.p.depth
+        + (f32(over_q) * (turned.q.depth - turned.p.depth) + f32(over_r) * (turned.r.depth - turned.p.depth)) * share;
+    return Coverage(is_covered, depth);
+}
+
+// Twice the area between `edge` and `to`, and its sign, exact for differences of 24 bits: in parts of 12 bits.
+struct Area {
+    sign: i32,
+    value: f32,
+}
+
+fn long_cross(edge: vec2<i32>, to: vec2<i32>) -> Area {
+    let edge_high = edge >> vec2(12u);
+    let edge_low = edge & vec2(4095);
+    let to_high = to >> vec2(12u);
+    let to_low = to & vec2(4095);
+    let low = cross_of(edge_low, to_low);
+    let middle = cross_of(edge_high, to_low) + cross_of(edge_low, to_high) + (low >> 12u);
+    let high = cross_of(edge_high, to_high) + (middle >> 12u);
+    let rest = ((middle & 4095) << 12u) | (low & 4095);
+    let sign = select(select(0, 1, high > 0 || rest != 0), -1, high < 0);
+    return Area(sign, f32(high) * 16777216.0 + f32(rest));
+}
+
+fn long_coverage(turned: Turned, place: vec2<i32>) -> Coverage {
+    let pq = turned.q.place - turned.p.place;
+    let qr = turned.r.place - turned.q.place;
+    let rp = turned.p.place - turned.r.place;
+    let over_r = long_cross(pq, place - turned.p.place);
+    let over_p = long_cross(qr, place - turned.q.place);
+    let over_q = long_cross(rp, place - turned.r.place);
+    let is_covered = over_r.sign + edge_bias(pq) >= 0 && over_p.sign + edge_bias(qr) >= 0
+        && over_q.sign + edge_bias(rp) >= 0;
+    let share = 1.0 / long_cross(pq, -rp).value;
+    let depth = turned.p.depth
+        + (over_q.value * (turned.q.depth - turned.p.depth) + over_r.value * (turned.r.depth - turned.p.depth)) * share;
+    return Coverage(is_covered, depth);
+}
+
+fn lowest(turned: Turned) -> vec2<i32> {
+    return min(turned.p.place, min(turned.q.place, turned.r.place));
+}
+
+fn highest(turned: Turned) -> vec2<i32> {
+    return max(turned.p.place, max(turned.q.place, turned.r.place));
+}
+
+// Draws a triangle of few samples.
+fn draw_alone(p: Corner, q: Corner, r: Corner, triangle: u32) {
+    let turned = turned(p, q, r);
+    let span = span_of(lowest(turned), highest(turned));
+    for (var row = span.first.y; row <= span.last.y; row++) {
+        for (var x = span.first.x; x <= span.last.x; x++) {
+            let coverage = coverage_of(turned, sample_place(x, row));
+            if coverage.is_covered {
+                offer_at(x, row, coverage.depth, triangle);
+            }
+        }
+    }
+}
+
+// Draws a triangle of many samples: lane `lane` of `lanes` its share of them.
+fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lane: u32, lanes: u32) {
+    let turned = turned(p, q, r);
+    let low = lowest(turned);
+    let high = highest(turned);
+    let span = span_of(low, high);
+    let across = span.last - span.first + 1;
+    let is_long = max(high.x - low.x, high.y - low.y) >= EXTENT;
+    for (var sample = i32(lane); sample < across.x * across.y; sample += i32(lanes)) {
+        let row = sample / across.x;
+        let x = span.first.x + sample - row * across.x;
+        let place = sample_place(x, span.first.y + row);
+        var coverage: Coverage;
+        if is_long {
+            coverage = long_coverage(turned, place);
+        } else {
+            coverage = coverage_of(turned, place);
+        }
+        if coverage.is_covered {
+            offer_at(x, span.first.y + row, coverage.depth, triangle);
+        }
+    }
+}
+
+// Draws a triangle that lies partly behind the eye, or far aside: the whole screen against its edges in homogeneous coordinates
+// (Olano and Greer 1997, "Triangle scan conversion using 2D homogeneous coordinates").
+fn draw_beyond(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, triangle: u32, lane: u32, lanes: u32) {
+    let samples = u32(view.size.x) * sweep.rows * 4u;
+    for (var sample = lane; sample < samples; sample += lanes) {
+        let row = sample / u32(view.size.x);
+        let x = i32(sample - row * u32(view.size.x));
+        let sample_row = i32(row + 4u * sweep.first_row);
+        let weights = weights_at(p, q, r, sample_place(x, sample_row));
+        let determinant = dot(weights, vec3(p.w, q.w, r.w));
+        let is_front = determinant > 0.0;
+        // All of one sign: else the place lies outside, or the line of sight meets the triangle behind the eye.
+        let inside = select(-weights, weights, is_front);
+        if determinant != 0.0 && (is_front || view.sees_inside != 0u) && all(inside >= vec3(0.0)) {
+            let clip = p * weights.x + q * weights.y + r * weights.z;
+            offer_at(x, sample_row, clip.z / clip.w, triangle);
+        }
+    }
+}

@@ -1,0 +1,44 @@
+// A chunk of the fabric as it is drawn without a mesh: from control points. After common.wgsl and view.wgsl.
+//
+// Group 0 holds what a session keeps of the chunk, each resource at its own number; group 1 what pictures add.
+
+// Rust: texere_render's Sweep, 32 bytes: one go through the chunk's blocks.
+struct Sweep {
+    // Rows of the screen that have keys: the first, and how many.
+    first_row: u32,
+    rows: u32,
+    // Where keys have 32 bits, 0 finds depths and 1 finds triangles.
+    number: u32,
+    // Workgroups that share a block.
+    shares: u32,
+    // How far a section reaches from its centre, in half widths or half heights.
+    reach: f32,
+    // 1 where nothing was drawn before, else 0.
+    is_first: u32,
+}
+
+@group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
+@group(1) @binding(1) var<uniform> sweep: Sweep;
+
+// Triangles that a block of the table has numbers for. A cap has as many.
+fn numbers_of_block() -> u32 {
+    return 2u * BLOCK_RINGS * params.sides;
+}
+
+fn clip_of(position: vec3<f32>) -> vec4<f32> {
+    return view.clip_from_local * vec4(position - view.target_point, 1.0);
+}
+
+// How the section stands at the end that `cap` closes, whose ring has this roll.
+fn cap_stance(cap: CapRow, roll: u32) -> Stance {
+    let segment = segment_new(cap.first_point, params.s);
+    let sample = segment_sample(segment, select(1.0, 0.0, cap.end == 0u));
+    return stance_of_sample(sample, roll);
+}
+
+fn stance_of_sample(sample: Sample, roll: u32) -> Stance {
+    let centre = vec4(sample.centre, sample.half_width);
+    let tangent = vec4(sample.tangent, sample.width_growth);
+    let height = vec2(sample.half_height, sample.height_growth);
+    return stance_new(centre, tangent, side_of(sample.tangent, roll), height, turn_sin_cos(roll));
+}

@@ -1,0 +1,264 @@
+// Draws a chunk of the fabric from its control points: no mesh is written. After rings.wgsl, fabric.wgsl, weights.wgsl and
+// cover.wgsl.
+//
+// Drawing in compute (Schuetz, Kerbl and Wimmer 2021, "Rendering point clouds with compute shaders and vertex order
+// optimization"; Karis et al. 2021, "Nanite"): yarns have several triangles for each sample, which a rasteriser made for large
+// ones spends its time on. Here a triangle that has no sample costs no more than finding that out, and one that has some
+// costs an atomic maximum in each.
+
+const RASTER_GROUP = 96u;
+const CAP_GROUP = 64u;
+
+// Corners of whole rings, of 256 sides at most, that a workgroup holds at a time, and the triangles between them.
+const HELD_CORNERS = 512u;
+const HELD_TRIANGLES = 1024u;
+
+struct Listed {
+    count: u32,
+    rows: array<u32>,
+}
+
+@group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
+@group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
+@group(1) @binding(2) var<storage, read> listed: Listed;
+// The roll of each ring of the chunk, for what is seen of it.
+@group(1) @binding(5) var<storage, read_write> ring_rolls: array<u32>;
+
+// Corners that are held, those of a side one after the other: 1/256 pixels right of the middle, with the sides of the view
+// that they lie beyond in the lowest byte; below it; depth.
+var<workgroup> held_x: array<i32, HELD_CORNERS>;
+var<workgroup> held_y: array<i32, HELD_CORNERS>;
+var<workgroup> held_depth: array<f32, HELD_CORNERS>;
+// Triangles that have samples: of few from the front on, of many from the back on.
+var<workgroup> found: array<u32, HELD_TRIANGLES>;
+var<workgroup> few_count: atomic<u32>;
+var<workgroup> many_count: atomic<u32>;
+
+fn hold(at: u32, clip: vec4<f32>) {
+    let corner = corner_of(clip);
+    held_x[at] = (corner.place.x << 8u) | i32(corner.sides);
+    held_y[at] = corner.place.y;
+    held_depth[at] = corner.depth;
+}
+
+fn held(at: u32) -> Corner {
+    let x = held_x[at];
+    return Corner(vec2(x >> 8u, held_y[at]), held_depth[at], u32(x & 255));
+}
+
+// Where the corners of triangle `number` of a run of `rings` quads long are held: its ring and its side.
+struct Place {
+    ring: u32,
+    side: u32,
+}
+
+fn corner_places(number: u32) -> array<Place, 3> {
+    let quad = number / 2u;
+    let ring = quad / params.sides;
+    let side = quad - ring * params.sides;
+    let beside = select(side + 1u, 0u, side + 1u == params.sides);
+    if (number & 1u) == 0u {
+        return array(Place(ring, side), Place(ring, beside), Place(ring + 1u, side));
+    }
+    return array(Place(ring, beside), Place(ring + 1u, beside), Place(ring + 1u, side));
+}
+
+fn held_at(place: Place, rings: u32) -> Corner {
+    return held(place.side * (rings + 1u) + place.ring);
+}
+
+// Puts what is wanted of a ring in the place of its stance: in clip space its centre, and what a section's x and y are there.
+fn project_ring(ring: u32) {
+    let stance = stance_of(ring);
+    var x_axis = stance.side * stance.centre.w;
+    var y_axis = stance.up * stance.centre.w;
+    if FLATTENED {
+        let upward = stance.up * stance.height.x;
+        y_axis = upward * stance.sin_cos.y - x_axis * stance.sin_cos.x;
+        x_axis = x_axis * stance.sin_cos.y + upward * stance.sin_cos.x;
+    }
+    standing.centre[ring] = clip_of(stance.centre.xyz);
+    standing.tangent[ring] = view.clip_from_local * vec4(x_axis, 0.0);
+    standing.side[ring] = view.clip_from_local * vec4(y_axis, 0.0);
+}
+
+// Where the corner of `ring` at a section's `point` lies, in clip space.
+fn tube_clip(ring: u32, point: vec2<f32>) -> vec4<f32> {
+    return standing.centre[ring] + (standing.tangent[ring] * point.x + standing.side[ring] * point.y);
+}
+
+// A lane's share of rings: a ring, and some of its sides.
+struct RingShare {
+    ring: u32,
+    first_side: u32,
+    end_side: u32,
+}
+
+fn ring_share(lane: u32, rings: u32) -> RingShare {
+    let parts = max(RASTER_GROUP / rings, 1u);
+    let part = quotient(lane, rings);
+    let first = part * params.sides / parts;
+    let end = (part + 1u) * params.sides / parts;
+    return RingShare(lane - part * rings, select(0u, first, part < parts), select(0u, end, part < parts));
+}
+
+// Holds the corners of `rings` quads from ring `first_ring` of the block on.
+fn hold_corners(outline: u32, first_ring: u32, rings: u32, lane: u32) {
+    let share = ring_share(lane, rings + 1u);
+    let centre = standing.centre[first_ring + share.ring];
+    let x_axis = standing.tangent[first_ring + share.ring];
+    let y_axis = standing.side[first_ring + share.ring];
+    for (var side = share.first_side; side < share.end_side; side++) {
+        let point = outlines[outline + side];
+        hold(side * (rings + 1u) + share.ring, centre + (x_axis * point.x + y_axis * point.y));
+    }
+}
+
+// Notes the triangles between these corners that may have samples.
+fn note_triangles(rings: u32, lane: u32) {
+    let share = ring_share(lane, rings);
+    let stride = rings + 1u;
+    var p = held(share.first_side * stride + share.ring);
+    var r = held(share.first_side * stride + share.ring + 1u);
+    // Sixteen quads at a time, two bits each.
+    for (var first = share.first_side; first < share.end_side; first += 16u) {
+        let end = min(first + 16u, share.end_side);
+        var few = 0u;
+        var many = 0u;
+        for (var side = first; side < end; side++) {
+            let beside = select(side + 1u, 0u, side + 1u == params.sides);
+            let q = held(beside * stride + share.ring);
+            let s = held(beside * stride + share.ring + 1u);
+            let one = look_of(p, q, r);
+            let other = look_of(q, s, r);
+            let bit = 1u << (2u * (side - first));
+            few |= select(0u, bit, one == FEW) | select(0u, bit << 1u, other == FEW);
+            many |= select(0u, bit, one == MANY) | select(0u, bit << 1u, other == MANY);
+            p = q;
+            r = s;
+        }
+        let base = 2u * (share.ring * params.sides + first);
+        var place = atomicAdd(&few_count, countOneBits(few));
+        while few != 0u {
+            found[place] = base + firstTrailingBit(few);
+            few &= few - 1u;
+            place += 1u;
+        }
+        if many != 0u {
+            place = HELD_TRIANGLES - atomicAdd(&many_count, countOneBits(many));
+            while many != 0u {
+                place -= 1u;
+                found[place] = base + firstTrailingBit(many);
+                many &= many - 1u;
+            }
+        }
+    }
+}
+
+// A workgroup of RASTER_GROUP a share of a listed block.
+@compute @workgroup_size(RASTER_GROUP)
+fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+          @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    if number >= listed.count * sweep.shares {
+        return;
+    }
+    let row = listed.rows[number / sweep.shares];
+    let share = number % sweep.shares;
+    let block = blocks[row];
+    let yarn = yarns[block.yarn];
+    if lane == 0u {
+        atomicStore(&few_count, 0u);
+        atomicStore(&many_count, 0u);
+    }
+    block_rings(yarn, block, lane);
+    if lane < rings_made(block) {
+        if params.rolled != 0u && share == 0u {
+            ring_rolls[block.chunk_ring + lane] = standing.roll[lane];
+        }
+        project_ring(lane);
+    }
+    workgroupBarrier();
+    let outline = yarn.section * params.sides;
+    let most = HELD_CORNERS / params.sides - 1u;
+    let first = block.quads * share / sweep.shares;
+    let end = block.quads * (share + 1u) / sweep.shares;
+    for (var ring = first; ring < end; ring += most) {
+        let rings = min(most, end - ring);
+        hold_corners(outline, ring, rings, lane);
+        workgroupBarrier();
+        note_triangles(rings, lane);
+        workgroupBarrier();
+        let base = row * numbers_of_block() + 2u * ring * params.sides;
+        let few = atomicLoad(&few_count);
+        for (var k = lane; k < few; k += RASTER_GROUP) {
+            let triangle = found[k];
+            let at = corner_places(triangle);
+            draw_alone(held_at(at[0], rings), held_at(at[1], rings), held_at(at[2], rings), base + triangle);
+        }
+        let many = atomicLoad(&many_count);
+        for (var k = 0u; k < many; k++) {
+            let triangle = found[HELD_TRIANGLES - 1u - k];
+            let at = corner_places(triangle);
+            let p = held_at(at[0], rings);
+            let q = held_at(at[1], rings);
+            let r = held_at(at[2], rings);
+            if ((p.sides | q.sides | r.sides) & BEYOND) == 0u {
+                draw_together(p, q, r, base + triangle, lane, RASTER_GROUP);
+            } else {
+                draw_beyond(tube_clip(ring + at[0].ring, outlines[outline + at[0].side].xy),
+                            tube_clip(ring + at[1].ring, outlines[outline + at[1].side].xy),
+                            tube_clip(ring + at[2].ring, outlines[outline + at[2].side].xy),
+                            base + triangle, lane, RASTER_GROUP);
+            }
+        }
+        workgroupBarrier();
+        if lane == 0u {
+            atomicStore(&few_count, 0u);
+            atomicStore(&many_count, 0u);
+        }
+    }
+}
+
+// Where corner `corner` of a cap lies.
+fn cap_clip(cap: CapRow, stance: Stance, corner: u32) -> vec4<f32> {
+    return clip_of(position_at(stance, outlines[yarns[cap.yarn].section * params.sides + corner]));
+}
+
+// A workgroup of CAP_GROUP a cap.
+@compute @workgroup_size(CAP_GROUP)
+fn raster_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+               @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    if number >= params.caps {
+        return;
+    }
+    let cap = cap_rows[number];
+    var roll = 0u;
+    if params.rolled != 0u {
+        roll = ring_rolls[cap.ring_vertex / params.sides];
+    }
+    let stance = cap_stance(cap, roll);
+    for (var corner = lane; corner < params.sides; corner += CAP_GROUP) {
+        hold(corner, cap_clip(cap, stance, corner));
+    }
+    workgroupBarrier();
+    let first_triangle = (params.blocks + number) * numbers_of_block();
+    for (var triangle = 0u; triangle < params.sides - 2u; triangle++) {
+        let first_corner = cap.first_corner + 3u * triangle;
+        let at = vec3(cap_pattern[first_corner], cap_pattern[first_corner + 1u], cap_pattern[first_corner + 2u]);
+        let p = held(at.x);
+        let q = held(at.y);
+        let r = held(at.z);
+        let look = look_of(p, q, r);
+        if look == NONE {
+            continue;
+        }
+        if ((p.sides | q.sides | r.sides) & BEYOND) == 0u {
+            draw_together(p, q, r, first_triangle + triangle, lane, CAP_GROUP);
+        } else {
+            draw_beyond(cap_clip(cap, stance, at.x), cap_clip(cap, stance, at.y), cap_clip(cap, stance, at.z),
+                        first_triangle + triangle, lane, CAP_GROUP);
+        }
+    }
+}

@@ -58,9 +58,9 @@ fn drawing_shaders_have_their_entry_points() {
     let core = Capabilities::SHADER_FLOAT16_IN_FLOAT32;
     let long = core | Capabilities::SHADER_INT64 | Capabilities::SHADER_INT64_ATOMIC_ALL_OPS;
     for (source, capabilities, entries) in [
-        (picture::CULL, core, &["cull", "count_groups"][..]),
-        (picture::RASTER_IN_ROUNDS, core, &["raster", "raster_caps"]),
-        (picture::RASTER, long, &["raster", "raster_caps"]),
+        (picture::CULL, core, &["cull", "count_listed", "count_left"][..]),
+        (picture::RASTER_IN_ROUNDS, core, &["raster", "raster_left", "raster_caps"]),
+        (picture::RASTER, long, &["raster", "raster_left", "raster_caps"]),
         (picture::RESOLVE, core, &["resolve"]),
     ] {
         for flattened in [false, true] {

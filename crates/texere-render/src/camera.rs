@@ -280,17 +280,6 @@ impl Camera {
         self.cuts || matches!(self.projection, Projection::Perspective { .. })
     }
 
-    /// Workgroups that share a block where it is drawn: where yarns are many pixels wide a picture shows few blocks, and all of a
-    /// device's cores are to have some.
-    pub(crate) fn shares(&self) -> u32 {
-        let pixels = 2.0 * self.extent.radius * self.size[1] as f32 / self.height_at_target();
-        match pixels {
-            ..8.0 => 1,
-            8.0..32.0 => 4,
-            _ => 16,
-        }
-    }
-
     /// The picture's right and up.
     pub(crate) fn across(&self) -> [Vec3; 2] {
         let right = self.up.cross(self.toward).normalize();

@@ -17,10 +17,9 @@ struct Sweep {
     first_row: u32,
     rows: u32,
     number: u32,
-    shares: u32,
     reach: f32,
     is_first: u32,
-    padding: [u32; 2],
+    padding: [u32; 3],
 }
 
 const _: () = assert!(size_of::<Sweep>() == 32);
@@ -73,7 +72,7 @@ impl Raster {
         Limits { blocks: device.blocks.min(numbered).min(bound).max(2), ..Limits::NONE }
     }
 
-    /// Draws a chunk over what earlier ones left on the screen, and hands the work over. `shares`: workgroups that share a block.
+    /// Draws a chunk over what earlier ones left on the screen, and hands the work over.
     pub(crate) fn draw(
         &mut self,
         renderer: &Renderer,
@@ -81,7 +80,6 @@ impl Raster {
         chunk: &Chunk,
         view: &wgpu::Buffer,
         screen: &Screen,
-        shares: u32,
     ) -> Result<wgpu::SubmissionIndex, RenderError> {
         let pipelines = renderer.rasteriser.pipelines(&renderer.device, tables.are_flattened())?;
         let [width, height] = screen.large();
@@ -89,7 +87,7 @@ impl Raster {
         let most = KEYS_MOST.min(renderer.info().limits.binding_bytes);
         let rows = ((most / row_bytes) as u32).clamp(1, height);
         renderer.reserve(&mut self.keys, u64::from(rows) * row_bytes)?;
-        renderer.reserve(&mut self.listed, 4 * (chunk.blocks().len() as u64 + 1))?;
+        renderer.reserve(&mut self.listed, 8 * (chunk.blocks().len() as u64 + 1))?;
         renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
         let mut submission = None;
         for first_row in (0..height).step_by(rows as usize) {
@@ -97,14 +95,14 @@ impl Raster {
             for (number, buffer) in (0..).zip(&self.sweeps) {
                 let is_first = (chunk.index() == 0).into();
                 let reach = self.reach;
-                let sweep = Sweep { first_row, rows, number, shares, reach, is_first, padding: [0; 2] };
+                let sweep = Sweep { first_row, rows, number, reach, is_first, padding: [0; 3] };
                 renderer.write(buffer, bytemuck::bytes_of(&sweep))?;
             }
             let device = &renderer.device;
             let handed = device.scoped("Queue::submit", || {
                 let mut encoder = device.device().create_command_encoder(&Default::default());
                 encoder.clear_buffer(&self.keys, 0, Some(u64::from(rows) * row_bytes));
-                encoder.clear_buffer(&self.listed, 0, Some(4));
+                encoder.clear_buffer(&self.listed, 0, Some(8));
                 {
                     let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
                     let of = Binder { raster: self, device: device.device(), tables, view };
@@ -155,17 +153,24 @@ impl Binder<'_> {
         let view = (0, self.view.as_entire_binding());
         let [listed, counted, samples, rolls] = [(2, listed), (3, groups), (4, samples), (5, ring_rolls)]
             .map(|(number, buffer)| (number, buffer.as_entire_binding()));
-        let Pipelines { cull, count, tubes, caps, .. } = pipelines;
+        let Pipelines { cull, count_listed, count_left, few, left, caps, .. } = pipelines;
         self.set(pass, cull, 0, &[Params, Points, Blocks], &[view.clone(), listed.clone()]);
         let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULL_GROUP));
         pass.dispatch_workgroups(columns, rows, 1);
-        self.set(pass, count, 0, &[], &[listed.clone(), counted]);
-        pass.dispatch_workgroups(1, 1, 1);
         for round in 0..keys.rounds() {
-            let fabric = [Params, Points, Yarns, Blocks, Rolls, Outlines];
-            let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
-            self.set(pass, tubes, round, &fabric, &own);
-            pass.dispatch_workgroups_indirect(groups, 0);
+            for (count, raster) in [(count_listed, few), (count_left, left)] {
+                pass.set_pipeline(count);
+                pass.set_bind_group(
+                    1,
+                    &group(self.device, count, 1, &[listed.clone(), counted.clone()]),
+                    &[],
+                );
+                pass.dispatch_workgroups(1, 1, 1);
+                let fabric = [Params, Points, Yarns, Blocks, Rolls, Outlines];
+                let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
+                self.set(pass, raster, round, &fabric, &own);
+                pass.dispatch_workgroups_indirect(groups, 0);
+            }
             if !chunk.caps().is_empty() {
                 let fabric = [Params, Points, Yarns, Outlines, CapRows, CapPattern];
                 let own = [view.clone(), samples.clone(), rolls.clone()];

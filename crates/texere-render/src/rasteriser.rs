@@ -49,8 +49,10 @@ pub(crate) struct Rasteriser {
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub(crate) cull: wgpu::ComputePipeline,
-    pub(crate) count: wgpu::ComputePipeline,
-    pub(crate) tubes: wgpu::ComputePipeline,
+    pub(crate) count_listed: wgpu::ComputePipeline,
+    pub(crate) few: wgpu::ComputePipeline,
+    pub(crate) count_left: wgpu::ComputePipeline,
+    pub(crate) left: wgpu::ComputePipeline,
     pub(crate) caps: wgpu::ComputePipeline,
     pub(crate) resolve: wgpu::ComputePipeline,
 }
@@ -89,8 +91,10 @@ impl Rasteriser {
             let (cull, raster, resolve) = (module(picture::CULL), module(self.raster), module(&self.resolve));
             Arc::new(Pipelines {
                 cull: pipeline(device, &cull, "cull"),
-                count: pipeline(device, &cull, "count_groups"),
-                tubes: pipeline(device, &raster, "raster"),
+                count_listed: pipeline(device, &cull, "count_listed"),
+                few: pipeline(device, &raster, "raster"),
+                count_left: pipeline(device, &cull, "count_left"),
+                left: pipeline(device, &raster, "raster_left"),
                 caps: pipeline(device, &raster, "raster_caps"),
                 resolve: pipeline(device, &resolve, "resolve"),
             })

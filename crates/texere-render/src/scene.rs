@@ -182,7 +182,7 @@ impl Scene {
         let start = Instant::now();
         self.look(camera, quality)?;
         let screened = Instant::now();
-        self.draw(camera)?;
+        self.draw()?;
         let drawn = Instant::now();
         self.shade()?;
         let shaded = Instant::now();
@@ -221,7 +221,7 @@ impl Scene {
     }
 
     /// Draws chunk after chunk.
-    fn draw(&mut self, camera: &Camera) -> Result<(), RenderError> {
+    fn draw(&mut self) -> Result<(), RenderError> {
         let plan = self.plan.clone();
         if self.chunks.is_none() {
             let first: Vec<_> = plan.chunks(&self.limits)?.take(CHUNKS_KEPT + 1).collect();
@@ -229,27 +229,22 @@ impl Scene {
         }
         let kept = self.chunks.take().unwrap_or_default();
         let drawn = if kept.is_empty() {
-            self.draw_chunks(plan.chunks(&self.limits)?, camera)
+            self.draw_chunks(plan.chunks(&self.limits)?)
         } else {
-            self.draw_chunks(kept.iter(), camera)
+            self.draw_chunks(kept.iter())
         };
         self.chunks = Some(kept);
         drawn
     }
 
     /// Draws these. While one is drawn the next one's tables are sent.
-    fn draw_chunks(
-        &mut self,
-        chunks: impl Iterator<Item: Borrow<Chunk>>,
-        camera: &Camera,
-    ) -> Result<(), RenderError> {
+    fn draw_chunks(&mut self, chunks: impl Iterator<Item: Borrow<Chunk>>) -> Result<(), RenderError> {
         let mut before = None;
         for chunk in chunks {
             let chunk = chunk.borrow();
             let tables = self.session.chunk_tables(chunk)?;
             let Some(screen) = &self.screen else { break };
-            let drawn =
-                self.raster.draw(&self.renderer, tables, chunk, &self.view, screen, camera.shares())?;
+            let drawn = self.raster.draw(&self.renderer, tables, chunk, &self.view, screen)?;
             // No more than two chunks are under way, so that each wait is for a chunk and not for a fabric.
             if let Some(submission) = before.replace(drawn) {
                 self.renderer.device.wait(submission)?;

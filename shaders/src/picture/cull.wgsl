@@ -5,13 +5,8 @@ const CULL_GROUP = 64u;
 // Slack of the boxes, as a share of the largest coordinate, and of what is added to them.
 const BOX_SLACK = 1e-5;
 
-struct Listed {
-    count: atomic<u32>,
-    rows: array<u32>,
-}
-
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
-// Workgroups of the dispatch that goes through the list.
+// Workgroups of the dispatch that goes through the blocks, or through those that were left.
 @group(1) @binding(3) var<storage, read_write> groups: array<u32, 3>;
 
 struct Box {
@@ -100,12 +95,22 @@ fn cull(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     listed.rows[atomicAdd(&listed.count, 1u)] = row;
 }
 
-// A single lane: what the list takes, in columns and rows.
-@compute @workgroup_size(1)
-fn count_groups() {
-    let count = atomicLoad(&listed.count) * sweep.shares;
+fn set_groups(count: u32) {
     let rows = (count + 65534u) / 65535u;
-    groups[0] = select(0u, (count + rows - 1u) / max(rows, 1u), rows > 0u);
+    groups[0] = (count + max(rows, 1u) - 1u) / max(rows, 1u);
     groups[1] = rows;
     groups[2] = 1u;
+}
+
+// A single lane: what the list takes, in columns and rows, before any block is left.
+@compute @workgroup_size(1)
+fn count_listed() {
+    atomicStore(&listed.left_count, 0u);
+    set_groups(atomicLoad(&listed.count));
+}
+
+// The same for those that were left.
+@compute @workgroup_size(1)
+fn count_left() {
+    set_groups(atomicLoad(&listed.left_count) * LEFT_SHARES);
 }

@@ -2,20 +2,29 @@
 //
 // Group 0 holds what a session keeps of the chunk, each resource at its own number; group 1 what pictures add.
 
-// Rust: texere_render's Sweep, 32 bytes: one go through the chunk's blocks.
+// Rust: texere_render's Sweep, 24 bytes: one go through the chunk's blocks.
 struct Sweep {
     // Rows of the screen that have keys: the first, and how many.
     first_row: u32,
     rows: u32,
     // Where keys have 32 bits, 0 finds depths and 1 finds triangles.
     number: u32,
-    // Workgroups that share a block.
-    shares: u32,
     // How far a section reaches from its centre, in half widths or half heights.
     reach: f32,
     // 1 where nothing was drawn before, else 0.
     is_first: u32,
 }
+
+// Blocks of the chunk that the view may show, and those of them whose triangles of many samples are left for later: numbers of
+// rows, and from params.blocks on those of the others.
+struct Listed {
+    count: atomic<u32>,
+    left_count: atomic<u32>,
+    rows: array<u32>,
+}
+
+// Workgroups that share a block whose triangles have many samples: such pictures show few blocks.
+const LEFT_SHARES = 16u;
 
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
 @group(1) @binding(1) var<uniform> sweep: Sweep;

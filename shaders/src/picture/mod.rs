@@ -4,11 +4,11 @@
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
 //! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next five |
-//! | `cull.wgsl` | `cull`, `count_groups` | the blocks that the view may show |
+//! | `cull.wgsl` | `cull`, `count_listed`, `count_left` | the blocks that the view may show |
 //! | `weights.wgsl` | | shares of a triangle's corners |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
 //! | `cover.wgsl` | | the samples that a triangle covers |
-//! | `raster.wgsl` | `raster`, `raster_caps` | draws a chunk from its control points |
+//! | `raster.wgsl` | `raster`, `raster_left`, `raster_caps` | draws a chunk from its control points |
 //! | `kept.wgsl` | | what is kept of a sample until it is lit |
 //! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
 //! | `chunk.wgsl` | | a chunk's mesh: stands before the two that follow |
@@ -32,7 +32,7 @@ macro_rules! fabric {
     };
 }
 
-/// `raster` and `raster_caps` with a kind of keys.
+/// `raster`, `raster_left` and `raster_caps` with a kind of keys.
 macro_rules! raster {
     ($keys:literal) => {
         concat!(
@@ -47,10 +47,10 @@ macro_rules! raster {
     };
 }
 
-/// `cull` and `count_groups`. This one and the next three stand after `texere_gpu::prelude`.
+/// `cull`, `count_listed` and `count_left`. This one and the next three stand after `texere_gpu::prelude`.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
-/// `raster` and `raster_caps`, for devices with atomics of 64 bits.
+/// `raster`, `raster_left` and `raster_caps`, for devices with atomics of 64 bits.
 pub const RASTER: &str = raster!("keys_64.wgsl");
 
 /// The same for any device.

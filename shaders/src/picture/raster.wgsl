@@ -13,14 +13,10 @@ const CAP_GROUP = 64u;
 const HELD_CORNERS = 512u;
 const HELD_TRIANGLES = 1024u;
 
-struct Listed {
-    count: u32,
-    rows: array<u32>,
-}
 
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
-@group(1) @binding(2) var<storage, read> listed: Listed;
+@group(1) @binding(2) var<storage, read_write> listed: Listed;
 // The roll of each ring of the chunk, for what is seen of it.
 @group(1) @binding(5) var<storage, read_write> ring_rolls: array<u32>;
 
@@ -29,10 +25,11 @@ struct Listed {
 var<workgroup> held_x: array<i32, HELD_CORNERS>;
 var<workgroup> held_y: array<i32, HELD_CORNERS>;
 var<workgroup> held_depth: array<f32, HELD_CORNERS>;
-// Triangles that have samples: of few from the front on, of many from the back on.
+// Triangles that have samples.
 var<workgroup> found: array<u32, HELD_TRIANGLES>;
-var<workgroup> few_count: atomic<u32>;
-var<workgroup> many_count: atomic<u32>;
+var<workgroup> found_count: atomic<u32>;
+// 1 where one of many samples is among them that were left out, else 0.
+var<workgroup> is_left: atomic<u32>;
 
 fn hold(at: u32, clip: vec4<f32>) {
     let corner = corner_of(clip);
@@ -114,17 +111,17 @@ fn hold_corners(outline: u32, first_ring: u32, rings: u32, lane: u32) {
     }
 }
 
-// Notes the triangles between these corners that may have samples.
-fn note_triangles(rings: u32, lane: u32) {
+// Notes the triangles between these corners that have few samples, or many; and where it is few, whether some have many.
+fn note_triangles(rings: u32, lane: u32, wanted: u32) {
     let share = ring_share(lane, rings);
     let stride = rings + 1u;
     var p = held(share.first_side * stride + share.ring);
     var r = held(share.first_side * stride + share.ring + 1u);
+    var others = 0u;
     // Sixteen quads at a time, two bits each.
     for (var first = share.first_side; first < share.end_side; first += 16u) {
         let end = min(first + 16u, share.end_side);
-        var few = 0u;
-        var many = 0u;
+        var noted = 0u;
         for (var side = first; side < end; side++) {
             let beside = select(side + 1u, 0u, side + 1u == params.sides);
             let q = held(beside * stride + share.ring);
@@ -132,73 +129,102 @@ fn note_triangles(rings: u32, lane: u32) {
             let one = look_of(p, q, r);
             let other = look_of(q, s, r);
             let bit = 1u << (2u * (side - first));
-            few |= select(0u, bit, one == FEW) | select(0u, bit << 1u, other == FEW);
-            many |= select(0u, bit, one == MANY) | select(0u, bit << 1u, other == MANY);
+            noted |= select(0u, bit, one == wanted) | select(0u, bit << 1u, other == wanted);
+            others |= one | other;
             p = q;
             r = s;
         }
         let base = 2u * (share.ring * params.sides + first);
-        var place = atomicAdd(&few_count, countOneBits(few));
-        while few != 0u {
-            found[place] = base + firstTrailingBit(few);
-            few &= few - 1u;
+        var place = atomicAdd(&found_count, countOneBits(noted));
+        while noted != 0u {
+            found[place] = base + firstTrailingBit(noted);
+            noted &= noted - 1u;
             place += 1u;
         }
-        if many != 0u {
-            place = HELD_TRIANGLES - atomicAdd(&many_count, countOneBits(many));
-            while many != 0u {
-                place -= 1u;
-                found[place] = base + firstTrailingBit(many);
-                many &= many - 1u;
-            }
-        }
+    }
+    if wanted == FEW && (others & MANY) != 0u {
+        atomicStore(&is_left, 1u);
     }
 }
 
-// A workgroup of RASTER_GROUP a share of a listed block.
-@compute @workgroup_size(RASTER_GROUP)
-fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
-          @builtin(local_invocation_index) lane: u32) {
-    let number = group.y * grid.x + group.x;
-    if number >= listed.count * sweep.shares {
-        return;
-    }
-    let row = listed.rows[number / sweep.shares];
-    let share = number % sweep.shares;
+// Puts the rings of a row's block in clip space. Every lane must come here.
+fn project_block(row: u32, lane: u32) {
     let block = blocks[row];
-    let yarn = yarns[block.yarn];
     if lane == 0u {
-        atomicStore(&few_count, 0u);
-        atomicStore(&many_count, 0u);
+        atomicStore(&found_count, 0u);
+        atomicStore(&is_left, 0u);
     }
-    block_rings(yarn, block, lane);
+    block_rings(yarns[block.yarn], block, lane);
     if lane < rings_made(block) {
-        if params.rolled != 0u && share == 0u {
+        if params.rolled != 0u {
             ring_rolls[block.chunk_ring + lane] = standing.roll[lane];
         }
         project_ring(lane);
     }
     workgroupBarrier();
-    let outline = yarn.section * params.sides;
+}
+
+// A workgroup of RASTER_GROUP a listed block: its triangles of few samples. Where it has others it is left for later.
+@compute @workgroup_size(RASTER_GROUP)
+fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+          @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    if number >= atomicLoad(&listed.count) {
+        return;
+    }
+    let row = listed.rows[number];
+    project_block(row, lane);
+    let outline = yarns[blocks[row].yarn].section * params.sides;
+    let quads = blocks[row].quads;
     let most = HELD_CORNERS / params.sides - 1u;
-    let first = block.quads * share / sweep.shares;
-    let end = block.quads * (share + 1u) / sweep.shares;
-    for (var ring = first; ring < end; ring += most) {
-        let rings = min(most, end - ring);
+    for (var ring = 0u; ring < quads; ring += most) {
+        let rings = min(most, quads - ring);
         hold_corners(outline, ring, rings, lane);
         workgroupBarrier();
-        note_triangles(rings, lane);
+        note_triangles(rings, lane, FEW);
         workgroupBarrier();
         let base = row * numbers_of_block() + 2u * ring * params.sides;
-        let few = atomicLoad(&few_count);
-        for (var k = lane; k < few; k += RASTER_GROUP) {
+        let count = atomicLoad(&found_count);
+        for (var k = lane; k < count; k += RASTER_GROUP) {
             let triangle = found[k];
             let at = corner_places(triangle);
             draw_alone(held_at(at[0], rings), held_at(at[1], rings), held_at(at[2], rings), base + triangle);
         }
-        let many = atomicLoad(&many_count);
-        for (var k = 0u; k < many; k++) {
-            let triangle = found[HELD_TRIANGLES - 1u - k];
+        workgroupBarrier();
+        if lane == 0u {
+            atomicStore(&found_count, 0u);
+        }
+    }
+    if lane == 0u && atomicLoad(&is_left) != 0u {
+        listed.rows[params.blocks + atomicAdd(&listed.left_count, 1u)] = row;
+    }
+}
+
+// LEFT_SHARES workgroups of RASTER_GROUP a block that was left: its triangles of many samples, each drawn by a whole workgroup.
+@compute @workgroup_size(RASTER_GROUP)
+fn raster_left(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+               @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    if number >= atomicLoad(&listed.left_count) * LEFT_SHARES {
+        return;
+    }
+    let row = listed.rows[params.blocks + number / LEFT_SHARES];
+    let share = number % LEFT_SHARES;
+    project_block(row, lane);
+    let outline = yarns[blocks[row].yarn].section * params.sides;
+    let quads = blocks[row].quads;
+    let most = HELD_CORNERS / params.sides - 1u;
+    let end = quads * (share + 1u) / LEFT_SHARES;
+    for (var ring = quads * share / LEFT_SHARES; ring < end; ring += most) {
+        let rings = min(most, end - ring);
+        hold_corners(outline, ring, rings, lane);
+        workgroupBarrier();
+        note_triangles(rings, lane, MANY);
+        workgroupBarrier();
+        let base = row * numbers_of_block() + 2u * ring * params.sides;
+        let count = atomicLoad(&found_count);
+        for (var k = 0u; k < count; k++) {
+            let triangle = found[k];
             let at = corner_places(triangle);
             let p = held_at(at[0], rings);
             let q = held_at(at[1], rings);
@@ -214,8 +240,7 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
         }
         workgroupBarrier();
         if lane == 0u {
-            atomicStore(&few_count, 0u);
-            atomicStore(&many_count, 0u);
+            atomicStore(&found_count, 0u);
         }
     }
 }

@@ -56,7 +56,7 @@ fn picture_shaders_have_their_entry_points() {
 #[test]
 fn drawing_shaders_have_their_entry_points() {
     let core = Capabilities::SHADER_FLOAT16_IN_FLOAT32;
-    let long = core | Capabilities::SHADER_INT64 | Capabilities::SHADER_INT64_ATOMIC_ALL_OPS;
+    let long = core | Capabilities::SHADER_INT64 | Capabilities::SHADER_INT64_ATOMIC_MIN_MAX;
     for (source, capabilities, entries) in [
         (picture::CULL, core, &["cull", "count_listed", "count_left"][..]),
         (picture::RASTER_IN_ROUNDS, core, &["raster", "raster_left", "raster_caps"]),

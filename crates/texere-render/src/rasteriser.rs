@@ -21,9 +21,7 @@ pub(crate) enum Keys {
 impl Keys {
     /// The faster ones of those that `device` can do.
     pub(crate) fn of(device: &WgpuBackend) -> Self {
-        let wanted = Features::SHADER_INT64
-            | Features::SHADER_INT64_ATOMIC_MIN_MAX
-            | Features::SHADER_INT64_ATOMIC_ALL_OPS;
+        let wanted = Features::SHADER_INT64 | Features::SHADER_INT64_ATOMIC_MIN_MAX;
         if device.device().features().contains(wanted) { Self::Whole } else { Self::InRounds }
     }
 

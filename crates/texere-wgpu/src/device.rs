@@ -22,10 +22,8 @@ use crate::settling::WgpuSettler;
 const LAUNCH_BLOCKS: u64 = 1 << 18;
 
 /// Features that a device is opened with where it has them: the device's clock, and what pictures are drawn faster with.
-const WANTED: Features = Features::TIMESTAMP_QUERY
-    .union(Features::SHADER_INT64)
-    .union(Features::SHADER_INT64_ATOMIC_MIN_MAX)
-    .union(Features::SHADER_INT64_ATOMIC_ALL_OPS);
+const WANTED: Features =
+    Features::TIMESTAMP_QUERY.union(Features::SHADER_INT64).union(Features::SHADER_INT64_ATOMIC_MIN_MAX);
 
 /// A wgpu device that is open and can start sessions.
 ///

@@ -88,23 +88,36 @@ const FEW = 1u;
 const MANY = 2u;
 
 fn look_of(p: Corner, q: Corner, r: Corner) -> u32 {
-    let low = min(p.place, min(q.place, r.place));
-    let high = max(p.place, max(q.place, r.place));
-    let span = span_of(low, high);
-    let across = span.last - span.first + 1;
+    if (p.sides & q.sides & r.sides & ~BEYOND) != 0u {
+        return NONE;
+    }
+    if ((p.sides | q.sides | r.sides) & BEYOND) != 0u {
+        return MANY;
+    }
     let pq = vec2<f32>(q.place - p.place);
     let pr = vec2<f32>(r.place - p.place);
     // Only its sign is wanted, which rounding does not change but where edges are as long as the screen. Outsides are
     // counter-clockwise as seen with y up.
     let area = pq.x * pr.y - pq.y * pr.x;
-    let is_seen = area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
+    if area == 0.0 || (area > 0.0 && view.sees_inside == 0u) {
+        return NONE;
+    }
+    let low = min(p.place, min(q.place, r.place));
+    let high = max(p.place, max(q.place, r.place));
+    let span = span_of(low, high);
+    let across = span.last - span.first + 1;
     let extent = max(high.x - low.x, high.y - low.y);
     let is_small = across.x * across.y <= ALONE && extent < EXTENT;
-    let look = select(MANY, FEW, is_small);
-    let has_samples = is_seen && min(across.x, across.y) > 0;
-    let is_beyond = ((p.sides | q.sides | r.sides) & BEYOND) != 0u;
-    let is_aside = (p.sides & q.sides & r.sides & ~BEYOND) != 0u;
-    return select(select(select(NONE, look, has_samples), MANY, is_beyond), NONE, is_aside);
+    // Most triangles lie between samples, in one row or in two.
+    let has_samples = min(across.x, across.y) > 0
+        && (across.y > 2 || has_sample(low, high, span.first.y) || has_sample(low, high, span.last.y));
+    return select(NONE, select(MANY, FEW, is_small), has_samples);
+}
+
+// Whether a row of samples has one between `low` and `high`.
+fn has_sample(low: vec2<i32>, high: vec2<i32>, row: i32) -> bool {
+    let offset = SAMPLE_X[row & 3] - middle().x;
+    return ((low.x - offset + 255) >> 8u) <= ((high.x - offset) >> 8u);
 }
 
 // A triangle in the order in which edges go round it clockwise as seen on the screen.
@@ -212,18 +225,26 @@ fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lane: u32, lane
     let span = span_of(low, high);
     let across = span.last - span.first + 1;
     let is_long = max(high.x - low.x, high.y - low.y) >= EXTENT;
-    for (var sample = i32(lane); sample < across.x * across.y; sample += i32(lanes)) {
-        let row = sample / across.x;
-        let x = span.first.x + sample - row * across.x;
-        let place = sample_place(x, span.first.y + row);
+    if min(across.x, across.y) <= 0 {
+        return;
+    }
+    let step = vec2(i32(lanes) % across.x, i32(lanes) / across.x);
+    var at = vec2(i32(lane) % across.x, i32(lane) / across.x);
+    while at.y < across.y {
+        let x = span.first.x + at.x;
+        let row = span.first.y + at.y;
         var coverage: Coverage;
         if is_long {
-            coverage = long_coverage(turned, place);
+            coverage = long_coverage(turned, sample_place(x, row));
         } else {
-            coverage = coverage_of(turned, place);
+            coverage = coverage_of(turned, sample_place(x, row));
         }
         if coverage.is_covered {
-            offer_at(x, span.first.y + row, coverage.depth, triangle);
+            offer_at(x, row, coverage.depth, triangle);
+        }
+        at += step;
+        if at.x >= across.x {
+            at += vec2(-across.x, 1);
         }
     }
 }

@@ -24,7 +24,7 @@ struct Listed {
 }
 
 // Workgroups that share a block whose triangles have many samples: such pictures show few blocks.
-const LEFT_SHARES = 16u;
+const LEFT_SHARES = 64u;
 
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
 @group(1) @binding(1) var<uniform> sweep: Sweep;

@@ -4,8 +4,5 @@
 @group(1) @binding(4) var<storage, read_write> keys: array<atomic<u64>>;
 
 fn offer(sample: u32, nearness: u32, triangle: u32) {
-    let key = (u64(nearness) << 32u) | u64(triangle);
-    if atomicLoad(&keys[sample]) < key {
-        atomicMax(&keys[sample], key);
-    }
+    atomicMax(&keys[sample], (u64(nearness) << 32u) | u64(triangle));
 }

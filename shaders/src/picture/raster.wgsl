@@ -6,7 +6,7 @@
 // ones spends its time on. Here a triangle that has no sample costs no more than finding that out, and one that has some
 // costs an atomic maximum in each.
 
-const RASTER_GROUP = 96u;
+const RASTER_GROUP = 128u;
 const CAP_GROUP = 64u;
 
 // Corners of whole rings, of 256 sides at most, that a workgroup holds at a time, and the triangles between them.
@@ -51,7 +51,7 @@ struct Place {
 
 fn corner_places(number: u32) -> array<Place, 3> {
     let quad = number / 2u;
-    let ring = quad / params.sides;
+    let ring = quotient(quad, params.sides);
     let side = quad - ring * params.sides;
     let beside = select(side + 1u, 0u, side + 1u == params.sides);
     if (number & 1u) == 0u {
@@ -99,15 +99,18 @@ fn ring_share(lane: u32, rings: u32) -> RingShare {
     return RingShare(lane - part * rings, select(0u, first, part < parts), select(0u, end, part < parts));
 }
 
-// Holds the corners of `rings` quads from ring `first_ring` of the block on.
+// Holds the corners of `rings` rings from ring `first_ring` of the block on, and of the ring after them.
 fn hold_corners(outline: u32, first_ring: u32, rings: u32, lane: u32) {
-    let share = ring_share(lane, rings + 1u);
+    let share = ring_share(lane, rings);
     let centre = standing.centre[first_ring + share.ring];
     let x_axis = standing.tangent[first_ring + share.ring];
     let y_axis = standing.side[first_ring + share.ring];
     for (var side = share.first_side; side < share.end_side; side++) {
         let point = outlines[outline + side];
         hold(side * (rings + 1u) + share.ring, centre + (x_axis * point.x + y_axis * point.y));
+    }
+    for (var side = lane; side < params.sides; side += RASTER_GROUP) {
+        hold(side * (rings + 1u) + rings, tube_clip(first_ring + rings, outlines[outline + side].xy));
     }
 }
 

@@ -17,7 +17,7 @@ pub enum Origin {
     End(u32),
     /// A weft yarn: the pick's number from the first one woven.
     Pick(u32),
-    /// A weft-knitted yarn: its course.
+    /// A weft-knitted yarn: the first course that it knits, counted in the repeat, so that copies of a course share a number.
     Course(u32),
     /// A weft-knitted yarn: its carrier.
     Carrier(u32),

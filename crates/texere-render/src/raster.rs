@@ -196,7 +196,8 @@ impl Binder<'_> {
             (4, self.raster.keys.as_entire_binding()),
             (5, self.raster.ring_rolls.as_entire_binding()),
             (6, BindingResource::TextureView(&screen.depths)),
-            (7, BindingResource::TextureView(&screen.surfaces)),
+            (7, BindingResource::TextureView(&screen.directions)),
+            (8, BindingResource::TextureView(&screen.places)),
         ];
         self.set(pass, resolve, 0, &fabric, &own);
         pass.dispatch_workgroups(columns.div_ceil(SCREEN_GROUP), rows.div_ceil(SCREEN_GROUP), SAMPLES);

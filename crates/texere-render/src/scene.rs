@@ -261,8 +261,13 @@ impl Scene {
         let (renderer, Some(screen)) = (&self.renderer, &self.screen) else { return Ok(()) };
         let texture = BindingResource::TextureView;
         let (view, visibility) = (self.view.as_entire_binding(), texture(&screen.visibility));
-        let kept = [(0, view), (1, texture(&screen.depths)), (2, texture(&screen.surfaces)), (3, visibility)];
-        let lit = [(4, self.looks.as_entire_binding()), (5, screen.picture.as_entire_binding())];
+        let kept =
+            [(0, view), (1, texture(&screen.depths)), (2, texture(&screen.directions)), (4, visibility)];
+        let lit = [
+            (3, texture(&screen.places)),
+            (5, self.looks.as_entire_binding()),
+            (6, texture(&screen.picture)),
+        ];
         let device = &renderer.device;
         let submission = device.scoped("Queue::submit", || {
             let mut encoder = device.device().create_command_encoder(&Default::default());

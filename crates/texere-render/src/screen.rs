@@ -11,7 +11,7 @@ pub(crate) const SAMPLES: u32 = 4;
 pub(crate) const SCREEN_GROUP: u32 = 8;
 
 /// Bytes of a pixel of a picture.
-const COLOR_BYTES: usize = 4;
+const COLOR_BYTES: u32 = 4;
 
 /// The textures for one size of picture: 84 bytes a pixel, times the square of the supersampling, and 8 bytes.
 #[derive(Debug)]
@@ -20,9 +20,10 @@ pub(crate) struct Screen {
     supersampling: u32,
     /// A layer for each sample of a pixel.
     pub(crate) depths: wgpu::TextureView,
-    pub(crate) surfaces: wgpu::TextureView,
+    pub(crate) directions: wgpu::TextureView,
+    pub(crate) places: wgpu::TextureView,
     pub(crate) visibility: wgpu::TextureView,
-    pub(crate) picture: wgpu::Buffer,
+    pub(crate) picture: wgpu::TextureView,
     host: wgpu::Buffer,
 }
 
@@ -32,9 +33,8 @@ impl Screen {
         size: [u32; 2],
         supersampling: u32,
     ) -> Result<Self, BackendError> {
-        let pixels = u64::from(size[0]) * u64::from(size[1]) * COLOR_BYTES as u64;
-        let [width, height] = size.map(|pixels| pixels * supersampling);
-        let texture = |label, layers, format| {
+        let large = size.map(|pixels| pixels * supersampling);
+        let texture = |label, [width, height]: [u32; 2], layers, format, usage| {
             let texture = device.device().create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
                 size: Extent3d { width, height, depth_or_array_layers: layers },
@@ -42,28 +42,25 @@ impl Screen {
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
                 format,
-                usage: TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING,
+                usage: TextureUsages::STORAGE_BINDING | usage,
                 view_formats: &[],
             });
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
+        let read = TextureUsages::TEXTURE_BINDING;
         let textures = device.scoped("Device::create_texture", || {
             [
-                texture("depths", SAMPLES, TextureFormat::R32Float),
-                texture("surfaces", SAMPLES, TextureFormat::Rgba32Uint),
-                texture("visibility", 1, TextureFormat::Rgba8Unorm),
+                texture("depths", large, SAMPLES, TextureFormat::R32Float, read),
+                texture("directions", large, SAMPLES, TextureFormat::Rg32Uint, read),
+                texture("places", large, SAMPLES, TextureFormat::Rg32Uint, read),
+                texture("visibility", large, 1, TextureFormat::Rgba8Unorm, read),
+                texture("picture", size, 1, TextureFormat::Rgba8Unorm, TextureUsages::COPY_SRC),
             ]
         })?;
-        let [depths, surfaces, visibility] = textures;
-        Ok(Self {
-            size,
-            supersampling,
-            depths,
-            surfaces,
-            visibility,
-            picture: device.buffer("picture", pixels, BufferUsages::STORAGE | BufferUsages::COPY_SRC)?,
-            host: device.buffer("picture", pixels, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?,
-        })
+        let [depths, directions, places, visibility, picture] = textures;
+        let bytes = u64::from(row_bytes(size)) * u64::from(size[1]);
+        let host = device.buffer("picture", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
+        Ok(Self { size, supersampling, depths, directions, places, visibility, picture, host })
     }
 
     /// Whether pictures of this size can be drawn into it.
@@ -83,7 +80,19 @@ impl Screen {
 
     /// Records the copy to the host.
     pub(crate) fn copy(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.copy_buffer_to_buffer(&self.picture, 0, &self.host, 0, self.picture.size());
+        let [width, height] = self.size;
+        encoder.copy_texture_to_buffer(
+            self.picture.texture().as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &self.host,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row_bytes(self.size)),
+                    rows_per_image: None,
+                },
+            },
+            Extent3d { width, height, depth_or_array_layers: 1 },
+        );
     }
 
     /// Asks for the copy, once it is handed over, to be mapped.
@@ -93,11 +102,13 @@ impl Screen {
 
     /// The pixels' colours, three bytes each, and their alpha, once the copy is done.
     pub(crate) fn take(&self, device: &WgpuBackend) -> Result<[Vec<u8>; 2], BackendError> {
-        let pixels = self.size[0] as usize * self.size[1] as usize;
+        let row = row_bytes(self.size) as usize;
+        let [width, height] = self.size.map(|pixels| pixels as usize);
         let pixels = device.scoped("Buffer::get_mapped_range", || {
             self.host.get_mapped_range(..).map(|view| {
-                let [mut rgb, mut alpha] = [3 * pixels, pixels].map(Vec::with_capacity);
-                for pixel in view.chunks_exact(COLOR_BYTES).take(pixels) {
+                let [mut rgb, mut alpha] = [3 * width * height, width * height].map(Vec::with_capacity);
+                let rows = view.chunks_exact(row).take(height);
+                for pixel in rows.flat_map(|row| row.chunks_exact(COLOR_BYTES as usize).take(width)) {
                     rgb.extend_from_slice(&pixel[..3]);
                     alpha.push(pixel[3]);
                 }
@@ -111,4 +122,9 @@ impl Screen {
         device.scoped("Buffer::unmap", || self.host.unmap())?;
         Ok(pixels)
     }
+}
+
+/// Bytes of a row of the copy, which wgpu wants in multiples of 256.
+fn row_bytes(size: [u32; 2]) -> u32 {
+    (size[0] * COLOR_BYTES).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
 }

@@ -7,7 +7,8 @@
 @group(1) @binding(5) var<storage, read> ring_rolls: array<u32>;
 
 @group(1) @binding(6) var depths: texture_storage_2d_array<r32float, read_write>;
-@group(1) @binding(7) var surfaces: texture_storage_2d_array<rgba32uint, write>;
+@group(1) @binding(7) var directions: texture_storage_2d_array<rg32uint, write>;
+@group(1) @binding(8) var places: texture_storage_2d_array<rg32uint, write>;
 
 struct Vertex {
     clip: vec4<f32>,
@@ -128,7 +129,9 @@ fn resolve(@builtin(global_invocation_id) place: vec3<u32>) {
     if depth < nearest {
         // In the pixel's middle, as rasterisers do: so samples of one triangle in a pixel are alike.
         let middle = vec2<i32>(pixel) * 256 + 128 - vec2<i32>(view.size * 128.0);
-        textureStore(surfaces, pixel, place.z, packed(kept_of_triangle(~key.x, middle)));
+        let kept = packed(kept_of_triangle(~key.x, middle));
+        textureStore(directions, pixel, place.z, vec4(kept.xy, 0u, 0u));
+        textureStore(places, pixel, place.z, vec4(kept.zw, 0u, 0u));
     }
     if depth < nearest || sweep.is_first != 0u {
         textureStore(depths, pixel, place.z, vec4(min(depth, nearest), 0.0, 0.0, 0.0));

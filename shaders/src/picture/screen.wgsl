@@ -1,18 +1,15 @@
 // Reads back what is nearest in each sample of the screen. After view.wgsl.
 
-// A layer for each sample of a pixel: depth, 1 where no yarn is; and what resolve.wgsl kept of the surface.
+// A layer for each sample of a pixel: depth, 1 where no yarn is; and what resolve.wgsl kept of the surface, its normal and fibre,
+// the yarn's number and the place on it: a number each, as `packed` of kept.wgsl has them.
 @group(1) @binding(1) var depths: texture_2d_array<f32>;
-@group(1) @binding(2) var surfaces: texture_2d_array<u32>;
+@group(1) @binding(2) var directions: texture_2d_array<u32>;
+@group(1) @binding(3) var places: texture_2d_array<u32>;
 
 const SCREEN_GROUP = 8u;
 
 fn depth_at(pixel: vec2<i32>, sample: i32) -> f32 {
     return textureLoad(depths, pixel, sample, 0).x;
-}
-
-// Normal, fibre, the yarn's number, and the place on it: a number each, as `packed` of kept.wgsl has them.
-fn kept_at(pixel: vec2<i32>, sample: i32) -> vec4<u32> {
-    return textureLoad(surfaces, pixel, sample, 0);
 }
 
 fn halves(both: u32) -> vec2<u32> {
@@ -55,7 +52,7 @@ fn surface_at(pixel: vec2<i32>, sample: i32) -> Surface {
     if depth >= 1.0 {
         return ground_at(middle);
     }
-    let normal = from_octahedron(halves(kept_at(pixel, sample).x));
+    let normal = from_octahedron(halves(textureLoad(directions, pixel, sample, 0).x));
     return Surface(local_at(middle, depth), normal, true, false);
 }
 

@@ -15,10 +15,10 @@ struct YarnLook {
     ring_length: f32,
 }
 
-@group(1) @binding(3) var visibilities: texture_2d<f32>;
-@group(1) @binding(4) var<storage, read> looks: array<YarnLook>;
-// Red, green, blue and alpha, a byte each, sRGB; rows from the top.
-@group(1) @binding(5) var<storage, read_write> picture: array<u32>;
+@group(1) @binding(4) var visibilities: texture_2d<f32>;
+@group(1) @binding(5) var<storage, read> looks: array<YarnLook>;
+// Red, green, blue and alpha, sRGB.
+@group(1) @binding(6) var picture: texture_storage_2d<rgba8unorm, write>;
 
 const PI = 3.14159265;
 const SAMPLES = 4;
@@ -95,12 +95,12 @@ fn fill_direction() -> vec3<f32> {
 }
 
 fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> vec3<f32> {
-    let kept = kept_at(pixel, sample);
-    let number = kept.z;
-    let place = halves(kept.w);
+    let packed_place = textureLoad(places, pixel, sample, 0);
+    let number = packed_place.x;
+    let place = halves(packed_place.y);
     let yarn = number & ~CUT;
     let look = looks[yarn];
-    let fibre = from_octahedron(halves(kept.y));
+    let fibre = from_octahedron(halves(textureLoad(directions, pixel, sample, 0).y));
     let eye = to_eye(here.local);
     if (number & CUT) != 0u {
         // Fibres seen end on absorb the light that falls between them. Nothing stands before a cut's plane, and the depth kept
@@ -188,7 +188,7 @@ fn sample_color(pixel: vec2<i32>, sample: i32) -> vec4<f32> {
 const NO_YARN = 0xffffffffu;
 
 fn yarn_at(pixel: vec2<i32>, sample: i32) -> u32 {
-    return select(kept_at(pixel, sample).z, NO_YARN, depth_at(pixel, sample) >= 1.0);
+    return select(textureLoad(places, pixel, sample, 0).x, NO_YARN, depth_at(pixel, sample) >= 1.0);
 }
 
 // The mean of a pixel's four samples; one is enough where all are of one yarn.
@@ -231,5 +231,5 @@ fn shade(@builtin(global_invocation_id) place: vec3<u32>) {
     // A sample without alpha has no colour either, so it takes no part in the pixel's.
     let alpha = sum.a / f32(factor * factor);
     let color = clamp(sum.rgb / max(sum.a, 1e-3), vec3(0.0), vec3(1.0));
-    picture[place.y * size.x + place.x] = pack4x8unorm(vec4(srgb(color), alpha));
+    textureStore(picture, place.xy, vec4(srgb(color), alpha));
 }

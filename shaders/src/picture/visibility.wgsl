@@ -1,6 +1,6 @@
 // Ambient occlusion and the key light's shadow at each pixel, both found on the screen. After view.wgsl and screen.wgsl.
 
-@group(1) @binding(3) var seen: texture_storage_2d<rgba8unorm, write>;
+@group(1) @binding(4) var seen: texture_storage_2d<rgba8unorm, write>;
 
 const OCCLUSION_TAPS = 14u;
 const SHADOW_STEPS = 18u;

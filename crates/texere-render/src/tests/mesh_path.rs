@@ -32,7 +32,7 @@ const COMPARE: &str = "
 @group(0) @binding(0) var drawn_depths: texture_depth_multisampled_2d;
 @group(0) @binding(2) var places: texture_multisampled_2d<u32>;
 @group(0) @binding(3) var depths: texture_2d_array<f32>;
-@group(0) @binding(4) var surfaces: texture_2d_array<u32>;
+@group(0) @binding(4) var kept_places: texture_2d_array<u32>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>, 2>;
 
 @compute @workgroup_size(8, 8)
@@ -49,7 +49,7 @@ fn compare(@builtin(global_invocation_id) at: vec3<u32>) {
     }
     atomicAdd(&counts[0], 1u);
     let place = textureLoad(places, pixel, sample);
-    let is_other = (place.x | place.y << 16u) != textureLoad(surfaces, pixel, sample, 0).z;
+    let is_other = (place.x | place.y << 16u) != textureLoad(kept_places, pixel, sample, 0).x;
     if is_other || abs(one - other) > 0.01 {
         atomicAdd(&counts[1], 1u);
     }
@@ -61,7 +61,8 @@ const UNPACK: &str = "
 @group(0) @binding(1) var directions: texture_multisampled_2d<u32>;
 @group(0) @binding(2) var places: texture_multisampled_2d<u32>;
 @group(0) @binding(3) var depths: texture_storage_2d_array<r32float, write>;
-@group(0) @binding(4) var surfaces: texture_storage_2d_array<rgba32uint, write>;
+@group(0) @binding(4) var kept_directions: texture_storage_2d_array<rg32uint, write>;
+@group(0) @binding(5) var kept_places: texture_storage_2d_array<rg32uint, write>;
 
 @compute @workgroup_size(8, 8)
 fn unpack(@builtin(global_invocation_id) at: vec3<u32>) {
@@ -73,7 +74,8 @@ fn unpack(@builtin(global_invocation_id) at: vec3<u32>) {
     let d = textureLoad(directions, pixel, sample);
     let p = textureLoad(places, pixel, sample);
     textureStore(depths, pixel, sample, vec4(textureLoad(drawn_depths, pixel, sample), 0.0, 0.0, 0.0));
-    textureStore(surfaces, pixel, sample, vec4(d.x | d.y << 16u, d.z | d.w << 16u, p.x | p.y << 16u, p.z | p.w << 16u));
+    textureStore(kept_directions, pixel, sample, vec4(d.x | d.y << 16u, d.z | d.w << 16u, 0u, 0u));
+    textureStore(kept_places, pixel, sample, vec4(p.x | p.y << 16u, p.z | p.w << 16u, 0u, 0u));
 }";
 
 /// The runs of a chunk, and its triangles: three vertices and the run of each.
@@ -164,12 +166,12 @@ fn draw(scene: &Scene, plan: &Plan, chunk: &Chunk, camera: &Camera) -> [u32; 2] 
         (0, texture(&depths)),
         (2, texture(&places)),
         (3, texture(&screen.depths)),
-        (4, texture(&screen.surfaces)),
+        (4, texture(&screen.places)),
         (5, counts.as_entire_binding()),
     ];
     let compared = group(device, &compare, 0, &compared);
     let unpack = pipeline(device, &module(device, UNPACK), "unpack");
-    let views = [&depths, &directions, &places, &screen.depths, &screen.surfaces];
+    let views = [&depths, &directions, &places, &screen.depths, &screen.directions, &screen.places];
     let views: Vec<_> = (0..).zip(views).map(|(number, view)| (number, texture(view))).collect();
     let unpacked = group(device, &unpack, 0, &views);
 

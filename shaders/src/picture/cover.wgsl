@@ -13,10 +13,10 @@ const SUBPIXELS = 256.0;
 // Corners at most this far from the screen's middle, pixels: edges are exact up to there.
 const REACHED = 16384.0;
 
-// A triangle of fewer 1/256 pixels across takes edges of 32 bits.
+// A quad of fewer 1/256 pixels across takes edges of 32 bits.
 const EXTENT = 32768;
 
-// A triangle whose box has more samples is left to the whole workgroup.
+// A quad whose box has more samples is left to the whole workgroup.
 const ALONE = 96;
 
 // A corner on the screen.
@@ -82,33 +82,41 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// Whether a triangle may have samples: none, few or many. One that lies partly beyond what is reached may have many.
+// Whether a quad may have samples: none, few or many. One that lies partly beyond what is reached may have many.
 const NONE = 0u;
 const FEW = 1u;
 const MANY = 2u;
 
-fn look_of(p: Corner, q: Corner, r: Corner) -> u32 {
-    if (p.sides & q.sides & r.sides & ~BEYOND) != 0u {
-        return NONE;
-    }
-    if ((p.sides | q.sides | r.sides) & BEYOND) != 0u {
-        return MANY;
-    }
+// A triangle's area on the screen, twice. Only its sign is wanted, which rounding does not change but where edges are as long as
+// the screen. Outsides are counter-clockwise as seen with y up: their areas are below 0.
+fn area_of(p: Corner, q: Corner, r: Corner) -> f32 {
     let pq = vec2<f32>(q.place - p.place);
     let pr = vec2<f32>(r.place - p.place);
-    // Only its sign is wanted, which rounding does not change but where edges are as long as the screen. Outsides are
-    // counter-clockwise as seen with y up.
-    let area = pq.x * pr.y - pq.y * pr.x;
-    if area == 0.0 || (area > 0.0 && view.sees_inside == 0u) {
+    return pq.x * pr.y - pq.y * pr.x;
+}
+
+fn is_seen(area: f32) -> bool {
+    return area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
+}
+
+// Of the quad between p and q on a ring and r and s on the next: the triangles p q r and q s r.
+fn look_of(p: Corner, q: Corner, r: Corner, s: Corner) -> u32 {
+    if (p.sides & q.sides & r.sides & s.sides & ~BEYOND) != 0u {
         return NONE;
     }
-    let low = min(p.place, min(q.place, r.place));
-    let high = max(p.place, max(q.place, r.place));
+    if ((p.sides | q.sides | r.sides | s.sides) & BEYOND) != 0u {
+        return MANY;
+    }
+    if !is_seen(area_of(p, q, r)) && !is_seen(area_of(q, s, r)) {
+        return NONE;
+    }
+    let low = min(min(p.place, q.place), min(r.place, s.place));
+    let high = max(max(p.place, q.place), max(r.place, s.place));
     let span = span_of(low, high);
     let across = span.last - span.first + 1;
     let extent = max(high.x - low.x, high.y - low.y);
     let is_small = across.x * across.y <= ALONE && extent < EXTENT;
-    // Most triangles lie between samples, in one row or in two.
+    // Most quads lie between samples, in one row or in two.
     let has_samples = min(across.x, across.y) > 0
         && (across.y > 2 || has_sample(low, high, span.first.y) || has_sample(low, high, span.last.y));
     return select(NONE, select(MANY, FEW, is_small), has_samples);
@@ -125,15 +133,15 @@ struct Turned {
     p: Corner,
     q: Corner,
     r: Corner,
+    is_seen: bool,
 }
 
 fn turned(p: Corner, q: Corner, r: Corner) -> Turned {
-    let pq = vec2<f32>(q.place - p.place);
-    let pr = vec2<f32>(r.place - p.place);
-    if pq.x * pr.y - pq.y * pr.x < 0.0 {
-        return Turned(p, r, q);
+    let area = area_of(p, q, r);
+    if area < 0.0 {
+        return Turned(p, r, q, true);
     }
-    return Turned(p, q, r);
+    return Turned(p, q, r, is_seen(area));
 }
 
 // 0 for an edge that its samples belong to, a top or a left one, else -1.
@@ -203,15 +211,22 @@ fn highest(turned: Turned) -> vec2<i32> {
     return max(turned.p.place, max(turned.q.place, turned.r.place));
 }
 
-// Draws a triangle of few samples.
-fn draw_alone(p: Corner, q: Corner, r: Corner, triangle: u32) {
-    let turned = turned(p, q, r);
-    let span = span_of(lowest(turned), highest(turned));
+// Draws a quad of few samples, whose first triangle is number `triangle`.
+fn draw_alone(p: Corner, q: Corner, r: Corner, s: Corner, triangle: u32) {
+    let one = turned(p, q, r);
+    let other = turned(q, s, r);
+    let span = span_of(min(lowest(one), lowest(other)), max(highest(one), highest(other)));
     for (var row = span.first.y; row <= span.last.y; row++) {
         for (var x = span.first.x; x <= span.last.x; x++) {
-            let coverage = coverage_of(turned, sample_place(x, row));
-            if coverage.is_covered {
-                offer_at(x, row, coverage.depth, triangle);
+            let place = sample_place(x, row);
+            // A sample lies in one of them at most, but where the quad is folded.
+            let in_one = coverage_of(one, place);
+            if one.is_seen && in_one.is_covered {
+                offer_at(x, row, in_one.depth, triangle);
+            }
+            let in_other = coverage_of(other, place);
+            if other.is_seen && in_other.is_covered {
+                offer_at(x, row, in_other.depth, triangle + 1u);
             }
         }
     }
@@ -225,7 +240,7 @@ fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lane: u32, lane
     let span = span_of(low, high);
     let across = span.last - span.first + 1;
     let is_long = max(high.x - low.x, high.y - low.y) >= EXTENT;
-    if min(across.x, across.y) <= 0 {
+    if !turned.is_seen || min(across.x, across.y) <= 0 {
         return;
     }
     let step = vec2(i32(lanes) % across.x, i32(lanes) / across.x);

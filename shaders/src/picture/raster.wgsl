@@ -9,9 +9,8 @@
 const RASTER_GROUP = 128u;
 const CAP_GROUP = 64u;
 
-// Corners of whole rings, of 256 sides at most, that a workgroup holds at a time, and the triangles between them.
+// Corners of whole rings, of 256 sides at most, that a workgroup holds at a time, and no fewer than the quads between them.
 const HELD_CORNERS = 512u;
-const HELD_TRIANGLES = 1024u;
 
 
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
@@ -25,8 +24,8 @@ const HELD_TRIANGLES = 1024u;
 var<workgroup> held_x: array<i32, HELD_CORNERS>;
 var<workgroup> held_y: array<i32, HELD_CORNERS>;
 var<workgroup> held_depth: array<f32, HELD_CORNERS>;
-// Triangles that have samples.
-var<workgroup> found: array<u32, HELD_TRIANGLES>;
+// Quads that have samples.
+var<workgroup> found: array<u32, HELD_CORNERS>;
 var<workgroup> found_count: atomic<u32>;
 // 1 where one of many samples is among them that were left out, else 0.
 var<workgroup> is_left: atomic<u32>;
@@ -43,25 +42,15 @@ fn held(at: u32) -> Corner {
     return Corner(vec2(x >> 8u, held_y[at]), held_depth[at], u32(x & 255));
 }
 
-// Where the corners of triangle `number` of a run of `rings` quads long are held: its ring and its side.
-struct Place {
-    ring: u32,
-    side: u32,
+// The corners of quad `number` of a run of `rings` rings of quads: on its ring, and on the next one.
+fn quad_at(number: u32) -> vec3<u32> {
+    let ring = quotient(number, params.sides);
+    let side = number - ring * params.sides;
+    return vec3(ring, side, select(side + 1u, 0u, side + 1u == params.sides));
 }
 
-fn corner_places(number: u32) -> array<Place, 3> {
-    let quad = number / 2u;
-    let ring = quotient(quad, params.sides);
-    let side = quad - ring * params.sides;
-    let beside = select(side + 1u, 0u, side + 1u == params.sides);
-    if (number & 1u) == 0u {
-        return array(Place(ring, side), Place(ring, beside), Place(ring + 1u, side));
-    }
-    return array(Place(ring, beside), Place(ring + 1u, beside), Place(ring + 1u, side));
-}
-
-fn held_at(place: Place, rings: u32) -> Corner {
-    return held(place.side * (rings + 1u) + place.ring);
+fn held_at(ring: u32, side: u32, rings: u32) -> Corner {
+    return held(side * (rings + 1u) + ring);
 }
 
 // Puts what is wanted of a ring in the place of its stance: in clip space its centre, and what a section's x and y are there.
@@ -114,33 +103,30 @@ fn hold_corners(outline: u32, first_ring: u32, rings: u32, lane: u32) {
     }
 }
 
-// Notes the triangles between these corners that have few samples, or many; and where it is few, whether some have many.
-fn note_triangles(rings: u32, lane: u32, wanted: u32) {
+// Notes the quads between these corners that have few samples, or many; and where it is few, whether some have many.
+fn note_quads(rings: u32, lane: u32, wanted: u32) {
     let share = ring_share(lane, rings);
     let stride = rings + 1u;
     var p = held(share.first_side * stride + share.ring);
     var r = held(share.first_side * stride + share.ring + 1u);
     var others = 0u;
-    // Sixteen quads at a time, two bits each.
-    for (var first = share.first_side; first < share.end_side; first += 16u) {
-        let end = min(first + 16u, share.end_side);
+    // Thirty-two quads at a time, a bit each.
+    for (var first = share.first_side; first < share.end_side; first += 32u) {
+        let end = min(first + 32u, share.end_side);
         var noted = 0u;
         for (var side = first; side < end; side++) {
             let beside = select(side + 1u, 0u, side + 1u == params.sides);
             let q = held(beside * stride + share.ring);
             let s = held(beside * stride + share.ring + 1u);
-            let one = look_of(p, q, r);
-            let other = look_of(q, s, r);
-            let bit = 1u << (2u * (side - first));
-            noted |= select(0u, bit, one == wanted) | select(0u, bit << 1u, other == wanted);
-            others |= one | other;
+            let look = look_of(p, q, r, s);
+            noted |= select(0u, 1u << (side - first), look == wanted);
+            others |= look;
             p = q;
             r = s;
         }
-        let base = 2u * (share.ring * params.sides + first);
         var place = atomicAdd(&found_count, countOneBits(noted));
         while noted != 0u {
-            found[place] = base + firstTrailingBit(noted);
+            found[place] = share.ring * params.sides + first + firstTrailingBit(noted);
             noted &= noted - 1u;
             place += 1u;
         }
@@ -167,7 +153,7 @@ fn project_block(row: u32, lane: u32) {
     workgroupBarrier();
 }
 
-// A workgroup of RASTER_GROUP a listed block: its triangles of few samples. Where it has others it is left for later.
+// A workgroup of RASTER_GROUP a listed block: its quads of few samples. Where it has others it is left for later.
 @compute @workgroup_size(RASTER_GROUP)
 fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
           @builtin(local_invocation_index) lane: u32) {
@@ -184,14 +170,15 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
         let rings = min(most, quads - ring);
         hold_corners(outline, ring, rings, lane);
         workgroupBarrier();
-        note_triangles(rings, lane, FEW);
+        note_quads(rings, lane, FEW);
         workgroupBarrier();
         let base = row * numbers_of_block() + 2u * ring * params.sides;
         let count = atomicLoad(&found_count);
         for (var k = lane; k < count; k += RASTER_GROUP) {
-            let triangle = found[k];
-            let at = corner_places(triangle);
-            draw_alone(held_at(at[0], rings), held_at(at[1], rings), held_at(at[2], rings), base + triangle);
+            let quad = found[k];
+            let at = quad_at(quad);
+            draw_alone(held_at(at.x, at.y, rings), held_at(at.x, at.z, rings), held_at(at.x + 1u, at.y, rings),
+                       held_at(at.x + 1u, at.z, rings), base + 2u * quad);
         }
         workgroupBarrier();
         if lane == 0u {
@@ -203,7 +190,7 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
     }
 }
 
-// LEFT_SHARES workgroups of RASTER_GROUP a block that was left: its triangles of many samples, each drawn by a whole workgroup.
+// LEFT_SHARES workgroups of RASTER_GROUP a block that was left: its quads of many samples, each drawn by a whole workgroup.
 @compute @workgroup_size(RASTER_GROUP)
 fn raster_left(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {
@@ -222,23 +209,28 @@ fn raster_left(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
         let rings = min(most, end - ring);
         hold_corners(outline, ring, rings, lane);
         workgroupBarrier();
-        note_triangles(rings, lane, MANY);
+        note_quads(rings, lane, MANY);
         workgroupBarrier();
         let base = row * numbers_of_block() + 2u * ring * params.sides;
         let count = atomicLoad(&found_count);
         for (var k = 0u; k < count; k++) {
-            let triangle = found[k];
-            let at = corner_places(triangle);
-            let p = held_at(at[0], rings);
-            let q = held_at(at[1], rings);
-            let r = held_at(at[2], rings);
-            if ((p.sides | q.sides | r.sides) & BEYOND) == 0u {
-                draw_together(p, q, r, base + triangle, lane, RASTER_GROUP);
+            let quad = found[k];
+            let at = quad_at(quad);
+            let p = held_at(at.x, at.y, rings);
+            let q = held_at(at.x, at.z, rings);
+            let r = held_at(at.x + 1u, at.y, rings);
+            let s = held_at(at.x + 1u, at.z, rings);
+            let triangle = base + 2u * quad;
+            if ((p.sides | q.sides | r.sides | s.sides) & BEYOND) == 0u {
+                draw_together(p, q, r, triangle, lane, RASTER_GROUP);
+                draw_together(q, s, r, triangle + 1u, lane, RASTER_GROUP);
             } else {
-                draw_beyond(tube_clip(ring + at[0].ring, outlines[outline + at[0].side].xy),
-                            tube_clip(ring + at[1].ring, outlines[outline + at[1].side].xy),
-                            tube_clip(ring + at[2].ring, outlines[outline + at[2].side].xy),
-                            base + triangle, lane, RASTER_GROUP);
+                let own = outlines[outline + at.y].xy;
+                let other = outlines[outline + at.z].xy;
+                let beside = tube_clip(ring + at.x, other);
+                let over = tube_clip(ring + at.x + 1u, own);
+                draw_beyond(tube_clip(ring + at.x, own), beside, over, triangle, lane, RASTER_GROUP);
+                draw_beyond(beside, tube_clip(ring + at.x + 1u, other), over, triangle + 1u, lane, RASTER_GROUP);
             }
         }
         workgroupBarrier();
@@ -278,7 +270,7 @@ fn raster_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
         let p = held(at.x);
         let q = held(at.y);
         let r = held(at.z);
-        let look = look_of(p, q, r);
+        let look = look_of(p, q, r, r);
         if look == NONE {
             continue;
         }

@@ -1,14 +1,16 @@
 //! A chunk drawn without a mesh: which blocks, which triangle in each sample, and what that shows.
 
+use std::ops::Range;
+
 use bytemuck::{Pod, Zeroable};
 use texere_core::{BLOCK_RINGS, BackendError, Chunk, ControlPoint, Limits, Plan};
 use texere_shaders::{Resource, grid};
 use texere_wgpu::ChunkTables;
 use wgpu::{BindingResource, BufferUsages};
 
+use crate::Renderer;
 use crate::rasteriser::{Keys, Pipelines, group};
 use crate::screen::{SAMPLES, SCREEN_GROUP, Screen};
-use crate::{RenderError, Renderer};
 
 /// `Sweep` of `fabric.wgsl`.
 #[repr(C)]
@@ -72,7 +74,15 @@ impl Raster {
         Limits { blocks: device.blocks.min(numbered).min(bound).max(2), ..Limits::NONE }
     }
 
-    /// Draws a chunk over what earlier ones left on the screen, and hands the work over.
+    /// The stretches of the screen's rows that are drawn one after the other: their keys fit a binding.
+    pub(crate) fn bands(renderer: &Renderer, screen: &Screen) -> impl Iterator<Item = Range<u32>> + use<> {
+        let height = screen.large()[1];
+        let most = KEYS_MOST.min(renderer.info().limits.binding_bytes);
+        let rows = ((most / row_bytes(screen)) as u32).clamp(1, height);
+        (0..height).step_by(rows as usize).map(move |first| first..height.min(first + rows))
+    }
+
+    /// Draws a chunk over what earlier ones left on some rows of the screen, and hands the work over.
     pub(crate) fn draw(
         &mut self,
         renderer: &Renderer,
@@ -80,41 +90,44 @@ impl Raster {
         chunk: &Chunk,
         view: &wgpu::Buffer,
         screen: &Screen,
-    ) -> Result<wgpu::SubmissionIndex, RenderError> {
-        let pipelines = renderer.rasteriser.pipelines(&renderer.device, tables.are_flattened())?;
-        let [width, height] = screen.large();
-        let row_bytes = u64::from(width) * u64::from(SAMPLES) * KEY_BYTES;
-        let most = KEYS_MOST.min(renderer.info().limits.binding_bytes);
-        let rows = ((most / row_bytes) as u32).clamp(1, height);
-        renderer.reserve(&mut self.keys, u64::from(rows) * row_bytes)?;
+        band: Range<u32>,
+    ) -> Result<wgpu::SubmissionIndex, BackendError> {
+        let (device, keys) = (&renderer.device, renderer.rasteriser.keys);
+        let pipelines = renderer.rasteriser.pipelines(device, tables.are_flattened())?;
+        let rows = band.end - band.start;
+        let key_bytes = u64::from(rows) * row_bytes(screen);
+        renderer.reserve(&mut self.keys, key_bytes)?;
         renderer.reserve(&mut self.listed, 8 * (chunk.blocks().len() as u64 + 1))?;
         renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
-        let mut submission = None;
-        for first_row in (0..height).step_by(rows as usize) {
-            let rows = rows.min(height - first_row);
-            for (number, buffer) in (0..).zip(&self.sweeps) {
-                let is_first = (chunk.index() == 0).into();
-                let reach = self.reach;
-                let sweep = Sweep { first_row, rows, number, reach, is_first, padding: [0; 3] };
-                renderer.write(buffer, bytemuck::bytes_of(&sweep))?;
-            }
-            let device = &renderer.device;
-            let handed = device.scoped("Queue::submit", || {
-                let mut encoder = device.device().create_command_encoder(&Default::default());
-                encoder.clear_buffer(&self.keys, 0, Some(u64::from(rows) * row_bytes));
-                encoder.clear_buffer(&self.listed, 0, Some(8));
-                {
-                    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                    let of = Binder { raster: self, device: device.device(), tables, view };
-                    of.find(&mut pass, &pipelines, chunk, renderer.rasteriser.keys);
-                    of.show(&mut pass, &pipelines.resolve, screen, [width, rows]);
-                }
-                device.queue().submit([encoder.finish()])
-            })?;
-            submission = Some(handed);
+        let first = Sweep {
+            first_row: band.start,
+            rows,
+            number: 0,
+            reach: self.reach,
+            is_first: (chunk.index() == 0).into(),
+            padding: [0; 3],
+        };
+        for (number, buffer) in (0..).zip(&self.sweeps[..keys.rounds()]) {
+            renderer.write(buffer, bytemuck::bytes_of(&Sweep { number, ..first }))?;
         }
-        submission.ok_or(RenderError::Size { width, height, limit: renderer.side_limit() })
+        device.scoped("Queue::submit", || {
+            let mut encoder = device.device().create_command_encoder(&Default::default());
+            encoder.clear_buffer(&self.keys, 0, Some(key_bytes));
+            encoder.clear_buffer(&self.listed, 0, Some(8));
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                let of = Binder { raster: self, device: device.device(), tables, view };
+                of.find(&mut pass, &pipelines, chunk, keys);
+                of.show(&mut pass, &pipelines.resolve, screen, [screen.large()[0], rows]);
+            }
+            device.queue().submit([encoder.finish()])
+        })
     }
+}
+
+/// Bytes of the keys of a row of the screen.
+fn row_bytes(screen: &Screen) -> u64 {
+    u64::from(screen.large()[0]) * u64::from(SAMPLES) * KEY_BYTES
 }
 
 /// What the passes over a chunk bind.

@@ -6,8 +6,8 @@ use std::sync::{Arc, OnceLock};
 use texere_core::BackendError;
 use texere_gpu::{Language, prelude};
 use texere_shaders::picture;
-use texere_wgpu::WgpuBackend;
-use wgpu::{BindGroupEntry, BindingResource, Features};
+use texere_wgpu::{LONG_ATOMICS, WgpuBackend};
+use wgpu::{BindGroupEntry, BindingResource};
 
 /// What the nearest triangle of a sample is found with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,8 +21,7 @@ pub(crate) enum Keys {
 impl Keys {
     /// The faster ones of those that `device` can do.
     pub(crate) fn of(device: &WgpuBackend) -> Self {
-        let wanted = Features::SHADER_INT64 | Features::SHADER_INT64_ATOMIC_MIN_MAX;
-        if device.device().features().contains(wanted) { Self::Whole } else { Self::InRounds }
+        if device.device().features().contains(LONG_ATOMICS) { Self::Whole } else { Self::InRounds }
     }
 
     /// How often all triangles are gone through.

@@ -78,8 +78,8 @@ pub struct Scene {
     pub(crate) plan: Arc<Plan>,
     pub(crate) session: WgpuSession,
     limits: Limits,
-    /// All chunks, where they are few enough to stay in the session; else none. Not known before the first picture.
-    chunks: Option<Vec<Chunk>>,
+    /// All chunks, once they have been drawn, where they are few enough to stay in the session.
+    chunks: Vec<Chunk>,
     extent: Extent,
     looks: wgpu::Buffer,
     raster: Raster,
@@ -137,7 +137,7 @@ impl Renderer {
             view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
             background: Background::Ground,
             screen: None,
-            chunks: None,
+            chunks: Vec::new(),
             limits: Raster::chunk_limits(&plan, &self.info().limits),
             plan,
         })
@@ -166,7 +166,7 @@ impl Scene {
     /// Cuts chunks to `limits` where the scene's own are wider.
     #[must_use]
     pub fn with_limits(self, limits: &Limits) -> Self {
-        Self { limits: self.limits.min(limits), chunks: None, ..self }
+        Self { limits: self.limits.min(limits), chunks: Vec::new(), ..self }
     }
 
     /// What its pictures have from now on where no yarn is; at first ground.
@@ -204,7 +204,7 @@ impl Scene {
             self.screen = None;
             self.screen = Some(Screen::new(&self.renderer.device, size, supersampling)?);
         }
-        let view = ViewUniform::new(camera, self.background, supersampling, self.plan.settings().sides);
+        let view = ViewUniform::new(camera, self.background, supersampling);
         Ok(self.renderer.write(&self.view, bytemuck::bytes_of(&view))?)
     }
 
@@ -223,35 +223,37 @@ impl Scene {
     /// Draws chunk after chunk.
     fn draw(&mut self) -> Result<(), RenderError> {
         let plan = self.plan.clone();
-        if self.chunks.is_none() {
-            let first: Vec<_> = plan.chunks(&self.limits)?.take(CHUNKS_KEPT + 1).collect();
-            self.chunks = Some(if first.len() > CHUNKS_KEPT { Vec::new() } else { first });
+        if self.chunks.is_empty() {
+            let mut rest = plan.chunks(&self.limits)?;
+            let first: Vec<_> = rest.by_ref().take(CHUNKS_KEPT + 1).collect();
+            if first.len() > CHUNKS_KEPT {
+                return self.draw_chunks(first.into_iter().chain(rest));
+            }
+            self.chunks = first;
         }
-        let kept = self.chunks.take().unwrap_or_default();
-        let drawn = if kept.is_empty() {
-            self.draw_chunks(plan.chunks(&self.limits)?)
-        } else {
-            self.draw_chunks(kept.iter())
-        };
-        self.chunks = Some(kept);
+        let kept = std::mem::take(&mut self.chunks);
+        let drawn = self.draw_chunks(kept.iter());
+        self.chunks = kept;
         drawn
     }
 
     /// Draws these. While one is drawn the next one's tables are sent.
     fn draw_chunks(&mut self, chunks: impl Iterator<Item: Borrow<Chunk>>) -> Result<(), RenderError> {
+        let Self { renderer, session, raster, view, screen: Some(screen), .. } = self else { return Ok(()) };
         let mut before = None;
         for chunk in chunks {
             let chunk = chunk.borrow();
-            let tables = self.session.chunk_tables(chunk)?;
-            let Some(screen) = &self.screen else { break };
-            let drawn = self.raster.draw(&self.renderer, tables, chunk, &self.view, screen)?;
-            // No more than two chunks are under way, so that each wait is for a chunk and not for a fabric.
-            if let Some(submission) = before.replace(drawn) {
-                self.renderer.device.wait(submission)?;
+            let tables = session.chunk_tables(chunk)?;
+            for band in Raster::bands(renderer, screen) {
+                let drawn = raster.draw(renderer, tables, chunk, view, screen, band)?;
+                // No more than two are under way, so that each wait is for one and not for a fabric.
+                if let Some(submission) = before.replace(drawn) {
+                    renderer.device.wait(submission)?;
+                }
             }
         }
         match before {
-            Some(submission) => Ok(self.renderer.device.wait(submission)?),
+            Some(submission) => Ok(renderer.device.wait(submission)?),
             None => Ok(()),
         }
     }

@@ -7,7 +7,7 @@ use wgpu::{BufferUsages, Extent3d, TextureFormat, TextureUsages};
 /// Samples of a pixel, where rasterisers of every device have them for four.
 pub(crate) const SAMPLES: u32 = 4;
 
-/// `SCREEN_GROUP` of `screen.wgsl`, and the side of the workgroups of `resolve.wgsl`.
+/// `SCREEN_GROUP` of `view.wgsl`.
 pub(crate) const SCREEN_GROUP: u32 = 8;
 
 /// Bytes of a pixel of a picture.

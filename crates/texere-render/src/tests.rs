@@ -216,6 +216,22 @@ fn chunks_draw_the_same_picture() {
     }
 }
 
+/// Where the samples of a screen are more than a binding holds.
+#[test]
+fn bands_draw_the_same_picture() {
+    let yarns = TWILL.yarns();
+    let whole = renderer().lock().unwrap();
+    // Eight rows of the screen at a time.
+    let limits = Limits { binding_bytes: 1 << 16, ..Limits::NONE };
+    let device = whole.backend().clone().with_limits(limits);
+    let in_bands = Renderer::with_rasteriser(device, Rasteriser::new(Keys::Whole)).unwrap();
+    for (name, camera) in cameras(&Extent::of(&yarns)) {
+        let [one, other] =
+            [&*whole, &in_bands].map(|renderer| draw(renderer, &yarns, &camera, &Limits::NONE));
+        assert!(one == other, "{name}");
+    }
+}
+
 /// From rest to the picture no byte goes over the host but the report.
 #[test]
 fn settled_yarns_are_drawn_where_they_rest() {

@@ -30,19 +30,19 @@ pub(crate) struct ViewUniform {
     ground: [f32; 4],
     size: [f32; 2],
     supersampling: u32,
-    sides: u32,
     reach_pixels: f32,
     thickness: f32,
     has_ground: u32,
     sees_inside: u32,
-    background: [f32; 3],
     background_kind: u32,
+    background: [f32; 3],
+    padding: u32,
 }
 
 const _: () = assert!(size_of::<ViewUniform>() == 240);
 
 impl ViewUniform {
-    pub(crate) fn new(camera: &Camera, background: Background, supersampling: u32, sides: u32) -> Self {
+    pub(crate) fn new(camera: &Camera, background: Background, supersampling: u32) -> Self {
         let radius = camera.extent.radius;
         let size = camera.size().map(|pixels| (pixels * supersampling) as f32);
         let clip_from_local = camera.clip_from_local();
@@ -64,13 +64,13 @@ impl ViewUniform {
             ground: up.extend(lowest - camera.target.dot(up)).to_array(),
             size,
             supersampling,
-            sides,
             reach_pixels: radius * REACH_RADII * size[1] / camera.height_at_target(),
             thickness: radius * THICKNESS_RADII,
             has_ground: u32::from(!camera.cuts),
             sees_inside: u32::from(camera.sees_inside()),
-            background,
             background_kind,
+            background,
+            padding: 0,
         }
     }
 }

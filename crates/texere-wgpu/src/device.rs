@@ -21,9 +21,8 @@ use crate::settling::WgpuSettler;
 /// software device.
 const LAUNCH_BLOCKS: u64 = 1 << 18;
 
-/// Features that a device is opened with where it has them: the device's clock, and what pictures are drawn faster with.
-const WANTED: Features =
-    Features::TIMESTAMP_QUERY.union(Features::SHADER_INT64).union(Features::SHADER_INT64_ATOMIC_MIN_MAX);
+/// Features with which a picture finds depth and triangle of a sample at once; without them it takes two rounds.
+pub const LONG_ATOMICS: Features = Features::SHADER_INT64.union(Features::SHADER_INT64_ATOMIC_MIN_MAX);
 
 /// A wgpu device that is open and can start sessions.
 ///
@@ -62,7 +61,7 @@ impl WgpuBackend {
         if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
     }
 
-    /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries if it has them.
+    /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries and [`LONG_ATOMICS`] if it has them.
     ///
     /// **Errors**: [`BackendError::NoDevice`], which lists those there are; [`BackendError::Driver`] where the device
     /// can't be opened; [`BackendError::Compile`]; [`BackendError::Unsupported`] for [`Schedule::Serial`].
@@ -72,7 +71,7 @@ impl WgpuBackend {
             adapters.get(index).ok_or_else(|| none(device_name("wgpu", Some(index), schedule), &adapters))?;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("texere"),
-            required_features: adapter.features() & WANTED,
+            required_features: adapter.features() & Features::TIMESTAMP_QUERY.union(LONG_ATOMICS),
             required_limits: adapter.limits(),
             ..Default::default()
         }))
@@ -95,7 +94,7 @@ impl WgpuBackend {
     /// Works on a device of the caller's, such as a viewer's, under the name `wgpu`.
     ///
     /// All calls are made within error scopes, and its callbacks stay the caller's. It takes no feature;
-    /// `TIMESTAMP_QUERY` makes timings exact. With wgpu's default limits a chunk has up to 128 MiB of vertices. [`Schedule::PerRing`] is the fast one,
+    /// `TIMESTAMP_QUERY` makes timings exact, [`LONG_ATOMICS`] make pictures faster. With wgpu's default limits a chunk has up to 128 MiB of vertices. [`Schedule::PerRing`] is the fast one,
     /// which does all that there is; the other is the paper's, to compare with.
     ///
     /// ```no_run

@@ -46,7 +46,7 @@ mod settling;
 mod tables;
 mod upload;
 
-pub use device::WgpuBackend;
+pub use device::{LONG_ATOMICS, WgpuBackend};
 pub use draw::{ATTRIBUTE_LAYOUT, VERTEX_LAYOUT, draw};
 pub use engine::WgpuEngine;
 pub use session::{ChunkTables, WgpuSession};

@@ -141,4 +141,6 @@ pub use texere_render::{
     Background, Camera, Cut, Extent, Picture, PictureTimings, Pose, Quality, RenderError, Renderer, Scene,
 };
 #[cfg(feature = "wgpu")]
-pub use texere_wgpu::{ATTRIBUTE_LAYOUT, VERTEX_LAYOUT, WgpuBackend, WgpuEngine, WgpuSession, draw, wgpu};
+pub use texere_wgpu::{
+    ATTRIBUTE_LAYOUT, LONG_ATOMICS, VERTEX_LAYOUT, WgpuBackend, WgpuEngine, WgpuSession, draw, wgpu,
+};

@@ -51,10 +51,6 @@ struct Span {
     last: vec2<i32>,
 }
 
-fn middle() -> vec2<i32> {
-    return vec2<i32>(view.size * (0.5 * SUBPIXELS));
-}
-
 // A sample of pixel `x` in row `row`, in 1/256 pixels from the middle.
 fn sample_place(x: i32, row: i32) -> vec2<i32> {
     return vec2(x * 256 + SAMPLE_X[row & 3], row * SAMPLE_ROW + FIRST_SAMPLE_Y) - middle();
@@ -76,8 +72,7 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
     if depth < 0.0 || depth > 1.0 {
         return;
     }
-    let pixel = u32(row >> 2u) - sweep.first_row;
-    let sample = (pixel * u32(view.size.x) + u32(x)) * 4u + u32(row & 3);
+    let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
     // Complements: the greatest key is that of the nearest triangle, and of those as near of the first one.
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }

@@ -34,8 +34,21 @@ fn numbers_of_block() -> u32 {
     return 2u * BLOCK_RINGS * params.sides;
 }
 
-fn clip_of(position: vec3<f32>) -> vec4<f32> {
-    return view.clip_from_local * vec4(position - view.target_point, 1.0);
+// A quad of rings of quads, by its number: its ring, its side and the one beside it.
+fn quad_at(number: u32) -> vec3<u32> {
+    let ring = quotient(number, params.sides);
+    let side = number - ring * params.sides;
+    return vec3(ring, side, select(side + 1u, 0u, side + 1u == params.sides));
+}
+
+// The screen's middle, 1/256 pixels from its left and upper edges.
+fn middle() -> vec2<i32> {
+    return vec2<i32>(view.size * 128.0);
+}
+
+// The key of a sample of the pixel at `x` and so many rows below the first one that has keys.
+fn key_at(x: u32, row: u32, sample: u32) -> u32 {
+    return (row * u32(view.size.x) + x) * 4u + sample;
 }
 
 // How the section stands at the end that `cap` closes, whose ring has this roll.

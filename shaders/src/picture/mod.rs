@@ -3,7 +3,7 @@
 //! | file | entry points | work |
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
-//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next five |
+//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next seven |
 //! | `cull.wgsl` | `cull`, `count_listed`, `count_left` | the blocks that the view may show |
 //! | `weights.wgsl` | | shares of a triangle's corners |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
@@ -11,19 +11,12 @@
 //! | `raster.wgsl` | `raster`, `raster_left`, `raster_caps` | draws a chunk from its control points |
 //! | `kept.wgsl` | | what is kept of a sample until it is lit |
 //! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
-//! | `chunk.wgsl` | | a chunk's mesh: stands before the two that follow |
-//! | `yarns.wgsl` | `yarn_corner`, `yarn_sample` | what is nearest in each sample, unlit |
-//! | `screen.wgsl` | | reads that back: stands before the two that follow |
+//! | `screen.wgsl` | | reads back what is kept: stands before the two that follow |
 //! | `visibility.wgsl` | `visibility` | ambient occlusion and shadow, on the screen |
 //! | `shade.wgsl` | `shade` | light, tone mapping, the picture's own pixels |
 
-/// `yarn_corner` and `yarn_sample`.
-pub const YARNS: &str = concat!(
-    include_str!("view.wgsl"),
-    include_str!("chunk.wgsl"),
-    include_str!("kept.wgsl"),
-    include_str!("yarns.wgsl")
-);
+/// What stands before any shader that writes samples: the view, and what is kept of them.
+pub const KEPT: &str = concat!(include_str!("view.wgsl"), include_str!("kept.wgsl"));
 
 /// What stands before shaders that draw without a mesh.
 macro_rules! fabric {

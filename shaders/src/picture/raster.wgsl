@@ -12,7 +12,6 @@ const CAP_GROUP = 64u;
 // Corners of whole rings, of 256 sides at most, that a workgroup holds at a time, and no fewer than the quads between them.
 const HELD_CORNERS = 512u;
 
-
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
@@ -42,13 +41,7 @@ fn held(at: u32) -> Corner {
     return Corner(vec2(x >> 8u, held_y[at]), held_depth[at], u32(x & 255));
 }
 
-// The corners of quad `number` of a run of `rings` rings of quads: on its ring, and on the next one.
-fn quad_at(number: u32) -> vec3<u32> {
-    let ring = quotient(number, params.sides);
-    let side = number - ring * params.sides;
-    return vec3(ring, side, select(side + 1u, 0u, side + 1u == params.sides));
-}
-
+// The corner that is held of a run of `rings` rings of quads.
 fn held_at(ring: u32, side: u32, rings: u32) -> Corner {
     return held(side * (rings + 1u) + ring);
 }
@@ -136,11 +129,24 @@ fn note_quads(rings: u32, lane: u32, wanted: u32) {
     }
 }
 
+// Finds the quads of `rings` rings from `first_ring` on that have few samples, or many: so many are in `found`. Every lane must
+// come here, and to the barrier behind which they are no longer wanted.
+fn find_quads(outline: u32, first_ring: u32, rings: u32, lane: u32, wanted: u32) -> u32 {
+    // Nobody reads the count of the quads before any more.
+    if lane == 0u {
+        atomicStore(&found_count, 0u);
+    }
+    hold_corners(outline, first_ring, rings, lane);
+    workgroupBarrier();
+    note_quads(rings, lane, wanted);
+    workgroupBarrier();
+    return atomicLoad(&found_count);
+}
+
 // Puts the rings of a row's block in clip space. Every lane must come here.
 fn project_block(row: u32, lane: u32) {
     let block = blocks[row];
     if lane == 0u {
-        atomicStore(&found_count, 0u);
         atomicStore(&is_left, 0u);
     }
     block_rings(yarns[block.yarn], block, lane);
@@ -168,12 +174,8 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
     let most = HELD_CORNERS / params.sides - 1u;
     for (var ring = 0u; ring < quads; ring += most) {
         let rings = min(most, quads - ring);
-        hold_corners(outline, ring, rings, lane);
-        workgroupBarrier();
-        note_quads(rings, lane, FEW);
-        workgroupBarrier();
+        let count = find_quads(outline, ring, rings, lane, FEW);
         let base = row * numbers_of_block() + 2u * ring * params.sides;
-        let count = atomicLoad(&found_count);
         for (var k = lane; k < count; k += RASTER_GROUP) {
             let quad = found[k];
             let at = quad_at(quad);
@@ -181,9 +183,6 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
                        held_at(at.x + 1u, at.z, rings), base + 2u * quad);
         }
         workgroupBarrier();
-        if lane == 0u {
-            atomicStore(&found_count, 0u);
-        }
     }
     if lane == 0u && atomicLoad(&is_left) != 0u {
         listed.rows[params.blocks + atomicAdd(&listed.left_count, 1u)] = row;
@@ -207,12 +206,8 @@ fn raster_left(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
     let end = quads * (share + 1u) / LEFT_SHARES;
     for (var ring = quads * share / LEFT_SHARES; ring < end; ring += most) {
         let rings = min(most, end - ring);
-        hold_corners(outline, ring, rings, lane);
-        workgroupBarrier();
-        note_quads(rings, lane, MANY);
-        workgroupBarrier();
+        let count = find_quads(outline, ring, rings, lane, MANY);
         let base = row * numbers_of_block() + 2u * ring * params.sides;
-        let count = atomicLoad(&found_count);
         for (var k = 0u; k < count; k++) {
             let quad = found[k];
             let at = quad_at(quad);
@@ -234,9 +229,6 @@ fn raster_left(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
             }
         }
         workgroupBarrier();
-        if lane == 0u {
-            atomicStore(&found_count, 0u);
-        }
     }
 }
 

@@ -5,7 +5,6 @@
 // The triangle and the nearness of each sample: complements, 0 where there is none.
 @group(1) @binding(4) var<storage, read> keys: array<vec2<u32>>;
 @group(1) @binding(5) var<storage, read> ring_rolls: array<u32>;
-
 @group(1) @binding(6) var depths: texture_storage_2d_array<r32float, read_write>;
 @group(1) @binding(7) var directions: texture_storage_2d_array<rg32uint, write>;
 @group(1) @binding(8) var places: texture_storage_2d_array<rg32uint, write>;
@@ -21,13 +20,17 @@ fn vertex_at(stance: Stance, point: vec4<f32>) -> Vertex {
     return Vertex(clip_of(position), position, normal_at(stance, point));
 }
 
+// The roll of a ring of the chunk.
+fn roll_of(chunk_ring: u32) -> u32 {
+    if params.rolled == 0u {
+        return 0u;
+    }
+    return ring_rolls[chunk_ring];
+}
+
 // How the section stands on ring `ring` of `block`, or on the one after its last.
 fn ring_stance(yarn: YarnRow, block: Block, ring: u32) -> Stance {
-    var roll = 0u;
-    if params.rolled != 0u {
-        roll = ring_rolls[block.chunk_ring + ring];
-    }
-    return stance_of_sample(ring_sample(yarn, block, ring).sample, roll);
+    return stance_of_sample(ring_sample(yarn, block, ring).sample, roll_of(block.chunk_ring + ring));
 }
 
 // The share of each corner, and whether the triangle is seen from outside.
@@ -50,13 +53,13 @@ fn angle_of(side: u32) -> vec2<f32> {
     return vec2(cos(angle), sin(angle));
 }
 
-fn tube_at(row: u32, number: u32, place: vec2<i32>) -> Kept {
+fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let block = blocks[row];
     let yarn = yarns[block.yarn];
-    let quad = number / 2u;
-    let ring = quad / params.sides;
-    let side = quad - ring * params.sides;
-    let beside = select(side + 1u, 0u, side + 1u == params.sides);
+    let at = quad_at(number / 2u);
+    let ring = at.x;
+    let side = at.y;
+    let beside = at.z;
     let here = ring_stance(yarn, block, ring);
     let next = ring_stance(yarn, block, ring + 1u);
     let outline = yarn.section * params.sides;
@@ -87,13 +90,9 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> Kept {
     return kept_of(normal, fibre, angle, along, block.yarn, shares.is_front);
 }
 
-fn cap_at(number: u32, triangle: u32, place: vec2<i32>) -> Kept {
+fn cap_at(number: u32, triangle: u32, place: vec2<i32>) -> vec4<u32> {
     let cap = cap_rows[number];
-    var roll = 0u;
-    if params.rolled != 0u {
-        roll = ring_rolls[cap.ring_vertex / params.sides];
-    }
-    let stance = cap_stance(cap, roll);
+    let stance = cap_stance(cap, roll_of(cap.ring_vertex / params.sides));
     let outline = yarns[cap.yarn].section * params.sides;
     let first_corner = cap.first_corner + 3u * triangle;
     let p = vertex_at(stance, outlines[outline + cap_pattern[first_corner]]);
@@ -104,7 +103,7 @@ fn cap_at(number: u32, triangle: u32, place: vec2<i32>) -> Kept {
     return kept_of(normal, normal, 0.0, 0.0, cap.yarn | CUT, is_front);
 }
 
-fn kept_of_triangle(number: u32, place: vec2<i32>) -> Kept {
+fn kept_of_triangle(number: u32, place: vec2<i32>) -> vec4<u32> {
     let row = number / numbers_of_block();
     let triangle = number - row * numbers_of_block();
     if row < params.blocks {
@@ -114,13 +113,13 @@ fn kept_of_triangle(number: u32, place: vec2<i32>) -> Kept {
 }
 
 // A lane a sample, where that is nearer than what earlier chunks left.
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn resolve(@builtin(global_invocation_id) place: vec3<u32>) {
     let pixel = vec2(place.x, place.y + sweep.first_row);
     if place.x >= u32(view.size.x) || place.y >= sweep.rows {
         return;
     }
-    let key = keys[(place.y * u32(view.size.x) + place.x) * 4u + place.z];
+    let key = keys[key_at(place.x, place.y, place.z)];
     var nearest = 1.0;
     if sweep.is_first == 0u {
         nearest = textureLoad(depths, pixel, place.z).x;
@@ -128,8 +127,8 @@ fn resolve(@builtin(global_invocation_id) place: vec3<u32>) {
     let depth = select(bitcast<f32>(~key.y), 1.0, key.y == 0u);
     if depth < nearest {
         // In the pixel's middle, as rasterisers do: so samples of one triangle in a pixel are alike.
-        let middle = vec2<i32>(pixel) * 256 + 128 - vec2<i32>(view.size * 128.0);
-        let kept = packed(kept_of_triangle(~key.x, middle));
+        let place_of_pixel = vec2<i32>(pixel) * 256 + 128 - middle();
+        let kept = kept_of_triangle(~key.x, place_of_pixel);
         textureStore(directions, pixel, place.z, vec4(kept.xy, 0u, 0u));
         textureStore(places, pixel, place.z, vec4(kept.zw, 0u, 0u));
     }

@@ -1,12 +1,10 @@
 // Reads back what is nearest in each sample of the screen. After view.wgsl.
 
 // A layer for each sample of a pixel: depth, 1 where no yarn is; and what resolve.wgsl kept of the surface, its normal and fibre,
-// the yarn's number and the place on it: a number each, as `packed` of kept.wgsl has them.
+// the yarn's number and the place on it: a number each, as kept.wgsl has them.
 @group(1) @binding(1) var depths: texture_2d_array<f32>;
 @group(1) @binding(2) var directions: texture_2d_array<u32>;
 @group(1) @binding(3) var places: texture_2d_array<u32>;
-
-const SCREEN_GROUP = 8u;
 
 fn depth_at(pixel: vec2<i32>, sample: i32) -> f32 {
     return textureLoad(depths, pixel, sample, 0).x;

@@ -20,8 +20,6 @@ struct View {
     size: vec2<f32>,
     // Pixels of a picture's pixel, each way.
     supersampling: u32,
-    // Sides of the tubes.
-    sides: u32,
     // Pixels that `reach` takes, at the target.
     reach_pixels: f32,
     // How thick what casts a shadow is taken to be, mm.
@@ -31,8 +29,8 @@ struct View {
     // 1 where yarns may be seen from inside, else 0.
     sees_inside: u32,
     // What is seen where no yarn is: a kind, and its colour in linear light.
-    background: vec3<f32>,
     background_kind: u32,
+    background: vec3<f32>,
 }
 
 // Kinds of background. Rust: texere_render's Background.
@@ -40,6 +38,14 @@ const GROUND = 0u;
 const COLOR = 1u;
 
 @group(1) @binding(0) var<uniform> view: View;
+
+// Workgroups over the screen are squares of so many pixels.
+const SCREEN_GROUP = 8u;
+
+// Where a point of the fabric lies in clip space.
+fn clip_of(position: vec3<f32>) -> vec4<f32> {
+    return view.clip_from_local * vec4(position - view.target_point, 1.0);
+}
 
 // Marks the inside of a yarn, seen where the yarn is cut, in the number of a yarn.
 const CUT = 0x80000000u;

@@ -14,7 +14,7 @@ use crate::{Camera, Quality, Scene};
 const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 const KEPT: TextureFormat = TextureFormat::Rgba16Uint;
 
-/// `Run` of `chunk.wgsl`.
+/// `Run` of `mesh.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 struct Run {
@@ -24,7 +24,7 @@ struct Run {
     first_vertex: u32,
 }
 
-/// `CAP` of `chunk.wgsl`.
+/// `CAP` of `mesh.wgsl`.
 const CAP: u32 = 1 << 31;
 
 /// Counts the samples that both have a yarn in, or one, and those of them where it is another or its depth is.
@@ -149,7 +149,7 @@ fn draw(scene: &Scene, plan: &Plan, chunk: &Chunk, camera: &Camera) -> [u32; 2] 
     let storage = |bytes: &[u8]| renderer.filled("judge", bytes, BufferUsages::STORAGE).unwrap();
     let (runs, triangles) = (storage(bytemuck::cast_slice(&runs)), storage(bytemuck::cast_slice(&triangles)));
 
-    let yarns = yarns(device, camera);
+    let yarns = yarns(device, camera, plan.settings().sides);
     let vertices = scene.session.vertex_buffer(chunk).unwrap();
     let bound: Vec<_> = (0..)
         .zip([&scene.view, vertices, &runs, &triangles])
@@ -215,8 +215,9 @@ fn draw(scene: &Scene, plan: &Plan, chunk: &Chunk, camera: &Camera) -> [u32; 2] 
     [0, 4].map(|at| u32::from_ne_bytes(view[at..at + 4].try_into().unwrap()))
 }
 
-fn yarns(device: &wgpu::Device, camera: &Camera) -> wgpu::RenderPipeline {
-    let module = module(device, picture::YARNS);
+fn yarns(device: &wgpu::Device, camera: &Camera, sides: u32) -> wgpu::RenderPipeline {
+    let source = format!("{}const SIDES = {sides}u;\n{}", picture::KEPT, include_str!("mesh.wgsl"));
+    let module = module(device, source);
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("yarns"),
         layout: None,

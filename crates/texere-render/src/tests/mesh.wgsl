@@ -1,4 +1,26 @@
-// The yarns themselves: what is nearest in each sample, unlit. After view.wgsl, chunk.wgsl and kept.wgsl.
+// The mesh, drawn by a device's own rasteriser: what is nearest in each sample, unlit. After texere_shaders::picture::KEPT and SIDES.
+
+// Rust: Run, 16 bytes. A block of the chunk's rings and the quads that start from them, or a yarn's cap.
+struct Run {
+    yarn: u32,
+    // Of the yarn.
+    first_ring: u32,
+    // Rings that quads start from: none of a cap.
+    gaps: u32,
+    first_vertex: u32,
+}
+
+// Marks a cap's triangles, in the number of their run.
+const CAP = 0x80000000u;
+
+// Positions and normals.
+@group(1) @binding(1) var<storage, read> vertices: array<f32>;
+@group(1) @binding(2) var<storage, read> runs: array<Run>;
+
+fn position_of(number: u32) -> vec3<f32> {
+    let at = 6u * number;
+    return vec3(vertices[at], vertices[at + 1u], vertices[at + 2u]);
+}
 
 struct Seen {
     @builtin(position) position: vec4<f32>,
@@ -24,23 +46,34 @@ fn yarn_corner(@builtin(vertex_index) corner: u32) -> Seen {
     let position = position_of(number);
     let normal = vec3(vertices[6u * number + 3u], vertices[6u * number + 4u], vertices[6u * number + 5u]);
     let inside = number - run.first_vertex;
-    let angle = f32(inside % view.sides) * (TAU / f32(view.sides));
+    let angle = f32(inside % SIDES) * (TAU / f32(SIDES));
     var seen: Seen;
     seen.position = clip_of(position);
     seen.normal = normal;
     // To the next ring. Past a run's last ring there is another run or nothing, but no facet's first corner lies there.
     seen.fibre = normal;
-    if !is_cap && inside < run.gaps * view.sides {
-        seen.fibre = position_of(number + view.sides) - position;
+    if !is_cap && inside < run.gaps * SIDES {
+        seen.fibre = position_of(number + SIDES) - position;
     }
     seen.around = vec2(cos(angle), sin(angle));
-    seen.along = f32(inside / view.sides + run.first_ring);
+    seen.along = f32(inside / SIDES + run.first_ring);
     seen.yarn = select(run.yarn, run.yarn | CUT, is_cap);
     return seen;
+}
+
+// What is kept, in numbers of 16 bits: a rasteriser has no targets of 32 for several samples a pixel.
+struct Kept {
+    @location(0) directions: vec4<u32>,
+    @location(1) place: vec4<u32>,
+}
+
+fn halves(both: u32) -> vec2<u32> {
+    return vec2(both & 0xffffu, both >> 16u);
 }
 
 @fragment
 fn yarn_sample(seen: Seen, @builtin(front_facing) is_front: bool) -> Kept {
     let angle = fract(atan2(seen.around.y, seen.around.x) / TAU);
-    return kept_of(seen.normal, seen.fibre, angle, seen.along, seen.yarn, is_front);
+    let kept = kept_of(seen.normal, seen.fibre, angle, seen.along, seen.yarn, is_front);
+    return Kept(vec4(halves(kept.x), halves(kept.y)), vec4(halves(kept.z), halves(kept.w)));
 }

@@ -85,6 +85,24 @@ ulong step_length(__global const uint4 *points, const Params *params, const Bloc
     return length_from_mm(segment_length(&segment, (float)part * params->step, end));
 }
 
+// The sum of the lengths of all lanes up to this one; that of all `lanes` is in `sums` until the next barrier. Every lane must come here.
+inline ulong running_length(__local ulong *sums, uint lane, uint lanes, ulong length) {
+    sums[lane] = length;
+    for (uint reach = 1u; reach < lanes; reach *= 2u) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        ulong further = lane >= reach ? sums[lane - reach] : 0ul;
+        barrier(CLK_LOCAL_MEM_FENCE);
+        sums[lane] += further;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    return sums[lane];
+}
+
+// The length from ring `lane` of a block to the next; none where no quads start from it.
+inline ulong lane_length(__global const uint4 *points, const Params *params, const Block *block, uint lane) {
+    return lane < block->quads ? step_length(points, params, block, lane) : 0ul;
+}
+
 // A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the length from the block's first ring to the next block's.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void block_lengths(const Params params, const ulong window, __global const uint4 *points,
@@ -93,15 +111,9 @@ void block_lengths(const Params params, const ulong window, __global const uint4
     size_t row = get_global_id(0) / ATTRIBUTES_GROUP;
     uint lane = get_local_id(0);
     Block block = blocks[row];
-    sums[lane] = lane < block.quads ? step_length(points + window, &params, &block, lane) : 0ul;
-    for (uint reach = ATTRIBUTES_GROUP / 2; reach > 0u; reach /= 2u) {
-        barrier(CLK_LOCAL_MEM_FENCE);
-        if (lane < reach) {
-            sums[lane] += sums[lane + reach];
-        }
-    }
-    if (lane == 0u) {
-        lengths[yarns[block.yarn].first_block + block.first_ring / BLOCK_RINGS] = sums[0];
+    ulong sum = running_length(sums, lane, ATTRIBUTES_GROUP, lane_length(points + window, &params, &block, lane));
+    if (lane == ATTRIBUTES_GROUP - 1) {
+        lengths[yarns[block.yarn].first_block + block.first_ring / BLOCK_RINGS] = sum;
     }
 }
 
@@ -118,16 +130,9 @@ void yarn_lengths(__global const YarnRow *yarns, __global ulong *lengths) {
     for (uint tile = 0u; tile < blocks; tile += YARN_LENGTHS_GROUP) {
         uint block = tile + lane;
         ulong length = block < blocks ? own[block] : 0ul;
-        sums[lane] = length;
-        for (uint reach = 1u; reach < YARN_LENGTHS_GROUP; reach *= 2u) {
-            barrier(CLK_LOCAL_MEM_FENCE);
-            ulong further = lane >= reach ? sums[lane - reach] : 0ul;
-            barrier(CLK_LOCAL_MEM_FENCE);
-            sums[lane] += further;
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
+        ulong sum = running_length(sums, lane, YARN_LENGTHS_GROUP, length);
         if (block < blocks) {
-            own[block] = before + sums[lane] - length;
+            own[block] = before + sum - length;
         }
         before += sums[YARN_LENGTHS_GROUP - 1];
         barrier(CLK_LOCAL_MEM_FENCE);
@@ -147,17 +152,11 @@ void attributes(const Params params, const ulong window, __global const uint4 *p
     Block block = blocks[row];
     YarnRow yarn = yarns[block.yarn];
 
-    ulong length = lane < block.quads ? step_length(points + window, &params, &block, lane) : 0ul;
-    sums[lane] = length;
-    for (uint reach = 1u; reach < ATTRIBUTES_GROUP; reach *= 2u) {
-        barrier(CLK_LOCAL_MEM_FENCE);
-        ulong further = lane >= reach ? sums[lane - reach] : 0ul;
-        barrier(CLK_LOCAL_MEM_FENCE);
-        sums[lane] += further;
-    }
+    ulong length = lane_length(points + window, &params, &block, lane);
+    ulong sum = running_length(sums, lane, ATTRIBUTES_GROUP, length);
     if (lane < block.rings) {
         RingSample here = ring_sample(points + window, &params, &yarn, &block, lane);
-        ulong along = lengths[yarn.first_block + block.first_ring / BLOCK_RINGS] + sums[lane] - length;
+        ulong along = lengths[yarn.first_block + block.first_ring / BLOCK_RINGS] + sum - length;
         rings[lane] = (float4)(length_mm(along), here.sample.tangent);
     }
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -95,7 +95,32 @@ fn step_length(block: Block, k: u32) -> vec2<u32> {
     return length_from_mm(segment_length(segment, f32(part) * params.step, end));
 }
 
-var<workgroup> length_sums: array<vec2<u32>, ATTRIBUTES_GROUP>;
+var<workgroup> length_sums: array<vec2<u32>, YARN_LENGTHS_GROUP>;
+
+// The sum of the lengths of all lanes up to this one; that of all `lanes` is in `length_sums` until the next barrier. Every lane must
+// come here.
+fn running_length(lane: u32, lanes: u32, length: vec2<u32>) -> vec2<u32> {
+    length_sums[lane] = length;
+    for (var reach = 1u; reach < lanes; reach *= 2u) {
+        workgroupBarrier();
+        var further = vec2(0u, 0u);
+        if lane >= reach {
+            further = length_sums[lane - reach];
+        }
+        workgroupBarrier();
+        length_sums[lane] = length_sum(length_sums[lane], further);
+    }
+    workgroupBarrier();
+    return length_sums[lane];
+}
+
+// The length from ring `lane` of a block to the next; none where no quads start from it.
+fn lane_length(block: Block, lane: u32) -> vec2<u32> {
+    if lane >= block.quads {
+        return vec2(0u, 0u);
+    }
+    return step_length(block, lane);
+}
 
 // A workgroup of ATTRIBUTES_GROUP a row of a chunk's block table: the length from the block's first ring to the next block's.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
@@ -106,23 +131,11 @@ fn block_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroup
         return;
     }
     let block = blocks[row];
-    var length = vec2(0u, 0u);
-    if lane < block.quads {
-        length = step_length(block, lane);
-    }
-    length_sums[lane] = length;
-    for (var reach = ATTRIBUTES_GROUP / 2u; reach > 0u; reach /= 2u) {
-        workgroupBarrier();
-        if lane < reach {
-            length_sums[lane] = length_sum(length_sums[lane], length_sums[lane + reach]);
-        }
-    }
-    if lane == 0u {
-        arc_lengths[yarns[block.yarn].first_block + block.first_ring / BLOCK_RINGS] = length_sums[0];
+    let sum = running_length(lane, ATTRIBUTES_GROUP, lane_length(block, lane));
+    if lane == ATTRIBUTES_GROUP - 1u {
+        arc_lengths[yarns[block.yarn].first_block + block.first_ring / BLOCK_RINGS] = sum;
     }
 }
-
-var<workgroup> yarn_sums: array<vec2<u32>, YARN_LENGTHS_GROUP>;
 
 // A workgroup of YARN_LENGTHS_GROUP a yarn, `params.blocks` of them from `params.first_yarn` on: the lengths of its blocks become those
 // of all blocks before each, tile by tile.
@@ -143,22 +156,11 @@ fn yarn_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups
         if block < blocks {
             length = arc_lengths[yarn.first_block + block];
         }
-        yarn_sums[lane] = length;
-        for (var reach = 1u; reach < YARN_LENGTHS_GROUP; reach *= 2u) {
-            workgroupBarrier();
-            var further = vec2(0u, 0u);
-            if lane >= reach {
-                further = yarn_sums[lane - reach];
-            }
-            workgroupBarrier();
-            yarn_sums[lane] = length_sum(yarn_sums[lane], further);
-        }
-        workgroupBarrier();
+        let sum = running_length(lane, YARN_LENGTHS_GROUP, length);
         if block < blocks {
-            arc_lengths[yarn.first_block + block] =
-                length_difference(length_sum(before, yarn_sums[lane]), length);
+            arc_lengths[yarn.first_block + block] = length_difference(length_sum(before, sum), length);
         }
-        before = length_sum(before, yarn_sums[YARN_LENGTHS_GROUP - 1u]);
+        before = length_sum(before, length_sums[YARN_LENGTHS_GROUP - 1u]);
         workgroupBarrier();
     }
 }
@@ -176,24 +178,12 @@ fn attributes(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
     let block = blocks[row];
     let yarn = yarns[block.yarn];
-    var length = vec2(0u, 0u);
-    if lane < block.quads {
-        length = step_length(block, lane);
-    }
-    length_sums[lane] = length;
-    for (var reach = 1u; reach < ATTRIBUTES_GROUP; reach *= 2u) {
-        workgroupBarrier();
-        var further = vec2(0u, 0u);
-        if lane >= reach {
-            further = length_sums[lane - reach];
-        }
-        workgroupBarrier();
-        length_sums[lane] = length_sum(length_sums[lane], further);
-    }
+    let length = lane_length(block, lane);
+    let sum = running_length(lane, ATTRIBUTES_GROUP, length);
     if lane < block.rings {
         let here = ring_sample(yarn, block, lane);
         let start = arc_lengths[yarn.first_block + block.first_ring / BLOCK_RINGS];
-        let along = length_sum(start, length_difference(length_sums[lane], length));
+        let along = length_sum(start, length_difference(sum, length));
         attribute_rings[lane] = vec4(length_mm(along), here.sample.tangent);
     }
     workgroupBarrier();

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::yarns::check_points;
 use crate::{
-    Backend, BackendError, Chunk, ControlPoint, Limits, MeshPiece, Part, Plan, SessionError, Topology,
-    Traffic, Vertex, Yarn,
+    Backend, BackendError, Chunk, ControlPoint, Limits, Part, Plan, SessionError, Topology, Traffic, Vertex,
+    Yarn,
 };
 
 /// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and made again.
@@ -272,10 +272,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         let here = &self.chunks[chunk];
         let mut bytes = 0;
         let flow = self.engine.read_mesh(Slot::new(chunk as u32), here, &mut |piece| {
-            bytes += match piece {
-                MeshPiece::Vertices { vertices, .. } => size_of_val(vertices),
-                MeshPiece::Indices { indices, .. } => size_of_val(indices),
-            } as u64;
+            bytes += piece.bytes();
             sink(piece)
         });
         self.count_read(bytes);

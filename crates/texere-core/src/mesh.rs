@@ -178,6 +178,15 @@ pub enum MeshPiece<'a> {
     },
 }
 
+impl MeshPiece<'_> {
+    pub(crate) const fn bytes(&self) -> u64 {
+        match self {
+            Self::Vertices { vertices, .. } => size_of_val(*vertices) as u64,
+            Self::Indices { indices, .. } => size_of_val(*indices) as u64,
+        }
+    }
+}
+
 /// The caller's memory for a chunk's mesh: slices exactly as long as planned.
 #[derive(Debug)]
 pub struct MeshMut<'a> {

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use crate::engine::{AttributeSink, Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::settling::{Settler, Strand};
 use crate::{
-    Backend, BackendError, Chunk, ControlPoint, Limits, MeshMut, MeshPiece, Plan, Ring, SessionError,
-    TablesId, Vertex,
+    Backend, BackendError, Chunk, ControlPoint, Limits, MeshMut, Plan, Ring, SessionError, TablesId, Vertex,
 };
 
 /// Bytes that a session has moved between host and device, so far. A backend that works in the host's own memory lends
@@ -251,10 +250,7 @@ impl<E: Engine + ?Sized> Session<E> {
         let slot = self.find(chunk, |here| here.has_mesh)?;
         let mut bytes = 0;
         let flow = self.engine.read_mesh(slot, chunk, &mut |piece| {
-            bytes += match piece {
-                MeshPiece::Vertices { vertices, .. } => size_of_val(vertices),
-                MeshPiece::Indices { indices, .. } => size_of_val(indices),
-            } as u64;
+            bytes += piece.bytes();
             sink(piece)
         });
         self.count_read(bytes);

@@ -162,6 +162,24 @@ impl OpenClEngine {
     }
 }
 
+impl OpenClEngine {
+    /// Does `work` with each of `chunks`, loaded into its slot.
+    fn load_each(
+        &mut self,
+        chunks: ScanChunks<'_>,
+        mut work: impl FnMut(&mut Self, Slot, &Chunk) -> Result<(), BackendError>,
+    ) -> Result<(), BackendError> {
+        for ScanChunk { slot, chunk, loaded } in chunks {
+            if !loaded {
+                self.load(slot, &chunk)?;
+            }
+            self.check_loaded(slot, &chunk)?;
+            work(self, slot, &chunk)?;
+        }
+        Ok(())
+    }
+}
+
 impl Engine for OpenClEngine {
     fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<u64, BackendError> {
         let started = Instant::now();
@@ -197,15 +215,11 @@ impl Engine for OpenClEngine {
 
     fn scan(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let yarns = chunks.yarns();
-        for ScanChunk { slot, chunk, loaded } in chunks {
-            if !loaded {
-                self.load(slot, &chunk)?;
-            }
-            self.check_loaded(slot, &chunk)?;
-            self.run(Stage::Scan, Some(slot), |kernels, work, memory| {
-                kernels.block_turns(work, &chunk, &memory[slot.index()])
-            })?;
-        }
+        self.load_each(chunks, |engine, slot, chunk| {
+            engine.run(Stage::Scan, Some(slot), |kernels, work, memory| {
+                kernels.block_turns(work, chunk, &memory[slot.index()])
+            })
+        })?;
         self.run(Stage::Scan, None, |kernels, work, _| kernels.yarn_rolls(work, yarns))
     }
 
@@ -288,15 +302,11 @@ impl Engine for OpenClEngine {
             self.attributes = Some(Box::new(Attributes::new(&self.opened, &self.plan)?));
         }
         let yarns = chunks.yarns();
-        for ScanChunk { slot, chunk, loaded } in chunks {
-            if !loaded {
-                self.load(slot, &chunk)?;
-            }
-            self.check_loaded(slot, &chunk)?;
-            self.run_attributes(Stage::Scan, Some(slot), |attributes, work, memory| {
-                attributes.block_lengths(work, &chunk, &memory[slot.index()])
-            })?;
-        }
+        self.load_each(chunks, |engine, slot, chunk| {
+            engine.run_attributes(Stage::Scan, Some(slot), |attributes, work, memory| {
+                attributes.block_lengths(work, chunk, &memory[slot.index()])
+            })
+        })?;
         self.run_attributes(Stage::Scan, None, |attributes, work, _| attributes.yarn_lengths(work, yarns))
     }
 

@@ -168,6 +168,29 @@ impl WgpuEngine {
         gpu.probe()
     }
 
+    /// Runs `of_blocks` with a workgroup for each block of `chunks`, then `of_yarns` with one for each of their yarns.
+    fn run_over(
+        &mut self,
+        chunks: ScanChunks<'_>,
+        of_blocks: &Kernel,
+        of_yarns: &Kernel,
+    ) -> Result<(), BackendError> {
+        let (yarns, mut last) = (chunks.yarns(), None);
+        for ScanChunk { slot, chunk, loaded } in chunks {
+            if !loaded {
+                self.load(slot, &chunk)?;
+            }
+            self.check_loaded(slot, &chunk)?;
+            // A repeated ring has no step, and its block is written by the next chunk, which comes after.
+            self.run(slot, Timed::Scan, &[(of_blocks, self.memory(slot).rows)])?;
+            last = Some((slot, chunk));
+        }
+        match last {
+            Some((slot, chunk)) => self.run_for_yarns(slot, &chunk, of_yarns, &yarns),
+            None => Ok(()),
+        }
+    }
+
     /// Runs `kernel` with a workgroup for each of `yarns`, whose blocks `chunk`, the one in `slot`, is the last to have some of.
     fn run_for_yarns(
         &mut self,
@@ -221,35 +244,13 @@ impl Engine for WgpuEngine {
         let kernels = self.kernels.clone();
         // A plan with rolls is refused by the other schedule.
         let Kernels::PerRing(kernels) = &*kernels else { return Ok(()) };
-        let (yarns, mut last) = (chunks.yarns(), None);
-        for ScanChunk { slot, chunk, loaded } in chunks {
-            if !loaded {
-                self.load(slot, &chunk)?;
-            }
-            self.check_loaded(slot, &chunk)?;
-            // A repeated ring has no step, and its block's turn is written by the next chunk, which comes after.
-            self.run(slot, Timed::Scan, &[(&kernels.block_turns, self.memory(slot).rows)])?;
-            last = Some((slot, chunk));
-        }
-        let Some((slot, chunk)) = last else { return Ok(()) };
-        self.run_for_yarns(slot, &chunk, &kernels.yarn_rolls, &yarns)
+        self.run_over(chunks, &kernels.block_turns, &kernels.yarn_rolls)
     }
 
     fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let kernels = self.opened.attributes()?;
         self.tables.reserve_lengths(&self.opened.gpu, &self.plan)?;
-        let (yarns, mut last) = (chunks.yarns(), None);
-        for ScanChunk { slot, chunk, loaded } in chunks {
-            if !loaded {
-                self.load(slot, &chunk)?;
-            }
-            self.check_loaded(slot, &chunk)?;
-            // A repeated ring has no step here, either.
-            self.run(slot, Timed::Scan, &[(&kernels.block_lengths, self.memory(slot).rows)])?;
-            last = Some((slot, chunk));
-        }
-        let Some((slot, chunk)) = last else { return Ok(()) };
-        self.run_for_yarns(slot, &chunk, &kernels.yarn_lengths, &yarns)
+        self.run_over(chunks, &kernels.block_lengths, &kernels.yarn_lengths)
     }
 
     fn attributes(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {

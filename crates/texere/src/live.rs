@@ -84,7 +84,8 @@ impl Live {
         settings: Settings,
     ) -> Result<Self, LiveError> {
         let yarns = cloth.yarns()?;
-        Self::of(device, &yarns, Source::Loom(Loom::new(cloth)), settings)
+        let mesh = start(&*device, &yarns, settings)?;
+        Ok(Self::of(device, settings, mesh, yarns.materials().to_vec(), Source::Loom(Loom::new(cloth))))
     }
 
     /// Any structure: woven cloth as [`Live::weave`] takes it, knits by their yarns.
@@ -105,28 +106,19 @@ impl Live {
     ///
     /// **Errors**: [`LiveError::Session`] where the mesh can't be planned or has no room on the device.
     pub fn given(device: Arc<dyn Backend>, yarns: Yarns, settings: Settings) -> Result<Self, LiveError> {
-        let all = yarns.clone();
-        Self::of(device, &all, Source::Given(yarns), settings)
+        let mesh = start(&*device, &yarns, settings)?;
+        Ok(Self::of(device, settings, mesh, yarns.materials().to_vec(), Source::Given(yarns)))
     }
 
     fn of(
         device: Arc<dyn Backend>,
-        yarns: &Yarns,
-        source: Source,
         settings: Settings,
-    ) -> Result<Self, LiveError> {
-        let mesh = start(&*device, yarns, settings)?;
-        let materials = yarns.materials().to_vec();
-        Ok(Self {
-            device,
-            settings,
-            source,
-            set: BTreeMap::new(),
-            materials,
-            mesh,
-            anew: false,
-            picker: None,
-        })
+        mesh: LiveMesh,
+        materials: Vec<Material>,
+        source: Source,
+    ) -> Self {
+        let set = BTreeMap::new();
+        Self { device, settings, source, set, materials, mesh, anew: false, picker: None }
     }
 
     /// The cloth as it is now, where it is woven. Yarns that were [set](Live::set_yarn) are not in it.

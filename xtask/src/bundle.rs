@@ -29,7 +29,11 @@ pub(crate) fn run(steps: &mut Steps) {
     let build = ["build", "--release", "--locked"];
     let bench = ["--package", "texere-bench", "--features", "gpu", "--bin", "texere-bench"];
     steps.cargo("bench", &[&build[..], &bench].concat(), &[]);
-    steps.cargo("program", &[&build[..], &["--package", "texere-cli"]].concat(), &[]);
+    steps.cargo(
+        "program",
+        &[&build[..], &["--package", "texere-cli", "--no-default-features"]].concat(),
+        &[],
+    );
     let suite = ["--package", "texere-conformance", "--test", "conformance"];
     let built = ["test", "--release", "--locked", "--no-run"];
     steps.cargo("conformance suite", &[&built[..], &suite].concat(), &[]);

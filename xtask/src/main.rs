@@ -16,7 +16,7 @@ use demo::vulkan;
 use steps::{Steps, root};
 
 /// Crates that go to crates.io.
-const PUBLISHED: [&str; 12] = [
+const PUBLISHED: [&str; 13] = [
     "texere-core",
     "texere-fabric",
     "texere-formats",
@@ -28,12 +28,17 @@ const PUBLISHED: [&str; 12] = [
     "texere-shaders",
     "texere-wgpu",
     "texere",
+    "texere-view",
     "texere-cli",
 ];
 
 /// Debian's packages that run both GPU backends on a CPU: an OpenCL loader with PoCL, a Vulkan loader with lavapipe.
 const SOFTWARE_DEVICES: [&str; 4] =
     ["ocl-icd-libopencl1", "pocl-opencl-icd", vulkan::PACKAGES[0], vulkan::PACKAGES[1]];
+
+/// Debian's packages for windows on a screen that nobody sees.
+const SCREEN: [&str; 6] =
+    ["xvfb", "libx11-xcb1", "libxcursor1", "libxi6", "libxkbcommon-x11-0", "libxrandr2"];
 
 fn main() -> ExitCode {
     let task = std::env::args().nth(1);
@@ -93,6 +98,7 @@ fn main() -> ExitCode {
 /// All tests: a program that links the library, units, integration, conformance, doctests.
 fn test(steps: &mut Steps) {
     install(steps, "software devices", &SOFTWARE_DEVICES);
+    install(steps, "a screen", &SCREEN);
     consumer(steps);
     steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);

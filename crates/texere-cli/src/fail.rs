@@ -201,6 +201,19 @@ impl From<RenderError> for Fail {
     }
 }
 
+#[cfg(feature = "view")]
+impl From<texere_view::ViewError> for Fail {
+    fn from(error: texere_view::ViewError) -> Self {
+        use texere_view::ViewError;
+        match error {
+            ViewError::Read(error) => error.into(),
+            ViewError::Fabric(error) => error.into(),
+            ViewError::Backend(error) => error.into(),
+            _ => Self { code: WORLD, source: error.into() },
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::io::ErrorKind;

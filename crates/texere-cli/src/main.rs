@@ -25,6 +25,8 @@ mod setts;
 #[cfg(unix)]
 mod signals;
 mod terminal;
+#[cfg(feature = "view")]
+mod view;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -49,6 +51,8 @@ fn main() -> ExitCode {
         Command::Draft(args) => draft::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Render(args) => render::run(&args),
+        #[cfg(feature = "view")]
+        Command::View(args) => view::run(&args),
     };
     #[cfg(unix)]
     signals::give_way();

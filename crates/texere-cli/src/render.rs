@@ -15,11 +15,6 @@ use crate::settling::SettlingReport;
 use crate::terminal::line;
 use crate::{drivers, print, settling};
 
-/// Sides of the tube in a picture of woven cloth at rest, where nothing else is asked for and it has no more control points than that: threads of
-/// larger cloths are hardly wider than pixels.
-const FINE_SIDES: u32 = 16;
-const FINE_POINTS: usize = 4_000_000;
-
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
     let start = Instant::now();
     let renderer = drivers::quietly(|| texere::open_renderer(&args.device))?;
@@ -44,11 +39,8 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     let open = || texere::open(&args.device);
     let (yarns, settling) =
         stages.time("yarns", || settling::yarns(&mut design, &args.settling, settings.tension, open))?;
-    // Flattened threads lie so close that ground would be seen past the corners of fewer sides.
     let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
-    if args.settings.sides.is_none() && lies_close && yarns.points().len() <= FINE_POINTS {
-        settings.sides = FINE_SIDES;
-    }
+    settings.sides = args.settings.sides.unwrap_or_else(|| texere::picture_sides(&yarns, lies_close));
     let mut scene = stages.time("upload", || renderer.scene(&yarns, &settings))?;
     scene.set_background(args.background);
     let cameras = cameras(args, &design, scene.extent())?;

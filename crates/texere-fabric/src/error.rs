@@ -262,6 +262,14 @@ pub enum FabricError {
         /// How many there are.
         materials: usize,
     },
+    /// A material that there is not.
+    #[error("material {material}, but there are {materials}, counted from 0")]
+    NoMaterial {
+        /// The material.
+        material: usize,
+        /// How many there are.
+        materials: usize,
+    },
     /// A thread refers to a section that is missing.
     #[error("{thread} has section {section}, but there are {sections}")]
     UnknownSection {

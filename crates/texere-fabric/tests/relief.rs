@@ -5,7 +5,7 @@
 mod oracle;
 
 use texere_core::{Material, Origin, Section};
-use texere_fabric::{Crimp, FabricError, Relief, Shape, Thread, Weave, Woven};
+use texere_fabric::{Crimp, FabricError, Relief, Shape, Thread, Weave, Woven, WovenDesign};
 
 fn cloth(weave: &str, [end, pick]: [Thread; 2], section: Section) -> Woven {
     let drawdown = Weave::parse(weave).unwrap().drawdown(8, 8).unwrap();
@@ -127,4 +127,38 @@ fn threads_too_thin_to_shrink_are_left_alone() {
     let error = cloth.relieve(Relief::Shrink).unwrap_err();
     assert!(matches!(error, FabricError::Radius { thread: Origin::End(1), .. }), "{error}");
     assert_eq!(cloth, before);
+}
+
+/// Other lifts jam other threads, so relief begins again from the cloth that was given.
+#[test]
+fn a_design_with_another_lift_is_one_that_was_given_so() {
+    let given = dense("plain", 1.2, 1.2);
+    let mut edited = WovenDesign::new(given.clone(), None, Relief::Shrink).unwrap();
+    edited.set_lift(3, 5, !given.drawdown().up(3, 5)).unwrap();
+    let mut drawdown = given.drawdown().clone();
+    drawdown.set(3, 5, !given.drawdown().up(3, 5)).unwrap();
+    let set = |threads: &[Thread]| threads.to_vec();
+    let mut fresh = Woven::new(
+        drawdown,
+        set(given.warp()),
+        set(given.weft()),
+        vec![Material::default()],
+        vec![Section::Circle],
+    )
+    .unwrap();
+    fresh.set_shape(Shape::Round);
+    let fresh = WovenDesign::new(fresh, None, Relief::Shrink).unwrap();
+    assert!(fresh.is_relieved() && fresh.cloth() != edited.as_given());
+    assert_eq!(edited.cloth(), fresh.cloth());
+    assert_eq!(edited.as_given(), fresh.as_given());
+
+    let before = edited.cloth().clone();
+    let error = edited.set_lift(8, 0, true).unwrap_err();
+    assert_eq!(error, FabricError::NoCrossing { end: 9, pick: 1, ends: 8, picks: 8 });
+    edited.set_color(0, [1, 2, 3]).unwrap();
+    assert_eq!(edited.cloth().materials()[0].srgb, [1, 2, 3]);
+    assert_eq!(edited.as_given().materials()[0].srgb, [1, 2, 3]);
+    let error = edited.set_color(1, [1, 2, 3]).unwrap_err();
+    assert_eq!(error, FabricError::NoMaterial { material: 1, materials: 1 });
+    assert_eq!(edited.cloth().yarns().unwrap().points(), before.yarns().unwrap().points());
 }

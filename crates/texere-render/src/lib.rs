@@ -21,6 +21,7 @@ mod rasteriser;
 mod renderer;
 mod scene;
 mod screen;
+mod seen;
 #[cfg(test)]
 mod tests;
 mod uniform;
@@ -30,4 +31,5 @@ pub use camera::{Camera, Cut, Pose};
 pub use error::RenderError;
 pub use extent::Extent;
 pub use renderer::Renderer;
-pub use scene::{Picture, PictureTimings, Quality, Scene};
+pub use scene::{DevicePicture, Picture, PictureTimings, Quality, Scene, picture_sides};
+pub use seen::Seen;

@@ -34,6 +34,20 @@ impl Default for Quality {
     }
 }
 
+/// Sides of the tube in a picture of woven cloth at rest, if it has no more control points than that: threads of larger cloths are hardly wider
+/// than pixels.
+const FINE_SIDES: u32 = 16;
+const FINE_POINTS: usize = 4_000_000;
+
+/// How many sides tubes have in a picture where nobody asks for others. `lies_close`: whether the yarns are flattened threads of woven cloth at
+/// rest, which lie so close that ground would be seen past the corners of fewer sides.
+///
+/// **Units**: sides of a section, as in [`Settings::sides`].
+#[must_use]
+pub fn picture_sides(yarns: &Yarns, lies_close: bool) -> u32 {
+    if lies_close && yarns.points().len() <= FINE_POINTS { FINE_SIDES } else { Settings::default().sides }
+}
+
 /// A picture in host memory.
 #[derive(Debug, Clone)]
 pub struct Picture {
@@ -86,6 +100,18 @@ pub struct Scene {
     pub(crate) view: wgpu::Buffer,
     background: Background,
     pub(crate) screen: Option<Screen>,
+    /// Of the last picture.
+    pub(crate) camera: Option<Camera>,
+}
+
+/// A picture that stays on the device: [`Scene::frame`].
+#[derive(Debug, Clone)]
+pub struct DevicePicture {
+    /// Red, green, blue and alpha, a byte each, sRGB though the format does not say so: [`wgpu::TextureFormat::Rgba8Unorm`], to be sampled or copied.
+    /// It is the scene's, and the next picture of the same size is drawn into it.
+    pub texture: wgpu::TextureView,
+    /// How long it took; nothing is copied.
+    pub timings: PictureTimings,
 }
 
 impl Renderer {
@@ -137,6 +163,7 @@ impl Renderer {
             view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
             background: Background::Ground,
             screen: None,
+            camera: None,
             chunks: Vec::new(),
             limits: Raster::chunk_limits(&plan, &self.info().limits),
             plan,
@@ -179,33 +206,49 @@ impl Scene {
     /// **Errors**: [`RenderError::Size`] or [`RenderError::Supersampling`] for one that the device has no textures for,
     /// [`RenderError::Plan`] where not even one block fits the limits, [`RenderError::Backend`].
     pub fn picture(&mut self, camera: &Camera, quality: Quality) -> Result<Picture, RenderError> {
+        let timings = self.frame(camera, quality)?.timings;
         let start = Instant::now();
-        self.look(camera, quality)?;
+        let [rgb, alpha] = self.copy()?;
+        let timings = PictureTimings { copy: start.elapsed(), ..timings };
+        Ok(Picture { size: camera.size(), rgb, alpha, timings })
+    }
+
+    /// Makes a picture and leaves it on the device: for a window that shows it. It is done when this returns.
+    ///
+    /// **Errors**: those of [`Scene::picture`].
+    pub fn frame(&mut self, camera: &Camera, quality: Quality) -> Result<DevicePicture, RenderError> {
+        let start = Instant::now();
+        let texture = self.look(camera, quality)?;
         let screened = Instant::now();
         self.draw()?;
         let drawn = Instant::now();
         self.shade()?;
-        let shaded = Instant::now();
-        let [rgb, alpha] = self.copy()?;
         let timings = PictureTimings {
             screen: screened - start,
             draw: drawn - screened,
-            shade: shaded - drawn,
-            copy: shaded.elapsed(),
+            shade: drawn.elapsed(),
+            copy: Duration::ZERO,
         };
-        Ok(Picture { size: camera.size(), rgb, alpha, timings })
+        Ok(DevicePicture { texture, timings })
     }
 
-    /// Makes room for a picture, and sends the view.
-    pub(crate) fn look(&mut self, camera: &Camera, quality: Quality) -> Result<(), RenderError> {
+    /// Makes room for a picture, and sends the view. Gives the picture's texture.
+    pub(crate) fn look(
+        &mut self,
+        camera: &Camera,
+        quality: Quality,
+    ) -> Result<wgpu::TextureView, RenderError> {
         let (size, supersampling) = (camera.size(), quality.supersampling);
         self.check_size(size, supersampling)?;
-        if self.screen.as_ref().is_none_or(|screen| !screen.fits(size, supersampling)) {
-            self.screen = None;
-            self.screen = Some(Screen::new(&self.renderer.device, size, supersampling)?);
-        }
+        let screen = match self.screen.take().filter(|screen| screen.fits(size, supersampling)) {
+            Some(screen) => screen,
+            None => Screen::new(&self.renderer.device, size, supersampling)?,
+        };
+        let texture = self.screen.insert(screen).picture.clone();
+        self.camera = Some(camera.clone());
         let view = ViewUniform::new(camera, self.background, supersampling);
-        Ok(self.renderer.write(&self.view, bytemuck::bytes_of(&view))?)
+        self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
+        Ok(texture)
     }
 
     fn check_size(&self, [width, height]: [u32; 2], supersampling: u32) -> Result<(), RenderError> {

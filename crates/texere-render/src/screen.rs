@@ -48,13 +48,14 @@ impl Screen {
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
         let read = TextureUsages::TEXTURE_BINDING;
+        let copied = read | TextureUsages::COPY_SRC;
         let textures = device.scoped("Device::create_texture", || {
             [
-                texture("depths", large, SAMPLES, TextureFormat::R32Float, read),
+                texture("depths", large, SAMPLES, TextureFormat::R32Float, copied),
                 texture("directions", large, SAMPLES, TextureFormat::Rg32Uint, read),
-                texture("places", large, SAMPLES, TextureFormat::Rg32Uint, read),
+                texture("places", large, SAMPLES, TextureFormat::Rg32Uint, copied),
                 texture("visibility", large, 1, TextureFormat::Rgba8Unorm, read),
-                texture("picture", size, 1, TextureFormat::Rgba8Unorm, TextureUsages::COPY_SRC),
+                texture("picture", size, 1, TextureFormat::Rgba8Unorm, copied),
             ]
         })?;
         let [depths, directions, places, visibility, picture] = textures;

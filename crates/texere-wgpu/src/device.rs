@@ -49,16 +49,31 @@ impl WgpuBackend {
     ///
     /// **Errors**: [`BackendError::NoDevice`] where there is none, or no driver to ask.
     pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
-        let described: Vec<_> = adapters()
-            .iter()
-            .enumerate()
-            .map(|(index, adapter)| {
-                let name = device_name("wgpu", Some(index), Schedule::PerRing);
-                let timed = has_clock(adapter.features());
-                describe(name, &adapter.get_info(), &adapter.limits(), timed, Schedule::PerRing)
-            })
-            .collect();
+        let described = Self::describe(&adapters());
         if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
+    }
+
+    /// What [`WgpuBackend::devices`] says of these adapters: of a program's own, which draws into a window.
+    #[must_use]
+    pub fn describe(adapters: &[wgpu::Adapter]) -> Vec<DeviceInfo> {
+        let describe = |(index, adapter): (usize, &wgpu::Adapter)| {
+            let name = device_name("wgpu", Some(index), Schedule::PerRing);
+            let timed = has_clock(adapter.features());
+            describe(name, &adapter.get_info(), &adapter.limits(), timed, Schedule::PerRing)
+        };
+        adapters.iter().enumerate().map(describe).collect()
+    }
+
+    /// What [`WgpuBackend::open`] asks of an adapter: its limits, its timestamp queries, and [`LONG_ATOMICS`] if it has them. For a program that
+    /// opens a device itself and gives it to [`WgpuBackend::from_device`].
+    #[must_use]
+    pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+        wgpu::DeviceDescriptor {
+            label: Some("texere"),
+            required_features: adapter.features() & Features::TIMESTAMP_QUERY.union(LONG_ATOMICS),
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }
     }
 
     /// Opens device number `index` of [`WgpuBackend::devices`], with its timestamp queries and [`LONG_ATOMICS`] if it has them.
@@ -69,13 +84,10 @@ impl WgpuBackend {
         let adapters = adapters();
         let adapter =
             adapters.get(index).ok_or_else(|| none(device_name("wgpu", Some(index), schedule), &adapters))?;
-        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
-            label: Some("texere"),
-            required_features: adapter.features() & Features::TIMESTAMP_QUERY.union(LONG_ATOMICS),
-            required_limits: adapter.limits(),
-            ..Default::default()
-        }))
-        .map_err(|source| BackendError::Driver { call: "Adapter::request_device", source: source.into() })?;
+        let (device, queue) =
+            pollster::block_on(adapter.request_device(&Self::descriptor(adapter))).map_err(|source| {
+                BackendError::Driver { call: "Adapter::request_device", source: source.into() }
+            })?;
         Self::new(Gpu::owned(device_name("wgpu", Some(index), schedule), device, queue), schedule)
     }
 

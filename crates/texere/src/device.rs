@@ -174,24 +174,29 @@ fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
 /// **Errors**: those of [`open`].
 #[cfg(feature = "render")]
 pub fn open_renderer(name: &str) -> Result<texere_render::Renderer, BackendError> {
-    let list = texere_wgpu::WgpuBackend::devices()?;
+    let index = picture_device(name, &texere_wgpu::WgpuBackend::devices()?)?;
+    texere_render::Renderer::new(texere_wgpu::WgpuBackend::open(index, Schedule::PerRing)?)
+}
+
+/// Which device of `list` [`open_renderer`] would open by that name: for a program that opens devices itself, since they have to draw into its window.
+///
+/// **Errors**: [`BackendError::NoDevice`], also where the list is empty.
+#[cfg(feature = "render")]
+pub fn picture_device(name: &str, list: &[DeviceInfo]) -> Result<usize, BackendError> {
     let first = |kind| list.iter().position(|device| device.kind == kind);
+    let any = || (!list.is_empty()).then_some(0);
     let index = match name.split_once(':') {
         None if name == "auto" => {
-            first(DeviceKind::DiscreteGpu).or_else(|| first(DeviceKind::IntegratedGpu)).or(Some(0))
+            first(DeviceKind::DiscreteGpu).or_else(|| first(DeviceKind::IntegratedGpu)).or_else(any)
         }
-        None if name == "wgpu" => Some(0),
-        Some(("wgpu", which)) => find(&list, which),
+        None if name == "wgpu" => any(),
+        Some(("wgpu", which)) => find(list, which),
         _ => None,
     };
-    let Some(index) = index else {
-        let names = list.into_iter().map(|device| device.name);
-        return Err(BackendError::NoDevice {
-            wanted: name.into(),
-            found: names.chain(["auto".into()]).collect(),
-        });
-    };
-    texere_render::Renderer::new(texere_wgpu::WgpuBackend::open(index, Schedule::PerRing)?)
+    index.ok_or_else(|| BackendError::NoDevice {
+        wanted: name.into(),
+        found: list.iter().map(|device| device.name.clone()).chain(["auto".into()]).collect(),
+    })
 }
 
 fn no_device(wanted: &str) -> BackendError {

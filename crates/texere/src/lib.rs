@@ -94,9 +94,9 @@
 mod device;
 mod live;
 
-#[cfg(feature = "render")]
-pub use device::open_renderer;
 pub use device::{Devices, devices, open};
+#[cfg(feature = "render")]
+pub use device::{open_renderer, picture_device};
 pub use live::{Live, LiveError, Update};
 pub use texere_core::{
     ArcLength, Attribute, BLOCK_RINGS, Backend, BackendError, Block, Boundary, BoundaryError, Bounds,
@@ -138,7 +138,8 @@ pub use texere_formats::{Design, MachineFault, NamedPlace, Place, ReadError, Tol
 pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};
 #[cfg(feature = "render")]
 pub use texere_render::{
-    Background, Camera, Cut, Extent, Picture, PictureTimings, Pose, Quality, RenderError, Renderer, Scene,
+    Background, Camera, Cut, DevicePicture, Extent, Picture, PictureTimings, Pose, Quality, RenderError,
+    Renderer, Scene, Seen, picture_sides,
 };
 #[cfg(feature = "wgpu")]
 pub use texere_wgpu::{

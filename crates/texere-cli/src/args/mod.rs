@@ -4,6 +4,8 @@ mod path;
 mod render;
 mod settings;
 mod settling;
+#[cfg(feature = "view")]
+mod view;
 
 use std::path::PathBuf;
 
@@ -14,6 +16,8 @@ use render::point;
 pub(crate) use render::{RenderArgs, View};
 pub(crate) use settings::SettingsArgs;
 pub(crate) use settling::SettlingArgs;
+#[cfg(feature = "view")]
+pub(crate) use view::ViewArgs;
 
 /// Textile designs to yarn-level 3D geometry.
 #[derive(Debug, Parser)]
@@ -43,6 +47,9 @@ pub(crate) enum Command {
     Convert(ConvertArgs),
     /// Make a picture of a design's cloth
     Render(RenderArgs),
+    /// Show a design's cloth in a window, to turn, to edit, and to watch while its file changes
+    #[cfg(feature = "view")]
+    View(ViewArgs),
 }
 
 #[derive(Debug, clap::Args)]

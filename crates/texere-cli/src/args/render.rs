@@ -71,7 +71,7 @@ pub(crate) enum View {
 }
 
 /// A size from its numbers.
-fn size(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once('x').ok_or("expected a width and a height, such as 1600x1200")?;
     let number = |text: &str| match text.parse() {
         Ok(number) if number > 0 => Ok(number),

@@ -1,6 +1,7 @@
 //! Contacts of yarns: where they are, how near they come, and how many are looked for.
 
-use texere_core::{Segment, Yarns};
+use glam::DVec3;
+use texere_core::{ControlPoint, Segment, Yarns};
 
 use super::neighbours;
 use crate::grid;
@@ -77,6 +78,39 @@ impl YarnPlace {
         let nearer = (interval + usize::from(t > 0.5)) % points.len();
         let source = yarns.sources().and_then(|sources| sources.get(range.start + nearer).copied());
         Some(Self { yarn, interval, t, position, source })
+    }
+
+    /// The place of yarn number `yarn` that is nearest to `position`, mm, such as a point on its surface that a picture shows. It is found between the
+    /// yarn's control points as if they were joined by straight lines. `tension` is that of the yarns' splines. None where there is no such yarn.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
+    /// use texere_fabric::YarnPlace;
+    /// let mut yarns = Yarns::builder();
+    /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// let yarns = yarns.build()?;
+    /// let place = YarnPlace::nearest(&yarns, 0, [1.25, 0.0, 0.1], 0.0);
+    /// assert_eq!(place.map(|place| (place.interval, place.t)), Some((1, 0.25)));
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    #[must_use]
+    pub fn nearest(yarns: &Yarns, yarn: usize, position: [f64; 3], tension: f32) -> Option<Self> {
+        let points = yarns.yarn_points(yarn)?;
+        let closing = if yarns.layout().yarns()[yarn].closed { points.first() } else { None };
+        let place = |point: &ControlPoint| point.position().as_dvec3();
+        let wanted = DVec3::from(position);
+        let mut nearest = (f64::INFINITY, 0, 0.0);
+        for (interval, (start, end)) in points.iter().zip(points[1..].iter().chain(closing)).enumerate() {
+            let (start, end) = (place(start), place(end));
+            let way = end - start;
+            let t = ((wanted - start).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            let distance = wanted.distance_squared(start + way * t);
+            if distance < nearest.0 {
+                nearest = (distance, interval, t);
+            }
+        }
+        let (_, interval, t) = nearest;
+        Self::at(yarns, yarn, interval, t, tension)
     }
 }
 

@@ -181,6 +181,17 @@ impl Woven {
         &self.materials
     }
 
+    /// Gives material number `material`, from 0, another colour, sRGB.
+    ///
+    /// **Errors**: [`FabricError::NoMaterial`].
+    pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), FabricError> {
+        let materials = self.materials.len();
+        let place =
+            self.materials.get_mut(material).ok_or(FabricError::NoMaterial { material, materials })?;
+        place.srgb = srgb;
+        Ok(())
+    }
+
     /// The sections that threads refer to.
     #[must_use]
     pub fn sections(&self) -> &[Section] {

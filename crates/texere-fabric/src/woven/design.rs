@@ -81,6 +81,41 @@ impl WovenDesign {
         Self::new(cloth, self.draft.clone(), Relief::Report)
     }
 
+    /// Says whether the warp is up at a crossing, end and pick counted from 0, and relieves the cloth again. A shaft draft does not weave it any
+    /// more then, and goes.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{Relief, Thread, Weave, Woven, WovenDesign};
+    /// let plain = Weave::parse("plain")?.drawdown(4, 4)?;
+    /// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 4], vec![Thread::new(1.0, 0.2); 4]);
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let mut design = WovenDesign::new(cloth, None, Relief::Report)?;
+    /// let up = design.cloth().drawdown().up(2, 1);
+    /// design.set_lift(2, 1, !up)?;
+    /// assert_eq!(design.cloth().drawdown().up(2, 1), !up);
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    ///
+    /// **Errors**: [`FabricError::NoCrossing`] outside the cloth, and those of [`Woven::relieve`]; the design is then as it was.
+    pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
+        let mut changed = self.as_given().clone();
+        changed.drawdown_mut().set(end, pick, up)?;
+        (self.jam_report, self.given) = relieve(&mut changed, self.relief)?;
+        (self.cloth, self.draft) = (changed, None);
+        Ok(())
+    }
+
+    /// Gives material number `material`, from 0, another colour, sRGB.
+    ///
+    /// **Errors**: [`FabricError::NoMaterial`].
+    pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), FabricError> {
+        for cloth in self.given.iter_mut().chain([&mut self.cloth]) {
+            cloth.set_color(material, srgb)?;
+        }
+        Ok(())
+    }
+
     /// Gives all threads of the cloth as it was given one section, and relieves it again.
     ///
     /// **Errors**: [`FabricError::Section`] where its numbers are not sound, and those of [`Woven::relieve`]; the design is

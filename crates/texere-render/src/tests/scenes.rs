@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_3;
 use std::sync::Arc;
 
+use glam::DVec3;
 use texere_core::{Layout, Placement, Plan, Ray, Settings, Topology, Yarn, Yarns};
 use texere_cpu::Picker;
 
@@ -86,6 +87,50 @@ fn a_pixel_shows_the_yarn_that_its_ray_hits() {
             }
         }
         assert!(seen.iter().all(|&count| count > 20), "{name}: {seen:?}");
+    }
+}
+
+/// What a picture says it shows is what its lines of sight hit.
+#[test]
+fn what_is_seen_at_a_point_is_what_its_ray_hits() {
+    let yarns = cloths();
+    let settings = Settings { topology: Topology::None, caps: true, ..SETTINGS };
+    let picker =
+        Picker::new(Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap()), yarns.points()).unwrap();
+    let renderer = renderer().lock().unwrap();
+    let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
+    assert_eq!(scene.seen_at([1.0, 1.0]).unwrap(), None, "before the first picture");
+    for (name, camera) in cameras(&Extent::of(&yarns)) {
+        for supersampling in [1, 2] {
+            scene.frame(&camera, Quality { supersampling }).unwrap();
+            let (mut yarns_seen, mut nothing_seen) = (0, 0);
+            for (x, y) in (2..SIZE[1])
+                .step_by(9)
+                .flat_map(|y| (2..SIZE[0]).step_by(9).map(move |x| (x as f32, y as f32)))
+            {
+                let hit = |[right, down]: [f32; 2]| picker.pick(&camera.ray([x + right, y + down]));
+                let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(hit);
+                let yarn = |hit: &Option<texere_cpu::Hit>| hit.map(|hit| hit.place.yarn);
+                if corners.iter().any(|corner| yarn(corner) != yarn(&corners[0])) {
+                    continue; // an edge
+                }
+                let seen = scene.seen_at([x + 0.5, y + 0.5]).unwrap();
+                assert_eq!(seen.map(|seen| seen.yarn as u32), yarn(&corners[0]), "{name} {x} {y}");
+                let (Some(seen), [Some(a), Some(b), Some(c), Some(d)]) = (seen, corners) else {
+                    nothing_seen += 1;
+                    continue;
+                };
+                yarns_seen += 1;
+                let [a, b, c, d] = [a, b, c, d].map(|hit| DVec3::from(hit.position));
+                let across = a.distance(d).max(b.distance(c));
+                let off = (a + b + c + d) / 4.0 - DVec3::from(seen.position);
+                assert!(off.length() <= 0.75 * across, "{name} {x} {y}: {off}, a pixel is {across}");
+            }
+            assert!(yarns_seen > 20 && nothing_seen > 20, "{name}: {yarns_seen}, {nothing_seen}");
+        }
+    }
+    for outside in [[-0.5, 3.0], [3.0, SIZE[1] as f32], [f32::NAN, 3.0], [f32::INFINITY, 3.0]] {
+        assert_eq!(scene.seen_at(outside).unwrap(), None, "{outside:?}");
     }
 }
 

@@ -1,0 +1,23 @@
+//! The command line of `texere view`.
+
+use std::path::PathBuf;
+
+use super::SettingsArgs;
+use super::render::size;
+use super::settling::RestArgs;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct ViewArgs {
+    /// A .toml design, a .wif draft, or a .k program of a knitting machine. When it changes, so does the cloth in the window
+    pub(crate) design: PathBuf,
+    /// The window's width and height at first, in pixels, or where the screen is scaled in points
+    #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size)]
+    pub(crate) size: [u32; 2],
+    /// The device that draws: auto, wgpu, wgpu:1, wgpu:nvidia
+    #[arg(long, default_value = "auto")]
+    pub(crate) device: String,
+    #[command(flatten)]
+    pub(crate) settings: SettingsArgs,
+    #[command(flatten)]
+    pub(crate) rest: RestArgs,
+}

@@ -1,0 +1,90 @@
+//! What a picture shows at a point.
+
+use glam::DVec3;
+use texere_core::BackendError;
+use wgpu::{BufferUsages, Extent3d, Origin3d, TexelCopyBufferInfo, TexelCopyBufferLayout, TextureAspect};
+
+use crate::{RenderError, Scene};
+
+/// What a picture shows at a point: the yarn, and where on its surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// The number of the yarn, from 0.
+    pub yarn: usize,
+    /// The place on its surface, mm. Where the yarn is cut open, that on the far side of its inside.
+    pub position: [f64; 3],
+}
+
+/// Bytes of what is read of a sample: the place on its yarn, and its depth.
+const PLACE_BYTES: u64 = 8;
+const DEPTH_BYTES: u64 = 4;
+
+/// `CUT` of `view.wgsl`.
+const CUT: u32 = 0x8000_0000;
+
+impl Scene {
+    /// What the last picture shows at a point, in pixels from its left and upper edges. None where it shows no yarn, outside, and before the
+    /// first picture. It is read from the picture's samples, so it takes as long in a large fabric as in a small one.
+    ///
+    /// ```no_run
+    /// # fn example(scene: &texere_render::Scene) -> Result<(), texere_render::RenderError> {
+    /// if let Some(seen) = scene.seen_at([400.5, 300.5])? {
+    ///     println!("yarn {} at {:?} mm", seen.yarn, seen.position);
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// **Errors**: [`RenderError::Backend`].
+    pub fn seen_at(&self, at: [f32; 2]) -> Result<Option<Seen>, RenderError> {
+        let (Some(camera), Some(screen)) = (&self.camera, &self.screen) else { return Ok(None) };
+        let [width, height] = camera.size().map(|pixels| pixels as f32);
+        if !(0.0..width).contains(&at[0]) || !(0.0..height).contains(&at[1]) {
+            return Ok(None);
+        }
+        let large = screen.large();
+        let [x, y] = [0, 1].map(|axis| {
+            let share = at[axis] / [width, height][axis];
+            ((share * large[axis] as f32) as u32).min(large[axis] - 1)
+        });
+        let texels = [(screen.places.texture(), 0), (screen.depths.texture(), PLACE_BYTES)];
+        let device = &self.renderer.device;
+        let host = device.buffer(
+            "a sample",
+            DEPTH_BYTES + PLACE_BYTES,
+            BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+        )?;
+        let submission = device.scoped("Queue::submit", || {
+            let mut encoder = device.device().create_command_encoder(&Default::default());
+            for (texture, offset) in texels {
+                let origin = Origin3d { x, y, z: 0 };
+                encoder.copy_texture_to_buffer(
+                    wgpu::TexelCopyTextureInfo { texture, mip_level: 0, origin, aspect: TextureAspect::All },
+                    TexelCopyBufferInfo {
+                        buffer: &host,
+                        layout: TexelCopyBufferLayout { offset, ..Default::default() },
+                    },
+                    Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+                );
+            }
+            let submission = device.queue().submit([encoder.finish()]);
+            host.map_async(wgpu::MapMode::Read, .., |_| ());
+            submission
+        })?;
+        device.wait(submission)?;
+        let call = "Buffer::get_mapped_range";
+        let read = device
+            .scoped(call, || host.get_mapped_range(..).map(|bytes| bytes[..].to_vec()))?
+            .map_err(|source| BackendError::Driver { call, source: source.into() })?;
+        let word = |number: usize| bytemuck::pod_read_unaligned::<u32>(&read[4 * number..4 * number + 4]);
+        let depth = f32::from_bits(word(2));
+        if depth >= 1.0 {
+            return Ok(None);
+        }
+        let middle = |pixel: u32, size: u32| (f64::from(pixel) + 0.5) / f64::from(size) * 2.0 - 1.0;
+        let clip = DVec3::new(middle(x, large[0]), -middle(y, large[1]), f64::from(depth));
+        let local = camera.clip_from_local().inverse().project_point3(clip);
+        let position = (local + camera.target.as_dvec3()).to_array();
+        Ok(Some(Seen { yarn: (word(0) & !CUT) as usize, position }))
+    }
+}

@@ -1,0 +1,288 @@
+//! The part of the window that shows the cloth.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Color32, PointerButton, Pos2, Rect, Response, Sense, TextureId, Ui, pos2};
+use eframe::{egui_wgpu, wgpu};
+use texere::{Camera, NamedPlace, PictureTimings, Quality, RenderError, Seen, YarnPlace};
+
+use crate::orbit::{Orbit, Side};
+use crate::workshop::Cloth;
+
+/// How long the view has to rest before it is drawn as well as it can be.
+const REST: Duration = Duration::from_millis(200);
+
+/// What a picture may take while the view moves. One that takes longer is drawn with fewer pixels next time, one that takes far less with more.
+const MOVING: Duration = Duration::from_millis(60);
+
+/// What a picture may take when the view rests. Where the best would take longer, it has fewer samples.
+const RESTING: Duration = Duration::from_secs(1);
+
+/// Pixels of the window for one of the picture at most, each way.
+const COARSEST: u32 = 4;
+
+/// How much a notch of the wheel brings nearer, by its points.
+const NEARER: f32 = 0.0025;
+
+/// What a picture was drawn of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Look {
+    orbit: Orbit,
+    /// The window's part, pixels.
+    size: [u32; 2],
+}
+
+/// How many pixels and samples a picture has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Fineness {
+    supersampling: u32,
+    /// Pixels of the window for one of the picture, each way.
+    coarseness: u32,
+}
+
+impl Fineness {
+    /// What takes least of all pictures that have all pixels.
+    const PLAIN: Self = Self { supersampling: 1, coarseness: 1 };
+
+    /// How fine the next picture may be while the view moves, where the last one, this fine, took so long.
+    fn moving(self, took: Duration) -> Self {
+        let coarseness = match self.coarseness {
+            finer if took > MOVING => (finer * 2).min(COARSEST),
+            coarser if took < MOVING / 6 => (coarser / 2).max(1),
+            same => same,
+        };
+        Self { coarseness, ..Self::PLAIN }
+    }
+
+    /// How fine a picture may be when the view rests.
+    fn resting(self, took: Duration) -> Self {
+        let best = Quality::default().supersampling;
+        let more = best * self.coarseness / self.supersampling;
+        if took * more.pow(2) <= RESTING { Self { supersampling: best, ..Self::PLAIN } } else { Self::PLAIN }
+    }
+}
+
+/// The picture in the window.
+pub(crate) struct Canvas {
+    render: egui_wgpu::RenderState,
+    /// None until a cloth has been shown.
+    orbit: Option<Orbit>,
+    texture: Option<TextureId>,
+    /// The view's texture, which is another where the picture has another size.
+    view: Option<wgpu::TextureView>,
+    drawn: Option<Look>,
+    /// How fine the last picture is, and the last one while the view moved.
+    fineness: Fineness,
+    fineness_moving: Fineness,
+    /// Whether the last picture is as fine as it gets, and since when the view is as it is.
+    rests: bool,
+    rests_since: Instant,
+    pub(crate) timings: PictureTimings,
+    /// What went wrong with the last picture.
+    pub(crate) failure: Option<String>,
+    /// Where the pointer was when it was asked last what lies there, and what that was.
+    pointed: Option<(Pos2, Option<NamedPlace>)>,
+}
+
+/// What a person does to the cloth.
+pub(crate) struct Pointed {
+    /// What lies under the pointer.
+    pub(crate) place: Option<NamedPlace>,
+    /// Whether it was clicked on.
+    pub(crate) is_clicked: bool,
+}
+
+impl Canvas {
+    pub(crate) fn new(render: egui_wgpu::RenderState) -> Self {
+        Self {
+            render,
+            orbit: None,
+            texture: None,
+            view: None,
+            drawn: None,
+            fineness: Fineness::PLAIN,
+            fineness_moving: Fineness::PLAIN,
+            rests: true,
+            rests_since: Instant::now(),
+            timings: PictureTimings::default(),
+            failure: None,
+            pointed: None,
+        }
+    }
+
+    /// Looks at the whole cloth from `side` with the next picture.
+    pub(crate) fn look_from(&mut self, cloth: &Cloth, side: Side) {
+        let size = self.drawn.map_or([4, 3], |drawn| drawn.size);
+        self.orbit = Some(Orbit::whole(cloth.scene.extent(), side, size));
+    }
+
+    /// Draws another cloth with the next picture, in the same view.
+    pub(crate) fn redraw(&mut self) {
+        self.drawn = None;
+        self.pointed = None;
+    }
+
+    /// What the eye looks at, once there is a cloth.
+    pub(crate) const fn orbit_mut(&mut self) -> Option<&mut Orbit> {
+        self.orbit.as_mut()
+    }
+
+    /// Pixels of the last picture, and samples of each.
+    pub(crate) fn resolution(&self) -> ([u32; 2], u32) {
+        let Fineness { supersampling, coarseness } = self.fineness;
+        let size = self.drawn.map_or([0, 0], |drawn| drawn.size.map(|pixels| pixels / coarseness));
+        (size, 4 * supersampling.pow(2))
+    }
+
+    /// Shows the cloth in what is left of the window, and lets a pointer move it.
+    pub(crate) fn show(&mut self, ui: &mut Ui, cloth: &mut Cloth) -> Pointed {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        let scale = ui.pixels_per_point();
+        let size = [rect.width(), rect.height()].map(|points| ((points * scale) as u32).max(1));
+        let extent = *cloth.scene.extent();
+        let orbit = self.orbit.get_or_insert_with(|| Orbit::whole(&extent, Side::Face, size));
+        steer(orbit, ui, &response, rect, size, cloth);
+        let look = Look { orbit: *orbit, size };
+        self.draw(ui, cloth, look);
+        if let Some(texture) = self.texture {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui.painter().image(texture, rect, whole, Color32::WHITE);
+        }
+        let at = response.hover_pos().filter(|_| !response.dragged());
+        let place = at.and_then(|at| self.named(cloth, at, rect, scale));
+        Pointed { place, is_clicked: response.clicked() }
+    }
+
+    /// Draws the cloth where the last picture shows something else or could show it better.
+    fn draw(&mut self, ui: &Ui, cloth: &mut Cloth, look: Look) {
+        let took = self.timings.draw + self.timings.shade;
+        if self.drawn != Some(look) {
+            // A picture of a view at rest says nothing of one that moves.
+            self.fineness = if self.rests { self.fineness_moving } else { self.fineness.moving(took) };
+            self.fineness_moving = self.fineness;
+            (self.rests, self.rests_since) = (false, Instant::now());
+        } else if self.rests {
+            return;
+        } else if let Some(rest) = REST.checked_sub(self.rests_since.elapsed()) {
+            ui.request_repaint_after(rest);
+            return;
+        } else {
+            self.rests = true;
+            let finest = self.fineness.resting(took);
+            if finest == self.fineness {
+                return;
+            }
+            self.fineness = finest;
+        }
+        (self.drawn, self.pointed) = (Some(look), None);
+        match self.picture(cloth, look) {
+            Ok(timings) => (self.timings, self.failure) = (timings, None),
+            Err(error) => self.failure = Some(crate::error::said(&error)),
+        }
+        ui.request_repaint_after(REST);
+    }
+
+    fn camera(&self, cloth: &Cloth, look: Look) -> Result<Camera, RenderError> {
+        look.orbit
+            .camera(cloth.scene.extent(), look.size.map(|pixels| (pixels / self.fineness.coarseness).max(1)))
+    }
+
+    fn picture(&mut self, cloth: &mut Cloth, look: Look) -> Result<PictureTimings, RenderError> {
+        let camera = self.camera(cloth, look)?;
+        let frame = cloth.scene.frame(&camera, Quality { supersampling: self.fineness.supersampling })?;
+        if self.view.as_ref() != Some(&frame.texture) {
+            let device = &self.render.device;
+            let mut renderer = self.render.renderer.write();
+            let filter = wgpu::FilterMode::Linear;
+            match self.texture {
+                Some(id) => {
+                    renderer.update_egui_texture_from_wgpu_texture(device, &frame.texture, filter, id)
+                }
+                None => self.texture = Some(renderer.register_native_texture(device, &frame.texture, filter)),
+            }
+            self.view = Some(frame.texture);
+        }
+        Ok(frame.timings)
+    }
+
+    /// What lies under the pointer, in a designer's words.
+    fn named(&mut self, cloth: &Cloth, at: Pos2, rect: Rect, scale: f32) -> Option<NamedPlace> {
+        if let Some((before, place)) = &self.pointed
+            && *before == at
+        {
+            return place.clone();
+        }
+        let pixel = (at - rect.min) * (scale / self.fineness.coarseness as f32);
+        let place = match cloth.scene.seen_at([pixel.x, pixel.y]) {
+            Ok(seen) => seen.and_then(|seen| place_of(cloth, &seen)),
+            Err(error) => {
+                self.failure = Some(crate::error::said(&error));
+                None
+            }
+        };
+        self.pointed = Some((at, place.clone()));
+        place
+    }
+}
+
+/// Turns, moves and nears the cloth as the pointer says.
+fn steer(orbit: &mut Orbit, ui: &Ui, response: &Response, rect: Rect, size: [u32; 2], cloth: &Cloth) {
+    let scale = ui.pixels_per_point();
+    let drag = response.drag_delta() * scale;
+    let pans = response.dragged_by(PointerButton::Secondary)
+        || response.dragged_by(PointerButton::Middle)
+        || ui.input(|input| input.modifiers.shift);
+    if response.dragged() && pans {
+        orbit.pan([drag.x, drag.y], size);
+    } else if response.dragged() {
+        orbit.turn([drag.x, drag.y]);
+    }
+    if let Some(at) = response.hover_pos() {
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
+        let factor = pinch * (scroll * NEARER).exp();
+        if factor != 1.0 {
+            let at = (at - rect.min) * scale;
+            orbit.zoom(factor, [at.x, at.y], size, cloth.scene.extent());
+        }
+    }
+}
+
+fn place_of(cloth: &Cloth, seen: &Seen) -> Option<NamedPlace> {
+    let place = YarnPlace::nearest(&cloth.yarns, seen.yarn, seen.position, cloth.settings.tension)?;
+    Some(cloth.design.named(&cloth.yarns, &place))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MILLISECOND: Duration = Duration::from_millis(1);
+
+    /// A device that draws a pixel with four samples in so long.
+    fn took(fineness: Fineness, whole: Duration) -> Duration {
+        whole * fineness.supersampling.pow(2) / fineness.coarseness.pow(2)
+    }
+
+    #[test]
+    fn a_view_that_moves_is_drawn_in_time_and_as_fine_as_that_allows() {
+        for (whole, coarseness) in [(5, 1), (50, 1), (100, 2), (200, 2), (900, 4), (5000, 4)] {
+            let whole = whole * MILLISECOND;
+            let mut fineness = Fineness::PLAIN;
+            for _ in 0..9 {
+                fineness = fineness.moving(took(fineness, whole));
+            }
+            assert_eq!(fineness, Fineness { coarseness, ..Fineness::PLAIN }, "{whole:?}");
+        }
+    }
+
+    #[test]
+    fn a_view_at_rest_has_all_pixels_and_all_samples_where_they_come_in_time() {
+        for coarseness in [1, 2, 4] {
+            let moved = Fineness { coarseness, ..Fineness::PLAIN };
+            for (whole, supersampling) in [(10, 2), (240, 2), (300, 1), (9000, 1)] {
+                let rests = moved.resting(took(moved, whole * MILLISECOND));
+                assert_eq!(rests, Fineness { supersampling, coarseness: 1 }, "{whole} ms");
+            }
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Why no window can be opened.
+
+use std::error::Error;
+use std::iter::successors;
+
+use texere::{BackendError, FabricError, ReadError};
+use thiserror::Error;
+
+/// Why no window can be opened.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// The design can't be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The section that was asked for does not go with the design.
+    #[error(transparent)]
+    Fabric(#[from] FabricError),
+    /// The device.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+    /// The system has no place for a window, or its driver can't draw there.
+    #[error("no window can be opened")]
+    Window(#[source] Box<dyn Error>),
+}
+
+/// An error and its causes, in one line.
+pub(crate) fn said(error: &(dyn Error + 'static)) -> String {
+    let all: Vec<_> = successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source())
+        .map(ToString::to_string)
+        .collect();
+    all.join(": ")
+}

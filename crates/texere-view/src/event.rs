@@ -1,0 +1,61 @@
+//! What happens in a window, for the program that has opened it.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use texere::{Crossing, NamedPlace};
+
+/// What has happened in a window. It is written in a line of its own.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Event {
+    /// A cloth is shown: the design's, or an edited one.
+    Shown {
+        /// The design's title.
+        name: String,
+        /// Yarns of the cloth.
+        yarns: usize,
+        /// Triangles that are drawn of it.
+        triangles: u64,
+        /// Whether its yarns have come to rest.
+        settled: bool,
+    },
+    /// A yarn was clicked on.
+    Picked(NamedPlace),
+    /// A lift was changed.
+    Lifted {
+        /// Where.
+        crossing: Crossing,
+        /// Whether the warp lies on top there now.
+        up: bool,
+    },
+    /// The edited cloth was written as a design file.
+    Saved {
+        /// The file.
+        path: PathBuf,
+        /// What a design file has no place for.
+        left_out: Vec<String>,
+    },
+    /// What was asked for could not be done, or the design's file is broken: the cloth is shown as it was.
+    Failed(String),
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Shown { name, yarns, triangles, settled } => {
+                let rest = if *settled { "settled" } else { "as its structure puts them" };
+                write!(f, "shown: {name}, {yarns} yarns {rest}, {triangles} triangles")
+            }
+            Self::Picked(place) => write!(f, "picked: {place}"),
+            Self::Lifted { crossing: Crossing { end, pick }, up } => {
+                write!(f, "lifted: end {end} is {} pick {pick}", if *up { "above" } else { "below" })
+            }
+            Self::Saved { path, left_out } => {
+                write!(f, "saved: {}", path.display())?;
+                left_out.iter().try_for_each(|what| write!(f, "; {what}"))
+            }
+            Self::Failed(what) => write!(f, "failed: {what}"),
+        }
+    }
+}

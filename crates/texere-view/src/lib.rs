@@ -1,0 +1,83 @@
+//! A window that shows a textile design as yarns.
+//!
+//! ```text
+//! design file ──> workshop, a thread ──> scene ──> window ──> picture
+//!                      └──<── orders: lifts, colours, sides, tension ──<──┘
+//! ```
+//!
+//! Every triangle is drawn for each picture, from control points that lie on the device. The pointer turns, moves and nears the cloth, and the yarn
+//! under it is named as a weaver or a knitter calls it. Lifts change by a click. When the design's file changes, the cloth does.
+
+mod canvas;
+mod device;
+mod error;
+mod event;
+mod orbit;
+mod panel;
+mod watch;
+mod window;
+mod workshop;
+
+use std::path::PathBuf;
+
+use texere::{Design, Section, Settings};
+
+pub use error::ViewError;
+pub use event::Event;
+
+/// What a window shows.
+#[derive(Debug, Clone)]
+pub struct View {
+    /// A .toml design, a .wif draft, or a .k program of a knitting machine.
+    pub design: PathBuf,
+    /// The device that draws, as [`texere::open_renderer`] takes it, and on which yarns settle.
+    pub device: String,
+    /// Subdivisions, tension and frames of the mesh; its sides count only in `sides`.
+    pub settings: Settings,
+    /// Sides of the tubes; if none as many as [`texere::picture_sides`] says.
+    pub sides: Option<u32>,
+    /// One section for all yarns of the design.
+    pub section: Option<Section>,
+    /// Whether yarns settle; if none, what the design says.
+    pub settle: Option<bool>,
+    /// The window's width and height at first, in points: pixels, where the screen's scale is one.
+    pub size: [u32; 2],
+}
+
+impl View {
+    /// A window of a design as it comes.
+    pub fn of(design: impl Into<PathBuf>) -> Self {
+        Self {
+            design: design.into(),
+            device: "auto".into(),
+            settings: Settings::default(),
+            sides: None,
+            section: None,
+            settle: None,
+            size: [1280, 800],
+        }
+    }
+
+    /// Opens the window and waits until it is closed. `tell` learns what happens in it.
+    ///
+    /// ```no_run
+    /// texere_view::View::of("designs/herringbone.wif").open(|event| println!("{event}"))?;
+    /// # Ok::<(), texere_view::ViewError>(())
+    /// ```
+    ///
+    /// Systems open windows on a program's main thread alone.
+    ///
+    /// **Errors**: [`ViewError`].
+    pub fn open(self, tell: impl FnMut(&Event)) -> Result<(), ViewError> {
+        window::open(self, tell)
+    }
+
+    /// Reads the design.
+    fn read(&self) -> Result<Design, ViewError> {
+        let mut design = texere::read(&self.design)?;
+        if let Some(section) = &self.section {
+            design.structure.set_section(section.clone())?;
+        }
+        Ok(design)
+    }
+}

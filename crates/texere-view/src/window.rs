@@ -1,0 +1,184 @@
+//! The window: what it shows, and what it sends to the workshop.
+
+use std::collections::BTreeMap;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+
+use eframe::egui::{self, Key, Modifiers, ViewportBuilder};
+use texere::{NamedPlace, Renderer, Schedule, WgpuBackend};
+
+use crate::canvas::Canvas;
+use crate::orbit::Side;
+use crate::watch::Watch;
+use crate::workshop::{Cloth, News, Order, Workshop};
+use crate::{Event, View, ViewError, device};
+
+/// Opens the window and waits until it is closed.
+pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError> {
+    let mut watch = Watch::new([view.design.clone()]);
+    let design = view.read()?;
+    watch.follow(design.files().iter().cloned());
+    // What opens the window says of a wrong name only that it failed.
+    texere::picture_device(&view.device, &WgpuBackend::devices()?)?;
+    let options = eframe::NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_title(format!("{} - texere", design.name))
+            .with_inner_size(view.size.map(|points| points as f32)),
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: device::configuration(view.device.clone()),
+        ..Default::default()
+    };
+    let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
+        let render = context.wgpu_render_state.clone().ok_or("no device")?;
+        let device =
+            WgpuBackend::from_device(render.device.clone(), render.queue.clone(), Schedule::PerRing)?;
+        let ((orders, taken), (news, told)) = (channel(), channel());
+        let workshop = Workshop {
+            orders: taken,
+            news,
+            window: context.egui_ctx.clone(),
+            renderer: Renderer::new(device)?,
+            view,
+            watch,
+            design,
+            colors: BTreeMap::new(),
+            lifts: Vec::new(),
+            yarns: None,
+        };
+        thread::Builder::new().name("workshop".into()).spawn(|| workshop.run())?;
+        Ok(Box::new(Window {
+            canvas: Canvas::new(render),
+            orders,
+            news: told,
+            cloth: None,
+            settling: None,
+            said: None,
+            lifts: false,
+            place: None,
+            tell,
+        }))
+    };
+    eframe::run_native("texere", options, Box::new(start)).map_err(|error| ViewError::Window(error.into()))
+}
+
+/// All that the window shows.
+pub(crate) struct Window<T> {
+    pub(crate) canvas: Canvas,
+    orders: Sender<Order>,
+    news: Receiver<News>,
+    /// None until the first one is made.
+    pub(crate) cloth: Option<Box<Cloth>>,
+    /// The share that is done while yarns settle.
+    pub(crate) settling: Option<f64>,
+    /// What came of settling, or what failed.
+    pub(crate) said: Option<String>,
+    /// Whether a click changes a lift.
+    pub(crate) lifts: bool,
+    /// What lies under the pointer.
+    pub(crate) place: Option<NamedPlace>,
+    tell: T,
+}
+
+impl<T: FnMut(&Event)> eframe::App for Window<T> {
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        while let Ok(news) = self.news.try_recv() {
+            self.take(news);
+        }
+        self.keys(ui);
+        self.panel(ui);
+        egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| {
+            let Some(cloth) = &mut self.cloth else {
+                ui.centered_and_justified(|ui| ui.spinner());
+                return;
+            };
+            let pointed = self.canvas.show(ui, cloth);
+            self.place = pointed.place;
+            if pointed.is_clicked {
+                self.click();
+            }
+        });
+    }
+}
+
+impl<T: FnMut(&Event)> Window<T> {
+    pub(crate) fn order(&self, order: Order) {
+        // The workshop is there for as long as the window.
+        let _ = self.orders.send(order);
+    }
+
+    fn take(&mut self, news: News) {
+        match news {
+            News::Cloth(cloth) => {
+                let event = Event::Shown {
+                    name: cloth.design.name.clone(),
+                    yarns: cloth.yarns.layout().yarns().len(),
+                    triangles: cloth.scene.plan().counts().triangles,
+                    settled: cloth.is_settled,
+                };
+                self.cloth = Some(cloth);
+                self.canvas.redraw();
+                self.said = None;
+                (self.tell)(&event);
+            }
+            News::Settling(share) => self.settling = Some(share),
+            News::Settled(said) => {
+                self.settling = None;
+                self.said = Some(said);
+            }
+            News::Event(event) => {
+                if let Event::Failed(what) = &event {
+                    self.said = Some(what.clone());
+                }
+                (self.tell)(&event);
+            }
+        }
+    }
+
+    /// What lies under the pointer was clicked on.
+    fn click(&mut self) {
+        let (Some(place), Some(cloth)) = (&self.place, &self.cloth) else { return };
+        (self.tell)(&Event::Picked(place.clone()));
+        let (Some(crossing), Some(woven)) = (place.thread.crossing, cloth.design.structure.woven()) else {
+            return;
+        };
+        if self.lifts {
+            let (end, pick) = (crossing.end as usize - 1, crossing.pick as usize - 1);
+            let up = !woven.cloth().drawdown().up(end, pick);
+            self.order(Order::Lift { end, pick, up });
+        }
+    }
+
+    /// Looks at the whole cloth from a side.
+    pub(crate) fn look_from(&mut self, side: Side) {
+        if let Some(cloth) = &self.cloth {
+            self.canvas.look_from(cloth, side);
+        }
+    }
+
+    fn keys(&mut self, ui: &egui::Ui) {
+        // A text field has the keyboard for itself.
+        if ui.ctx().egui_wants_keyboard_input() {
+            return;
+        }
+        let pressed = |wanted: Key, with: Modifiers| {
+            ui.input(|input| {
+                input.events.iter().any(|event| {
+                    // One that is held down for long counts once.
+                    matches!(event, egui::Event::Key { key, pressed: true, repeat: false, modifiers, .. }
+                        if *key == wanted && modifiers.matches_exact(with))
+                })
+            })
+        };
+        for (key, side) in [(Key::F, Side::Face), (Key::B, Side::Back), (Key::O, Side::Oblique)] {
+            if pressed(key, Modifiers::NONE) {
+                self.look_from(side);
+            }
+        }
+        if pressed(Key::L, Modifiers::NONE) {
+            self.lifts = !self.lifts;
+        }
+        if pressed(Key::Z, Modifiers::COMMAND) {
+            self.order(Order::Undo);
+        }
+    }
+}

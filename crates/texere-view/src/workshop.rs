@@ -1,0 +1,326 @@
+//! Where cloth is made: a thread that reads the design, takes orders, and sends scenes to the window.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::thread;
+use std::time::Duration;
+
+use eframe::egui;
+use texere::{
+    Camera, Design, FinishError, Finished, Output, Quality, RenderError, Renderer, Scene, Settings,
+    Structure, Yarns,
+};
+
+use crate::error::said;
+use crate::watch::Watch;
+use crate::{Event, View};
+
+/// How often files are looked at.
+const POLL: Duration = Duration::from_millis(150);
+
+/// How long a file has to stay as it is before it is read: an editor may be writing it.
+const WRITING: Duration = Duration::from_millis(40);
+
+/// What the window asks for.
+#[derive(Debug)]
+pub(crate) enum Order {
+    /// The warp above or below at a crossing, end and pick from 0.
+    Lift { end: usize, pick: usize, up: bool },
+    /// Takes back the last lift.
+    Undo,
+    /// Another colour, sRGB, for a material, from 0.
+    Color { material: usize, srgb: [u8; 3] },
+    /// Another mesh.
+    Settings(Settings),
+    /// Whether yarns settle.
+    Settle(bool),
+    /// A copy of the design as it is now.
+    Save,
+}
+
+/// A cloth on the device, and what it is made from.
+#[derive(Debug)]
+pub(crate) struct Cloth {
+    pub(crate) design: Arc<Design>,
+    pub(crate) yarns: Arc<Yarns>,
+    pub(crate) settings: Settings,
+    pub(crate) scene: Scene,
+    /// Whether its yarns have settled.
+    pub(crate) is_settled: bool,
+    /// Whether lifts can be taken back.
+    pub(crate) is_edited: bool,
+}
+
+/// What the window is told.
+#[derive(Debug)]
+pub(crate) enum News {
+    Cloth(Box<Cloth>),
+    /// Yarns settle: the share of the work that is done, or what has come of it.
+    Settling(f64),
+    Settled(String),
+    Event(Event),
+}
+
+/// What an order makes necessary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Change {
+    Nothing,
+    Scene,
+    Yarns,
+}
+
+/// All that a cloth is made from.
+pub(crate) struct Workshop {
+    pub(crate) orders: Receiver<Order>,
+    pub(crate) news: Sender<News>,
+    /// What waits for news.
+    pub(crate) window: egui::Context,
+    pub(crate) renderer: Renderer,
+    pub(crate) view: View,
+    pub(crate) watch: Watch,
+    pub(crate) design: Design,
+    /// Materials whose colours were changed.
+    pub(crate) colors: BTreeMap<usize, [u8; 3]>,
+    /// Lifts as they were before they were changed: end and pick from 0, and whether the warp was up.
+    pub(crate) lifts: Vec<(usize, usize, bool)>,
+    /// The yarns that are shown, and whether they have settled.
+    pub(crate) yarns: Option<(Arc<Yarns>, bool)>,
+}
+
+impl Workshop {
+    /// Works until the window is closed.
+    pub(crate) fn run(mut self) {
+        let mut change = Change::Yarns;
+        let mut waiting = None;
+        loop {
+            match change {
+                Change::Nothing => {}
+                Change::Scene => self.show(),
+                Change::Yarns => waiting = self.weave(),
+            }
+            change = match waiting.take().map_or_else(|| self.orders.recv_timeout(POLL), Ok) {
+                Ok(first) => {
+                    // A slider sends many, and only the last cloth is seen.
+                    let mut change = self.take(first);
+                    while let Ok(next) = self.orders.try_recv() {
+                        change = change.max(self.take(next));
+                    }
+                    change
+                }
+                Err(RecvTimeoutError::Timeout) => self.reload(),
+                Err(RecvTimeoutError::Disconnected) => return,
+            };
+        }
+    }
+
+    fn tell(&self, news: News) {
+        // Where the window is gone, so is the one who would be told.
+        let _ = self.news.send(news);
+        self.window.request_repaint();
+    }
+
+    fn fail(&self, what: String) {
+        self.tell(News::Event(Event::Failed(what)));
+    }
+
+    /// Does what is ordered, up to the yarns.
+    fn take(&mut self, order: Order) -> Change {
+        match order {
+            Order::Lift { end, pick, up } => {
+                let before = self.up(end, pick);
+                if self.lift(end, pick, up) {
+                    self.lifts.push((end, pick, before))
+                } else {
+                    return Change::Nothing;
+                }
+                Change::Yarns
+            }
+            Order::Undo => match self.lifts.pop() {
+                Some((end, pick, up)) if self.lift(end, pick, up) => Change::Yarns,
+                _ => Change::Nothing,
+            },
+            Order::Color { material, srgb } => {
+                self.colors.insert(material, srgb);
+                Change::Scene
+            }
+            Order::Settings(settings) => {
+                let other_splines = settings.tension.to_bits() != self.view.settings.tension.to_bits();
+                self.view.settings = settings;
+                self.view.sides = Some(settings.sides);
+                // Yarns rest by their splines.
+                if other_splines && self.settles() { Change::Yarns } else { Change::Scene }
+            }
+            Order::Settle(settle) => {
+                self.view.settle = Some(settle);
+                Change::Yarns
+            }
+            Order::Save => {
+                match self.save() {
+                    Ok(saved) => self.tell(News::Event(saved)),
+                    Err(error) => self.fail(error),
+                }
+                Change::Nothing
+            }
+        }
+    }
+
+    fn settles(&self) -> bool {
+        self.view.settle.unwrap_or(self.design.settle)
+    }
+
+    fn up(&self, end: usize, pick: usize) -> bool {
+        self.design.structure.woven().is_some_and(|design| design.cloth().drawdown().up(end, pick))
+    }
+
+    fn lift(&mut self, end: usize, pick: usize, up: bool) -> bool {
+        let Structure::Woven(design) = &mut self.design.structure else { return false };
+        match design.set_lift(end, pick, up) {
+            Ok(()) => {
+                let crossing = texere::Crossing { end: end as u32 + 1, pick: pick as u32 + 1 };
+                self.tell(News::Event(Event::Lifted { crossing, up }));
+                true
+            }
+            Err(error) => {
+                self.fail(said(&error));
+                false
+            }
+        }
+    }
+
+    /// Writes the design as it is now beside the one that it was read from.
+    fn save(&self) -> Result<Event, String> {
+        let mut design = self.design.clone();
+        if let Structure::Woven(woven) = &mut design.structure {
+            for (&number, &srgb) in &self.colors {
+                woven.set_color(number, srgb).map_err(|error| said(&error))?;
+            }
+        }
+        let mut name = self.view.design.file_stem().unwrap_or_default().to_owned();
+        name.push("-edited.toml");
+        let path = self.view.design.with_file_name(name);
+        let output = Output::to(&path).sparing(design.files());
+        let left_out = texere::write_toml(&design, output).map_err(|error| said(&error))?;
+        Ok(Event::Saved { path, left_out })
+    }
+
+    /// Reads the design again where one of its files has changed. One that is broken changes nothing.
+    fn reload(&mut self) -> Change {
+        if !self.watch.changed() {
+            return Change::Nothing;
+        }
+        loop {
+            thread::sleep(WRITING);
+            if !self.watch.changed() {
+                break;
+            }
+        }
+        match self.view.read() {
+            Ok(design) => {
+                self.watch.follow(design.files().iter().cloned());
+                self.design = design;
+                self.colors.clear();
+                self.lifts.clear();
+                Change::Yarns
+            }
+            Err(error) => {
+                self.fail(said(&error));
+                Change::Nothing
+            }
+        }
+    }
+
+    /// Makes the yarns and shows them, and again when they have settled, if they do. Gives an order that came meanwhile.
+    fn weave(&mut self) -> Option<Order> {
+        match self.design.yarns() {
+            Ok(yarns) => self.yarns = Some((Arc::new(yarns), false)),
+            Err(error) => {
+                self.fail(said(&error));
+                return None;
+            }
+        }
+        self.show();
+        if !self.settles() {
+            return None;
+        }
+        let mut order = None;
+        match self.settled(&mut order) {
+            Ok(finished) => {
+                let rest = if finished.is_at_rest() { "at rest" } else { "not at rest" };
+                self.yarns = Some((Arc::new(finished.into_yarns()), true));
+                self.show();
+                self.tell(News::Settled(rest.into()));
+            }
+            // It was stopped, for there is something else to be done.
+            Err(_) if order.is_some() || self.watch.is_stale() => self.tell(News::Settled(String::new())),
+            Err(error) => self.tell(News::Settled(said(&error))),
+        }
+        order
+    }
+
+    /// Lets the yarns settle until an order comes, which is put into `order`, or a file changes.
+    fn settled(&mut self, order: &mut Option<Order>) -> Result<Finished, FinishError> {
+        let Self { orders, news, window, watch, view, design, .. } = self;
+        let device = texere::open(&view.device)?;
+        // Moved in, for a receiver can be sent to other threads but not shared with them.
+        let mut progress = move |share| {
+            let _ = news.send(News::Settling(share));
+            window.request_repaint();
+            if order.is_none() {
+                *order = orders.try_recv().ok();
+            }
+            if order.is_some() || watch.is_stale() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let tension = view.settings.tension;
+        let (mut structure, mut finish) = (design.structure.clone(), design.finish);
+        if let Some(stretch) = design.stretch {
+            finish = structure.stretch(&finish, stretch, tension, &*device, &mut progress)?;
+        }
+        structure.settle(&finish, tension, &*device, progress)
+    }
+
+    /// Sends the yarns as they are now to the device and the window.
+    fn show(&mut self) {
+        let Some((yarns, is_settled)) = &mut self.yarns else { return };
+        let mut materials = yarns.materials().to_vec();
+        for (&number, &srgb) in &self.colors {
+            if let Some(material) = materials.get_mut(number) {
+                material.srgb = srgb;
+            }
+        }
+        let mut settings = self.view.settings;
+        let lies_close = *is_settled && self.design.structure.woven().is_some();
+        settings.sides = self.view.sides.unwrap_or_else(|| texere::picture_sides(yarns, lies_close));
+        let scene = match Arc::make_mut(yarns).set_materials(materials) {
+            Ok(()) => scene(&self.renderer, yarns, &settings).map_err(|error| said(&error)),
+            Err(error) => Err(said(&error)),
+        };
+        let (yarns, is_settled) = (yarns.clone(), *is_settled);
+        match scene {
+            Ok(scene) => {
+                self.tell(News::Cloth(Box::new(Cloth {
+                    design: Arc::new(self.design.clone()),
+                    yarns,
+                    settings,
+                    scene,
+                    is_settled,
+                    is_edited: !self.lifts.is_empty(),
+                })));
+            }
+            Err(error) => self.fail(error),
+        }
+    }
+}
+
+/// A scene that is ready to be drawn: what only its first picture takes is done, so that the window need not wait for it.
+fn scene(renderer: &Renderer, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
+    let mut scene = renderer.scene(yarns, settings)?;
+    let camera = Camera::face(scene.extent(), [8, 8]);
+    scene.frame(&camera, Quality { supersampling: 1 })?;
+    Ok(scene)
+}

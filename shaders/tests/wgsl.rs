@@ -41,9 +41,12 @@ fn parse_with(source: &str, capabilities: Capabilities) -> (Module, ModuleInfo) 
 
 #[test]
 fn picture_shaders_have_their_entry_points() {
-    for (source, entries) in
-        [(picture::KEPT, &[][..]), (picture::VISIBILITY, &["visibility"]), (picture::SHADE, &["shade"])]
-    {
+    for (source, entries) in [
+        (picture::KEPT, &[][..]),
+        (picture::VISIBILITY, &["visibility"]),
+        (picture::SHADE, &["shade"]),
+        (picture::GATHER, &["gather"]),
+    ] {
         let (module, _) = parse_source(source);
         let names: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
         assert_eq!(names, entries);

@@ -1,4 +1,4 @@
-//! The pipelines: yarns, visibility, light.
+//! The pipelines: yarns, visibility, light, pixels.
 
 use std::sync::Arc;
 
@@ -31,6 +31,7 @@ pub struct Renderer {
     pub(crate) rasteriser: Arc<Rasteriser>,
     pub(crate) visibility: wgpu::ComputePipeline,
     pub(crate) shade: wgpu::ComputePipeline,
+    pub(crate) gather: wgpu::ComputePipeline,
 }
 
 impl Renderer {
@@ -43,14 +44,15 @@ impl Renderer {
     }
 
     pub(crate) fn with_rasteriser(device: WgpuBackend, rasteriser: Rasteriser) -> Result<Self, BackendError> {
-        let [visibility, shade] = device.scoped("Device::create_compute_pipeline", || {
+        let [visibility, shade, gather] = device.scoped("Device::create_compute_pipeline", || {
             let device = device.device();
             [
                 pipeline(device, &module(device, picture::VISIBILITY), "visibility"),
                 pipeline(device, &module(device, picture::SHADE), "shade"),
+                pipeline(device, &module(device, picture::GATHER), "gather"),
             ]
         })?;
-        Ok(Self { device, rasteriser: Arc::new(rasteriser), visibility, shade })
+        Ok(Self { device, rasteriser: Arc::new(rasteriser), visibility, shade, gather })
     }
 
     /// The device.

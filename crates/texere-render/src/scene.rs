@@ -301,18 +301,16 @@ impl Scene {
         }
     }
 
-    /// Visibility, then light.
+    /// Visibility, then light, then pixels from their samples.
     pub(crate) fn shade(&self) -> Result<(), RenderError> {
         let (renderer, Some(screen)) = (&self.renderer, &self.screen) else { return Ok(()) };
         let texture = BindingResource::TextureView;
         let (view, visibility) = (self.view.as_entire_binding(), texture(&screen.visibility));
         let kept =
             [(0, view), (1, texture(&screen.depths)), (2, texture(&screen.directions)), (4, visibility)];
-        let lit = [
-            (3, texture(&screen.places)),
-            (5, self.looks.as_entire_binding()),
-            (6, texture(&screen.picture)),
-        ];
+        let lit =
+            [(3, texture(&screen.places)), (5, self.looks.as_entire_binding()), (6, texture(&screen.lit))];
+        let gathered = [kept[0].clone(), (1, texture(&screen.lit)), (2, texture(&screen.picture))];
         let device = &renderer.device;
         let submission = device.scoped("Queue::submit", || {
             let mut encoder = device.device().create_command_encoder(&Default::default());
@@ -325,7 +323,8 @@ impl Scene {
                     pass.dispatch_workgroups(columns, rows, 1);
                 };
                 fill(&renderer.visibility, &kept, screen.large());
-                fill(&renderer.shade, &[&kept[..], &lit].concat(), screen.size());
+                fill(&renderer.shade, &[&kept[..], &lit].concat(), screen.large());
+                fill(&renderer.gather, &gathered, screen.size());
             }
             device.queue().submit([encoder.finish()])
         })?;

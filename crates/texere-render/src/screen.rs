@@ -13,7 +13,7 @@ pub(crate) const SCREEN_GROUP: u32 = 8;
 /// Bytes of a pixel of a picture.
 const COLOR_BYTES: u32 = 4;
 
-/// The textures for one size of picture: 84 bytes a pixel, times the square of the supersampling, and 8 bytes.
+/// The textures for one size of picture: 100 bytes a pixel, times the square of the supersampling, and 8 bytes.
 #[derive(Debug)]
 pub(crate) struct Screen {
     size: [u32; 2],
@@ -23,6 +23,8 @@ pub(crate) struct Screen {
     pub(crate) directions: wgpu::TextureView,
     pub(crate) places: wgpu::TextureView,
     pub(crate) visibility: wgpu::TextureView,
+    /// The four samples of a pixel in one number each.
+    pub(crate) lit: wgpu::TextureView,
     pub(crate) picture: wgpu::TextureView,
     host: wgpu::Buffer,
 }
@@ -55,13 +57,14 @@ impl Screen {
                 texture("directions", large, SAMPLES, TextureFormat::Rg32Uint, read),
                 texture("places", large, SAMPLES, TextureFormat::Rg32Uint, copied),
                 texture("visibility", large, 1, TextureFormat::Rgba8Unorm, read),
+                texture("lit samples", large, 1, TextureFormat::Rgba32Uint, read),
                 texture("picture", size, 1, TextureFormat::Rgba8Unorm, copied),
             ]
         })?;
-        let [depths, directions, places, visibility, picture] = textures;
+        let [depths, directions, places, visibility, lit, picture] = textures;
         let bytes = u64::from(row_bytes(size)) * u64::from(size[1]);
         let host = device.buffer("picture", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
-        Ok(Self { size, supersampling, depths, directions, places, visibility, picture, host })
+        Ok(Self { size, supersampling, depths, directions, places, visibility, lit, picture, host })
     }
 
     /// Whether pictures of this size can be drawn into it.

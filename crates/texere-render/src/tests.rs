@@ -4,6 +4,7 @@
 
 mod mesh_path;
 mod scenes;
+mod spectrum;
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};

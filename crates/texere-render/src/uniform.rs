@@ -36,7 +36,7 @@ pub(crate) struct ViewUniform {
     sees_inside: u32,
     background_kind: u32,
     background: [f32; 3],
-    padding: u32,
+    spread: f32,
 }
 
 const _: () = assert!(size_of::<ViewUniform>() == 240);
@@ -70,9 +70,15 @@ impl ViewUniform {
             sees_inside: u32::from(camera.sees_inside()),
             background_kind,
             background,
-            padding: 0,
+            spread: spread(2.0 * radius * camera.size()[1] as f32 / camera.height_at_target()),
         }
     }
+}
+
+/// How far pixels reach for their samples where threads are so thick, pixels: the threads' own pattern is finer than a pixel can show below two,
+/// and what it has that is as fine goes from there to four.
+fn spread(thickness: f32) -> f32 {
+    (2.0 - 0.5 * thickness).clamp(0.0, 1.0)
 }
 
 /// The direction to the key light: from the left, high, a little from beyond the cloth, so that threads across and along

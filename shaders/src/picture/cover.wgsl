@@ -4,10 +4,6 @@
 // are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
 // top or left edge that is.
 
-// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in 1/256 pixels.
-const SAMPLE_X = array(96, 224, 32, 160);
-const SAMPLE_ROW = 64;
-const FIRST_SAMPLE_Y = 32;
 const SUBPIXELS = 256.0;
 
 // Corners at most this far from the screen's middle, pixels: edges are exact up to there.
@@ -49,11 +45,6 @@ fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
 struct Span {
     first: vec2<i32>,
     last: vec2<i32>,
-}
-
-// A sample of pixel `x` in row `row`, in 1/256 pixels from the middle.
-fn sample_place(x: i32, row: i32) -> vec2<i32> {
-    return vec2(x * 256 + SAMPLE_X[row & 3], row * SAMPLE_ROW + FIRST_SAMPLE_Y) - middle();
 }
 
 fn span_of(low: vec2<i32>, high: vec2<i32>) -> Span {

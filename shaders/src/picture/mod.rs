@@ -13,7 +13,9 @@
 //! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
 //! | `screen.wgsl` | | reads back what is kept: stands before the two that follow |
 //! | `visibility.wgsl` | `visibility` | ambient occlusion and shadow, on the screen |
-//! | `shade.wgsl` | `shade` | light, tone mapping, the picture's own pixels |
+//! | `shade.wgsl` | `shade` | light and tone mapping, sample by sample |
+//! | `lit.wgsl` | | what is kept of a sample that is lit |
+//! | `gather.wgsl` | `gather` | the picture's own pixels, from the samples in and about each |
 
 /// What stands before any shader that writes samples: the view, and what is kept of them.
 pub const KEPT: &str = concat!(include_str!("view.wgsl"), include_str!("kept.wgsl"));
@@ -58,5 +60,13 @@ pub const VISIBILITY: &str =
     concat!(include_str!("view.wgsl"), include_str!("screen.wgsl"), include_str!("visibility.wgsl"));
 
 /// `shade`.
-pub const SHADE: &str =
-    concat!(include_str!("view.wgsl"), include_str!("screen.wgsl"), include_str!("shade.wgsl"));
+pub const SHADE: &str = concat!(
+    include_str!("view.wgsl"),
+    include_str!("screen.wgsl"),
+    include_str!("lit.wgsl"),
+    include_str!("shade.wgsl")
+);
+
+/// `gather`.
+pub const GATHER: &str =
+    concat!(include_str!("view.wgsl"), include_str!("lit.wgsl"), include_str!("gather.wgsl"));

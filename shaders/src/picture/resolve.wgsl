@@ -126,9 +126,10 @@ fn resolve(@builtin(global_invocation_id) place: vec3<u32>) {
     }
     let depth = select(bitcast<f32>(~key.y), 1.0, key.y == 0u);
     if depth < nearest {
-        // In the pixel's middle, as rasterisers do: so samples of one triangle in a pixel are alike.
-        let place_of_pixel = vec2<i32>(pixel) * 256 + 128 - middle();
-        let kept = kept_of_triangle(~key.x, place_of_pixel);
+        // In the pixel's middle, as rasterisers do: so samples of one triangle in a pixel are alike. Where triangles are finer than pixels each has its
+        // own place, for the middle lies far outside, and the pattern of middles would beat with them.
+        let own = sample_place(i32(pixel.x), i32(4u * pixel.y + place.z));
+        let kept = kept_of_triangle(~key.x, select(vec2<i32>(pixel) * 256 + 128 - middle(), own, view.spread > 0.0));
         textureStore(directions, pixel, place.z, vec4(kept.xy, 0u, 0u));
         textureStore(places, pixel, place.z, vec4(kept.zw, 0u, 0u));
     }

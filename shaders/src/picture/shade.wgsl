@@ -1,4 +1,4 @@
-// Lights the visible pixels, maps tones, and averages to the picture's own pixels. After view.wgsl and screen.wgsl.
+// Lights what is seen, sample by sample, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl.
 
 // Rust: texere_render's YarnLook, 32 bytes.
 struct YarnLook {
@@ -17,11 +17,9 @@ struct YarnLook {
 
 @group(1) @binding(4) var visibilities: texture_2d<f32>;
 @group(1) @binding(5) var<storage, read> looks: array<YarnLook>;
-// Red, green, blue and alpha, sRGB.
-@group(1) @binding(6) var picture: texture_storage_2d<rgba8unorm, write>;
+@group(1) @binding(6) var lit_samples: texture_storage_2d<rgba32uint, write>;
 
 const PI = 3.14159265;
-const SAMPLES = 4;
 
 // The key light, the fill light, and light from all round: from above and from the ground.
 const KEY = vec3(1.78, 1.72, 1.64);
@@ -191,45 +189,20 @@ fn yarn_at(pixel: vec2<i32>, sample: i32) -> u32 {
     return select(textureLoad(places, pixel, sample, 0).x, NO_YARN, depth_at(pixel, sample) >= 1.0);
 }
 
-// The mean of a pixel's four samples; one is enough where all are of one yarn.
-fn pixel_color(pixel: vec2<i32>) -> vec4<f32> {
-    let first = yarn_at(pixel, 0);
-    var alike = true;
-    for (var sample = 1; sample < SAMPLES; sample++) {
-        alike &= yarn_at(pixel, sample) == first;
-    }
-    var sum = sample_color(pixel, 0);
-    if alike {
-        return sum;
-    }
-    for (var sample = 1; sample < SAMPLES; sample++) {
-        sum += sample_color(pixel, sample);
-    }
-    return sum / f32(SAMPLES);
-}
-
-fn srgb(light: vec3<f32>) -> vec3<f32> {
-    let curved = 1.055 * pow(max(light, vec3(1e-9)), vec3(1.0 / 2.4)) - 0.055;
-    return select(curved, light * 12.92, light <= vec3(0.0031308));
-}
-
-// A lane a pixel of the picture: the mean of its part of the screen.
+// A lane a pixel of the screen: its four samples, or one for all where they are of one yarn that is wider than pixels.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn shade(@builtin(global_invocation_id) place: vec3<u32>) {
-    let factor = i32(view.supersampling);
-    let size = vec2<u32>(view.size) / view.supersampling;
-    if any(place.xy >= size) {
+    let pixel = vec2<i32>(place.xy);
+    if any(pixel >= vec2<i32>(view.size)) {
         return;
     }
-    let corner = vec2<i32>(place.xy) * factor;
-    var sum = vec4(0.0);
-    for (var y = 0; y < factor; y++) {
-        for (var x = 0; x < factor; x++) {
-            sum += pixel_color(corner + vec2(x, y));
+    let first = yarn_at(pixel, 0);
+    let alike = view.spread == 0.0 && yarn_at(pixel, 1) == first && yarn_at(pixel, 2) == first && yarn_at(pixel, 3) == first;
+    var packed = vec4(lit_of(sample_color(pixel, 0)));
+    if !alike {
+        for (var sample = 1; sample < SAMPLES; sample++) {
+            packed[sample] = lit_of(sample_color(pixel, sample));
         }
     }
-    // A sample without alpha has no colour either, so it takes no part in the pixel's.
-    let alpha = sum.a / f32(factor * factor);
-    let color = clamp(sum.rgb / max(sum.a, 1e-3), vec3(0.0), vec3(1.0));
-    textureStore(picture, place.xy, vec4(srgb(color), alpha));
+    textureStore(lit_samples, place.xy, packed);
 }

@@ -31,6 +31,8 @@ struct View {
     // What is seen where no yarn is: a kind, and its colour in linear light.
     background_kind: u32,
     background: vec3<f32>,
+    // How far pixels of the picture reach for their samples: 0 for those in them alone, 1 for those of a pixel about them, too.
+    spread: f32,
 }
 
 // Kinds of background. Rust: texere_render's Background.

@@ -1,0 +1,64 @@
+// The picture's pixels, from the samples that lie in and about each. After view.wgsl and lit.wgsl.
+//
+// A pixel that is the mean of what lies in it lets through what is finer than pixels: threads of two thirds of a pixel come out as waves
+// of two pixels, a fifth as strong as the threads. More samples don't change that, for it is the mean itself. So where threads are
+// finer than pixels each is a mean that falls off over three pixels, the quadratic B-spline (Unser 1999, "Splines: a perfect fit
+// for signal and image processing"), and a tenth as much is left of such waves.
+
+@group(1) @binding(1) var lit_samples: texture_2d<u32>;
+// Red, green, blue and alpha, sRGB.
+@group(1) @binding(2) var picture: texture_storage_2d<rgba8unorm, write>;
+
+// Where a pixel of the screen has its samples: those of SAMPLE_X and the rows in cover.wgsl, in pixels.
+const RIGHT = vec4(0.375, 0.875, 0.125, 0.625);
+const DOWN = vec4(0.125, 0.375, 0.625, 0.875);
+
+// The mean within half a pixel.
+fn near(off: vec4<f32>) -> vec4<f32> {
+    return select(vec4(0.0), vec4(1.0), abs(off) < vec4(0.5));
+}
+
+// The quadratic B-spline.
+fn wide(off: vec4<f32>) -> vec4<f32> {
+    let away = abs(off);
+    let rest = max(1.5 - away, vec4(0.0));
+    return select(0.5 * rest * rest, 0.75 - away * away, away < vec4(0.5));
+}
+
+fn srgb(light: vec3<f32>) -> vec3<f32> {
+    let curved = 1.055 * pow(max(light, vec3(1e-9)), vec3(1.0 / 2.4)) - 0.055;
+    return select(curved, light * 12.92, light <= vec3(0.0031308));
+}
+
+// A lane a pixel of the picture.
+@compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
+fn gather(@builtin(global_invocation_id) place: vec3<u32>) {
+    let factor = i32(view.supersampling);
+    let last = vec2<i32>(view.size) - 1;
+    let corner = vec2<i32>(place.xy) * factor;
+    if any(corner > last) {
+        return;
+    }
+    // A pixel more each way where there is any of the wide mean.
+    let margin = select(0, factor, view.spread > 0.0);
+    let low = max(corner - margin, vec2(0));
+    let high = min(corner + factor + margin - 1, last);
+    var sum = vec4(0.0);
+    var weights = 0.0;
+    for (var y = low.y; y <= high.y; y++) {
+        let down = (f32(y - corner.y) + DOWN) / f32(factor) - 0.5;
+        for (var x = low.x; x <= high.x; x++) {
+            let right = (f32(x - corner.x) + RIGHT) / f32(factor) - 0.5;
+            let weight = mix(near(right) * near(down), wide(right) * wide(down), view.spread);
+            let lit = textureLoad(lit_samples, vec2(x, y), 0);
+            for (var sample = 0; sample < SAMPLES; sample++) {
+                // A sample without alpha has no colour either, so it takes no part in the pixel's.
+                let color = color_of(lit[sample]);
+                sum += weight[sample] * color.a * vec4(color.rgb, 1.0);
+            }
+            weights += dot(weight, vec4(1.0));
+        }
+    }
+    let color = clamp(sum.rgb / max(sum.a, 1e-6), vec3(0.0), vec3(1.0));
+    textureStore(picture, place.xy, vec4(srgb(color), sum.a / weights));
+}

@@ -327,7 +327,7 @@ fn reading_comes_after_an_update() {
     assert!(matches!(read(&mut live, 0), Err(SessionError::OutOfOrder { needed: "update", .. })));
     live.update().unwrap();
     assert!(read(&mut live, 0).is_ok());
-    assert!(matches!(read(&mut live, 1), Err(SessionError::NotInFlight { chunk: 1 })));
+    assert!(matches!(read(&mut live, 1), Err(SessionError::NoChunk { chunk: 1, chunks: 1 })));
     assert!(live.update().unwrap().is_empty(), "nothing has changed");
 }
 

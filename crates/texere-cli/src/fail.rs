@@ -125,7 +125,7 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
     let backend = error.downcast_ref().map(|error| match error {
         // Where there are others, the name is wrong; where there are none, the machine lacks them.
         BackendError::NoDevice { found, .. } if !found.is_empty() => USAGE,
-        BackendError::NoInstructionSet { .. } => USAGE,
+        BackendError::NoInstructionSet { .. } | BackendError::NoFeature { .. } => USAGE,
         _ => WORLD,
     });
     let write = error.downcast_ref().map(|error| match error {

@@ -360,6 +360,14 @@ pub enum BackendError {
         /// Names that would have worked.
         found: Vec<String>,
     },
+    /// The name is that of a device which this build of texere can't open.
+    #[error("no device \"{wanted}\" in this build; texere opens it with its feature \"{feature}\"")]
+    NoFeature {
+        /// The name asked for.
+        wanted: String,
+        /// The feature of the crate `texere`.
+        feature: &'static str,
+    },
     /// An environment variable names vector instructions that the processor does not have, or that texere does not know.
     #[error("{variable} is \"{wanted}\"; this processor has: {}", .found.join(", "))]
     NoInstructionSet {
@@ -486,6 +494,14 @@ pub enum SessionError {
     NotInFlight {
         /// The chunk's index.
         chunk: u64,
+    },
+    /// A chunk that there is not.
+    #[error("chunk {chunk}, but there are {chunks}, counted from 0")]
+    NoChunk {
+        /// The chunk.
+        chunk: usize,
+        /// How many there are.
+        chunks: usize,
     },
     /// An output slice that is not exactly as long as planned.
     #[error("{what} has room for {given}, but the chunk has {planned}")]

@@ -263,7 +263,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     /// Waits for the mesh of chunk number `chunk` of [`LiveMesh::chunks`] and lends it piece by piece, as [`Session::read_mesh`](crate::Session::read_mesh)
     /// does. What there is only room for is lent, too, and means nothing: [`Chunk::parts`] say where yarns lie.
     ///
-    /// **Errors**: [`SessionError::OutOfOrder`] before an update that is needed, [`SessionError::NotInFlight`] past the last chunk, and what the
+    /// **Errors**: [`SessionError::OutOfOrder`] before an update that is needed, [`SessionError::NoChunk`] past the last one, and what the
     /// device says.
     pub fn read_mesh(&mut self, chunk: usize, sink: MeshSink<'_>) -> Result<ControlFlow<()>, SessionError> {
         if !self.is_made("read_mesh", chunk)? {
@@ -281,7 +281,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
 
     /// Whether `call` has anything to read of a chunk, in which there may be only room.
     fn is_made(&self, call: &'static str, chunk: usize) -> Result<bool, SessionError> {
-        let here = self.chunks.get(chunk).ok_or(SessionError::NotInFlight { chunk: chunk as u64 })?;
+        let here =
+            self.chunks.get(chunk).ok_or(SessionError::NoChunk { chunk, chunks: self.chunks.len() })?;
         if !self.stale.is_empty() {
             return Err(SessionError::OutOfOrder { call, needed: "update" });
         }

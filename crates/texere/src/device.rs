@@ -27,6 +27,9 @@ const FAMILIES: &[Family] = &[
     },
 ];
 
+/// Families that a build may lack, and the features that bring them.
+const FEATURES: [&str; 2] = ["wgpu", "opencl"];
+
 /// The schedule that a name may end in: the paper's mapping, kept as the yardstick.
 const PER_YARN: &str = "/per-yarn";
 
@@ -99,7 +102,7 @@ pub fn devices() -> Devices {
 /// # Ok::<(), texere::BackendError>(())
 /// ```
 ///
-/// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked;
+/// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked; [`BackendError::NoFeature`] for a family that this build lacks;
 /// [`BackendError::NoInstructionSet`] of `cpu`; and what the device says when it is opened.
 pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     match name {
@@ -140,7 +143,11 @@ fn open_in_family(name: &str) -> Result<Box<dyn Backend>, BackendError> {
         name.strip_suffix(PER_YARN).map_or((name, Schedule::PerRing), |device| (device, Schedule::PerYarn));
     let (family, which) = device.split_once(':').unwrap_or((device, "0"));
     let Some(family) = FAMILIES.iter().find(|known| known.name == family) else {
-        return Err(no_device(name));
+        let lacking = FEATURES.into_iter().find(|feature| *feature == family);
+        return Err(lacking.map_or_else(
+            || no_device(name),
+            |feature| BackendError::NoFeature { wanted: name.into(), feature },
+        ));
     };
     match find(&(family.list)()?, which) {
         Some(index) => (family.open)(index, schedule),
@@ -227,7 +234,18 @@ mod tests {
     fn names_that_say_too_much_or_too_little_are_refused() {
         for name in ["", "auto:", "auto:7", "cpu:0", "wgpu:", "opencl:", "wgpu:/per-yarn", "vulkan:0"] {
             let Err(error) = open(name) else { panic!("{name} opened") };
-            assert!(matches!(error, BackendError::NoDevice { .. }), "{name}: {error}");
+            let refused = matches!(error, BackendError::NoDevice { .. } | BackendError::NoFeature { .. });
+            assert!(refused, "{name}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_family_that_this_build_lacks_is_said_to_need_its_feature() {
+        for (name, is_there) in
+            [("wgpu:0", cfg!(feature = "wgpu")), ("opencl:0/per-yarn", cfg!(feature = "opencl"))]
+        {
+            let lacks = matches!(open(name), Err(BackendError::NoFeature { .. }));
+            assert_eq!(lacks, !is_there, "{name}");
         }
     }
 

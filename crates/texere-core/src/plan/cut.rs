@@ -181,9 +181,19 @@ impl<'a> Chunks<'a> {
     /// `size` with one block more: as it is when others follow, and as it is when the chunk ends there, where a ring
     /// may have to be repeated. `window` is where the chunk's control points start.
     fn extended(&self, size: &Size, window: Option<u64>, yarn: usize, block: u64) -> (Size, Size) {
+        self.with_rings(size, window, yarn, self.plan.block_rings(yarn, block))
+    }
+
+    /// The same with rings of a yarn that are one block: the first, how many, and whether others follow.
+    fn with_rings(
+        &self,
+        size: &Size,
+        window: Option<u64>,
+        yarn: usize,
+        (first, rings, goes_on): (u32, u32, bool),
+    ) -> (Size, Size) {
         let (sides, indexed) =
             (u64::from(self.plan.settings().sides), self.plan.settings().topology == Topology::Indexed);
-        let (first, rings, goes_on) = self.plan.block_rings(yarn, block);
         let caps = self.cap_count(yarn, first, goes_on);
         let quads = u64::from(if goes_on { rings } else { rings - 1 });
         let points = self.points_read(yarn, first, rings + u32::from(goes_on));
@@ -206,11 +216,33 @@ impl<'a> Chunks<'a> {
         (inner, ended)
     }
 
+    /// `size` with the whole yarn that begins at `at`, and the block after it. None where the run ends before that, or the yarn has room: then what
+    /// its blocks take is not what they take together.
+    fn with_yarn(&self, size: &Size, window: u64, at: Cursor) -> Option<(Size, Cursor)> {
+        let blocks = &self.plan.block_offsets()[at.yarn..at.yarn + 2];
+        let is_whole = at.block == blocks[0] && blocks[1] < self.plan.runs()[at.run].end;
+        if !is_whole || self.plan.is_roomy() {
+            return None;
+        }
+        let (with, _) = self.with_rings(size, Some(window), at.yarn, (0, self.plan.rings(at.yarn), false));
+        let size = Size { blocks: size.blocks + blocks[1] - blocks[0], ..with };
+        Some((size, Cursor { block: blocks[1], yarn: at.yarn + 1, ..at }))
+    }
+
     /// The end of the next chunk: the block that the one after it begins with, and the end of its window.
     fn cut(&self, window: u64) -> (Cursor, u64) {
         let (mut size, mut at) = (Size::default(), self.next);
         let mut cut = (at, window);
         while at.run < self.plan.runs().len() {
+            // Most yarns fit as a whole, and need not be looked at block by block.
+            let with_yarn = self.with_yarn(&size, window, at);
+            if let Some((with, after)) =
+                with_yarn.filter(|(with, _)| with.excess(self.plan.resident_bytes(), &self.limits).is_none())
+            {
+                (size, at) = (with, after);
+                cut = (at, window + size.window);
+                continue;
+            }
             let (inner, ended) = self.extended(&size, Some(window), at.yarn, at.block);
             let (next, ends_run) = self.after(at);
             size = if ends_run { ended } else { inner };
@@ -311,5 +343,48 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Chunks end as far on as their limits allow, whether yarns are taken as a whole or block by block.
+    #[test]
+    fn a_chunk_ends_at_the_last_block_that_fits() {
+        let mut yarns = Yarns::builder();
+        for count in [3, 64, 20, 66, 130, 500, 2, 2, 33] {
+            let points: Vec<_> = (0..count).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
+            yarns.yarn(Yarn { closed: count == 66, ..Yarn::default() }, &points);
+        }
+        let yarns = yarns.build().unwrap();
+        let mut several = 0;
+        for caps in [false, true] {
+            let settings = Settings { caps, sides: 5, subdivisions: 2, ..Settings::default() };
+            let plan = Plan::new(yarns.layout().clone(), settings).unwrap();
+            let none = Limits::NONE;
+            let limits = (2..40).map(|blocks| Limits { blocks, ..none });
+            let limits = limits.chain((1..60).map(|share| Limits { binding_bytes: 12_000 * share, ..none }));
+            let limits = limits.chain((6..60).map(|share| Limits { memory_bytes: 40_000 * share, ..none }));
+            for limits in limits {
+                let Ok(mut chunks) = plan.chunks(&limits) else { continue };
+                while chunks.next.run < plan.runs().len() {
+                    let before = chunks.clone();
+                    let Some(chunk) = chunks.next() else { break };
+                    let (mut size, mut at, mut end) = (Size::default(), before.next, before.next.block);
+                    while at.run < plan.runs().len() {
+                        let (inner, ended) =
+                            before.extended(&size, Some(chunk.window.start), at.yarn, at.block);
+                        let fits = |size: &Size| size.excess(plan.resident_bytes(), &limits).is_none();
+                        if !fits(&inner) {
+                            break;
+                        }
+                        if fits(&ended) {
+                            end = at.block + 1;
+                        }
+                        (size, (at, _)) = (inner, before.after(at));
+                    }
+                    assert_eq!(chunk.block_range().end, end, "{limits:?} {caps}");
+                    several += u32::from(chunk.index() > 1);
+                }
+            }
+        }
+        assert!(several > 300, "{several}");
     }
 }

@@ -24,6 +24,7 @@ pub mod crossings;
 mod engine;
 mod error;
 mod frame;
+mod half;
 mod live;
 mod material;
 mod mesh;

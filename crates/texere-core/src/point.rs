@@ -3,7 +3,8 @@
 use std::fmt;
 
 use bytemuck::{Pod, Zeroable};
-use half::f16;
+
+use crate::half;
 
 /// A point that a yarn's centreline passes through, with the yarn's half width and half height there.
 ///
@@ -123,28 +124,28 @@ impl Halves {
     #[must_use]
     #[inline]
     pub fn new(width: f32, height: f32) -> Self {
-        Self([width, height].map(|half| f16::from_f32(half).to_bits()))
+        Self([half::from_f32(width), half::from_f32(height)])
     }
 
     /// Half the width, mm.
     #[must_use]
     #[inline]
     pub fn width(self) -> f32 {
-        f16::from_bits(self.0[0]).to_f32()
+        half::to_f32(self.0[0])
     }
 
     /// Half the height, mm.
     #[must_use]
     #[inline]
     pub fn height(self) -> f32 {
-        f16::from_bits(self.0[1]).to_f32()
+        half::to_f32(self.0[1])
     }
 
     /// Whether both lie between [`RADIUS_MIN`] and [`RADIUS_MAX`]. Half floats above zero are ordered as their bits are; those
     /// below it, infinity and NaN come after all of them.
     pub(crate) const fn within_limits(self) -> bool {
-        const LEAST: u16 = f16::from_f32_const(RADIUS_MIN).to_bits();
-        const MOST: u16 = f16::from_f32_const(RADIUS_MAX).to_bits();
+        const LEAST: u16 = half::from_f32(RADIUS_MIN);
+        const MOST: u16 = half::from_f32(RADIUS_MAX);
         let [width, height] = self.0;
         (width >= LEAST) & (width <= MOST) & (height >= LEAST) & (height <= MOST)
     }
@@ -164,9 +165,9 @@ mod tests {
     #[test]
     fn limits_of_sizes_are_limits_of_their_bits() {
         for bits in 0..=u16::MAX {
-            let size = f16::from_bits(bits).to_f32();
+            let size = half::to_f32(bits);
             let within = (RADIUS_MIN..=RADIUS_MAX).contains(&size);
-            let fine = f16::ONE.to_bits();
+            let fine = half::from_f32(1.0);
             assert_eq!(Halves([bits, fine]).within_limits(), within, "{size}");
             assert_eq!(Halves([fine, bits]).within_limits(), within, "{size}");
         }

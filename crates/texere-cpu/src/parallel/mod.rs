@@ -148,18 +148,16 @@ impl<'a> Maker<'a> {
     fn rings<S: Simd, const FLATTENED: bool>(&self, simd: S, blocks: &[Block], sink: &mut impl Sink) {
         let (Work { plan, rolls, .. }, stretch) = (self.work, Stretch::of(blocks));
         let mut walk = Walk::<S, FLATTENED>::new(simd, self.source(), stretch);
-        let level = plan.settings().frame.is_level(plan.twist_turns(stretch.yarn));
-        if level {
-            while let count @ 1.. = walk.left() {
-                sink.take::<S, FLATTENED, false>(simd, &walk.next(), simd.splat_integer(0), count);
-            }
-            return;
-        }
+        let rolled = !plan.settings().frame.is_level(plan.twist_turns(stretch.yarn));
         let number = block_number(plan, &blocks[0]);
         while let count @ 1.. = walk.left() {
-            let block = number + u64::from(walk.done / BLOCK_RINGS);
-            let roll = turns::rolls(simd, plan, rolls, stretch.yarn, stretch.first + walk.done, block);
-            sink.take::<S, FLATTENED, true>(simd, &walk.next().turned(simd, roll), roll, count);
+            let (done, mut rings, mut roll) = (walk.done, walk.next(), simd.splat_integer(0));
+            if rolled {
+                let block = number + u64::from(done / BLOCK_RINGS);
+                roll = turns::rolls(simd, plan, rolls, stretch.yarn, stretch.first + done, block);
+                rings = rings.turned(simd, roll);
+            }
+            sink.take::<S, FLATTENED>(simd, &rings, roll, rolled, count);
         }
     }
 }
@@ -182,13 +180,14 @@ impl<P: Piece> Job for Flattened<P> {
 
 /// What becomes of rings.
 trait Sink {
-    /// Takes the first `count` rings of a vector, whose rolls are all zero without `ROLLED`. It must be inlined, so that it is
+    /// Takes the first `count` rings of a vector, whose rolls are all zero unless they are `rolled`. It must be inlined, so that it is
     /// compiled for the instructions of its path.
-    fn take<S: Simd, const FLATTENED: bool, const ROLLED: bool>(
+    fn take<S: Simd, const FLATTENED: bool>(
         &mut self,
         simd: S,
         rings: &Rings<S, FLATTENED>,
         roll: S::Integers,
+        rolled: bool,
         count: usize,
     );
 }
@@ -231,11 +230,12 @@ struct RingSink<'a> {
 
 impl Sink for RingSink<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn take<S: Simd, const FLATTENED: bool, const ROLLED: bool>(
+    fn take<S: Simd, const FLATTENED: bool>(
         &mut self,
         simd: S,
         rings: &Rings<S, FLATTENED>,
         roll: S::Integers,
+        _rolled: bool,
         count: usize,
     ) {
         let mut out = [Ring::default(); LANES_MAX];
@@ -323,21 +323,22 @@ struct MeshSink<'a> {
 
 impl Sink for MeshSink<'_> {
     #[cfg_attr(optimized, inline(always))]
-    fn take<S: Simd, const FLATTENED: bool, const ROLLED: bool>(
+    fn take<S: Simd, const FLATTENED: bool>(
         &mut self,
         simd: S,
         rings: &Rings<S, FLATTENED>,
         _roll: S::Integers,
+        rolled: bool,
         count: usize,
     ) {
         match &mut self.vertices {
             Way::Tiles(tiles) => {
-                self.surface.write::<S, FLATTENED, ROLLED, true>(simd, rings, tiles.next(simd));
+                self.surface.write::<S, FLATTENED, true>(simd, rings, rolled, tiles.next(simd));
                 tiles.send(simd, count);
             }
             Way::Scratch(lines) => {
                 lines.send_waiting(simd);
-                self.surface.write::<S, FLATTENED, ROLLED, false>(simd, rings, lines.next());
+                self.surface.write::<S, FLATTENED, false>(simd, rings, rolled, lines.next());
                 lines.send(simd, count * self.floats);
             }
         }

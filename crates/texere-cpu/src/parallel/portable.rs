@@ -84,6 +84,7 @@ impl Simd for Portable {
     type Integers = U32x4;
     type Mask = Mask4;
 
+    #[inline(never)]
     fn run(self, job: impl Job) {
         job.run(self);
     }

@@ -36,14 +36,15 @@ impl<'a> Surface<'a> {
     /// Writes the vertices of `rings` to `out`: ring after ring or, of an even number of sides, as the `COLUMNS` that
     /// [`TileLines`](super::tiles::TileLines) wants.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn write<S: Simd, const FLATTENED: bool, const ROLLED: bool, const COLUMNS: bool>(
+    pub(super) fn write<S: Simd, const FLATTENED: bool, const COLUMNS: bool>(
         &self,
         simd: S,
         rings: &Rings<S, FLATTENED>,
+        rolled: bool,
         out: &mut [f32],
     ) {
         if FLATTENED {
-            self.write_flattened::<S, FLATTENED, ROLLED, COLUMNS>(simd, rings, out);
+            self.write_flattened::<S, FLATTENED, COLUMNS>(simd, rings, rolled, out);
         } else if rings.width_growth.is_zero().bits() != S::ALL {
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, SLOPED>(rings), self.outline, out);
         } else if !self.round {
@@ -57,25 +58,38 @@ impl<'a> Surface<'a> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn write_flattened<S: Simd, const FLATTENED: bool, const ROLLED: bool, const COLUMNS: bool>(
+    fn write_flattened<S: Simd, const FLATTENED: bool, const COLUMNS: bool>(
         &self,
         simd: S,
         rings: &Rings<S, FLATTENED>,
+        rolled: bool,
         out: &mut [f32],
     ) {
         if rings.round().bits() != 0 {
             let flat = Flat::<S, FLATTENED, true, true>::new(simd, rings);
             vertices::<S, _, COLUMNS>(simd, &Mixed { flat, round: Round(rings) }, self.outline, out);
         } else if rings.steady().bits() != S::ALL {
-            let flat = Flat::<S, FLATTENED, ROLLED, true>::new(simd, rings);
-            vertices::<S, _, COLUMNS>(simd, &flat, self.outline, out);
+            if rolled {
+                let flat = Flat::<S, FLATTENED, true, true>::new(simd, rings);
+                vertices::<S, _, COLUMNS>(simd, &flat, self.outline, out);
+            } else {
+                let flat = Flat::<S, FLATTENED, false, true>::new(simd, rings);
+                vertices::<S, _, COLUMNS>(simd, &flat, self.outline, out);
+            }
         } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>()
             && self.opposed
         {
-            let flat = Flat::<S, FLATTENED, ROLLED, false>::new(simd, rings);
-            vertices::<S, _, COLUMNS>(simd, &SixSided::new(simd, &flat, outline), outline, out);
+            let six = if rolled {
+                SixSided::new(simd, &Flat::<S, FLATTENED, true, false>::new(simd, rings), outline)
+            } else {
+                SixSided::new(simd, &Flat::<S, FLATTENED, false, false>::new(simd, rings), outline)
+            };
+            vertices::<S, _, COLUMNS>(simd, &six, outline, out);
+        } else if rolled {
+            let flat = Flat::<S, FLATTENED, true, false>::new(simd, rings);
+            vertices::<S, _, COLUMNS>(simd, &flat, self.outline, out);
         } else {
-            let flat = Flat::<S, FLATTENED, ROLLED, false>::new(simd, rings);
+            let flat = Flat::<S, FLATTENED, false, false>::new(simd, rings);
             vertices::<S, _, COLUMNS>(simd, &flat, self.outline, out);
         }
     }

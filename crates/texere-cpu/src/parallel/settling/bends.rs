@@ -6,7 +6,7 @@ use texere_core::settling::{
 };
 
 use super::curves::{Curve, acceleration, reach, velocity};
-use super::tables::{Fixed, IN_TURN, IntervalRow, PullRow};
+use super::tables::{IN_TURN, IntervalRow, PullRow};
 use crate::parallel::simd::{Floats, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
 
 /// Intervals whose own bends and lengths are worked out.
@@ -14,7 +14,6 @@ use crate::parallel::simd::{Floats, LANES_MAX, Mask, Simd, difference, dot, plus
 pub(super) struct Own<'a> {
     pub(super) plan: &'a SettlingPlan,
     pub(super) pass: &'a Pass,
-    pub(super) fixed: &'a Fixed,
     pub(super) intervals: &'a [IntervalRow],
     /// The length that each is to have.
     pub(super) lengths: &'a [f32],
@@ -27,24 +26,17 @@ impl Own<'_> {
     /// Adds what the intervals of `pulls` do, the first of which is that of place `first`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn add<S: Simd>(&self, simd: S, first: usize, pulls: &mut [PullRow]) {
-        match (self.pass.form, self.fixed.round) {
-            (Form::Weighted, true) => self.each::<S, false, false>(simd, first, pulls),
-            (Form::Weighted, false) => self.each::<S, false, true>(simd, first, pulls),
-            (Form::Block, true) => self.each::<S, true, false>(simd, first, pulls),
-            (Form::Block, false) => self.each::<S, true, true>(simd, first, pulls),
+        match self.pass.form {
+            Form::Weighted => self.each::<S, false>(simd, first, pulls),
+            Form::Block => self.each::<S, true>(simd, first, pulls),
         }
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn each<S: Simd, const BLOCK: bool, const FLATTENED: bool>(
-        &self,
-        simd: S,
-        first: usize,
-        pulls: &mut [PullRow],
-    ) {
+    fn each<S: Simd, const BLOCK: bool>(&self, simd: S, first: usize, pulls: &mut [PullRow]) {
         for (number, pulls) in pulls.chunks_mut(S::LANES).enumerate() {
             let place = first + number * S::LANES;
-            self.vector::<S, BLOCK, FLATTENED>(simd, place, pulls);
+            self.vector::<S, BLOCK>(simd, place, pulls);
             for (pull, place) in pulls.iter_mut().zip(place..) {
                 let tags = self.plan.tags()[place];
                 if tags & tag::INTERVAL == 0 {
@@ -55,12 +47,7 @@ impl Own<'_> {
     }
 
     #[cfg_attr(optimized, inline(always))]
-    fn vector<S: Simd, const BLOCK: bool, const FLATTENED: bool>(
-        &self,
-        simd: S,
-        place: usize,
-        pulls: &mut [PullRow],
-    ) {
+    fn vector<S: Simd, const BLOCK: bool>(&self, simd: S, place: usize, pulls: &mut [PullRow]) {
         let (plan, pass, zero) = (self.plan, self.pass, simd.splat(0.0));
         let numbers: [u32; LANES_MAX] =
             std::array::from_fn(|lane| (place + lane.min(pulls.len() - 1)) as u32);
@@ -79,7 +66,7 @@ impl Own<'_> {
             let bend = dot(across, across).sqrt();
             let bends = zero.less(bend);
             let towards = scale(across, simd.splat(1.0) / bend);
-            let diameter = simd.splat(2.0) * reach::<S, FLATTENED>(simd, curve.halves, at, velocity, towards);
+            let diameter = simd.splat(2.0) * reach(simd, curve.halves, at, velocity, towards);
             radius = bends.select(radius.min(square / (bend * diameter)), radius);
             let growth = simd.splat(pass.growth.max(0.5));
             let limit = square / (simd.splat(BEND_MARGIN * BEND_RADIUS) * diameter * growth);

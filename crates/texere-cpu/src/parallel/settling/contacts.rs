@@ -47,11 +47,9 @@ impl Source<'_> {
     pub(super) fn add<S: Simd>(&self, simd: S, first: usize, room: &mut Room, pulls: &mut [PullRow]) {
         room.list(self, self.plan.chords()[first]..self.plan.chords()[first + pulls.len()]);
         self.look(simd, room, first, pulls);
-        match (self.pass.form, self.fixed.round) {
-            (Form::Weighted, true) => self.touch::<S, false, false>(simd, room, first, pulls),
-            (Form::Weighted, false) => self.touch::<S, false, true>(simd, room, first, pulls),
-            (Form::Block, true) => self.touch::<S, true, false>(simd, room, first, pulls),
-            (Form::Block, false) => self.touch::<S, true, true>(simd, room, first, pulls),
+        match self.pass.form {
+            Form::Weighted => self.touch::<S, false>(simd, room, first, pulls),
+            Form::Block => self.touch::<S, true>(simd, room, first, pulls),
         }
     }
 
@@ -100,13 +98,7 @@ impl Source<'_> {
 
     /// Works out the exact places of near pairs, and what contacts pull.
     #[cfg_attr(optimized, inline(always))]
-    fn touch<S: Simd, const BLOCK: bool, const FLATTENED: bool>(
-        &self,
-        simd: S,
-        room: &Room,
-        first: usize,
-        pulls: &mut [PullRow],
-    ) {
+    fn touch<S: Simd, const BLOCK: bool>(&self, simd: S, room: &Room, first: usize, pulls: &mut [PullRow]) {
         let images = Images::new(simd, self.plan);
         let mut touches = Touches::NONE;
         for k in (0..room.count).step_by(S::LANES) {
@@ -124,7 +116,7 @@ impl Source<'_> {
             let (v, other_stride) = self.places(simd, numbers[1], t);
             let contact = refined(simd, &curves, way, [u, v], [stride, other_stride]);
             let tags = self.tags::<S>(&owners[0]);
-            touches.find::<S, BLOCK, FLATTENED>(simd, &curves, &contact, self, &tags);
+            touches.find::<S, BLOCK>(simd, &curves, &contact, self, &tags);
             for (lane, &owner) in owners[0][..count].iter().enumerate() {
                 touches.add::<BLOCK>(lane, &mut pulls[owner as usize - first]);
             }
@@ -258,7 +250,7 @@ impl Touches {
     };
 
     #[cfg_attr(optimized, inline(always))]
-    fn find<S: Simd, const BLOCK: bool, const FLATTENED: bool>(
+    fn find<S: Simd, const BLOCK: bool>(
         &mut self,
         simd: S,
         curves: &[Curve<S>; 2],
@@ -275,8 +267,8 @@ impl Touches {
         let length = dot(way, way);
         let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
         let direction = select(zero.less(length), scale(way, one / length.sqrt()), [zero, zero, one]);
-        let reach = curves[0].reach::<FLATTENED>(simd, u, velocities[0], direction)
-            + curves[1].reach::<FLATTENED>(simd, v, velocities[1], direction);
+        let reach = curves[0].reach(simd, u, velocities[0], direction)
+            + curves[1].reach(simd, v, velocities[1], direction);
         let lacks = simd.splat(MARGIN * source.pass.growth) * reach - distance;
         distance.store(&mut self.distance);
         (distance / reach).store(&mut self.ratio);

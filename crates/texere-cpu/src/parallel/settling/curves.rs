@@ -52,14 +52,14 @@ impl<S: Simd> Curve<S> {
 
     /// As `Interval::reach`.
     #[cfg_attr(optimized, inline(always))]
-    pub(super) fn reach<const FLATTENED: bool>(
+    pub(super) fn reach(
         &self,
         simd: S,
         u: S::Floats,
         tangent: [S::Floats; 3],
         towards: [S::Floats; 3],
     ) -> S::Floats {
-        reach::<S, FLATTENED>(simd, self.halves, u, tangent, towards)
+        reach(simd, self.halves, u, tangent, towards)
     }
 }
 
@@ -82,7 +82,7 @@ pub(super) fn acceleration<S: Simd>(
 
 /// As `Interval::reach`, of intervals that move in direction `tangent` there.
 #[cfg_attr(optimized, inline(always))]
-pub(super) fn reach<S: Simd, const FLATTENED: bool>(
+pub(super) fn reach<S: Simd>(
     simd: S,
     [start, growth]: [[S::Floats; 2]; 2],
     u: S::Floats,
@@ -90,10 +90,12 @@ pub(super) fn reach<S: Simd, const FLATTENED: bool>(
     towards: [S::Floats; 3],
 ) -> S::Floats {
     let width = start[0] + growth[0] * u;
-    if !FLATTENED {
+    let height = start[1] + growth[1] * u;
+    let round = (width - height).is_zero();
+    if round.bits() == S::ALL {
+        // Most yarns are round, and reach as far as they are wide.
         return width;
     }
-    let height = start[1] + growth[1] * u;
     let [x, y, z] = tangent;
     let level = x * x + y * y;
     let square = level + z * z;
@@ -101,8 +103,7 @@ pub(super) fn reach<S: Simd, const FLATTENED: bool>(
     let aside = (towards[1] * x - towards[0] * y) * width;
     let up = (towards[2] * level - (towards[0] * x + towards[1] * y) * z) * height;
     let flat = ((aside * aside + up * up / square) / level).sqrt();
-    let apart = (width - height).is_zero();
-    apart.select(width, stands.select(flat, width))
+    round.select(width, stands.select(flat, width))
 }
 
 /// As the core's weights.

@@ -165,7 +165,7 @@ impl Settler for ParallelSettler {
             starts: &lists.starts,
             neighbours: &lists.neighbours,
         };
-        let own = Own { plan, pass, fixed, intervals, lengths };
+        let own = Own { plan, pass, intervals, lengths };
         let all = pulls[FRONT..][..count].par_chunks_mut(TASK).enumerate();
         let pulled = all.map_init(Room::default, |room, (task, pulls)| {
             let mut seen = Seen::NOTHING;

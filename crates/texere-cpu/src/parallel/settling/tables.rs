@@ -27,8 +27,6 @@ pub(super) struct Fixed {
     pub(super) owners: Vec<u32>,
     /// Of each chord: where along the interval it begins and ends, its number there, and one over their count.
     pub(super) shares: Vec<[f32; 4]>,
-    /// Whether all yarns are round.
-    pub(super) round: bool,
 }
 
 impl Fixed {
@@ -39,14 +37,12 @@ impl Fixed {
             thickest: vec![0.0; count],
             owners: owners(plan),
             shares: vec![[0.0; 4]; chords + BACK],
-            round: true,
         };
         for place in (0..count).filter(|&place| plan.tags()[place] & tag::INTERVAL != 0) {
             let [start, end] = [place, place + 1].map(|place| plan.places()[place].halves);
             let growth = [end.width() - start.width(), end.height() - start.height()];
             fixed.halves[place] = [growth[0], start.width(), start.height(), growth[1]];
             fixed.thickest[place] = plan.interval(plan.places(), place).thickest();
-            fixed.round &= start.width() == start.height() && end.width() == end.height();
             let own = plan.chords()[place]..plan.chords()[place + 1];
             let pieces = own.len() as f32;
             for (piece, chord) in (0_u32..).zip(own) {

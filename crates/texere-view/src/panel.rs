@@ -37,6 +37,7 @@ impl<T: FnMut(&Event)> Window<T> {
                 if let Some(orbit) = self.canvas.orbit_mut() {
                     ui.checkbox(&mut orbit.is_parallel, "Parallel lines of sight");
                 }
+                ui.weak("Drag: turn. Right or Shift: move. Wheel: nearer.");
                 ui.separator();
                 self.mesh(ui, &cloth);
                 ui.separator();
@@ -85,11 +86,12 @@ impl<T: FnMut(&Event)> Window<T> {
         }
         ui.separator();
         ui.checkbox(&mut self.lifts, "A click changes a lift (L)");
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             if ui.add_enabled(cloth.is_edited, Button::new("Undo (Ctrl+Z)")).clicked() {
                 self.order(Order::Undo);
             }
-            if ui.button("Save a copy").on_hover_text("as a design file beside the design").clicked() {
+            if ui.button("Save a copy (Ctrl+S)").on_hover_text("as a design file beside the design").clicked()
+            {
                 self.order(Order::Save);
             }
         });

@@ -177,6 +177,9 @@ impl<T: FnMut(&Event)> Window<T> {
         if pressed(Key::L, Modifiers::NONE) {
             self.lifts = !self.lifts;
         }
+        if pressed(Key::S, Modifiers::COMMAND) {
+            self.order(Order::Save);
+        }
         if pressed(Key::Z, Modifiers::COMMAND) {
             self.order(Order::Undo);
         }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::thread;
@@ -189,7 +190,7 @@ impl Workshop {
         }
     }
 
-    /// Writes the design as it is now beside the one that it was read from.
+    /// Writes the design as it is now beside the one that it was read from. No file that is there is replaced.
     fn save(&self) -> Result<Event, String> {
         let mut design = self.design.clone();
         if let Structure::Woven(woven) = &mut design.structure {
@@ -197,9 +198,7 @@ impl Workshop {
                 woven.set_color(number, srgb).map_err(|error| said(&error))?;
             }
         }
-        let mut name = self.view.design.file_stem().unwrap_or_default().to_owned();
-        name.push("-edited.toml");
-        let path = self.view.design.with_file_name(name);
+        let path = free_beside(&self.view.design);
         let output = Output::to(&path).sparing(design.files());
         let left_out = texere::write_toml(&design, output).map_err(|error| said(&error))?;
         Ok(Event::Saved { path, left_out })
@@ -259,18 +258,18 @@ impl Workshop {
         order
     }
 
-    /// Lets the yarns settle until an order comes, which is put into `order`, or a file changes.
+    /// Lets the yarns settle until an order comes, which is put into `order`, a file changes, or the window is closed.
     fn settled(&mut self, order: &mut Option<Order>) -> Result<Finished, FinishError> {
         let Self { orders, news, window, watch, view, design, .. } = self;
         let device = texere::open(&view.device)?;
         // Moved in, for a receiver can be sent to other threads but not shared with them.
         let mut progress = move |share| {
-            let _ = news.send(News::Settling(share));
+            let is_open = news.send(News::Settling(share)).is_ok();
             window.request_repaint();
             if order.is_none() {
                 *order = orders.try_recv().ok();
             }
-            if order.is_some() || watch.is_stale() {
+            if !is_open || order.is_some() || watch.is_stale() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -317,10 +316,41 @@ impl Workshop {
     }
 }
 
+/// `cloth-edited.toml` for `cloth.wif`, or with a number where that is there already.
+fn free_beside(design: &Path) -> PathBuf {
+    let named = |number: u32| {
+        let mut name = design.file_stem().unwrap_or_default().to_owned();
+        name.push(if number == 1 { "-edited.toml".into() } else { format!("-edited-{number}.toml") });
+        design.with_file_name(name)
+    };
+    let first_free = (1..u32::MAX).map(named).find(|path| path.symlink_metadata().is_err());
+    first_free.unwrap_or_else(|| named(u32::MAX))
+}
+
 /// A scene that is ready to be drawn: what only its first picture takes is done, so that the window need not wait for it.
 fn scene(renderer: &Renderer, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
     let mut scene = renderer.scene(yarns, settings)?;
     let camera = Camera::face(scene.extent(), [8, 8]);
     scene.frame(&camera, Quality { supersampling: 1 })?;
     Ok(scene)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use super::*;
+
+    #[test]
+    fn a_copy_replaces_no_file() {
+        let folder = std::env::temp_dir().join(format!("texere-copies-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let design = folder.join("cloth.wif");
+        for name in ["cloth-edited.toml", "cloth-edited-2.toml", "cloth-edited-3.toml"] {
+            let free = free_beside(&design);
+            assert_eq!(free, folder.join(name));
+            std::fs::write(free, name).unwrap();
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 }

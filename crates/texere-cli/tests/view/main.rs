@@ -201,6 +201,14 @@ fn a_window_shows_turns_names_edits_and_reloads_a_cloth() {
     screen.point_at(rest);
     let is_up = |picture: &Picture| like(picture.at(at), &[ENDS[2], PICKS[1]]) == ENDS[2].0;
     screen.picture("the other yarn", |picture| is_up(picture) != was_up);
+    screen.press(&[CONTROL, u32::from(b's')]);
+    let copy = folder.join("cloth-edited.toml");
+    assert_eq!(viewer.says("saved: ").split(';').next(), Some(format!("saved: {}", copy.display()).as_str()));
+    let draft =
+        Command::new(env!("CARGO_BIN_EXE_texere")).arg("draft").arg(&copy).arg("--text").output().unwrap();
+    // The last of four picks comes first.
+    let lift = String::from_utf8_lossy(&draft.stdout).lines().nth(2).and_then(|row| row.chars().nth(2));
+    assert_eq!(lift, Some(if was_up { '0' } else { '1' }), "{draft:?}");
     screen.press(&[CONTROL, u32::from(b'z')]);
     viewer.says("lifted: ");
     viewer.says("shown: ");

@@ -7,10 +7,6 @@ use crate::{Extent, RenderError};
 /// Room left round the cloth, as a share of it.
 const MARGIN: f32 = 0.05;
 
-/// Vertical field of view of a perspective camera, radians: that of a portrait lens, which keeps threads parallel to the
-/// eye.
-const FIELD_OF_VIEW: f32 = 0.42;
-
 /// How high the eye stands over the cloth's plane, radians: for the whole of it, and near a point of it.
 const OBLIQUE_HEIGHT: f32 = 0.72;
 const CLOSE_HEIGHT: f32 = 0.95;
@@ -84,6 +80,10 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// From the picture's lower to its upper edge, radians, of cameras that nobody gave another: that of a portrait lens, which keeps threads parallel
+    /// to the eye.
+    pub const FIELD_OF_VIEW: f32 = 0.42;
+
     /// The whole cloth from straight above its face, its threads along the picture's edges.
     #[must_use]
     pub fn face(extent: &Extent, size: [u32; 2]) -> Self {
@@ -122,14 +122,8 @@ impl Camera {
     pub fn oblique(extent: &Extent, turn: f32, size: [u32; 2]) -> Result<Self, RenderError> {
         let turn = finite("a turn (radians)", turn)?;
         let mut camera = Self::above(extent, turn, OBLIQUE_HEIGHT, size);
-        let [right, above] = camera.across();
-        let slope = (FIELD_OF_VIEW * 0.5).tan();
-        let needed = extent.corners().map(|corner| {
-            let corner = corner - camera.target;
-            let aside = (corner.dot(right).abs() / aspect(size)).max(corner.dot(above).abs());
-            corner.dot(camera.toward) + aside * (1.0 + MARGIN) / slope
-        });
-        camera.projection = portrait(needed.fold(0.0, f32::max));
+        let (toward, up) = (camera.toward.to_array(), camera.up.to_array());
+        camera.projection = portrait(extent.eye_distance(toward, up, Self::FIELD_OF_VIEW, MARGIN, size));
         Ok(camera)
     }
 
@@ -138,7 +132,7 @@ impl Camera {
     /// **Errors**: [`RenderError::Camera`].
     pub fn close_up(extent: &Extent, at: [f32; 2], width: f32, size: [u32; 2]) -> Result<Self, RenderError> {
         let (at, width) = (point(at)?, positive("a width (mm)", width)?);
-        let distance = 0.5 * width / aspect(size) / (FIELD_OF_VIEW * 0.5).tan();
+        let distance = 0.5 * width / aspect(size) / (Self::FIELD_OF_VIEW * 0.5).tan();
         let camera = Self::above(extent, CLOSE_TURN, CLOSE_HEIGHT, size);
         Ok(Self {
             target: Vec3::new(at[0], at[1], extent.middle().z),
@@ -282,8 +276,7 @@ impl Camera {
 
     /// The picture's right and up.
     pub(crate) fn across(&self) -> [Vec3; 2] {
-        let right = self.up.cross(self.toward).normalize();
-        [right, self.toward.cross(right)]
+        across(self.up, self.toward)
     }
 
     /// Width over height of its pictures.
@@ -294,10 +287,16 @@ impl Camera {
 
 /// A perspective of the field of view that all cameras have which nobody gave another.
 fn portrait(distance: f32) -> Projection {
-    Projection::Perspective { distance, field_of_view: FIELD_OF_VIEW }
+    Projection::Perspective { distance, field_of_view: Camera::FIELD_OF_VIEW }
 }
 
-fn aspect(size: [u32; 2]) -> f32 {
+/// The picture's right and up, where the eye lies in direction `toward`.
+pub(crate) fn across(up: Vec3, toward: Vec3) -> [Vec3; 2] {
+    let right = up.cross(toward).normalize();
+    [right, toward.cross(right)]
+}
+
+pub(crate) fn aspect(size: [u32; 2]) -> f32 {
     // An empty picture is refused later, when it is drawn.
     size[0].max(1) as f32 / size[1].max(1) as f32
 }

@@ -4,6 +4,8 @@ use glam::Vec3;
 use rayon::prelude::*;
 use texere_core::{BackendError, Settler, Yarns};
 
+use crate::camera::{across, aspect};
+
 /// The box round a fabric, and how thick its yarns are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
@@ -61,6 +63,37 @@ impl Extent {
     #[must_use]
     pub fn size(&self) -> [f32; 2] {
         [self.high[0] - self.low[0], self.high[1] - self.low[1]]
+    }
+
+    /// How far an eye in the direction `toward` from the cloth's middle has to be from it to see all of the cloth, mm, with `up` up in pictures of
+    /// `size`. `field_of_view`: from the picture's lower to its upper edge, radians. `margin`: room left round the cloth, as a share of it.
+    ///
+    /// ```
+    /// use texere_render::Extent;
+    /// let extent = Extent { low: [0.0; 3], high: [20.0, 10.0, 0.0], radius: 0.1 };
+    /// // Ten millimetres of height, and a right angle to see them in.
+    /// let right_angle = std::f32::consts::FRAC_PI_2;
+    /// let distance = extent.eye_distance([0.0, 0.0, 1.0], [0.0, 1.0, 0.0], right_angle, 0.0, [200, 100]);
+    /// assert!((distance - 5.0).abs() < 1e-5);
+    /// ```
+    #[must_use]
+    pub fn eye_distance(
+        &self,
+        toward: [f32; 3],
+        up: [f32; 3],
+        field_of_view: f32,
+        margin: f32,
+        size: [u32; 2],
+    ) -> f32 {
+        let toward = Vec3::from(toward);
+        let [right, above] = across(Vec3::from(up), toward);
+        let slope = (field_of_view * 0.5).tan();
+        let needed = self.corners().map(|corner| {
+            let corner = corner - self.middle();
+            let aside = (corner.dot(right).abs() / aspect(size)).max(corner.dot(above).abs());
+            corner.dot(toward) + aside * (1.0 + margin) / slope
+        });
+        needed.fold(0.0, f32::max)
     }
 
     pub(crate) fn middle(&self) -> Vec3 {

@@ -85,7 +85,7 @@ pub struct PictureTimings {
 }
 
 /// A fabric on a device: control points and tables. No mesh is made for a picture: what it takes beside them is its samples, eight bytes each
-/// while they are found, 21 until they are lit.
+/// while they are found, 25 until pixels are made of them.
 #[derive(Debug)]
 pub struct Scene {
     pub(crate) renderer: Renderer,

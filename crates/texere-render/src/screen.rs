@@ -4,6 +4,8 @@ use texere_core::BackendError;
 use texere_wgpu::WgpuBackend;
 use wgpu::{BufferUsages, Extent3d, TextureFormat, TextureUsages};
 
+use crate::memory::read_mapped;
+
 /// Samples of a pixel, where rasterisers of every device have them for four.
 pub(crate) const SAMPLES: u32 = 4;
 
@@ -108,20 +110,14 @@ impl Screen {
     pub(crate) fn take(&self, device: &WgpuBackend) -> Result<[Vec<u8>; 2], BackendError> {
         let row = row_bytes(self.size) as usize;
         let [width, height] = self.size.map(|pixels| pixels as usize);
-        let pixels = device.scoped("Buffer::get_mapped_range", || {
-            self.host.get_mapped_range(..).map(|view| {
-                let [mut rgb, mut alpha] = [3 * width * height, width * height].map(Vec::with_capacity);
-                let rows = view.chunks_exact(row).take(height);
-                for pixel in rows.flat_map(|row| row.chunks_exact(COLOR_BYTES as usize).take(width)) {
-                    rgb.extend_from_slice(&pixel[..3]);
-                    alpha.push(pixel[3]);
-                }
-                [rgb, alpha]
-            })
-        })?;
-        let pixels = pixels.map_err(|source| BackendError::Driver {
-            call: "Buffer::get_mapped_range",
-            source: source.into(),
+        let pixels = read_mapped(device, &self.host, |view| {
+            let [mut rgb, mut alpha] = [3 * width * height, width * height].map(Vec::with_capacity);
+            let rows = view.chunks_exact(row).take(height);
+            for pixel in rows.flat_map(|row| row.chunks_exact(COLOR_BYTES as usize).take(width)) {
+                rgb.extend_from_slice(&pixel[..3]);
+                alpha.push(pixel[3]);
+            }
+            [rgb, alpha]
         })?;
         device.scoped("Buffer::unmap", || self.host.unmap())?;
         Ok(pixels)

@@ -1,9 +1,9 @@
 //! What a picture shows at a point.
 
 use glam::DVec3;
-use texere_core::BackendError;
 use wgpu::{BufferUsages, Extent3d, Origin3d, TexelCopyBufferInfo, TexelCopyBufferLayout, TextureAspect};
 
+use crate::memory::read_mapped;
 use crate::{RenderError, Scene};
 
 /// What a picture shows at a point: the yarn, and where on its surface.
@@ -72,12 +72,10 @@ impl Scene {
             submission
         })?;
         device.wait(submission)?;
-        let call = "Buffer::get_mapped_range";
-        let read = device
-            .scoped(call, || host.get_mapped_range(..).map(|bytes| bytes[..].to_vec()))?
-            .map_err(|source| BackendError::Driver { call, source: source.into() })?;
-        let word = |number: usize| bytemuck::pod_read_unaligned::<u32>(&read[4 * number..4 * number + 4]);
-        let depth = f32::from_bits(word(2));
+        let [yarn, _, depth] = read_mapped(device, &host, |bytes| {
+            [0, 1, 2].map(|word| bytemuck::pod_read_unaligned::<u32>(&bytes[4 * word..4 * word + 4]))
+        })?;
+        let depth = f32::from_bits(depth);
         if depth >= 1.0 {
             return Ok(None);
         }
@@ -85,6 +83,6 @@ impl Scene {
         let clip = DVec3::new(middle(x, large[0]), -middle(y, large[1]), f64::from(depth));
         let local = camera.clip_from_local().inverse().project_point3(clip);
         let position = (local + camera.target.as_dvec3()).to_array();
-        Ok(Some(Seen { yarn: (word(0) & !CUT) as usize, position }))
+        Ok(Some(Seen { yarn: (yarn & !CUT) as usize, position }))
     }
 }

@@ -5,9 +5,6 @@ use std::f32::consts::FRAC_PI_2;
 use glam::Vec3;
 use texere::{Camera, Extent, Pose, RenderError};
 
-/// From the picture's lower to its upper edge, radians: that of a portrait lens.
-const FIELD_OF_VIEW: f32 = 0.42;
-
 /// Room left round the whole cloth, as a share of it.
 const MARGIN: f32 = 0.08;
 
@@ -56,16 +53,9 @@ impl Orbit {
             distance: 1.0,
             is_parallel: side != Side::Oblique,
         };
-        let [right, above, toward] = orbit.axes();
-        let (slope, aspect) = ((0.5 * FIELD_OF_VIEW).tan(), aspect(size));
-        let needed = (0..8).map(|corner: u32| {
-            let corner =
-                Vec3::select(glam::BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0), high, low)
-                    - orbit.target;
-            let aside = (corner.dot(right).abs() / aspect).max(corner.dot(above).abs());
-            corner.dot(toward).max(0.0) + aside * (1.0 + MARGIN) / slope
-        });
-        Self { distance: needed.fold(f32::MIN_POSITIVE, f32::max), ..orbit }
+        let [_, above, toward] = orbit.axes().map(Vec3::into);
+        let distance = extent.eye_distance(toward, above, Camera::FIELD_OF_VIEW, MARGIN, size);
+        Self { distance: distance.max(f32::MIN_POSITIVE), ..orbit }
     }
 
     /// What is right and up in the picture, and the direction to the eye.
@@ -78,7 +68,7 @@ impl Orbit {
 
     /// What the picture's height shows at the target, mm.
     fn height_mm(&self) -> f32 {
-        2.0 * self.distance * (0.5 * FIELD_OF_VIEW).tan()
+        2.0 * self.distance * (0.5 * Camera::FIELD_OF_VIEW).tan()
     }
 
     /// The view, for pictures of such a size.
@@ -91,7 +81,7 @@ impl Orbit {
         if self.is_parallel {
             Camera::orthographic(extent, &pose, self.height_mm(), size)
         } else {
-            Camera::perspective(extent, &pose, FIELD_OF_VIEW, size)
+            Camera::perspective(extent, &pose, Camera::FIELD_OF_VIEW, size)
         }
     }
 
@@ -117,10 +107,6 @@ impl Orbit {
         self.pan(off.map(|pixels| -pixels * kept), size);
         self.distance = distance;
     }
-}
-
-fn aspect(size: [u32; 2]) -> f32 {
-    size[0].max(1) as f32 / size[1].max(1) as f32
 }
 
 #[cfg(test)]

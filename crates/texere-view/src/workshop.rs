@@ -131,11 +131,10 @@ impl Workshop {
         match order {
             Order::Lift { end, pick, up } => {
                 let before = self.up(end, pick);
-                if self.lift(end, pick, up) {
-                    self.lifts.push((end, pick, before))
-                } else {
+                if !self.lift(end, pick, up) {
                     return Change::Nothing;
                 }
+                self.lifts.push((end, pick, before));
                 Change::Yarns
             }
             Order::Undo => match self.lifts.pop() {
@@ -144,6 +143,7 @@ impl Workshop {
             },
             Order::Color { material, srgb } => {
                 self.colors.insert(material, srgb);
+                self.paint();
                 Change::Scene
             }
             Order::Settings(settings) => {
@@ -233,13 +233,12 @@ impl Workshop {
     /// Makes the yarns and shows them, and again when they have settled, if they do. Gives an order that came meanwhile.
     fn weave(&mut self) -> Option<Order> {
         match self.design.yarns() {
-            Ok(yarns) => self.yarns = Some((Arc::new(yarns), false)),
+            Ok(yarns) => self.take_yarns(yarns, false),
             Err(error) => {
                 self.fail(said(&error));
                 return None;
             }
         }
-        self.show();
         if !self.settles() {
             return None;
         }
@@ -247,8 +246,7 @@ impl Workshop {
         match self.settled(&mut order) {
             Ok(finished) => {
                 let rest = if finished.is_at_rest() { "at rest" } else { "not at rest" };
-                self.yarns = Some((Arc::new(finished.into_yarns()), true));
-                self.show();
+                self.take_yarns(finished.into_yarns(), true);
                 self.tell(News::Settled(rest.into()));
             }
             // It was stopped, for there is something else to be done.
@@ -283,35 +281,45 @@ impl Workshop {
         structure.settle(&finish, tension, &*device, progress)
     }
 
-    /// Sends the yarns as they are now to the device and the window.
-    fn show(&mut self) {
-        let Some((yarns, is_settled)) = &mut self.yarns else { return };
+    /// Shows other yarns, in the colours that were chosen.
+    fn take_yarns(&mut self, yarns: Yarns, is_settled: bool) {
+        self.yarns = Some((Arc::new(yarns), is_settled));
+        self.paint();
+        self.show();
+    }
+
+    /// Gives the yarns the colours that were chosen, if any were: that copies yarns which the window still shows.
+    fn paint(&mut self) {
+        let Some((yarns, _)) = self.yarns.as_mut().filter(|_| !self.colors.is_empty()) else { return };
         let mut materials = yarns.materials().to_vec();
         for (&number, &srgb) in &self.colors {
             if let Some(material) = materials.get_mut(number) {
                 material.srgb = srgb;
             }
         }
+        if let Err(error) = Arc::make_mut(yarns).set_materials(materials) {
+            self.fail(said(&error));
+        }
+    }
+
+    /// Sends the yarns as they are now to the device and the window.
+    fn show(&self) {
+        let Some((yarns, is_settled)) = &self.yarns else { return };
         let mut settings = self.view.settings;
         let lies_close = *is_settled && self.design.structure.woven().is_some();
         settings.sides = self.view.sides.unwrap_or_else(|| texere::picture_sides(yarns, lies_close));
-        let scene = match Arc::make_mut(yarns).set_materials(materials) {
-            Ok(()) => scene(&self.renderer, yarns, &settings).map_err(|error| said(&error)),
-            Err(error) => Err(said(&error)),
-        };
-        let (yarns, is_settled) = (yarns.clone(), *is_settled);
-        match scene {
+        match scene(&self.renderer, yarns, &settings) {
             Ok(scene) => {
                 self.tell(News::Cloth(Box::new(Cloth {
                     design: Arc::new(self.design.clone()),
-                    yarns,
+                    yarns: yarns.clone(),
                     settings,
                     scene,
-                    is_settled,
+                    is_settled: *is_settled,
                     is_edited: !self.lifts.is_empty(),
                 })));
             }
-            Err(error) => self.fail(error),
+            Err(error) => self.fail(said(&error)),
         }
     }
 }

@@ -46,11 +46,6 @@ fn middle() -> vec2<i32> {
     return vec2<i32>(view.size * 128.0);
 }
 
-// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in 1/256 pixels.
-const SAMPLE_X = array(96, 224, 32, 160);
-const SAMPLE_ROW = 64;
-const FIRST_SAMPLE_Y = 32;
-
 // A sample of pixel `x` in row `row`, in 1/256 pixels from the middle.
 fn sample_place(x: i32, row: i32) -> vec2<i32> {
     return vec2(x * 256 + SAMPLE_X[row & 3], row * SAMPLE_ROW + FIRST_SAMPLE_Y) - middle();

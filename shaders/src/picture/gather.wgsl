@@ -9,9 +9,9 @@
 // Red, green, blue and alpha, sRGB.
 @group(1) @binding(2) var picture: texture_storage_2d<rgba8unorm, write>;
 
-// Where a pixel of the screen has its samples: those of SAMPLE_X and the rows in cover.wgsl, in pixels.
-const RIGHT = vec4(0.375, 0.875, 0.125, 0.625);
-const DOWN = vec4(0.125, 0.375, 0.625, 0.875);
+// Where a pixel of the screen has its samples, pixels right of its corner and below it.
+const RIGHT = vec4(f32(SAMPLE_X[0]), f32(SAMPLE_X[1]), f32(SAMPLE_X[2]), f32(SAMPLE_X[3])) / 256.0;
+const DOWN = (vec4(0.0, 1.0, 2.0, 3.0) * f32(SAMPLE_ROW) + f32(FIRST_SAMPLE_Y)) / 256.0;
 
 // The mean within half a pixel.
 fn near(off: vec4<f32>) -> vec4<f32> {

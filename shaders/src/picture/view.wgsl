@@ -44,6 +44,14 @@ const COLOR = 1u;
 // Workgroups over the screen are squares of so many pixels.
 const SCREEN_GROUP = 8u;
 
+// Samples of a pixel of the screen. Rust: texere_render's SAMPLES.
+const SAMPLES = 4;
+
+// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in 1/256 pixels.
+const SAMPLE_X = array(96, 224, 32, 160);
+const SAMPLE_ROW = 64;
+const FIRST_SAMPLE_Y = 32;
+
 // Where a point of the fabric lies in clip space.
 fn clip_of(position: vec3<f32>) -> vec4<f32> {
     return view.clip_from_local * vec4(position - view.target_point, 1.0);

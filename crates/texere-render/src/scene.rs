@@ -264,7 +264,7 @@ impl Scene {
     }
 
     /// Draws chunk after chunk.
-    fn draw(&mut self) -> Result<(), RenderError> {
+    pub(crate) fn draw(&mut self) -> Result<(), RenderError> {
         let plan = self.plan.clone();
         if self.chunks.is_empty() {
             let mut rest = plan.chunks(&self.limits)?;

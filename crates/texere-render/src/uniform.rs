@@ -36,7 +36,7 @@ pub(crate) struct ViewUniform {
     sees_inside: u32,
     background_kind: u32,
     background: [f32; 3],
-    spread: f32,
+    pub(crate) spread: f32,
 }
 
 const _: () = assert!(size_of::<ViewUniform>() == 240);

@@ -41,15 +41,16 @@ fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
     return edge.x * to.y - edge.y * to.x;
 }
 
-// The samples of a triangle's box: rows of samples, and pixels.
+// The samples of a triangle's box, or some more where pixels have shifts: rows of samples, and pixels.
 struct Span {
     first: vec2<i32>,
     last: vec2<i32>,
 }
 
 fn span_of(low: vec2<i32>, high: vec2<i32>) -> Span {
-    let least = low + middle();
-    let most = high + middle();
+    let slack = select(0, 32, view.spread > 0.0);
+    let least = low + middle() - slack;
+    let most = high + middle() + slack;
     let first_row = max((least.y - FIRST_SAMPLE_Y + SAMPLE_ROW - 1) >> 6u, i32(4u * sweep.first_row));
     let last_row = min((most.y - FIRST_SAMPLE_Y) >> 6u, i32(4u * (sweep.first_row + sweep.rows)) - 1);
     // The sample of a pixel that lies farthest left is at 32, the one farthest right at 224.
@@ -104,14 +105,15 @@ fn look_of(p: Corner, q: Corner, r: Corner, s: Corner) -> u32 {
     let is_small = across.x * across.y <= ALONE && extent < EXTENT;
     // Most quads lie between samples, in one row or in two.
     let has_samples = min(across.x, across.y) > 0
-        && (across.y > 2 || has_sample(low, high, span.first.y) || has_sample(low, high, span.last.y));
+        && (max(across.x, across.y) > 2 || has_sample(low, high, span.first) || has_sample(low, high, span.last)
+            || has_sample(low, high, vec2(span.first.x, span.last.y)) || has_sample(low, high, vec2(span.last.x, span.first.y)));
     return select(NONE, select(MANY, FEW, is_small), has_samples);
 }
 
-// Whether a row of samples has one between `low` and `high`.
-fn has_sample(low: vec2<i32>, high: vec2<i32>, row: i32) -> bool {
-    let offset = SAMPLE_X[row & 3] - middle().x;
-    return ((low.x - offset + 255) >> 8u) <= ((high.x - offset) >> 8u);
+// Whether the sample of pixel `at.x` in row `at.y` lies between `low` and `high`.
+fn has_sample(low: vec2<i32>, high: vec2<i32>, at: vec2<i32>) -> bool {
+    let place = sample_place(at.x, at.y);
+    return all(low <= place) && all(place <= high);
 }
 
 // A triangle in the order in which edges go round it clockwise as seen on the screen.

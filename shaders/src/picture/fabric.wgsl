@@ -48,7 +48,8 @@ fn middle() -> vec2<i32> {
 
 // A sample of pixel `x` in row `row`, in 1/256 pixels from the middle.
 fn sample_place(x: i32, row: i32) -> vec2<i32> {
-    return vec2(x * 256 + SAMPLE_X[row & 3], row * SAMPLE_ROW + FIRST_SAMPLE_Y) - middle();
+    let pixel = vec2(x, row >> 2u);
+    return pixel * 256 + sample_in(pixel, row & 3) - middle();
 }
 
 // The key of a sample of the pixel at `x` and so many rows below the first one that has keys.

@@ -9,9 +9,18 @@
 // Red, green, blue and alpha, sRGB.
 @group(1) @binding(2) var picture: texture_storage_2d<rgba8unorm, write>;
 
-// Where a pixel of the screen has its samples, pixels right of its corner and below it.
-const RIGHT = vec4(f32(SAMPLE_X[0]), f32(SAMPLE_X[1]), f32(SAMPLE_X[2]), f32(SAMPLE_X[3])) / 256.0;
-const DOWN = (vec4(0.0, 1.0, 2.0, 3.0) * f32(SAMPLE_ROW) + f32(FIRST_SAMPLE_Y)) / 256.0;
+// Where a pixel of the screen has its samples, pixels right of its corner or below it.
+struct Places {
+    right: vec4<f32>,
+    down: vec4<f32>,
+}
+
+fn places_of(pixel: vec2<i32>) -> Places {
+    let samples = array(sample_in(pixel, 0), sample_in(pixel, 1), sample_in(pixel, 2), sample_in(pixel, 3));
+    let right = vec4(samples[0].x, samples[1].x, samples[2].x, samples[3].x);
+    let down = vec4(samples[0].y, samples[1].y, samples[2].y, samples[3].y);
+    return Places(vec4<f32>(right) / 256.0, vec4<f32>(down) / 256.0);
+}
 
 // The mean within half a pixel.
 fn near(off: vec4<f32>) -> vec4<f32> {
@@ -46,9 +55,10 @@ fn gather(@builtin(global_invocation_id) place: vec3<u32>) {
     var sum = vec4(0.0);
     var weights = 0.0;
     for (var y = low.y; y <= high.y; y++) {
-        let down = (f32(y - corner.y) + DOWN) / f32(factor) - 0.5;
         for (var x = low.x; x <= high.x; x++) {
-            let right = (f32(x - corner.x) + RIGHT) / f32(factor) - 0.5;
+            let places = places_of(vec2(x, y));
+            let right = (f32(x - corner.x) + places.right) / f32(factor) - 0.5;
+            let down = (f32(y - corner.y) + places.down) / f32(factor) - 0.5;
             let weight = mix(near(right) * near(down), wide(right) * wide(down), view.spread);
             let lit = textureLoad(lit_samples, vec2(x, y), 0);
             for (var sample = 0; sample < SAMPLES; sample++) {

@@ -52,6 +52,24 @@ const SAMPLE_X = array(96, 224, 32, 160);
 const SAMPLE_ROW = 64;
 const FIRST_SAMPLE_Y = 32;
 
+// How far the pattern is shifted round in this pixel and, by itself, in each of its rows of samples, 1/256 pixels. Threads finer than
+// pixels would beat with a pattern that is the same everywhere, so there each pixel has its own shift, by a hash of its place: what
+// is finer than samples turns to fine grain (Cook 1986, "Stochastic sampling in computer graphics").
+fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
+    if view.spread == 0.0 {
+        return vec2(0);
+    }
+    let mixed = (bitcast<u32>(pixel.x) * 1597334677u) ^ (bitcast<u32>(pixel.y) * 3812015801u);
+    let hash = (mixed ^ (mixed >> 16u)) * 2246822519u;
+    return vec2<i32>(vec2(hash >> 24u, (hash >> 18u) & 63u));
+}
+
+// A sample's place in its pixel, 1/256 pixels right of the pixel's corner and below it.
+fn sample_in(pixel: vec2<i32>, sample: i32) -> vec2<i32> {
+    let place = vec2(SAMPLE_X[sample], FIRST_SAMPLE_Y) + shift_of(pixel);
+    return vec2(0, sample * SAMPLE_ROW) + (place & vec2(255, SAMPLE_ROW - 1));
+}
+
 // Where a point of the fabric lies in clip space.
 fn clip_of(position: vec3<f32>) -> vec4<f32> {
     return view.clip_from_local * vec4(position - view.target_point, 1.0);

@@ -9,7 +9,8 @@ use wgpu::{BindingResource, BufferUsages, LoadOp, Operations, StoreOp, TextureFo
 use super::image_of;
 use crate::rasteriser::{group, module, pipeline};
 use crate::screen::{SAMPLES, SCREEN_GROUP};
-use crate::{Camera, Quality, Scene};
+use crate::uniform::ViewUniform;
+use crate::{Background, Camera, Quality, Scene};
 
 const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 const KEPT: TextureFormat = TextureFormat::Rgba16Uint;
@@ -103,26 +104,36 @@ fn triangles(plan: &Plan, chunk: &Chunk) -> (Vec<Run>, Vec<[u32; 4]>) {
     (runs, triangles)
 }
 
-/// What the judge says of the picture that was drawn last.
+/// What the judge says of a picture.
 #[derive(Debug)]
 pub(super) struct Judgement {
     /// Of the samples that show a yarn the share in which the mesh has another one, or at another depth.
     pub(super) off: f64,
-    /// The picture as the mesh shows it.
-    pub(super) picture: RgbImage,
+    /// The picture as the scene draws it, and as the mesh shows it.
+    pub(super) pictures: [RgbImage; 2],
 }
 
-/// Judges the picture of a fabric of one chunk.
+/// Judges the picture of a fabric of one chunk. Its samples lie where the device has them, however far it is.
 pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
     scene.look(camera, Quality { supersampling: 1 }).unwrap();
+    let mut view = ViewUniform::new(camera, Background::Ground, 1);
+    view.spread = 0.0;
+    scene.renderer.write(&scene.view, bytemuck::bytes_of(&view)).unwrap();
+    scene.draw().unwrap();
+    let drawn = lit(scene, camera);
     let plan = scene.plan.clone();
     let chunks: Vec<_> = plan.chunks(&Limits::NONE).unwrap().collect();
     assert_eq!(chunks.len(), 1);
     scene.session.mesh(&chunks[0]).unwrap();
     let [samples, others] = draw(scene, &plan, &chunks[0], camera);
+    Judgement { off: f64::from(others) / f64::from(samples), pictures: [drawn, lit(scene, camera)] }
+}
+
+/// What is on the screen, as a picture.
+fn lit(scene: &Scene, camera: &Camera) -> RgbImage {
     scene.shade().unwrap();
     let [rgb, _] = scene.copy().unwrap();
-    Judgement { off: f64::from(others) / f64::from(samples), picture: image_of(camera.size(), rgb) }
+    image_of(camera.size(), rgb)
 }
 
 /// Draws over the screen, and counts the samples that show a yarn, and those of them that are not what was there.

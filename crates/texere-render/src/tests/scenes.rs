@@ -134,6 +134,40 @@ fn what_is_seen_at_a_point_is_what_its_ray_hits() {
     }
 }
 
+/// Where a pixel of the screen has its first sample in a picture of threads finer than pixels: `sample_in` of `view.wgsl`.
+fn shifted_sample(x: u32, y: u32) -> [f32; 2] {
+    let mixed = x.wrapping_mul(1_597_334_677) ^ y.wrapping_mul(3_812_015_801);
+    let hash = (mixed ^ (mixed >> 16)).wrapping_mul(2_246_822_519);
+    let within = [(96 + (hash >> 24)) % 256, (32 + (hash >> 18) % 64) % 64];
+    [(x, within[0]), (y, within[1])].map(|(pixel, within)| pixel as f32 + within as f32 / 256.0)
+}
+
+/// No sample is left out where each pixel has its own places for them.
+#[test]
+fn threads_finer_than_pixels_are_seen_where_rays_hit_them() {
+    let yarns = cloths();
+    let settings = Settings { topology: Topology::None, caps: true, ..SETTINGS };
+    let picker =
+        Picker::new(Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap()), yarns.points()).unwrap();
+    let extent = Extent::of(&yarns);
+    let size = [48, 32];
+    let whole = Camera::face(&extent, size);
+    for camera in [&whole, &Camera::oblique(&extent, 0.3, size).unwrap()] {
+        let renderer = renderer().lock().unwrap();
+        let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
+        scene.frame(camera, Quality { supersampling: 1 }).unwrap();
+        let (mut alike, mut others) = (0, 0);
+        for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {
+            let hit = picker.pick(&camera.ray(shifted_sample(x, y))).map(|hit| hit.place.yarn as usize);
+            let seen = scene.seen_at([x as f32 + 0.5, y as f32 + 0.5]).unwrap().map(|seen| seen.yarn);
+            *if hit == seen { &mut alike } else { &mut others } +=
+                usize::from(hit.is_some() || seen.is_some());
+        }
+        // Corners are rounded to 1/256 of a pixel, so some samples on an edge fall to its other side.
+        assert!(alike > 250 && others * 50 < alike, "{alike} {others}");
+    }
+}
+
 /// The matrix and the lines of sight say the same of where a point is seen.
 #[test]
 fn a_point_on_a_ray_lies_at_its_pixel() {

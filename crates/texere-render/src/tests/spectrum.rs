@@ -21,6 +21,7 @@ const APART: f64 = 3.0;
 type Weave = (usize, fn(usize, usize) -> bool);
 
 const PLAIN: Weave = (2, |end, pick| (end + pick) % 2 == 0);
+const TWILL: Weave = (4, |end, pick| (end + pick) % 4 != 0);
 const SATEEN: Weave = (5, |end, pick| (end + 3 * pick) % 5 == 0);
 
 /// Dark ends and light picks, a millimetre apart, `threads` of each.
@@ -89,8 +90,8 @@ fn strangest(grey: &[f64], pitch: f64, repeat: usize) -> (f64, [f64; 2]) {
 #[test]
 fn threads_finer_than_pixels_make_no_waves_of_their_own() {
     let renderer = renderer().lock().unwrap();
-    for weave in [PLAIN, SATEEN] {
-        for pitch in [0.44, 0.53, 0.62, 0.71, 0.83, 0.97, 1.31] {
+    for weave in [PLAIN, TWILL, SATEEN] {
+        for pitch in [0.37, 0.44, 0.53, 0.62, 0.71, 0.83, 0.97, 1.31] {
             let shown = SIZE as f64 / pitch;
             let yarns = cloth(weave, shown as usize + 12);
             let extent = Extent::of(&yarns);

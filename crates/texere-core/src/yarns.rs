@@ -4,6 +4,8 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::{COORDINATE_LIMIT, ControlPoint, Material, RADIUS_MAX, RADIUS_MIN, Section, YarnError};
 
 /// Where in the structure a yarn comes from, counted from 1 as weavers and knitters do.
@@ -217,8 +219,11 @@ impl Yarns {
             return Err(YarnError::PointCount { points: points.len() as u64, planned: layout.point_count() });
         }
         check_materials(&layout, &materials)?;
-        for (yarn, bounds) in layout.offsets.windows(2).enumerate() {
-            check_points(yarn, &points[bounds[0] as usize..bounds[1] as usize])?;
+        let unsound = layout.offsets.par_windows(2).enumerate().find_map_first(|(yarn, bounds)| {
+            check_points(yarn, &points[bounds[0] as usize..bounds[1] as usize]).err()
+        });
+        if let Some(unsound) = unsound {
+            return Err(unsound);
         }
         Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, sources: None })
     }

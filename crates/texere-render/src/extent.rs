@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
-use texere_core::{BackendError, Settler, Yarns};
+use texere_core::{BackendError, Section, Settler, Yarns};
 
 use crate::camera::{across, aspect};
 
@@ -22,10 +22,10 @@ impl Extent {
     #[must_use]
     pub fn of(yarns: &Yarns) -> Self {
         let layout = yarns.layout();
+        let reaches: Vec<f32> = layout.sections().iter().map(reach).collect();
         let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY, 0.0f64);
         let each = layout.yarns().par_iter().enumerate().map(|(number, yarn)| {
-            let section = &layout.sections()[yarn.section as usize];
-            let reach = section.half_width().max(section.half_height());
+            let reach = reaches[yarn.section as usize];
             let points = yarns.yarn_points(number).unwrap_or_default();
             points.iter().fold(nothing, |(low, high, radii), point| {
                 let (width, height) = (point.half_width(), point.half_height());
@@ -53,9 +53,8 @@ impl Extent {
         let bounds = settler.bounds()?;
         let plan = settler.plan();
         let [low, high] = bounds.map(|units| plan.scale().position(units.into()).as_vec3());
-        let sections = yarns.layout().sections().iter();
-        let widest = sections.map(|section| section.half_width().max(section.half_height()));
-        let reach = Vec3::splat(plan.spans().thickest * widest.fold(0.0, f32::max));
+        let widest = yarns.layout().sections().iter().map(reach).fold(0.0, f32::max);
+        let reach = Vec3::splat(plan.spans().thickest * widest);
         Ok(Self { low: (low - reach).to_array(), high: (high + reach).to_array(), ..Self::of(yarns) })
     }
 
@@ -107,4 +106,9 @@ impl Extent {
             Vec3::select(glam::BVec3::new(corner & 1 != 0, corner & 2 != 0, corner & 4 != 0), high, low)
         })
     }
+}
+
+/// How far a section reaches from its centre level or upright, in radii of the yarn.
+fn reach(section: &Section) -> f32 {
+    section.half_width().max(section.half_height())
 }

@@ -26,12 +26,6 @@ struct Sweep {
 
 const _: () = assert!(size_of::<Sweep>() == 32);
 
-/// Bytes of a sample's key.
-const KEY_BYTES: u64 = 8;
-
-/// Most bytes of keys: sixteen samples for each of two million pixels.
-const KEYS_MOST: u64 = 256 << 20;
-
 /// `CULL_GROUP` of `cull.wgsl`.
 const CULL_GROUP: u32 = 64;
 
@@ -42,7 +36,6 @@ pub(crate) struct Raster {
     sweeps: [wgpu::Buffer; 2],
     listed: wgpu::Buffer,
     groups: wgpu::Buffer,
-    keys: wgpu::Buffer,
     ring_rolls: wgpu::Buffer,
     /// How far a section reaches from its centre, in half widths or half heights.
     reach: f32,
@@ -57,7 +50,6 @@ impl Raster {
             sweeps: [sweep()?, sweep()?],
             listed: buffer("listed blocks", 0, BufferUsages::STORAGE)?,
             groups: buffer("workgroups", 12, BufferUsages::STORAGE | BufferUsages::INDIRECT)?,
-            keys: buffer("samples", 0, BufferUsages::STORAGE)?,
             ring_rolls: buffer("rolls of rings", 0, BufferUsages::STORAGE)?,
             reach,
         })
@@ -74,14 +66,6 @@ impl Raster {
         Limits { blocks: device.blocks.min(numbered).min(bound).max(2), ..Limits::NONE }
     }
 
-    /// The stretches of the screen's rows that are drawn one after the other: their keys fit a binding.
-    pub(crate) fn bands(renderer: &Renderer, screen: &Screen) -> impl Iterator<Item = Range<u32>> + use<> {
-        let height = screen.large()[1];
-        let most = KEYS_MOST.min(renderer.info().limits.binding_bytes);
-        let rows = ((most / row_bytes(screen)) as u32).clamp(1, height);
-        (0..height).step_by(rows as usize).map(move |first| first..height.min(first + rows))
-    }
-
     /// Draws a chunk over what earlier ones left on some rows of the screen, and hands the work over.
     pub(crate) fn draw(
         &mut self,
@@ -95,8 +79,6 @@ impl Raster {
         let (device, keys) = (&renderer.device, renderer.rasteriser.keys);
         let pipelines = renderer.rasteriser.pipelines(device, tables.are_flattened())?;
         let rows = band.end - band.start;
-        let key_bytes = u64::from(rows) * row_bytes(screen);
-        renderer.reserve(&mut self.keys, key_bytes)?;
         renderer.reserve(&mut self.listed, 8 * (chunk.blocks().len() as u64 + 1))?;
         renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
         let first = Sweep {
@@ -112,22 +94,17 @@ impl Raster {
         }
         device.scoped("Queue::submit", || {
             let mut encoder = device.device().create_command_encoder(&Default::default());
-            encoder.clear_buffer(&self.keys, 0, Some(key_bytes));
+            encoder.clear_buffer(&screen.keys, 0, Some(screen.key_bytes(rows)));
             encoder.clear_buffer(&self.listed, 0, Some(8));
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                let of = Binder { raster: self, device: device.device(), tables, view };
+                let of = Binder { raster: self, device: device.device(), tables, view, screen };
                 of.find(&mut pass, &pipelines, chunk, keys);
-                of.show(&mut pass, &pipelines.resolve, screen, [screen.large()[0], rows]);
+                of.show(&mut pass, &pipelines.resolve, [screen.large()[0], rows]);
             }
             device.queue().submit([encoder.finish()])
         })
     }
-}
-
-/// Bytes of the keys of a row of the screen.
-fn row_bytes(screen: &Screen) -> u64 {
-    u64::from(screen.large()[0]) * u64::from(SAMPLES) * KEY_BYTES
 }
 
 /// What the passes over a chunk bind.
@@ -136,6 +113,7 @@ struct Binder<'a> {
     device: &'a wgpu::Device,
     tables: ChunkTables<'a>,
     view: &'a wgpu::Buffer,
+    screen: &'a Screen,
 }
 
 impl Binder<'_> {
@@ -162,10 +140,11 @@ impl Binder<'_> {
     /// Records what finds the nearest triangle of each sample.
     fn find(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, chunk: &Chunk, keys: Keys) {
         use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Rolls, Yarns};
-        let Raster { listed, groups, keys: samples, ring_rolls, .. } = self.raster;
+        let Raster { listed, groups, ring_rolls, .. } = self.raster;
         let view = (0, self.view.as_entire_binding());
-        let [listed, counted, samples, rolls] = [(2, listed), (3, groups), (4, samples), (5, ring_rolls)]
-            .map(|(number, buffer)| (number, buffer.as_entire_binding()));
+        let [listed, counted, samples, rolls] =
+            [(2, listed), (3, groups), (4, &self.screen.keys), (5, ring_rolls)]
+                .map(|(number, buffer)| (number, buffer.as_entire_binding()));
         let Pipelines { cull, count_listed, count_left, few, left, caps, .. } = pipelines;
         self.set(pass, cull, 0, &[Params, Points, Blocks], &[view.clone(), listed.clone()]);
         let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULL_GROUP));
@@ -199,18 +178,17 @@ impl Binder<'_> {
         &self,
         pass: &mut wgpu::ComputePass<'_>,
         resolve: &wgpu::ComputePipeline,
-        screen: &Screen,
         [columns, rows]: [u32; 2],
     ) {
         use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Yarns};
         let fabric = [Params, Points, Yarns, Blocks, Outlines, CapRows, CapPattern];
         let own = [
             (0, self.view.as_entire_binding()),
-            (4, self.raster.keys.as_entire_binding()),
+            (4, self.screen.keys.as_entire_binding()),
             (5, self.raster.ring_rolls.as_entire_binding()),
-            (6, BindingResource::TextureView(&screen.depths)),
-            (7, BindingResource::TextureView(&screen.directions)),
-            (8, BindingResource::TextureView(&screen.places)),
+            (6, BindingResource::TextureView(&self.screen.depths)),
+            (7, BindingResource::TextureView(&self.screen.directions)),
+            (8, BindingResource::TextureView(&self.screen.places)),
         ];
         self.set(pass, resolve, 0, &fabric, &own);
         pass.dispatch_workgroups(columns.div_ceil(SCREEN_GROUP), rows.div_ceil(SCREEN_GROUP), SAMPLES);

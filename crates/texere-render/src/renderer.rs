@@ -1,12 +1,13 @@
 //! The pipelines: yarns, visibility, light, pixels.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use texere_core::{Backend, BackendError, DeviceInfo};
 use texere_shaders::picture;
 use texere_wgpu::WgpuBackend;
 
 use crate::rasteriser::{Keys, Rasteriser, module, pipeline};
+use crate::screen::Screen;
 
 /// An open device with the pipelines that make pictures.
 ///
@@ -32,6 +33,8 @@ pub struct Renderer {
     pub(crate) visibility: wgpu::ComputePipeline,
     pub(crate) shade: wgpu::ComputePipeline,
     pub(crate) gather: wgpu::ComputePipeline,
+    /// That of the last picture.
+    screen: Arc<Mutex<Option<Arc<Screen>>>>,
 }
 
 impl Renderer {
@@ -52,7 +55,24 @@ impl Renderer {
                 pipeline(device, &module(device, picture::GATHER), "gather"),
             ]
         })?;
-        Ok(Self { device, rasteriser: Arc::new(rasteriser), visibility, shade, gather })
+        let (rasteriser, screen) = (Arc::new(rasteriser), Arc::default());
+        Ok(Self { device, rasteriser, visibility, shade, gather, screen })
+    }
+
+    /// What a picture of this size is drawn into: that of the last one where it fits and no scene has it any more. A device takes longer to
+    /// hand out that much memory than to draw.
+    ///
+    /// **Errors**: [`BackendError::OutOfMemory`], [`BackendError::Driver`], [`BackendError::DeviceLost`].
+    pub(crate) fn screen(&self, size: [u32; 2], supersampling: u32) -> Result<Arc<Screen>, BackendError> {
+        let mut last = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
+        // One that does not fit is given back before another one is asked for.
+        let free =
+            last.take().filter(|screen| screen.fits(size, supersampling) && Arc::strong_count(screen) == 1);
+        let screen = match free {
+            Some(screen) => screen,
+            None => Arc::new(Screen::new(self, size, supersampling)?),
+        };
+        Ok(last.insert(screen).clone())
     }
 
     /// The device.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use glam::Vec3;
 use texere_core::{
-    Chunk, ControlPoint, Limits, Plan, SessionError, Settings, Settler, Topology, Traffic, Yarns,
+    Chunk, ControlPoint, Limits, Plan, PlanError, SessionError, Settings, Settler, Topology, Traffic, Yarns,
 };
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
@@ -85,21 +85,21 @@ pub struct PictureTimings {
 }
 
 /// A fabric on a device: control points and tables. No mesh is made for a picture: what it takes beside them is its samples, eight bytes each
-/// while they are found, 25 until pixels are made of them.
+/// while they are found, 25 until pixels are made of them. The renderer keeps that memory for the next scene.
 #[derive(Debug)]
 pub struct Scene {
     pub(crate) renderer: Renderer,
     pub(crate) plan: Arc<Plan>,
     pub(crate) session: WgpuSession,
     limits: Limits,
-    /// All chunks, once they have been drawn, where they are few enough to stay in the session.
+    /// All chunks, where they are few enough to stay in the session.
     chunks: Vec<Chunk>,
     extent: Extent,
     looks: wgpu::Buffer,
     raster: Raster,
     pub(crate) view: wgpu::Buffer,
     background: Background,
-    pub(crate) screen: Option<Screen>,
+    pub(crate) screen: Option<Arc<Screen>>,
     /// Of the last picture.
     pub(crate) camera: Option<Camera>,
 }
@@ -108,7 +108,7 @@ pub struct Scene {
 #[derive(Debug, Clone)]
 pub struct DevicePicture {
     /// Red, green, blue and alpha, a byte each, sRGB though the format does not say so: [`wgpu::TextureFormat::Rgba8Unorm`], to be sampled or copied.
-    /// It is the scene's, and the next picture of the same size is drawn into it.
+    /// It is the scene's, and the next picture of the same size is drawn into it; once the scene is gone, that of another scene of the renderer.
     pub texture: wgpu::TextureView,
     /// How long it took; nothing is copied.
     pub timings: PictureTimings,
@@ -147,8 +147,14 @@ impl Renderer {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let mut session = self.device.lending_session(plan.clone())?;
-        send(&mut session)?;
-        session.scan()?;
+        let limits = Raster::chunk_limits(&plan, &self.info().limits);
+        let mut chunks = Ok(Vec::new());
+        // Cut while points are sent.
+        rayon::in_place_scope(|scope| {
+            scope.spawn(|_| chunks = kept_chunks(&plan, &limits));
+            send(&mut session)?;
+            session.scan()
+        })?;
         let buffer = |what, bytes: &[u8], usage| self.filled(what, bytes, usage);
         Ok(Scene {
             renderer: self.clone(),
@@ -164,8 +170,8 @@ impl Renderer {
             background: Background::Ground,
             screen: None,
             camera: None,
-            chunks: Vec::new(),
-            limits: Raster::chunk_limits(&plan, &self.info().limits),
+            chunks: chunks?,
+            limits,
             plan,
         })
     }
@@ -193,7 +199,9 @@ impl Scene {
     /// Cuts chunks to `limits` where the scene's own are wider.
     #[must_use]
     pub fn with_limits(self, limits: &Limits) -> Self {
-        Self { limits: self.limits.min(limits), chunks: Vec::new(), ..self }
+        let limits = self.limits.min(limits);
+        // Limits that no block fits are said when a picture is made.
+        Self { chunks: kept_chunks(&self.plan, &limits).unwrap_or_default(), limits, ..self }
     }
 
     /// What its pictures have from now on where no yarn is; at first ground.
@@ -242,7 +250,7 @@ impl Scene {
         self.check_size(size, supersampling)?;
         let screen = match self.screen.take().filter(|screen| screen.fits(size, supersampling)) {
             Some(screen) => screen,
-            None => Screen::new(&self.renderer.device, size, supersampling)?,
+            None => self.renderer.screen(size, supersampling)?,
         };
         let texture = self.screen.insert(screen).picture.clone();
         self.camera = Some(camera.clone());
@@ -265,14 +273,9 @@ impl Scene {
 
     /// Draws chunk after chunk.
     pub(crate) fn draw(&mut self) -> Result<(), RenderError> {
-        let plan = self.plan.clone();
         if self.chunks.is_empty() {
-            let mut rest = plan.chunks(&self.limits)?;
-            let first: Vec<_> = rest.by_ref().take(CHUNKS_KEPT + 1).collect();
-            if first.len() > CHUNKS_KEPT {
-                return self.draw_chunks(first.into_iter().chain(rest));
-            }
-            self.chunks = first;
+            let plan = self.plan.clone();
+            return self.draw_chunks(plan.chunks(&self.limits)?);
         }
         let kept = std::mem::take(&mut self.chunks);
         let drawn = self.draw_chunks(kept.iter());
@@ -287,7 +290,7 @@ impl Scene {
         for chunk in chunks {
             let chunk = chunk.borrow();
             let tables = session.chunk_tables(chunk)?;
-            for band in Raster::bands(renderer, screen) {
+            for band in screen.bands() {
                 let drawn = raster.draw(renderer, tables, chunk, view, screen, band)?;
                 // No more than two are under way, so that each wait is for one and not for a fabric.
                 if let Some(submission) = before.replace(drawn) {
@@ -345,6 +348,14 @@ impl Scene {
         device.wait(submission)?;
         Ok(screen.take(device)?)
     }
+}
+
+/// All chunks of a plan where they are few enough to stay in a session, else none.
+///
+/// **Errors**: [`PlanError`] where not even one block fits the limits.
+fn kept_chunks(plan: &Plan, limits: &Limits) -> Result<Vec<Chunk>, PlanError> {
+    let first: Vec<_> = plan.chunks(limits)?.take(CHUNKS_KEPT + 1).collect();
+    Ok(if first.len() > CHUNKS_KEPT { Vec::new() } else { first })
 }
 
 /// The mean length from ring to ring of each yarn, mm, by its first control points: it only places the fibres' pattern.

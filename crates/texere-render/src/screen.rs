@@ -1,9 +1,13 @@
 //! What a picture is drawn into, and the copy that goes to the host.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
 use texere_core::BackendError;
 use texere_wgpu::WgpuBackend;
 use wgpu::{BufferUsages, Extent3d, TextureFormat, TextureUsages};
 
+use crate::Renderer;
 use crate::memory::read_mapped;
 
 /// Samples of a pixel, where rasterisers of every device have them for four.
@@ -15,7 +19,14 @@ pub(crate) const SCREEN_GROUP: u32 = 8;
 /// Bytes of a pixel of a picture.
 const COLOR_BYTES: u32 = 4;
 
-/// The textures for one size of picture: 100 bytes a pixel, times the square of the supersampling, and 8 bytes.
+/// Bytes of a sample's key.
+const KEY_BYTES: u64 = 8;
+
+/// Most bytes of keys: sixteen samples for each of two million pixels.
+const KEYS_MOST: u64 = 256 << 20;
+
+/// What one size of picture takes: 132 bytes a pixel, times the square of the supersampling, and 8 bytes; fewer where a binding does not hold the keys
+/// of all samples.
 #[derive(Debug)]
 pub(crate) struct Screen {
     size: [u32; 2],
@@ -28,15 +39,14 @@ pub(crate) struct Screen {
     /// The four samples of a pixel in one number each.
     pub(crate) lit: wgpu::TextureView,
     pub(crate) picture: wgpu::TextureView,
+    /// The nearest triangle of each sample of a band.
+    pub(crate) keys: wgpu::Buffer,
     host: wgpu::Buffer,
 }
 
 impl Screen {
-    pub(crate) fn new(
-        device: &WgpuBackend,
-        size: [u32; 2],
-        supersampling: u32,
-    ) -> Result<Self, BackendError> {
+    pub(crate) fn new(renderer: &Renderer, size: [u32; 2], supersampling: u32) -> Result<Self, BackendError> {
+        let device = &renderer.device;
         let large = size.map(|pixels| pixels * supersampling);
         let texture = |label, [width, height]: [u32; 2], layers, format, usage| {
             let texture = device.device().create_texture(&wgpu::TextureDescriptor {
@@ -66,7 +76,14 @@ impl Screen {
         let [depths, directions, places, visibility, lit, picture] = textures;
         let bytes = u64::from(row_bytes(size)) * u64::from(size[1]);
         let host = device.buffer("picture", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST)?;
-        Ok(Self { size, supersampling, depths, directions, places, visibility, lit, picture, host })
+        let key_bytes = key_row(large) * u64::from(large[1]);
+        let most = KEYS_MOST.min(renderer.info().limits.binding_bytes).max(key_row(large));
+        let keys = renderer.buffer(
+            "samples",
+            key_bytes.min(most / key_row(large) * key_row(large)),
+            BufferUsages::STORAGE,
+        )?;
+        Ok(Self { size, supersampling, depths, directions, places, visibility, lit, picture, keys, host })
     }
 
     /// Whether pictures of this size can be drawn into it.
@@ -82,6 +99,18 @@ impl Screen {
     /// The same before it is scaled down to the picture's.
     pub(crate) fn large(&self) -> [u32; 2] {
         self.size.map(|pixels| pixels * self.supersampling)
+    }
+
+    /// The stretches of its rows that are drawn one after the other: there are keys for each.
+    pub(crate) fn bands(&self) -> impl Iterator<Item = Range<u32>> + use<> {
+        let height = self.large()[1];
+        let rows = (self.keys.size() / key_row(self.large())) as usize;
+        (0..height).step_by(rows).map(move |first| first..height.min(first + rows as u32))
+    }
+
+    /// Bytes of the keys of so many rows.
+    pub(crate) fn key_bytes(&self, rows: u32) -> u64 {
+        u64::from(rows) * key_row(self.large())
     }
 
     /// Records the copy to the host.
@@ -111,17 +140,25 @@ impl Screen {
         let row = row_bytes(self.size) as usize;
         let [width, height] = self.size.map(|pixels| pixels as usize);
         let pixels = read_mapped(device, &self.host, |view| {
-            let [mut rgb, mut alpha] = [3 * width * height, width * height].map(Vec::with_capacity);
-            let rows = view.chunks_exact(row).take(height);
-            for pixel in rows.flat_map(|row| row.chunks_exact(COLOR_BYTES as usize).take(width)) {
-                rgb.extend_from_slice(&pixel[..3]);
-                alpha.push(pixel[3]);
-            }
+            let [mut rgb, mut alpha] = [3 * width * height, width * height].map(|bytes| vec![0_u8; bytes]);
+            let rows = rgb.par_chunks_exact_mut(3 * width).zip(alpha.par_chunks_exact_mut(width));
+            rows.zip(view.par_chunks_exact(row)).for_each(|((rgb, alpha), row)| {
+                let pixels = row.chunks_exact(COLOR_BYTES as usize);
+                for ((rgb, alpha), pixel) in rgb.chunks_exact_mut(3).zip(alpha).zip(pixels) {
+                    rgb.copy_from_slice(&pixel[..3]);
+                    *alpha = pixel[3];
+                }
+            });
             [rgb, alpha]
         })?;
         device.scoped("Buffer::unmap", || self.host.unmap())?;
         Ok(pixels)
     }
+}
+
+/// Bytes of the keys of a row of a screen this large.
+fn key_row(large: [u32; 2]) -> u64 {
+    u64::from(large[0]) * u64::from(SAMPLES) * KEY_BYTES
 }
 
 /// Bytes of a row of the copy, which wgpu wants in multiples of 256.

@@ -152,6 +152,34 @@ impl Drawdown {
         Ok(())
     }
 
+    /// How many picks each end lies on.
+    pub(super) fn ups_of_ends(&self) -> Vec<u64> {
+        let mut ups = vec![0; self.ends];
+        for (word, ups) in ups.chunks_mut(WORD).enumerate() {
+            // Sixty-four ends at a time: each word holds a binary digit of all their counts.
+            let mut digits: Vec<u64> = Vec::new();
+            for row in self.words.chunks_exact(self.row) {
+                let mut carry = row[word];
+                for digit in &mut digits {
+                    (*digit, carry) = (*digit ^ carry, *digit & carry);
+                }
+                if carry != 0 {
+                    digits.push(carry);
+                }
+            }
+            for (end, ups) in ups.iter_mut().enumerate() {
+                *ups = digits.iter().rev().fold(0, |higher, digit| 2 * higher + (digit >> end & 1));
+            }
+        }
+        ups
+    }
+
+    /// How many ends each pick lies on.
+    pub(super) fn downs_of_picks(&self) -> Vec<u64> {
+        let ups = |row: &[u64]| row.iter().map(|word| u64::from(word.count_ones())).sum::<u64>();
+        self.words.chunks_exact(self.row).map(|row| self.ends as u64 - ups(row)).collect()
+    }
+
     /// The words of `pick`, which lies within the cloth: end 0 in the lowest bit of the first.
     pub(super) fn row_mut(&mut self, pick: usize) -> &mut [u64] {
         &mut self.words[pick * self.row..][..self.row]
@@ -205,6 +233,18 @@ mod tests {
             Err(FabricError::NoCrossing { end: 66, pick: 1, ends: 65, picks: 2 })
         );
         assert!(drawdown.set(usize::MAX, usize::MAX, true).is_err());
+    }
+
+    #[test]
+    fn threads_are_counted_where_they_lie_on_top() {
+        for (ends, picks) in [(1, 1), (64, 70), (65, 3), (130, 200)] {
+            let up = |end: usize, pick: usize| (end * end + 3 * pick + end * pick) % 7 < end % 9;
+            let drawdown = Drawdown::from_fn(ends, picks, up).unwrap();
+            let ups = |end| (0..picks).filter(|&pick| up(end, pick)).count() as u64;
+            let downs = |pick| (0..ends).filter(|&end| !up(end, pick)).count() as u64;
+            assert_eq!(drawdown.ups_of_ends(), (0..ends).map(ups).collect::<Vec<_>>());
+            assert_eq!(drawdown.downs_of_picks(), (0..picks).map(downs).collect::<Vec<_>>());
+        }
     }
 
     #[test]

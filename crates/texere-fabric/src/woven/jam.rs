@@ -59,18 +59,20 @@ pub(super) fn gaps(
     apart: impl Fn(usize, usize) -> bool + Sync,
 ) -> Vec<Gap> {
     let pitches: Vec<f64> = spacings.skip(1).collect();
+    // From the thickest on, so that the first one that changes sides is the one looked for.
+    let mut crossing: Vec<(usize, f32)> = crossing.half_height.iter().copied().enumerate().collect();
+    crossing.sort_by(|(_, one), (_, other)| other.total_cmp(one));
     pitches
         .into_par_iter()
         .enumerate()
         .map(|(first, pitch)| {
-            let changing = crossing.half_height.iter().enumerate().filter(|&(other, _)| apart(first, other));
-            let thickest = changing.map(|(_, height)| *height).reduce(f32::max);
+            let thickest = crossing.iter().find(|(other, _)| apart(first, *other));
             Gap {
                 thread: first as u32 + 2,
                 pitch,
                 widths: set.half_width[first] + set.half_width[first + 1],
                 heights: set.half_height[first] + set.half_height[first + 1],
-                between: thickest.map(|height| 2.0 * height),
+                between: thickest.map(|(_, height)| 2.0 * height),
             }
         })
         .collect()

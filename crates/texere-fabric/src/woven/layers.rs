@@ -26,17 +26,12 @@ impl Drawdown {
     #[must_use]
     pub fn layers(&self) -> Vec<[usize; 2]> {
         let [ends, picks] = [self.ends(), self.picks()];
-        let (mut over, mut under) = (vec![0_u64; ends], vec![0_u64; picks]);
-        for (end, pick) in (0..picks).flat_map(|pick| (0..ends).map(move |end| (end, pick))) {
-            if self.up(end, pick) {
-                over[end] += 1;
-            } else {
-                under[pick] += 1;
-            }
-        }
-        // How often the first so many of each set lie on top, taken from the face.
-        let [over, under] = [over, under].map(|mut counts| {
+        // How often each thread lies on top, those that do so most often first; and how often the first so many of each set do.
+        let [over, under] = [self.ups_of_ends(), self.downs_of_picks()].map(|mut counts| {
             counts.sort_unstable_by_key(|count| Reverse(*count));
+            counts
+        });
+        let [sums_over, sums_under] = [&over, &under].map(|counts| {
             let mut sum = 0;
             let add = |count: &u64| {
                 sum += count;
@@ -45,9 +40,16 @@ impl Drawdown {
             [0].into_iter().chain(counts.iter().map(add)).collect::<Vec<u64>>()
         });
         let (mut layers, mut last) = (Vec::<[usize; 2]>::new(), [0, 0]);
-        for (first, over) in over.iter().enumerate() {
-            for (second, under) in under.iter().enumerate() {
-                let crossings = first as u64 * picks as u64 + second as u64 * (ends - first) as u64;
+        for (first, over) in sums_over.iter().enumerate() {
+            // Each further pick crosses so many ends that are not among the first, and lies on as many as its count says. Counts only fall, so what the
+            // threads cross and how often they lie on top come nearest to one another where these two are the same, and can be equal only there.
+            let others = (ends - first) as u64;
+            let [fewest, most] = [
+                under.partition_point(|count| *count > others),
+                under.partition_point(|count| *count >= others),
+            ];
+            for (second, under) in (fewest..).zip(&sums_under[fewest..=most]) {
+                let crossings = first as u64 * picks as u64 + second as u64 * others;
                 if over + under != crossings || [first, second] == last {
                     continue;
                 }

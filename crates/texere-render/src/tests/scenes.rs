@@ -8,7 +8,7 @@ use texere_core::{Layout, Placement, Plan, Ray, Settings, Topology, Yarn, Yarns}
 use texere_cpu::Picker;
 
 use super::{SETTINGS, SIZE, TWILL, renderer, two_yarns};
-use crate::{Background, Camera, Extent, Picture, Pose, Quality, RenderError};
+use crate::{Background, Camera, Extent, Picture, Pose, Quality, RenderError, Scene};
 
 /// Two cloths of warp in red and green and weft in blue, one beside the other, turned and larger.
 fn cloths() -> Yarns {
@@ -132,6 +132,30 @@ fn what_is_seen_at_a_point_is_what_its_ray_hits() {
     for outside in [[-0.5, 3.0], [3.0, SIZE[1] as f32], [f32::NAN, 3.0], [f32::INFINITY, 3.0]] {
         assert_eq!(scene.seen_at(outside).unwrap(), None, "{outside:?}");
     }
+}
+
+/// Scenes of one renderer take over what pictures are drawn into, but not from a scene that still has it.
+#[test]
+fn a_scene_keeps_its_picture_while_others_are_drawn() {
+    let renderer = renderer().lock().unwrap();
+    let (twill, others) = (TWILL.yarns(), cloths());
+    let camera = Camera::face(&Extent::of(&twill), [40, 24]);
+    let scene = |yarns| renderer.scene(yarns, &SETTINGS).unwrap();
+    let seen = |scene: &Scene| [4.5, 12.5, 20.5, 28.5].map(|x| scene.seen_at([x, 12.5]).unwrap());
+    let mut first = scene(&twill);
+    first.frame(&camera, Quality { supersampling: 1 }).unwrap();
+    let before = seen(&first);
+    assert!(before.iter().any(Option::is_some));
+    let mut beside = scene(&others);
+    let aside = Camera::face(beside.extent(), [40, 24]);
+    beside.frame(&aside, Quality { supersampling: 1 }).unwrap();
+    assert_eq!(seen(&first), before);
+    assert_ne!(seen(&beside), before);
+    // What is left in it of a scene that is gone is not seen.
+    drop((first, beside));
+    let mut last = scene(&twill);
+    last.frame(&camera, Quality { supersampling: 1 }).unwrap();
+    assert_eq!(seen(&last), before);
 }
 
 /// Where a pixel of the screen has its first sample in a picture of threads finer than pixels: `sample_in` of `view.wgsl`.

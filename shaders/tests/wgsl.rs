@@ -60,8 +60,10 @@ fn drawing_shaders_have_their_entry_points() {
     let long = core | Capabilities::SHADER_INT64 | Capabilities::SHADER_INT64_ATOMIC_MIN_MAX;
     for (source, capabilities, entries) in [
         (picture::CULL, core, &["cull", "count_listed", "count_left"][..]),
-        (picture::RASTER_IN_ROUNDS, core, &["raster", "raster_left", "raster_caps"]),
-        (picture::RASTER, long, &["raster", "raster_left", "raster_caps"]),
+        (picture::RASTER_IN_ROUNDS[0], core, &["raster", "raster_left", "raster_caps"]),
+        (picture::RASTER_IN_ROUNDS[1], core, &["raster", "raster_left", "raster_caps"]),
+        (picture::RASTER[0], long, &["raster", "raster_left", "raster_caps"]),
+        (picture::RASTER[1], long, &["raster", "raster_left", "raster_caps"]),
         (picture::RESOLVE, core, &["resolve"]),
     ] {
         for flattened in [false, true] {

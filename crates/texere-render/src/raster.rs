@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use texere_core::{BLOCK_RINGS, BackendError, Chunk, ControlPoint, Limits, Plan};
+use texere_core::{BLOCK_RINGS, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Limits, Plan};
 use texere_shaders::{Resource, grid};
 use texere_wgpu::ChunkTables;
 use wgpu::{BindingResource, BufferUsages};
 
 use crate::Renderer;
 use crate::rasteriser::{Keys, Pipelines, group};
-use crate::screen::{SAMPLES, SCREEN_GROUP, Screen};
+use crate::screen::{SCREEN_GROUP, Screen};
 
 /// `Sweep` of `fabric.wgsl`.
 #[repr(C)]
@@ -26,8 +26,11 @@ struct Sweep {
 
 const _: () = assert!(size_of::<Sweep>() == 32);
 
-/// `CULL_GROUP` of `cull.wgsl`.
-const CULL_GROUP: u32 = 64;
+/// Most blocks of a chunk on a GPU of its own memory: some sixty million rings, which take it a hundredth of a second. Each further chunk costs a look at all samples.
+const BLOCKS_MOST: u64 = 1 << 20;
+
+/// Blocks of a workgroup of `cull.wgsl`: `CULL_GROUP / BLOCK_LANES`.
+const CULLED_BLOCKS: u32 = 8;
 
 /// The buffers of one chunk at a time, as large as the largest so far.
 #[derive(Debug)]
@@ -39,6 +42,8 @@ pub(crate) struct Raster {
     ring_rolls: wgpu::Buffer,
     /// How far a section reaches from its centre, in half widths or half heights.
     reach: f32,
+    /// Whether sections turn anywhere.
+    rolled: bool,
 }
 
 impl Raster {
@@ -52,18 +57,20 @@ impl Raster {
             groups: buffer("workgroups", 12, BufferUsages::STORAGE | BufferUsages::INDIRECT)?,
             ring_rolls: buffer("rolls of rings", 0, BufferUsages::STORAGE)?,
             reach,
+            rolled: plan.needs_scan(),
         })
     }
 
-    /// The limits that chunks are cut to: their tables fit a binding, and their triangles a number of 32 bits.
-    pub(crate) fn chunk_limits(plan: &Plan, device: &Limits) -> Limits {
+    /// The limits that chunks are cut to: their tables fit a binding, their triangles a number of 32 bits, and none takes long.
+    pub(crate) fn chunk_limits(plan: &Plan, device: &DeviceInfo) -> Limits {
         let settings = plan.settings();
         let triangles = 2 * u64::from(BLOCK_RINGS) * u64::from(settings.sides);
         // A row has two caps at most, each with as many numbers as a block.
         let numbered = u64::from(u32::MAX) / triangles / 3;
         let points = u64::from(BLOCK_RINGS) / (u64::from(settings.subdivisions) + 1) + 24;
-        let bound = device.binding_bytes / (points * size_of::<ControlPoint>() as u64);
-        Limits { blocks: device.blocks.min(numbered).min(bound).max(2), ..Limits::NONE }
+        let blocks = if device.kind == DeviceKind::DiscreteGpu { BLOCKS_MOST } else { device.limits.blocks };
+        let bound = device.limits.binding_bytes / (points * size_of::<ControlPoint>() as u64);
+        Limits { blocks: numbered.min(bound).min(blocks).max(2), ..Limits::NONE }
     }
 
     /// Draws a chunk over what earlier ones left on some rows of the screen, and hands the work over.
@@ -77,7 +84,7 @@ impl Raster {
         band: Range<u32>,
     ) -> Result<wgpu::SubmissionIndex, BackendError> {
         let (device, keys) = (&renderer.device, renderer.rasteriser.keys);
-        let pipelines = renderer.rasteriser.pipelines(device, tables.are_flattened())?;
+        let pipelines = renderer.rasteriser.pipelines(device, tables.are_flattened(), self.rolled)?;
         let rows = band.end - band.start;
         renderer.reserve(&mut self.listed, 8 * (chunk.blocks().len() as u64 + 1))?;
         renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
@@ -140,14 +147,14 @@ impl Binder<'_> {
     /// Records what finds the nearest triangle of each sample.
     fn find(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, chunk: &Chunk, keys: Keys) {
         use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Rolls, Yarns};
-        let Raster { listed, groups, ring_rolls, .. } = self.raster;
+        let Raster { listed, groups, ring_rolls, rolled, .. } = self.raster;
         let view = (0, self.view.as_entire_binding());
         let [listed, counted, samples, rolls] =
             [(2, listed), (3, groups), (4, &self.screen.keys), (5, ring_rolls)]
                 .map(|(number, buffer)| (number, buffer.as_entire_binding()));
         let Pipelines { cull, count_listed, count_left, few, left, caps, .. } = pipelines;
         self.set(pass, cull, 0, &[Params, Points, Blocks], &[view.clone(), listed.clone()]);
-        let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULL_GROUP));
+        let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULLED_BLOCKS));
         pass.dispatch_workgroups(columns, rows, 1);
         for round in 0..keys.rounds() {
             for (count, raster) in [(count_listed, few), (count_left, left)] {
@@ -158,9 +165,11 @@ impl Binder<'_> {
                     &[],
                 );
                 pass.dispatch_workgroups(1, 1, 1);
-                let fabric = [Params, Points, Yarns, Blocks, Rolls, Outlines];
+                let fabric = [Params, Points, Yarns, Blocks, Outlines, Rolls];
                 let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
-                self.set(pass, raster, round, &fabric, &own);
+                // Where nothing turns there are no rolls.
+                let without = usize::from(!rolled);
+                self.set(pass, raster, round, &fabric[..6 - without], &own[..4 - without]);
                 pass.dispatch_workgroups_indirect(groups, 0);
             }
             if !chunk.caps().is_empty() {
@@ -191,6 +200,6 @@ impl Binder<'_> {
             (8, BindingResource::TextureView(&self.screen.places)),
         ];
         self.set(pass, resolve, 0, &fabric, &own);
-        pass.dispatch_workgroups(columns.div_ceil(SCREEN_GROUP), rows.div_ceil(SCREEN_GROUP), SAMPLES);
+        pass.dispatch_workgroups(columns.div_ceil(SCREEN_GROUP), rows.div_ceil(SCREEN_GROUP), 1);
     }
 }

@@ -33,16 +33,17 @@ impl Keys {
     }
 }
 
-/// The shaders of a device, for round yarns and for all yarns, each compiled where it is wanted first.
+/// The shaders of a device, for each kind of fabric, each compiled where it is wanted first.
 #[derive(Debug)]
 pub(crate) struct Rasteriser {
     pub(crate) keys: Keys,
-    raster: &'static str,
+    raster: [&'static str; 2],
     resolve: Cow<'static, str>,
-    kinds: [OnceLock<Arc<Pipelines>>; 2],
+    /// For round yarns alone and for all; of each for those whose sections nowhere turn, and for all.
+    kinds: [[OnceLock<Arc<Pipelines>>; 2]; 2],
 }
 
-/// The shaders for one kind of yarns.
+/// The shaders for one kind of fabric.
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub(crate) cull: wgpu::ComputePipeline,
@@ -69,15 +70,16 @@ impl Rasteriser {
         Self { resolve: Cow::Owned(resolve), ..self }
     }
 
-    /// The shaders for all yarns, or for round ones alone.
+    /// The shaders for fabrics whose yarns are `flattened` anywhere, or `rolled`.
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub(crate) fn pipelines(
         &self,
         device: &WgpuBackend,
         flattened: bool,
+        rolled: bool,
     ) -> Result<Arc<Pipelines>, BackendError> {
-        let place = &self.kinds[usize::from(flattened)];
+        let place = &self.kinds[usize::from(flattened)][usize::from(rolled)];
         if let Some(compiled) = place.get() {
             return Ok(compiled.clone());
         }
@@ -85,7 +87,9 @@ impl Rasteriser {
             let device = device.device();
             let before = prelude(Language::Wgsl, flattened);
             let module = |source: &str| module(device, before.clone() + source);
-            let (cull, raster, resolve) = (module(picture::CULL), module(self.raster), module(&self.resolve));
+            let cull = module(picture::CULL);
+            let raster = module(self.raster[usize::from(rolled)]);
+            let resolve = module(&self.resolve);
             Arc::new(Pipelines {
                 cull: pipeline(device, &cull, "cull"),
                 count_listed: pipeline(device, &cull, "count_listed"),

@@ -147,7 +147,7 @@ impl Renderer {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let mut session = self.device.lending_session(plan.clone())?;
-        let limits = Raster::chunk_limits(&plan, &self.info().limits);
+        let limits = Raster::chunk_limits(&plan, self.info());
         let mut chunks = Ok(Vec::new());
         // Cut while points are sent.
         rayon::in_place_scope(|scope| {

@@ -4,16 +4,14 @@
 // are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
 // top or left edge that is.
 
-const SUBPIXELS = 256.0;
-
-// Corners at most this far from the screen's middle, pixels: edges are exact up to there.
-const REACHED = 16384.0;
+// Corners at most this far from the screen's middle, 1/256 pixels: edges are exact up to there.
+const REACHED = 4194304.0;
 
 // A quad of fewer 1/256 pixels across takes edges of 32 bits.
 const EXTENT = 32768;
 
 // A quad whose box has more samples is left to the whole workgroup.
-const ALONE = 96;
+const ALONE = 512;
 
 // A corner on the screen.
 struct Corner {
@@ -27,14 +25,37 @@ struct Corner {
 // Marks a corner that lies behind the eye or too far aside to have a place.
 const BEYOND = 64u;
 
-fn corner_of(clip: vec4<f32>) -> Corner {
-    let pixels = clip.xy / clip.w * vec2(0.5, -0.5) * view.size;
-    let is_beyond = clip.w < 1e-6 || any(abs(pixels) > vec2(REACHED));
-    let over = vec3<u32>(clip.xyz > vec3(clip.w)) * vec3(1u, 2u, 4u);
-    let under = vec3<u32>(clip.xyz < vec3(-clip.w, -clip.w, 0.0)) * vec3(8u, 16u, 32u);
+// A point in screen space is one of clip space whose x and y are 1/256 pixels from the middle, y downwards, before they are divided by w.
+fn screen_scale() -> vec2<f32> {
+    return vec2(128.0, -128.0) * view.size;
+}
+
+// Where that is on the screen, before it is rounded.
+fn place_of(xy: vec2<f32>, w: f32) -> vec2<f32> {
+    // In a parallel view w is 1 everywhere.
+    if view.eye.w == 0.0 {
+        return xy;
+    }
+    return xy * (1.0 / w);
+}
+
+// Next to 3 * 2^22 floats lie 1 apart, and their last bits count them: so a sum rounds. A conversion takes a GPU eight times as long.
+const ROUNDER = 12582912.0;
+const ROUNDER_BITS = 0x4b400000;
+
+// The nearest whole numbers, up to REACHED.
+fn rounded(place: vec2<f32>) -> vec2<i32> {
+    return bitcast<vec2<i32>>(place + ROUNDER) - ROUNDER_BITS;
+}
+
+fn corner_of(at: vec4<f32>) -> Corner {
+    let place = place_of(at.xy, at.w);
+    let is_beyond = at.w < 1e-6 || any(abs(place) > vec2(REACHED));
+    let edge = vec3(128.0 * view.size, 1.0) * at.w;
+    let over = vec3<u32>(at.xyz > edge) * vec3(1u, 2u, 4u);
+    let under = vec3<u32>(at.xyz < vec3(-edge.xy, 0.0)) * vec3(8u, 16u, 32u);
     let sides = over.x | over.y | over.z | under.x | under.y | under.z | select(0u, BEYOND, is_beyond);
-    let place = select(vec2<i32>(floor(pixels * SUBPIXELS + 0.5)), vec2(0), vec2(is_beyond));
-    return Corner(place, clip.z / clip.w, sides);
+    return Corner(rounded(select(place, vec2(0.0), vec2(is_beyond))), at.z / at.w, sides);
 }
 
 fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
@@ -69,51 +90,119 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// Whether a quad may have samples: none, few or many. One that lies partly beyond what is reached may have many.
+// Which samples a quad may have: NONE; those of two by two pixels, a bit each, four for a pixel, from the pixel of the least x and y
+// on, row by row; FEW of some pixels more; or MANY, as one that lies partly beyond what is reached may have.
 const NONE = 0u;
-const FEW = 1u;
-const MANY = 2u;
+const FEW = 0xffffu;
+const MANY = 0x10000u;
 
-// A triangle's area on the screen, twice. Only its sign is wanted, which rounding does not change but where edges are as long as
-// the screen. Outsides are counter-clockwise as seen with y up: their areas are below 0.
+// Whether an outside, or an inside where that may be seen, shows: from a triangle's area on the screen, twice. Outsides are
+// counter-clockwise as seen with y up: their areas are below 0.
+fn is_seen(area: f32) -> bool {
+    return area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
+}
+
+// That area. Only its sign is wanted, which rounding does not change but where edges are as long as the screen.
 fn area_of(p: Corner, q: Corner, r: Corner) -> f32 {
     let pq = vec2<f32>(q.place - p.place);
     let pr = vec2<f32>(r.place - p.place);
     return pq.x * pr.y - pq.y * pr.x;
 }
 
-fn is_seen(area: f32) -> bool {
-    return area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
+// The same of corners less than EXTENT apart, by an area that is wrong by less than 256: whether a triangle may show.
+fn near_may_show(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>) -> bool {
+    let pq = q - p;
+    let pr = r - p;
+    return pq.x * pr.y - pq.y * pr.x < 256.0;
 }
 
-// Of the quad between p and q on a ring and r and s on the next: the triangles p q r and q s r.
-fn look_of(p: Corner, q: Corner, r: Corner, s: Corner) -> u32 {
-    if (p.sides & q.sides & r.sides & s.sides & ~BEYOND) != 0u {
+// The corners of a quad: p and q on its ring, r and s on the next.
+struct Quad {
+    p: Corner,
+    q: Corner,
+    r: Corner,
+    s: Corner,
+}
+
+// Its triangles are p q r and q s r.
+fn look_of(quad: Quad) -> u32 {
+    if (quad.p.sides & quad.q.sides & quad.r.sides & quad.s.sides & ~BEYOND) != 0u {
         return NONE;
     }
-    if ((p.sides | q.sides | r.sides | s.sides) & BEYOND) != 0u {
+    if ((quad.p.sides | quad.q.sides | quad.r.sides | quad.s.sides) & BEYOND) != 0u {
         return MANY;
     }
-    if !is_seen(area_of(p, q, r)) && !is_seen(area_of(q, s, r)) {
-        return NONE;
+    let across = highest(quad) - lowest(quad);
+    if max(across.x, across.y) >= EXTENT {
+        return select(NONE, MANY, is_seen(area_of(quad.p, quad.q, quad.r)) || is_seen(area_of(quad.q, quad.s, quad.r)));
     }
-    let low = min(min(p.place, q.place), min(r.place, s.place));
-    let high = max(max(p.place, q.place), max(r.place, s.place));
-    let span = span_of(low, high);
-    let across = span.last - span.first + 1;
-    let extent = max(high.x - low.x, high.y - low.y);
-    let is_small = across.x * across.y <= ALONE && extent < EXTENT;
-    // Most quads lie between samples, in one row or in two.
-    let has_samples = min(across.x, across.y) > 0
-        && (max(across.x, across.y) > 2 || has_sample(low, high, span.first) || has_sample(low, high, span.last)
-            || has_sample(low, high, vec2(span.first.x, span.last.y)) || has_sample(low, high, vec2(span.last.x, span.first.y)));
-    return select(NONE, select(MANY, FEW, is_small), has_samples);
+    return near_look_of(vec2<f32>(quad.p.place), vec2<f32>(quad.q.place), vec2<f32>(quad.r.place), vec2<f32>(quad.s.place));
 }
 
-// Whether the sample of pixel `at.x` in row `at.y` lies between `low` and `high`.
-fn has_sample(low: vec2<i32>, high: vec2<i32>, at: vec2<i32>) -> bool {
-    let place = sample_place(at.x, at.y);
-    return all(low <= place) && all(place <= high);
+fn lowest(quad: Quad) -> vec2<i32> {
+    return min(min(quad.p.place, quad.q.place), min(quad.r.place, quad.s.place));
+}
+
+fn highest(quad: Quad) -> vec2<i32> {
+    return max(max(quad.p.place, quad.q.place), max(quad.r.place, quad.s.place));
+}
+
+// The same of a quad whose corners all have a place and lie less than EXTENT apart.
+fn near_look_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> u32 {
+    if !(near_may_show(p, q, r) | near_may_show(q, s, r) | (view.sees_inside != 0u)) {
+        return NONE;
+    }
+    let screen = view.size * 128.0;
+    let least = rounded(min(min(p, q), min(r, s)) + screen);
+    let most = rounded(max(max(p, q), max(r, s)) + screen);
+    let pixels = pixels_of(least, most);
+    let first = pixels.first;
+    let last = pixels.last;
+    let across = last - first;
+    if min(across.x, across.y) < 0 {
+        return NONE;
+    }
+    if max(across.x, across.y) > 1 {
+        let most_samples = 4 * (across.x + 1) * (across.y + 1);
+        return select(MANY, FEW, most_samples <= ALONE);
+    }
+    // Most quads lie between samples.
+    var samples = samples_between(least, most, first);
+    if across.x > 0 {
+        samples |= samples_between(least, most, vec2(last.x, first.y)) << 4u;
+    }
+    if across.y > 0 {
+        samples |= samples_between(least, most, vec2(first.x, last.y)) << 8u;
+        if across.x > 0 {
+            samples |= samples_between(least, most, last) << 12u;
+        }
+    }
+    return samples;
+}
+
+// The pixels of the band between `least` and `most`, 1/256 pixels from the screen's upper left corner.
+struct Pixels {
+    first: vec2<i32>,
+    last: vec2<i32>,
+}
+
+fn pixels_of(least: vec2<i32>, most: vec2<i32>) -> Pixels {
+    let last_row = i32(sweep.first_row + sweep.rows) - 1;
+    return Pixels(max(least >> vec2(8u), vec2(0, i32(sweep.first_row))),
+                  min(most >> vec2(8u), vec2(i32(view.size.x) - 1, last_row)));
+}
+
+// The samples of a pixel that lie between `least` and `most`, likewise, a bit each.
+fn samples_between(least: vec2<i32>, most: vec2<i32>, pixel: vec2<i32>) -> u32 {
+    let shift = shift_of(pixel);
+    let low = least - pixel * 256;
+    let high = most - pixel * 256;
+    let down = (FIRST_SAMPLE_Y + shift.y) & (SAMPLE_ROW - 1);
+    let right = (vec4(96, 224, 32, 160) + shift.x) & vec4(255);
+    let y = vec4(0, 1, 2, 3) * SAMPLE_ROW + down;
+    let is_between = (vec4(low.x) <= right) & (right <= vec4(high.x)) & (vec4(low.y) <= y) & (y <= vec4(high.y));
+    let bits = select(vec4(0u), vec4(1u, 2u, 4u, 8u), is_between);
+    return bits.x | bits.y | bits.z | bits.w;
 }
 
 // A triangle in the order in which edges go round it clockwise as seen on the screen.
@@ -149,9 +238,10 @@ fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
     let over_r = cross_of(pq, place - turned.p.place);
     let over_p = cross_of(qr, place - turned.q.place);
     let over_q = cross_of(rp, place - turned.r.place);
+    // All three can be inside only where the edges go round clockwise.
     let is_covered =
-        over_r + edge_bias(pq) >= 0 && over_p + edge_bias(qr) >= 0 && over_q + edge_bias(rp) >= 0;
-    let share = 1.0 / f32(cross_of(pq, -rp));
+        (over_r + edge_bias(pq) >= 0) & (over_p + edge_bias(qr) >= 0) & (over_q + edge_bias(rp) >= 0);
+    let share = 1.0 / f32(over_r + over_p + over_q);
     let depth = turned.p.depth
         + (f32(over_q) * (turned.q.depth - turned.p.depth) + f32(over_r) * (turned.r.depth - turned.p.depth)) * share;
     return Coverage(is_covered, depth);
@@ -191,63 +281,100 @@ fn long_coverage(turned: Turned, place: vec2<i32>) -> Coverage {
     return Coverage(is_covered, depth);
 }
 
-fn lowest(turned: Turned) -> vec2<i32> {
-    return min(turned.p.place, min(turned.q.place, turned.r.place));
-}
-
-fn highest(turned: Turned) -> vec2<i32> {
-    return max(turned.p.place, max(turned.q.place, turned.r.place));
-}
-
-// Draws a quad of few samples, whose first triangle is number `triangle`.
-fn draw_alone(p: Corner, q: Corner, r: Corner, s: Corner, triangle: u32) {
-    let one = turned(p, q, r);
-    let other = turned(q, s, r);
-    let span = span_of(min(lowest(one), lowest(other)), max(highest(one), highest(other)));
-    for (var row = span.first.y; row <= span.last.y; row++) {
-        for (var x = span.first.x; x <= span.last.x; x++) {
-            let place = sample_place(x, row);
-            // A sample lies in one of them at most, but where the quad is folded.
-            let in_one = coverage_of(one, place);
-            if one.is_seen && in_one.is_covered {
-                offer_at(x, row, in_one.depth, triangle);
-            }
-            let in_other = coverage_of(other, place);
-            if other.is_seen && in_other.is_covered {
-                offer_at(x, row, in_other.depth, triangle + 1u);
-            }
-        }
-    }
-}
-
-// Draws a triangle of many samples: lane `lane` of `lanes` its share of them.
-fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lane: u32, lanes: u32) {
-    let turned = turned(p, q, r);
-    let low = lowest(turned);
-    let high = highest(turned);
-    let span = span_of(low, high);
-    let across = span.last - span.first + 1;
-    let is_long = max(high.x - low.x, high.y - low.y) >= EXTENT;
-    if !turned.is_seen || min(across.x, across.y) <= 0 {
+// Draws a quad, whose first triangle is number `triangle`, in those of its samples that `look` names.
+fn draw_alone(quad: Quad, look: u32, triangle: u32) {
+    if look == FEW {
+        draw_together(quad.p, quad.q, quad.r, triangle, Lanes(0, 0, 1, 1));
+        draw_together(quad.s, quad.r, quad.q, triangle + 1u, Lanes(0, 0, 1, 1));
         return;
     }
-    let step = vec2(i32(lanes) % across.x, i32(lanes) / across.x);
-    var at = vec2(i32(lane) % across.x, i32(lane) / across.x);
-    while at.y < across.y {
-        let x = span.first.x + at.x;
-        let row = span.first.y + at.y;
-        var coverage: Coverage;
-        if is_long {
-            coverage = long_coverage(turned, sample_place(x, row));
-        } else {
-            coverage = coverage_of(turned, sample_place(x, row));
-        }
-        if coverage.is_covered {
-            offer_at(x, row, coverage.depth, triangle);
-        }
-        at += step;
-        if at.x >= across.x {
-            at += vec2(-across.x, 1);
+    let first = pixels_of(lowest(quad) + middle(), highest(quad) + middle()).first;
+    for (var samples = look; samples != 0u; samples &= samples - 1u) {
+        let sample = i32(firstTrailingBit(samples));
+        let pixel = first + vec2((sample >> 2u) & 1, sample >> 3u);
+        draw_sample(quad, pixel.x, 4 * pixel.y + (sample & 3), triangle);
+    }
+}
+
+// Draws a quad in a sample: that of its triangles which lies on the sample's side of the diagonal between q and r.
+fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
+    let place = sample_place(x, row);
+    if view.sees_inside != 0u {
+        // A quad that is folded may show both.
+        offer_covered(turned(quad.p, quad.q, quad.r), x, row, triangle);
+        offer_covered(turned(quad.s, quad.r, quad.q), x, row, triangle + 1u);
+        return;
+    }
+    let diagonal = quad.q.place - quad.r.place;
+    let is_first = cross_of(diagonal, place - quad.r.place) + edge_bias(diagonal) >= 0;
+    var seen = Turned(quad.s, quad.q, quad.r, true);
+    if is_first {
+        seen = Turned(quad.p, quad.r, quad.q, true);
+    }
+    offer_covered(seen, x, row, select(triangle + 1u, triangle, is_first));
+}
+
+fn offer_covered(turned: Turned, x: i32, row: i32, triangle: u32) {
+    let coverage = coverage_of(turned, sample_place(x, row));
+    if turned.is_seen && coverage.is_covered {
+        offer_at(x, row, coverage.depth, triangle);
+    }
+}
+
+// A lane of some that share a triangle's samples, in so many columns and rows.
+struct Lanes {
+    column: i32,
+    row: i32,
+    columns: i32,
+    rows: i32,
+}
+
+// How far a row of samples may lie inside of a triangle, 1/256 pixels right of the screen's middle: before `x` and behind `y` it does not.
+fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
+    // Samples that have shifts lie anywhere in the row.
+    let is_shifted = view.spread > 0.0;
+    let upper = f32(row * SAMPLE_ROW + select(FIRST_SAMPLE_Y, 0, is_shifted) - middle().y);
+    let lower = upper + select(0.0, f32(SAMPLE_ROW), is_shifted);
+    let rows = vec2(upper, lower);
+    let p = vec2<f32>(turned.p.place);
+    let q = vec2<f32>(turned.q.place);
+    let r = vec2<f32>(turned.r.place);
+    let reach = reach_beside(reach_beside(reach_beside(vec2(-REACHED, REACHED), p, q, rows), q, r, rows), r, p, rows);
+    // What floats leave out.
+    return reach + vec2(-16.0, 16.0);
+}
+
+// What an edge leaves of a reach. One that leads down has the triangle on its left, one that leads up on its right.
+fn reach_beside(reach: vec2<f32>, start: vec2<f32>, end: vec2<f32>, rows: vec2<f32>) -> vec2<f32> {
+    let edge = end - start;
+    let at = start.x + edge.x / edge.y * (rows - start.y);
+    return vec2(select(reach.x, max(reach.x, min(at.x, at.y)), edge.y < 0.0),
+                select(reach.y, min(reach.y, max(at.x, at.y)), edge.y > 0.0));
+}
+
+// Draws a triangle: a lane its share of the samples.
+fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lanes: Lanes) {
+    let turned = turned(p, q, r);
+    let low = min(p.place, min(q.place, r.place));
+    let high = max(p.place, max(q.place, r.place));
+    let span = span_of(low, high);
+    let is_long = max(high.x - low.x, high.y - low.y) >= EXTENT;
+    if !turned.is_seen {
+        return;
+    }
+    for (var row = span.first.y + lanes.row; row <= span.last.y; row += lanes.rows) {
+        let reach = (vec2<i32>(reach_in(turned, row)) + middle().x) >> vec2(8u);
+        let last = min(reach.y, span.last.x);
+        for (var x = max(reach.x, span.first.x) + lanes.column; x <= last; x += lanes.columns) {
+            var coverage: Coverage;
+            if is_long {
+                coverage = long_coverage(turned, sample_place(x, row));
+            } else {
+                coverage = coverage_of(turned, sample_place(x, row));
+            }
+            if coverage.is_covered {
+                offer_at(x, row, coverage.depth, triangle);
+            }
         }
     }
 }

@@ -14,37 +14,55 @@ struct Box {
     high: vec3<f32>,
 }
 
-// A box that holds the block's tube: the Bezier hull of its spline, made wider by as much as the section may reach out.
-fn box_of(block: Block) -> Box {
+// Lanes that share a block: so they read points that lie side by side.
+const BLOCK_LANES = 8u;
+
+// What each lane has found of its block: the box of its intervals' Bezier hulls, and the largest half width or half height.
+var<workgroup> lows: array<vec3<f32>, CULL_GROUP>;
+var<workgroup> highs: array<vec3<f32>, CULL_GROUP>;
+var<workgroup> sizes: array<f32, CULL_GROUP>;
+
+// Finds that for lane `part` of those of a block.
+fn find_hull(block: Block, lane: u32, part: u32) {
     let per_interval = params.subdivisions + 1u;
     let last = block.first_ring % per_interval + block.quads;
     let intervals = (last + per_interval - 1u) / per_interval;
     let third = params.s / 3.0;
-    var before = points[block.first_point];
-    var here = points[block.first_point + 1u];
-    var next = points[block.first_point + 2u];
     var low = vec3(1e38);
     var high = vec3(-1e38);
     var size = 0.0;
-    for (var interval = 0u; interval < intervals; interval++) {
+    for (var interval = part; interval < intervals; interval += BLOCK_LANES) {
+        let before = points[block.first_point + interval];
+        let here = points[block.first_point + interval + 1u];
+        let next = points[block.first_point + interval + 2u];
         let after = points[block.first_point + interval + 3u];
-        let start = vec4(bitcast<vec3<f32>>(here.xyz), 0.0);
-        let end = vec4(bitcast<vec3<f32>>(next.xyz), 0.0);
-        let leaving = (end.xyz - bitcast<vec3<f32>>(before.xyz)) * third;
-        let arriving = (bitcast<vec3<f32>>(after.xyz) - start.xyz) * third;
-        let leans = start.xyz + leaving;
-        let leads = end.xyz - arriving;
-        low = min(low, min(min(start.xyz, end.xyz), min(leans, leads)));
-        high = max(high, max(max(start.xyz, end.xyz), max(leans, leads)));
+        let start = bitcast<vec3<f32>>(here.xyz);
+        let end = bitcast<vec3<f32>>(next.xyz);
+        let leans = start + (end - bitcast<vec3<f32>>(before.xyz)) * third;
+        let leads = end - (bitcast<vec3<f32>>(after.xyz) - start) * third;
+        low = min(low, min(min(start, end), min(leans, leads)));
+        high = max(high, max(max(start, end), max(leans, leads)));
         let sizes_here = unpack2x16float(here.w);
         let sizes_next = unpack2x16float(next.w);
         let first = sizes_here + (sizes_next - unpack2x16float(before.w)) * third;
         let second = sizes_next - (unpack2x16float(after.w) - sizes_here) * third;
         let most = max(max(sizes_here, sizes_next), max(first, second));
         size = max(size, max(most.x, most.y));
-        before = here;
-        here = next;
-        next = after;
+    }
+    lows[lane] = low;
+    highs[lane] = high;
+    sizes[lane] = size;
+}
+
+// A box that holds the tube of the block whose lanes begin at `first`: their hulls, made wider by as much as the section may reach out.
+fn box_of(first: u32) -> Box {
+    var low = lows[first];
+    var high = highs[first];
+    var size = sizes[first];
+    for (var lane = first + 1u; lane < first + BLOCK_LANES; lane++) {
+        low = min(low, lows[lane]);
+        high = max(high, highs[lane]);
+        size = max(size, sizes[lane]);
     }
     let largest = max(abs(low), abs(high));
     let reach = size * sweep.reach * (1.0 + BOX_SLACK) + BOX_SLACK * max(largest.x, max(largest.y, largest.z));
@@ -76,23 +94,22 @@ fn is_outside(bounds: Box) -> bool {
     return left_of || right_of || above || below || before || behind;
 }
 
-// A lane a row of the chunk's block table. A row without quads only has the roll of a ring that a cap closes.
+// BLOCK_LANES lanes a row of the chunk's block table. A row without quads only has the roll of a ring that a cap closes.
 @compute @workgroup_size(CULL_GROUP)
 fn cull(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
         @builtin(local_invocation_index) lane: u32) {
-    let row = (group.y * grid.x + group.x) * CULL_GROUP + lane;
-    if row >= params.blocks {
+    let row = ((group.y * grid.x + group.x) * CULL_GROUP + lane) / BLOCK_LANES;
+    if row < params.blocks {
+        find_hull(blocks[row], lane, lane % BLOCK_LANES);
+    }
+    workgroupBarrier();
+    if row >= params.blocks || lane % BLOCK_LANES != 0u {
         return;
     }
-    let block = blocks[row];
-    if block.quads == 0u {
-        if params.rolled == 0u {
-            return;
-        }
-    } else if is_outside(box_of(block)) {
-        return;
+    let is_listed = select(!is_outside(box_of(lane)), params.rolled != 0u, blocks[row].quads == 0u);
+    if is_listed {
+        listed.rows[atomicAdd(&listed.count, 1u)] = row;
     }
-    listed.rows[atomicAdd(&listed.count, 1u)] = row;
 }
 
 fn set_groups(count: u32) {

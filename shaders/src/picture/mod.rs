@@ -3,11 +3,12 @@
 //! | file | entry points | work |
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
-//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next seven |
+//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next eight |
 //! | `cull.wgsl` | `cull`, `count_listed`, `count_left` | the blocks that the view may show |
 //! | `weights.wgsl` | | shares of a triangle's corners |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
 //! | `cover.wgsl` | | the samples that a triangle covers |
+//! | `axes.wgsl`, `axes_level.wgsl`, `axes_rolled.wgsl` | | a block's rings on the screen, where nothing turns and where something does |
 //! | `raster.wgsl` | `raster`, `raster_left`, `raster_caps` | draws a chunk from its control points |
 //! | `kept.wgsl` | | what is kept of a sample until it is lit |
 //! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
@@ -27,16 +28,22 @@ macro_rules! fabric {
     };
 }
 
-/// `raster`, `raster_left` and `raster_caps` with a kind of keys.
+/// `raster`, `raster_left` and `raster_caps` with a kind of keys, for yarns whose sections turn or for those whose do not.
 macro_rules! raster {
-    ($keys:literal) => {
+    ($keys:literal, rolled) => {
+        raster!($keys, "const RINGS_BEYOND = 1u;\n", include_str!("../rings.wgsl"), include_str!("axes_rolled.wgsl"))
+    };
+    ($keys:literal, level) => {
+        raster!($keys, include_str!("axes_level.wgsl"))
+    };
+    ($keys:literal, $($axes:expr),*) => {
         concat!(
             fabric!(),
-            "const RINGS_BEYOND = 1u;\n",
-            include_str!("../rings.wgsl"),
             include_str!("weights.wgsl"),
             include_str!($keys),
             include_str!("cover.wgsl"),
+            include_str!("axes.wgsl"),
+            $($axes,)*
             include_str!("raster.wgsl")
         )
     };
@@ -45,11 +52,11 @@ macro_rules! raster {
 /// `cull`, `count_listed` and `count_left`. This one and the next three stand after `texere_gpu::prelude`.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
-/// `raster`, `raster_left` and `raster_caps`, for devices with atomics of 64 bits.
-pub const RASTER: &str = raster!("keys_64.wgsl");
+/// `raster`, `raster_left` and `raster_caps`, for devices with atomics of 64 bits: where nothing turns, and where something does.
+pub const RASTER: [&str; 2] = [raster!("keys_64.wgsl", level), raster!("keys_64.wgsl", rolled)];
 
 /// The same for any device.
-pub const RASTER_IN_ROUNDS: &str = raster!("keys_32.wgsl");
+pub const RASTER_IN_ROUNDS: [&str; 2] = [raster!("keys_32.wgsl", level), raster!("keys_32.wgsl", rolled)];
 
 /// `resolve`.
 pub const RESOLVE: &str =

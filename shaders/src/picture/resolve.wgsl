@@ -28,9 +28,23 @@ fn roll_of(chunk_ring: u32) -> u32 {
     return ring_rolls[chunk_ring];
 }
 
-// How the section stands on ring `ring` of `block`, or on the one after its last.
-fn ring_stance(yarn: YarnRow, block: Block, ring: u32) -> Stance {
-    return stance_of_sample(ring_sample(yarn, block, ring).sample, roll_of(block.chunk_ring + ring));
+// How the section stands on ring `ring` of a block, and on the one after it.
+struct Stances {
+    here: Stance,
+    next: Stance,
+}
+
+// Both lie in one interval, or at its ends.
+fn stances_at(block: Block, ring: u32) -> Stances {
+    let per_interval = params.subdivisions + 1u;
+    let place = block.first_ring % per_interval + ring;
+    let interval = quotient(place, per_interval);
+    let part = place - interval * per_interval;
+    let segment = segment_new(block.first_point + interval, params.s);
+    let here = segment_sample(segment, f32(part) * params.step);
+    let next = segment_sample(segment, f32(part + 1u) * params.step);
+    return Stances(stance_of_sample(here, roll_of(block.chunk_ring + ring)),
+                   stance_of_sample(next, roll_of(block.chunk_ring + ring + 1u)));
 }
 
 // The share of each corner, and whether the triangle is seen from outside.
@@ -60,22 +74,21 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let ring = at.x;
     let side = at.y;
     let beside = at.z;
-    let here = ring_stance(yarn, block, ring);
-    let next = ring_stance(yarn, block, ring + 1u);
+    let stances = stances_at(block, ring);
     let outline = yarn.section * params.sides;
     let own = outlines[outline + side];
     let other = outlines[outline + beside];
     let is_second = (number & 1u) != 0u;
     // A facet's first corner, the one beside it or on the next ring, and the one over its own.
     let first = select(side, beside, is_second);
-    let p = vertex_at(here, select(own, other, is_second));
+    let p = vertex_at(stances.here, select(own, other, is_second));
     var q: Vertex;
     if is_second {
-        q = vertex_at(next, other);
+        q = vertex_at(stances.next, other);
     } else {
-        q = vertex_at(here, other);
+        q = vertex_at(stances.here, other);
     }
-    let r = vertex_at(next, own);
+    let r = vertex_at(stances.next, own);
     let shares = shares_of(p.clip, q.clip, r.clip, place);
     let normal = mat3x3(p.normal, q.normal, r.normal) * shares.corners;
     // Along the facet, as its first corner has it: the fibres' direction, since a twisted yarn's corners turn with its twist.
@@ -112,28 +125,36 @@ fn kept_of_triangle(number: u32, place: vec2<i32>) -> vec4<u32> {
     return cap_at(row - params.blocks, triangle, place);
 }
 
-// A lane a sample, where that is nearer than what earlier chunks left.
+// A lane a pixel: its samples, where they are nearer than what earlier chunks left.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
 fn resolve(@builtin(global_invocation_id) place: vec3<u32>) {
     let pixel = vec2(place.x, place.y + sweep.first_row);
     if place.x >= u32(view.size.x) || place.y >= sweep.rows {
         return;
     }
-    let key = keys[key_at(place.x, place.y, place.z)];
-    var nearest = 1.0;
-    if sweep.is_first == 0u {
-        nearest = textureLoad(depths, pixel, place.z).x;
-    }
-    let depth = select(bitcast<f32>(~key.y), 1.0, key.y == 0u);
-    if depth < nearest {
-        // In the pixel's middle, as rasterisers do: so samples of one triangle in a pixel are alike. Where triangles are finer than pixels each has its
-        // own place, for the middle lies far outside, and the pattern of middles would beat with them.
-        let own = sample_place(i32(pixel.x), i32(4u * pixel.y + place.z));
-        let kept = kept_of_triangle(~key.x, select(vec2<i32>(pixel) * 256 + 128 - middle(), own, view.spread > 0.0));
-        textureStore(directions, pixel, place.z, vec4(kept.xy, 0u, 0u));
-        textureStore(places, pixel, place.z, vec4(kept.zw, 0u, 0u));
-    }
-    if depth < nearest || sweep.is_first != 0u {
-        textureStore(depths, pixel, place.z, vec4(min(depth, nearest), 0.0, 0.0, 0.0));
+    var last = 0u;
+    var kept = vec4(0u);
+    for (var sample = 0; sample < SAMPLES; sample++) {
+        let key = keys[key_at(place.x, place.y, u32(sample))];
+        var nearest = 1.0;
+        if sweep.is_first == 0u {
+            nearest = textureLoad(depths, pixel, sample).x;
+        }
+        let depth = select(bitcast<f32>(~key.y), 1.0, key.y == 0u);
+        if depth < nearest {
+            // In the pixel's middle, as rasterisers do: so samples of one triangle in a pixel are alike. Where triangles are finer than pixels each
+            // has its own place, for the middle lies far outside, and the pattern of middles would beat with them.
+            if view.spread > 0.0 || key.x != last {
+                let middle_of_pixel = vec2<i32>(pixel) * 256 + 128 - middle();
+                let own = sample_place(i32(pixel.x), i32(4u * pixel.y) + sample);
+                kept = kept_of_triangle(~key.x, select(middle_of_pixel, own, view.spread > 0.0));
+                last = key.x;
+            }
+            textureStore(directions, pixel, sample, vec4(kept.xy, 0u, 0u));
+            textureStore(places, pixel, sample, vec4(kept.zw, 0u, 0u));
+        }
+        if depth < nearest || sweep.is_first != 0u {
+            textureStore(depths, pixel, sample, vec4(min(depth, nearest), 0.0, 0.0, 0.0));
+        }
     }
 }

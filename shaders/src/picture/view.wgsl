@@ -47,8 +47,9 @@ const SCREEN_GROUP = 8u;
 // Samples of a pixel of the screen. Rust: texere_render's SAMPLES.
 const SAMPLES = 4;
 
-// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in 1/256 pixels.
-const SAMPLE_X = array(96, 224, 32, 160);
+// Where each row of samples of a pixel has its one: the pattern that WebGPU prescribes for four, in 1/256 pixels, a byte each from
+// the lowest on: 96, 224, 32, 160.
+const SAMPLE_X = 0xa020e060u;
 const SAMPLE_ROW = 64;
 const FIRST_SAMPLE_Y = 32;
 
@@ -66,7 +67,7 @@ fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
 
 // A sample's place in its pixel, 1/256 pixels right of the pixel's corner and below it.
 fn sample_in(pixel: vec2<i32>, sample: i32) -> vec2<i32> {
-    let place = vec2(SAMPLE_X[sample], FIRST_SAMPLE_Y) + shift_of(pixel);
+    let place = vec2(i32((SAMPLE_X >> (8u * u32(sample))) & 255u), FIRST_SAMPLE_Y) + shift_of(pixel);
     return vec2(0, sample * SAMPLE_ROW) + (place & vec2(255, SAMPLE_ROW - 1));
 }
 

@@ -1,0 +1,24 @@
+// Rings in screen space. After fabric.wgsl and cover.wgsl.
+
+// The roll of each ring of the chunk, for what is seen of it.
+@group(1) @binding(5) var<storage, read_write> ring_rolls: array<u32>;
+
+// What a section is in screen space: its centre, and what its x and its y are there.
+struct Axes {
+    centre: vec4<f32>,
+    x: vec4<f32>,
+    y: vec4<f32>,
+}
+
+fn axes_of(stance: Stance) -> Axes {
+    var x_axis = stance.side * stance.centre.w;
+    var y_axis = stance.up * stance.centre.w;
+    if FLATTENED {
+        let upward = stance.up * stance.height.x;
+        y_axis = upward * stance.sin_cos.y - x_axis * stance.sin_cos.x;
+        x_axis = x_axis * stance.sin_cos.y + upward * stance.sin_cos.x;
+    }
+    let scale = vec4(screen_scale(), 1.0, 1.0);
+    return Axes(clip_of(stance.centre.xyz) * scale, view.clip_from_local * vec4(x_axis, 0.0) * scale,
+                view.clip_from_local * vec4(y_axis, 0.0) * scale);
+}

@@ -70,10 +70,15 @@
 //!
 //! | feature | adds |
 //! |---|---|
+//! | `toml`, `wif`, `knitout` | texere's own design files, which brings `wif`; WIF drafts; programs of knitting machines, alone and in design files |
+//! | `glb`, `ply` | meshes as glTF 2.0 binary and as binary PLY |
 //! | `opencl`, `wgpu` | GPU backends; without them the CPU does the work alone |
 //! | `render` | pictures of cloth; brings `wgpu` and `pictures` |
 //! | `pictures` | PNG files of drafts and pictures |
 //! | `images` | point paper in design files |
+//!
+//! `toml`, `glb` and `ply` are there unless `default-features = false`. What a build leaves out it refuses by name: [`ReadError::Feature`],
+//! [`WriteError::Feature`].
 //!
 //! # Words
 //!
@@ -92,6 +97,8 @@
 //! [`source`](std::error::Error::source).
 
 mod device;
+#[cfg(test)]
+mod formats;
 mod live;
 
 pub use device::{Devices, devices, open};
@@ -124,7 +131,7 @@ pub use texere_fabric::{
 };
 pub use texere_formats::write::{
     Format, Output, Written, abandon, file as write_file, mesh as write, mesh_to as write_to, stream,
-    stream_to, toml as write_toml, toml_to as write_toml_to, wif as write_wif, wif_to as write_wif_to,
+    stream_to,
 };
 #[cfg(feature = "pictures")]
 pub use texere_formats::write::{
@@ -133,6 +140,10 @@ pub use texere_formats::write::{
     picture_to as write_picture_to, warp_draft as write_warp_draft, warp_draft_to as write_warp_draft_to,
     warp_rows,
 };
+#[cfg(feature = "toml")]
+pub use texere_formats::write::{toml as write_toml, toml_to as write_toml_to};
+#[cfg(feature = "wif")]
+pub use texere_formats::write::{wif as write_wif, wif_to as write_wif_to};
 pub use texere_formats::{Design, MachineFault, NamedPlace, Place, ReadError, Told, WriteError, read};
 #[cfg(feature = "opencl")]
 pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};

@@ -82,7 +82,7 @@
 //!
 //! # Words
 //!
-//! Lengths are in mm, angles in radians. x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles
+//! Lengths are in mm, angles in radians, twist in rad/mm ([`twist_from_turns_per_m`]). x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles
 //! are counter-clockwise seen from outside. Yarns, control points, ends and picks count from 0 in calls, and from 1 where a weaver reads them.
 //!
 //! - *Control point*: a place of a yarn's centreline with its half width and half height. *Interval* j of the spline runs from point j to the next.
@@ -126,8 +126,8 @@ pub use texere_fabric::{
     LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat,
     Sett, Settled, Shape, Shedding, StitchPlace, Stretch, Structure, Thread, ThreadBend, ThreadContact,
     ThreadCrowd, ThreadPlace, Tightness, Weave, Woven, WovenDesign, WovenRest, YarnPlace, clearance,
-    clearance_with_progress, length_mm, lengths_mm, linking, linking_with_progress, settle, warp, weft,
-    yarns_under,
+    clearance_with_progress, length_mm, lengths_mm, linking, linking_with_progress, settle, turns_per_m,
+    twist_from_turns_per_m, warp, weft, yarns_under,
 };
 pub use texere_formats::write::{
     Format, Output, Written, abandon, file as write_file, mesh as write, mesh_to as write_to, stream,

@@ -115,7 +115,7 @@ impl YarnTable {
                     stiffness: stiffness.transpose()?.unwrap_or(1.0) as f32,
                     material: number,
                     section: number,
-                    twist: (twist_per_m * std::f64::consts::TAU / 1000.0) as f32,
+                    twist: texere_fabric::twist_from_turns_per_m(twist_per_m),
                 },
             );
         }

@@ -80,6 +80,28 @@
 //! `toml`, `glb` and `ply` are there unless `default-features = false`. What a build leaves out it refuses by name: [`ReadError::Feature`],
 //! [`WriteError::Feature`].
 //!
+//! # Threads
+//!
+//! What texere does on the CPU it does in the [rayon](https://docs.rs/rayon) pool of the thread that calls it, and it starts no thread of its own: in the
+//! global pool, or in one of yours where you call it from there. That holds for all calls, also for uploads to a GPU. Open devices there, too: `cpu` tells
+//! how many threads it has found. Closures that report progress are called from threads of that pool.
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+//! # let mut yarns = texere::Yarns::builder();
+//! # yarns.yarn(texere::Yarn::default(), &[0.0, 1.0].map(|x| texere::ControlPoint::new(x, 0.0, 0.0, 0.1)));
+//! # let yarns = yarns.build()?;
+//! let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
+//! let mesh = pool.install(|| {
+//!     let device = texere::open("cpu")?;
+//!     assert!(device.info().device.contains("2 threads"));
+//!     Ok::<_, Box<dyn std::error::Error + Send + Sync>>(texere::Pipeline::new(&yarns).mesh(&*device)?)
+//! })?;
+//! assert!(!mesh.vertices.is_empty());
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Words
 //!
 //! Lengths are in mm, angles in radians, twist in rad/mm ([`twist_from_turns_per_m`]). x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles

@@ -68,22 +68,22 @@ impl Basis {
 
 impl Frame {
     /// The change of roll from a ring to the next: the turn that keeps the section from turning (rotation minimising
-    /// only) plus `twist` times the length of `chord`.
+    /// only) plus `turns_per_mm`, the twist, times the length of `chord`.
     ///
-    /// `twist` is in **turns** per mm; `chord` (mm) leads from one centre to the next; tangents are unit vectors.
+    /// `chord` (mm) leads from one centre to the next; tangents are unit vectors.
     /// **Source**: Wang, Jüttler, Zheng and Liu, "Computation of rotation minimizing frames", ACM TOG 27(1), 2008,
     /// table I.
     #[must_use]
     #[inline]
-    pub fn step(self, tangent: Vec3, next_tangent: Vec3, chord: Vec3, twist: f32) -> Turn {
+    pub fn step(self, tangent: Vec3, next_tangent: Vec3, chord: Vec3, turns_per_mm: f32) -> Turn {
         let turns = match self {
             Self::Upright => 0.0,
             Self::RotationMinimizing => transport_turns(tangent, next_tangent, chord),
         };
-        Turn::from_turns(turns + twist * chord.length_squared().sqrt())
+        Turn::from_turns(turns + turns_per_mm * chord.length_squared().sqrt())
     }
 
-    /// Whether every roll is zero, so that there is nothing to scan.
+    /// Whether every roll of a yarn of that twist, in whatever unit, is zero, so that there is nothing to scan.
     #[must_use]
     #[inline]
     pub fn is_level(self, twist: f32) -> bool {

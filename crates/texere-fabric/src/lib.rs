@@ -78,5 +78,5 @@ pub use woven::{
 };
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,
-    tex_from_metric_count,
+    tex_from_metric_count, turns_per_m, twist_from_turns_per_m,
 };

@@ -7,23 +7,26 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::FabricError;
 
+/// A caller's ear for the share of the work that is done. Behind a pointer, so that work is compiled once for all callers.
+pub(crate) type Report<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
+
 /// Reports to a caller, from any thread that works, how much is done.
-pub(crate) struct Watch<T> {
+pub(crate) struct Watch<'a> {
     total: AtomicU64,
     done: AtomicU64,
     stopped: AtomicBool,
-    report: Mutex<T>,
+    report: Mutex<&'a mut Report<'a>>,
 }
 
-impl<T> fmt::Debug for Watch<T> {
+impl fmt::Debug for Watch<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Watch").field("total", &self.total).field("done", &self.done).finish_non_exhaustive()
     }
 }
 
-impl<T: FnMut(f64) -> ControlFlow<()> + Send> Watch<T> {
+impl<'a> Watch<'a> {
     /// For work of `total` units.
-    pub(crate) fn new(total: u64, report: T) -> Self {
+    pub(crate) fn new(total: u64, report: &'a mut Report<'a>) -> Self {
         Self {
             total: total.into(),
             done: AtomicU64::new(0),

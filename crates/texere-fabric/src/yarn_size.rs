@@ -1,9 +1,9 @@
-//! How thick a yarn of known weight is, and the other way round.
+//! How thick a yarn of known weight is, and the other way round; its twist by the metre.
 //!
 //! A yarn's *count* says how heavy a length of it is. Its diameter follows from how densely its fibres lie: the density
 //! meant here is that of the yarn with the air in it, not that of the fibre.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// One inch, mm.
 pub(crate) const INCH_MM: f64 = 25.4;
@@ -68,6 +68,30 @@ pub fn tex_from_metric_count(nm: f64) -> f64 {
 #[must_use]
 pub fn tex_from_denier(denier: f64) -> f64 {
     denier / 9.0
+}
+
+/// The twist (rad per mm, as yarns and threads have it) of so many turns per metre, as mills and design files say it.
+///
+/// ```
+/// use texere_fabric::{Thread, twist_from_turns_per_m};
+/// // Hard Z twist, as of a warp for denim.
+/// let end = Thread { twist: twist_from_turns_per_m(500.0), ..Thread::new(0.4, 0.15) };
+/// // Once round in two millimetres.
+/// assert!((end.twist * 2.0 - std::f32::consts::TAU).abs() < 1e-6);
+/// ```
+#[must_use]
+pub fn twist_from_turns_per_m(turns: f64) -> f32 {
+    (turns * TAU / 1000.0) as f32
+}
+
+/// Turns per metre of a twist (rad per mm): the inverse of [`twist_from_turns_per_m`].
+///
+/// ```
+/// assert!((texere_fabric::turns_per_m(-std::f32::consts::PI) + 500.0).abs() < 1e-4);
+/// ```
+#[must_use]
+pub fn turns_per_m(twist: f32) -> f64 {
+    f64::from(twist) * 1000.0 / TAU
 }
 
 #[cfg(test)]

@@ -103,7 +103,7 @@ impl YarnRow {
             first_block: plan.block_offsets()[yarn] as u32,
             section: plan.yarn(yarn).section,
             closed: plan.yarn(yarn).closed.into(),
-            twist: plan.twist_turns(yarn),
+            twist: plan.turns_per_mm(yarn),
         };
         yarns.map(row).collect()
     }

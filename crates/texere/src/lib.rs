@@ -70,14 +70,41 @@
 //!
 //! | feature | adds |
 //! |---|---|
+//! | `toml`, `wif`, `knitout` | texere's own design files, which brings `wif`; WIF drafts; programs of knitting machines, alone and in design files |
+//! | `glb`, `ply` | meshes as glTF 2.0 binary and as binary PLY |
 //! | `opencl`, `wgpu` | GPU backends; without them the CPU does the work alone |
 //! | `render` | pictures of cloth; brings `wgpu` and `pictures` |
 //! | `pictures` | PNG files of drafts and pictures |
 //! | `images` | point paper in design files |
 //!
+//! `toml`, `glb` and `ply` are there unless `default-features = false`. What a build leaves out it refuses by name: [`ReadError::Feature`],
+//! [`WriteError::Feature`].
+//!
+//! # Threads
+//!
+//! What texere does on the CPU it does in the [rayon](https://docs.rs/rayon) pool of the thread that calls it, and it starts no thread of its own: in the
+//! global pool, or in one of yours where you call it from there. That holds for all calls, also for uploads to a GPU. Open devices there, too: `cpu` tells
+//! how many threads it has found. Closures that report progress are called from threads of that pool.
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+//! # let mut yarns = texere::Yarns::builder();
+//! # yarns.yarn(texere::Yarn::default(), &[0.0, 1.0].map(|x| texere::ControlPoint::new(x, 0.0, 0.0, 0.1)));
+//! # let yarns = yarns.build()?;
+//! let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
+//! let mesh = pool.install(|| {
+//!     let device = texere::open("cpu")?;
+//!     assert!(device.info().device.contains("2 threads"));
+//!     Ok::<_, Box<dyn std::error::Error + Send + Sync>>(texere::Pipeline::new(&yarns).mesh(&*device)?)
+//! })?;
+//! assert!(!mesh.vertices.is_empty());
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Words
 //!
-//! Lengths are in mm, angles in radians. x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles
+//! Lengths are in mm, angles in radians, twist in rad/mm ([`twist_from_turns_per_m`]). x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles
 //! are counter-clockwise seen from outside. Yarns, control points, ends and picks count from 0 in calls, and from 1 where a weaver reads them.
 //!
 //! - *Control point*: a place of a yarn's centreline with its half width and half height. *Interval* j of the spline runs from point j to the next.
@@ -92,6 +119,8 @@
 //! [`source`](std::error::Error::source).
 
 mod device;
+#[cfg(test)]
+mod formats;
 mod live;
 
 pub use device::{Devices, devices, open};
@@ -119,12 +148,12 @@ pub use texere_fabric::{
     LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pitch, Relief, Remedy, Repeat,
     Sett, Settled, Shape, Shedding, StitchPlace, Stretch, Structure, Thread, ThreadBend, ThreadContact,
     ThreadCrowd, ThreadPlace, Tightness, Weave, Woven, WovenDesign, WovenRest, YarnPlace, clearance,
-    clearance_with_progress, length_mm, lengths_mm, linking, linking_with_progress, settle, warp, weft,
-    yarns_under,
+    clearance_with_progress, length_mm, lengths_mm, linking, linking_with_progress, settle, turns_per_m,
+    twist_from_turns_per_m, warp, weft, yarns_under,
 };
 pub use texere_formats::write::{
     Format, Output, Written, abandon, file as write_file, mesh as write, mesh_to as write_to, stream,
-    stream_to, toml as write_toml, toml_to as write_toml_to, wif as write_wif, wif_to as write_wif_to,
+    stream_to,
 };
 #[cfg(feature = "pictures")]
 pub use texere_formats::write::{
@@ -133,6 +162,10 @@ pub use texere_formats::write::{
     picture_to as write_picture_to, warp_draft as write_warp_draft, warp_draft_to as write_warp_draft_to,
     warp_rows,
 };
+#[cfg(feature = "toml")]
+pub use texere_formats::write::{toml as write_toml, toml_to as write_toml_to};
+#[cfg(feature = "wif")]
+pub use texere_formats::write::{wif as write_wif, wif_to as write_wif_to};
 pub use texere_formats::{Design, MachineFault, NamedPlace, Place, ReadError, Told, WriteError, read};
 #[cfg(feature = "opencl")]
 pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};

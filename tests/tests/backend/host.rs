@@ -68,7 +68,7 @@ impl Engine for HostEngine {
         let mut rolls: Vec<Turn> = zeroed("rolls", plan.counts().rings)?;
         for (yarn, bounds) in plan.ring_offsets().windows(2).enumerate() {
             let rolls = &mut rolls[bounds[0] as usize..bounds[1] as usize];
-            let (last, twist, mut here) = (rolls.len() - 1, plan.twist_turns(yarn), self.sample(yarn, 0));
+            let (last, twist, mut here) = (rolls.len() - 1, plan.turns_per_mm(yarn), self.sample(yarn, 0));
             for ring in 1..=last {
                 let next = self.sample(yarn, ring as u32);
                 let (from, to, chord) = (here.sample.tangent, next.sample.tangent, here.chord_to(&next));

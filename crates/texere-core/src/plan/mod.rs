@@ -296,11 +296,11 @@ impl Plan {
         &self.layout.yarns()[yarn]
     }
 
-    /// A yarn's twist in turns per mm, as the kernels take it.
+    /// A yarn's twist ([`Yarn::twist`]) in turns per mm, as [`Frame::step`](crate::Frame::step) and the kernels take it.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
-    pub fn twist_turns(&self, yarn: usize) -> f32 {
+    pub fn turns_per_mm(&self, yarn: usize) -> f32 {
         (f64::from(self.yarn(yarn).twist) / std::f64::consts::TAU) as f32
     }
 

@@ -29,7 +29,7 @@ struct Traces<S: Simd> {
 impl<S: Simd> Steps<S> {
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn new(simd: S, source: &Source<'_>, yarn: usize) -> Self {
-        let twist = source.plan.twist_turns(yarn);
+        let twist = source.plan.turns_per_mm(yarn);
         Self {
             simd,
             minimizing: source.plan.settings().frame == Frame::RotationMinimizing,

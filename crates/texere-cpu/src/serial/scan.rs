@@ -25,7 +25,7 @@ pub(super) fn scan(
 /// The whole turn of `yarn`; its rolls at block starts go into `at_block`.
 pub(crate) fn scan_yarn(plan: &Plan, points: &PaddedPoints, yarn: usize, at_block: &mut [Turn]) -> Turn {
     let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
-    let twist = plan.twist_turns(yarn);
+    let twist = plan.turns_per_mm(yarn);
     let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
 
     let mut roll = Turn::ZERO;

@@ -15,7 +15,7 @@ pub(super) fn trajectory(work: &Work, chunk: &Chunk, out: &mut [Ring]) {
 pub(crate) fn rings(work: &Work, yarn: usize, first_ring: u32, out: &mut [Ring]) {
     let plan = &work.plan;
     let (padded, rings, closed) = (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
-    let twist = plan.twist_turns(yarn);
+    let twist = plan.turns_per_mm(yarn);
     let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
     let level = plan.settings().frame.is_level(twist);
 

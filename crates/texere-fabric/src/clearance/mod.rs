@@ -34,7 +34,7 @@ use self::rolls::Rolls;
 use self::search::{FULL, Probe, cell_work};
 use crate::FabricError;
 use crate::grid::Grid;
-use crate::watch::Watch;
+use crate::watch::{Report, Watch};
 
 const _: () = assert!(FULL / 2 <= CLEARANCE_BESIDE);
 
@@ -130,9 +130,9 @@ pub fn clearance(yarns: &Yarns, settings: &Settings) -> Result<Clearance, Fabric
 pub fn clearance_with_progress(
     yarns: &Yarns,
     settings: &Settings,
-    progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Clearance, FabricError> {
-    measured(yarns, settings, [CLEARANCE_NEAR, f64::INFINITY], |_| true, progress)
+    measured(yarns, settings, [CLEARANCE_NEAR, f64::INFINITY], &|_| true, &mut progress)
 }
 
 /// [`clearance()`] of those intervals alone for which `fresh` holds, by the number of their first control point, and of others with them: with
@@ -142,9 +142,9 @@ pub(crate) fn clearance_up_to(
     settings: &Settings,
     [near, ratio]: [f64; 2],
     fresh: impl Fn(usize) -> bool + Sync,
-    progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Clearance, FabricError> {
-    measured(yarns, settings, [near, ratio], fresh, progress)
+    measured(yarns, settings, [near, ratio], &fresh, &mut progress)
 }
 
 /// The intervals for which `fresh` holds and that bend more tightly than `ratio`, as [`Clearance::curvature_min`] has it, with where they do most.
@@ -157,7 +157,8 @@ pub(crate) fn bends_up_to(
     fresh: impl Fn(usize) -> bool + Sync,
 ) -> Result<Vec<(f64, YarnPlace)>, FabricError> {
     let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
-    let watch = Watch::new(0, |_| ControlFlow::Continue(()));
+    let mut unheard = |_| ControlFlow::Continue(());
+    let watch = Watch::new(0, &mut unheard);
     let rolls = Rolls::new(yarns, sampling, settings.frame, &watch)?;
     let probe = Probe::new(yarns, sampling, CLEARANCE_NEAR);
     let spans = probe.spans(TASK);
@@ -169,8 +170,8 @@ fn measured(
     yarns: &Yarns,
     settings: &Settings,
     [near, ratio]: [f64; 2],
-    fresh: impl Fn(usize) -> bool + Sync,
-    progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    fresh: &(dyn Fn(usize) -> bool + Sync),
+    progress: &mut Report<'_>,
 ) -> Result<Clearance, FabricError> {
     let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
     let points = yarns.points().len();
@@ -191,7 +192,7 @@ fn measured(
         .into_par_iter()
         .map(|task| {
             let cells = task * TASK..grid.len().min((task + 1) * TASK);
-            probe.search(&grid, &rolls, cells, &fresh, nothing(), &watch)
+            probe.search(&grid, &rolls, cells, fresh, nothing(), &watch)
         })
         .try_reduce(&nothing, |one, other| Ok(one.joined(other)))?;
     found.keep_worst();

@@ -1,7 +1,6 @@
 //! Rolls of yarns as they are drawn.
 
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 use texere_core::{
@@ -39,11 +38,11 @@ pub(super) struct IntervalRolls {
 impl Rolls {
     /// **Errors**: [`FabricError::Settings`] for a yarn of more rings than a plan takes; [`FabricError::OutOfMemory`];
     /// [`FabricError::Cancelled`] where `watch` says so.
-    pub(super) fn new<T: FnMut(f64) -> ControlFlow<()> + Send>(
+    pub(super) fn new(
         yarns: &Yarns,
         sampling: Sampling,
         frame: Frame,
-        watch: &Watch<T>,
+        watch: &Watch<'_>,
     ) -> Result<Self, FabricError> {
         let layout = yarns.layout();
         let twist = |yarn: &Yarn| {

@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 use std::f64::consts::FRAC_PI_2;
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 
 use glam::{DVec2, Vec3A};
 use texere_core::{Sampling, Yarns};
@@ -132,14 +132,14 @@ impl<'a> Probe<'a> {
     /// All contacts of intervals that meet in `cells`, one of them at least `fresh`.
     ///
     /// **Errors**: [`FabricError::OutOfMemory`]; [`FabricError::Cancelled`] where `watch` says so.
-    pub(super) fn search<T: FnMut(f64) -> ControlFlow<()> + Send>(
+    pub(super) fn search(
         &self,
         grid: &Grid,
         rolls: &Rolls,
         cells: Range<usize>,
-        fresh: impl Fn(usize) -> bool,
+        fresh: &dyn Fn(usize) -> bool,
         mut found: Found,
-        watch: &Watch<T>,
+        watch: &Watch<'_>,
     ) -> Result<Found, FabricError> {
         let mut points = Vec::new();
         let mut parts: Vec<Part<'_>> = Vec::new();
@@ -192,13 +192,13 @@ impl<'a> Probe<'a> {
     /// All contacts of many intervals, or that they are a crowd.
     ///
     /// A plane is moved over them, and each is compared with those that the plane meets when it comes to it.
-    fn sweep<T: FnMut(f64) -> ControlFlow<()> + Send>(
+    fn sweep(
         &self,
         parts: &mut [Part<'_>],
         rolls: &Rolls,
         counts: impl Fn(&Part<'_>, &Part<'_>) -> bool,
         found: &mut Found,
-        watch: &Watch<T>,
+        watch: &Watch<'_>,
     ) -> Result<(), FabricError> {
         let crowd = Crowd::of(parts, |part| part.line.place(part.point, 0.0, self.yarns.sources()));
         if crowd.is_some_and(|crowd| crowd.fill > 1.0) {
@@ -240,12 +240,12 @@ impl<'a> Probe<'a> {
     /// The contacts of two intervals, the first one's number being the lower.
     ///
     /// **Errors**: [`FabricError::Cancelled`] where `watch` says so.
-    fn pair<T: FnMut(f64) -> ControlFlow<()> + Send>(
+    fn pair(
         &self,
         [(one, first), (other, second)]: [(&Part<'_>, &Met); 2],
         rolls: &Rolls,
         found: &mut Found,
-        watch: &Watch<T>,
+        watch: &Watch<'_>,
     ) -> Result<(), FabricError> {
         let (a, b) = (first.curve(one, rolls), second.curve(other, rolls));
         let reach = a.reach + b.reach;

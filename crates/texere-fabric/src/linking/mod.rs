@@ -27,7 +27,7 @@ use self::search::Search;
 use self::shapes::{Shape, Shapes};
 use crate::FabricError;
 use crate::grid::Grid;
-use crate::watch::Watch;
+use crate::watch::{Report, Watch};
 
 /// Cells, and intervals, that one task takes.
 const TASK: usize = 1024;
@@ -129,7 +129,17 @@ pub fn linking_with_progress(
     after: &Yarns,
     boundary: &Boundary,
     settings: &Settings,
-    progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+) -> Result<Linking, FabricError> {
+    compared(before, after, boundary, settings, &mut progress)
+}
+
+fn compared(
+    before: &Yarns,
+    after: &Yarns,
+    boundary: &Boundary,
+    settings: &Settings,
+    progress: &mut Report<'_>,
 ) -> Result<Linking, FabricError> {
     let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
     boundary.check(before.layout())?;

@@ -1,7 +1,7 @@
 //! The search: which intervals are near one another, which of them may have passed, and by how much their linking has
 //! changed.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 
 use glam::DVec3;
 
@@ -45,11 +45,7 @@ impl<'a> Search<'a> {
     /// All passages of intervals that meet in `cells`.
     ///
     /// **Errors**: [`FabricError::OutOfMemory`]; [`FabricError::Cancelled`] where `watch` says so.
-    pub(super) fn cells<T: FnMut(f64) -> ControlFlow<()> + Send>(
-        &self,
-        cells: Range<usize>,
-        watch: &Watch<T>,
-    ) -> Result<Found, FabricError> {
+    pub(super) fn cells(&self, cells: Range<usize>, watch: &Watch<'_>) -> Result<Found, FabricError> {
         let mut found = Found::default();
         let (mut numbers, mut parts) = (Vec::new(), Vec::new());
         let mut unreported = 0;

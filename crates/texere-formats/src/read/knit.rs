@@ -11,30 +11,11 @@ use texere_fabric::{FabricError, Structure, Thread};
 
 use super::design::{MachineFault, Told};
 use super::error::named;
-use super::knitout::Knitout;
 use super::threads::only_used;
 use super::{Design, ReadError};
 
 /// How many faults of a kind are told.
 const FAULTS_TOLD: usize = 3;
-
-/// Needles to the inch where a file says nothing.
-const GAUGE: f64 = 15.0;
-
-/// How many times a yarn's diameter a wale is where a file says nothing: that of plain jersey.
-const WALE_OF_DIAMETER: f64 = 5.0;
-
-/// Colours of carriers where a file says nothing that can be drawn: easily told apart, none too dark to show its shape.
-const COLORS: [[u8; 3]; 8] = [
-    [0xd9, 0xcf, 0xb8],
-    [0x9c, 0x3b, 0x2e],
-    [0x3d, 0x5a, 0x80],
-    [0x5b, 0x8c, 0x5a],
-    [0xc9, 0x8b, 0x2b],
-    [0x7a, 0x5a, 0x8a],
-    [0x4b, 0x9a, 0x9a],
-    [0x8a, 0x8a, 0x8a],
-];
 
 /// What a knit is beside its program.
 #[derive(Debug)]
@@ -174,27 +155,4 @@ fn told(knit: &Made, drawn: &Drawn) -> (Vec<MachineFault>, u64) {
     }
     let more = (knit.faults.len() - faults.len()) as u64 + knit.unlisted;
     (faults, more)
-}
-
-/// The design of a knitout file alone: plain jersey's proportions, and yarns of different colours.
-pub(super) fn from_knitout(path: &Path, name: String, read: Knitout) -> Result<Design, ReadError> {
-    let gauge = Gauge::plain(read.gauge.unwrap_or(GAUGE));
-    let materials: Vec<_> = read
-        .program
-        .carriers
-        .iter()
-        .zip(&read.yarns)
-        .zip(COLORS.iter().cycle())
-        .map(|((carrier, yarn), &srgb)| {
-            let name = yarn.as_ref().map_or_else(|| carrier.clone(), |yarn| format!("{carrier}: {yarn}"));
-            Material { name, srgb, tex: None }
-        })
-        .collect();
-    let thread =
-        |material| Thread { material, ..Thread::new(0.0, (gauge.wale_mm / WALE_OF_DIAMETER / 2.0) as f32) };
-    let threads: Vec<_> = (0..materials.len() as u32).map(thread).collect();
-    let (yarns, materials, sections) = Knit::yarns_of(threads, 1.0, &materials, &[Section::Circle]);
-    let knit =
-        Knit { gauge, yarns, materials, sections, copies: [1, 1], cells: Cells::Round, float_max: None };
-    knit.design(path, name, read.program, Drawn::Lines { file: path.into() }, read.warnings)
 }

@@ -1,19 +1,23 @@
 //! Readers: from a design file to a [`Design`].
 
 mod design;
+#[cfg(feature = "toml")]
 mod design_file;
 mod error;
 mod file;
-#[cfg(feature = "images")]
+#[cfg(all(feature = "images", feature = "toml"))]
 mod image_file;
 mod knit;
+#[cfg(feature = "knitout")]
 mod knitout;
 mod memory;
+#[cfg(feature = "toml")]
 mod point_paper;
 mod threads;
+#[cfg(feature = "wif")]
 mod wif;
 
-#[cfg(not(feature = "images"))]
+#[cfg(all(feature = "toml", not(feature = "images")))]
 mod image_file {
     //! A build without images refuses them by name.
 
@@ -29,41 +33,42 @@ mod image_file {
 
 use std::path::Path;
 
-use file::file_name;
-use knitout::LoopLengths;
-use texere_fabric::{Relief, WovenDesign};
-
 pub use design::{Design, MachineFault, NamedPlace, Told};
 pub use error::{Place, ReadError};
 pub use texere_fabric::Structure;
 
+#[cfg(feature = "toml")]
 pub(crate) use design_file::limits;
+#[cfg(feature = "wif")]
 pub(crate) use wif::{
     FILE_LIMIT as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM, LOOM_LIMIT, PROGRAM as WIF_PROGRAM,
     UNITS_MM as WIF_UNITS_MM,
 };
 
-/// Reads the design in `path`: a WIF draft (`.wif`), a program of a knitting machine (knitout, `.k`), or texere's own design file
-/// (`.toml`).
+/// Reads the design in `path`: a WIF draft (`.wif`, feature `wif`), a program of a knitting machine (knitout, `.k`, feature `knitout`),
+/// or texere's own design file (`.toml`, feature `toml`).
 ///
-/// **Errors**: [`ReadError`], which names file, line, field, value and limit as far as they apply.
+/// **Errors**: [`ReadError`], which names file, line, field, value and limit as far as they apply; [`ReadError::Feature`] for a kind of
+/// file that this build was made without.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
     let path = path.as_ref();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
-        Some("wif") => {
-            let wif = wif::read(path)?;
-            let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
-            let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
-            // A draft says nothing of a finish.
-            Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings).left())
-        }
+        #[cfg(feature = "wif")]
+        Some("wif") => wif::design(path),
+        #[cfg(not(feature = "wif"))]
+        Some("wif") => Err(ReadError::Feature { file: path.into(), what: "WIF drafts", feature: "wif" }),
+        #[cfg(feature = "toml")]
         Some("toml") => design_file::read(path),
+        #[cfg(not(feature = "toml"))]
+        Some("toml") => Err(ReadError::Feature { file: path.into(), what: "design files", feature: "toml" }),
+        #[cfg(feature = "knitout")]
+        Some("k" | "knitout") => knitout::design(path),
+        #[cfg(not(feature = "knitout"))]
         Some("k" | "knitout") => {
-            let knitout = knitout::read(path, &LoopLengths::new())?;
-            knit::from_knitout(path, file_name(path), knitout)
+            Err(ReadError::Feature { file: path.into(), what: "knitout files", feature: "knitout" })
         }
         _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml, .k, .knitout" }),
     }
-    .map(|design| design.noting(path))
+    .map(|design: Design| design.noting(path))
 }

@@ -3,8 +3,6 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-
 use super::memory::room;
 use super::{ReadError, image_file};
 
@@ -12,8 +10,7 @@ use super::{ReadError, image_file};
 const COLORS_MAX: usize = 256;
 
 /// Which pick the first (top) row of an image is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum RowOrder {
     /// As a weaver draws: the first pick at the bottom.
     #[default]

@@ -18,6 +18,14 @@ pub enum WriteError {
         /// All extensions that stand for a format.
         known: String,
     },
+    /// A kind of file that this build was made without.
+    #[error("this build writes no {format}; texere's feature `{feature}` adds it")]
+    Feature {
+        /// The kind of file.
+        format: &'static str,
+        /// The feature that writes it.
+        feature: &'static str,
+    },
     /// The file system refused: no such folder, no permission, no room. A target that is a folder, a device, a link
     /// that leads nowhere or a file that its user may not write is refused before any work is done.
     #[error("can't {action} {}", .path.display())]

@@ -5,11 +5,31 @@ use std::io::{Seek, Write};
 
 use texere_core::{Chunk, Material, Plan, Vertex};
 
+#[cfg(feature = "glb")]
 use super::glb::GlbWriter;
 use super::mesh_writer::{MeshWriter, yarn_runs};
+#[cfg(feature = "ply")]
 use super::ply::PlyWriter;
 use super::target::Target;
 use super::{Format, WriteError};
+
+/// Starts a file of that format.
+fn writer<'a, W: Write + Seek + 'a>(
+    format: Format,
+    target: Target<W>,
+    plan: &'a Plan,
+    chunks: impl Iterator<Item = impl Borrow<Chunk>>,
+    materials: &'a [Material],
+) -> Result<Box<dyn MeshWriter<W> + 'a>, WriteError> {
+    match format {
+        #[cfg(feature = "glb")]
+        Format::Glb => Ok(Box::new(GlbWriter::start(target, plan, chunks, materials)?)),
+        #[cfg(feature = "ply")]
+        Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, chunks, materials)?)),
+        #[cfg(not(all(feature = "glb", feature = "ply")))]
+        format => Err(WriteError::Feature { format: format.extension(), feature: format.extension() }),
+    }
+}
 
 /// A file under way, and how many of its vertices have come.
 pub(super) struct Feed<'a, W: Write + Seek> {
@@ -39,10 +59,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         }
         let mut planned = 0;
         let chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
-        let writer: Box<dyn MeshWriter<W> + 'a> = match format {
-            Format::Glb => Box::new(GlbWriter::start(target, plan, chunks, materials)?),
-            Format::Ply => Box::new(PlyWriter::start(target, plan, chunks, materials)?),
-        };
+        let writer = writer(format, target, plan, chunks, materials)?;
         if planned < plan.counts().vertices {
             return Err(WriteError::VertexCount { given: planned, planned: plan.counts().vertices });
         }

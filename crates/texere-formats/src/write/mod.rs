@@ -1,9 +1,9 @@
 //! Mesh files, written piece by piece and in bounded memory; designs, drafts and pictures.
 //!
-//! | format | extension | holds |
-//! |---|---|---|
-//! | glTF 2.0 binary | `.glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
-//! | binary PLY, little endian | `.ply` | one point set with normals and colours, and its triangles; millimetres |
+//! | format | extension | feature | holds |
+//! |---|---|---|---|
+//! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
+//! | binary PLY, little endian | `.ply` | `ply` | one point set with normals and colours, and its triangles; millimetres |
 //!
 //! Beside meshes there are [drafts](fn@draft) and [pictures](fn@picture), in PNG, and designs that are read again, as [WIF](fn@wif) or
 //! as texere's own [design file](fn@toml).
@@ -18,6 +18,7 @@
 //! Each function but [`file`](fn@file) has a twin whose name ends in `_to`. It writes the same bytes to any writer of the caller's: memory, an
 //! archive, a connection. Meshes go back to fill in what is known last, so theirs also seeks.
 
+#[cfg(feature = "wif")]
 mod design;
 #[cfg(feature = "pictures")]
 mod draft;
@@ -25,19 +26,24 @@ mod error;
 mod feed;
 mod file;
 mod format;
+#[cfg(feature = "glb")]
 mod glb;
 mod mesh;
 mod mesh_writer;
 mod output;
 #[cfg(feature = "pictures")]
 mod picture;
+#[cfg(feature = "ply")]
 mod ply;
 mod target;
 #[cfg(test)]
 mod tests;
 mod unfinished;
 
-pub use design::{toml, toml_to, wif, wif_to};
+#[cfg(feature = "toml")]
+pub use design::{toml, toml_to};
+#[cfg(feature = "wif")]
+pub use design::{wif, wif_to};
 #[cfg(feature = "pictures")]
 pub use draft::{
     NEEDLES_MAX, SHAFTS_MAX, Side, draft, draft_to, knit_draft, knit_draft_to, knit_rows, warp_draft,

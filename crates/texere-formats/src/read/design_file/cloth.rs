@@ -3,7 +3,9 @@
 use texere_fabric::{Crimp, Relief, Shape, Woven};
 use toml::Spanned;
 
-use super::schema::{ClothTable, Source};
+use super::schema::ClothTable;
+use super::source::Source;
+use super::value::Any;
 use crate::read::ReadError;
 
 /// What `[cloth]` says.
@@ -29,7 +31,7 @@ impl Cloth {
             cloth.crimp = Crimp::WarpShare(source.number(field, &share, 0.0, 1.0)? as f32);
         }
         if let Some(selvedge) = &table.selvedge {
-            let given = selvedge.as_ref().as_bool();
+            let given = selvedge.as_ref().truth();
             cloth.selvedge = given.ok_or_else(|| source.odd("cloth.selvedge", selvedge, "true or false"))?;
         }
         if let Some(jam) = &table.jam {
@@ -56,10 +58,10 @@ impl Cloth {
 fn choice<T: Copy>(
     source: &Source<'_>,
     field: &str,
-    value: &Spanned<toml::Value>,
+    value: &Spanned<Any>,
     known: &[(&str, T)],
 ) -> Result<T, ReadError> {
-    let found = known.iter().find(|(name, _)| value.as_ref().as_str() == Some(name));
+    let found = known.iter().find(|(name, _)| value.as_ref().text() == Some(name));
     found.map(|(_, choice)| *choice).ok_or_else(|| {
         let names: Vec<_> = known.iter().map(|(name, _)| format!("\"{name}\"")).collect();
         source.odd(field, value, &names.join(" or "))

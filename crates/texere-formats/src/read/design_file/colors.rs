@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use toml::Spanned;
 
-use super::schema::Source;
+use super::source::Source;
 use crate::read::ReadError;
 use crate::read::error::{first_few, named};
 use crate::read::point_paper::PointPaper;

@@ -6,7 +6,9 @@ use texere_fabric::{Finish, Stretch};
 use toml::Spanned;
 
 use super::limits::{STRETCH, TIMES_MOST};
-use super::schema::{FinishTable, Source, real};
+use super::schema::FinishTable;
+use super::source::Source;
+use super::value::Any;
 use crate::read::ReadError;
 
 /// The least and the most times its length that a yarn may be given.
@@ -45,14 +47,14 @@ impl FinishTable {
         {
             return Err(source.odd(field, value, expected));
         }
-        let times = |(field, value): (&str, &Option<Spanned<toml::Value>>)| {
+        let times = |(field, value): (&str, &Option<Spanned<Any>>)| {
             let Some(value) = value else { return Ok(1.0) };
             let expected = "a number, 1 where the cloth is relaxed";
             let number = source.float(field, value, expected)?;
             Ok::<_, ReadError>(source.number(field, &number, 0.0, TIMES_MOST)? as f32)
         };
-        let said = |settle: &Spanned<toml::Value>| {
-            settle.as_ref().as_bool().ok_or_else(|| source.odd("finish.settle", settle, "true or false"))
+        let said = |settle: &Spanned<Any>| {
+            settle.as_ref().truth().ok_or_else(|| source.odd("finish.settle", settle, "true or false"))
         };
         let settle = self.settle.as_ref().map(said).transpose()?;
         let [warp, weft, calender, ..] = wovens;
@@ -91,7 +93,7 @@ impl FinishTable {
         let field = "finish.length";
         let mut length = match &self.length {
             None => None,
-            Some(given) => Some(match (given.as_ref().as_str(), real(given.as_ref())) {
+            Some(given) => Some(match (given.as_ref().text(), given.as_ref().number()) {
                 (Some("held"), _) => Length::Held,
                 (Some("free"), _) => Length::Free { tension: 0.0 },
                 (None, Some(factor)) => {

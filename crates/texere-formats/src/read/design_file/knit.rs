@@ -1,4 +1,4 @@
-//! The `[knit]` table: a weft knit, from a chart, a picture or a knitout file.
+//! The `[knit]` table: a weft knit, from a chart or a picture, or from a knitout file.
 
 use std::ops::Range;
 
@@ -6,13 +6,13 @@ use texere_fabric::Thread;
 use texere_fabric::weft::{Backing, Beds, Chart, ChartError, Gauge};
 use toml::Spanned;
 
-use super::schema::{DesignFile, KnitTable, Source};
+use super::schema::{DesignFile, KnitTable};
+use super::source::Source;
 use super::threads::{Named, YarnTable};
 use super::{colors, laid};
-use crate::read::error::{first_few, named, shown};
+use crate::read::error::first_few;
 use crate::read::file::file_name;
 use crate::read::knit::{Drawn, Knit};
-use crate::read::knitout::{self, LoopLengths};
 use crate::read::point_paper::{PointPaper, RowOrder};
 use crate::read::{Design, ReadError};
 
@@ -21,7 +21,7 @@ pub(super) const PER_CM: (f64, f64) = (0.01, 1000.0);
 pub(super) const PER_INCH: (f64, f64) = (0.1, 100.0);
 
 /// Loop lengths that a design may ask for, mm.
-const LOOP_MM: (f64, f64) = (0.01, 1000.0);
+pub(super) const LOOP_MM: (f64, f64) = (0.01, 1000.0);
 
 /// Most needles that a float may be allowed to pass.
 const FLOAT_MAX: i64 = 1_000_000;
@@ -64,10 +64,10 @@ pub(super) fn without_weaving(source: &Source<'_>, file: &DesignFile) -> Result<
     }
 }
 
-struct Reader<'a> {
-    source: &'a Source<'a>,
-    table: &'a KnitTable,
-    yarns: &'a YarnTable,
+pub(super) struct Reader<'a> {
+    pub(super) source: &'a Source<'a>,
+    pub(super) table: &'a KnitTable,
+    pub(super) yarns: &'a YarnTable,
 }
 
 impl Reader<'_> {
@@ -168,50 +168,6 @@ impl Reader<'_> {
         Ok(design.noting(&path))
     }
 
-    fn knitout(&self, name: String, knitout: &Spanned<String>) -> Result<Design, ReadError> {
-        let (source, table) = (self.source, self.table);
-        self.belongs(
-            "knit.chart or knit.image",
-            &[
-                ("knit.colors", table.colors.as_ref().map(Spanned::span)),
-                ("knit.rows", table.rows.as_ref().map(Spanned::span)),
-                ("knit.backing", table.backing.as_ref().map(Spanned::span)),
-                ("knit.beds", table.beds.as_ref().map(Spanned::span)),
-                ("knit.repeat", table.repeat.as_ref().map(Spanned::span)),
-            ],
-        )?;
-        let mut lengths = LoopLengths::new();
-        for (size, length) in &table.stitch_lengths_mm {
-            let field = format!("knit.stitch_lengths_mm.\"{}\"", shown(size.as_ref()));
-            let Some(name) = knitout::size(size.as_ref()) else {
-                let expected = "a stitch size: the number behind x-stitch-number, or both behind stitch";
-                return Err(source.unfit(&field, size.span(), expected));
-            };
-            let length = source.number(&field, length, LOOP_MM.0, LOOP_MM.1)?;
-            if lengths.insert(name, length).is_some() {
-                return Err(source.unfit(&field, size.span(), "each stitch size once, as a number"));
-            }
-        }
-        let path = source.beside(knitout);
-        let mut read = knitout::read(&path, &lengths)
-            .map_err(|error| error.named(source.place("knit.knitout", knitout.span())))?;
-        if !read.unused_sizes.is_empty() {
-            let unused = first_few(read.unused_sizes.iter().cloned());
-            let said = format!("knit.stitch_lengths_mm has sizes that {} does not: {unused}", named(&path));
-            read.warnings.push(said);
-        }
-        let (turn, yarns) = self.yarns_in_turn()?;
-        // Yarns go in turn to the carriers that are used at all; what the others have nobody sees.
-        let mut turn = turn.into_iter().cycle();
-        let of_carrier = |used| if used { turn.next().unwrap_or(0) } else { 0 };
-        let carriers = read.used_carriers().into_iter().map(of_carrier);
-        let threads = carriers.map(|yarn| yarns[yarn as usize].1).collect();
-        let gauge = self.gauge(read.gauge)?;
-        let drawn = Drawn::Lines { file: path.clone() };
-        let knit = self.knit(gauge, threads)?;
-        Ok(knit.design(source.path, name, read.program, drawn, read.warnings)?.noting(&path))
-    }
-
     /// A knit of one repeat.
     fn charted(
         &self,
@@ -230,7 +186,7 @@ impl Reader<'_> {
     }
 
     /// All but the program, with these yarns for its carriers.
-    fn knit(&self, gauge: Gauge, threads: Vec<Thread>) -> Result<Knit, ReadError> {
+    pub(super) fn knit(&self, gauge: Gauge, threads: Vec<Thread>) -> Result<Knit, ReadError> {
         let (source, table) = (self.source, self.table);
         let compression = laid::compression(source, "knit.compression", table.compression.as_ref())?;
         let copies = laid::copies(source, "knit.repeat", table.repeat.as_ref())?;
@@ -246,7 +202,7 @@ impl Reader<'_> {
     }
 
     /// How close stitches lie. `needles` to the inch are what a knitout file says.
-    fn gauge(&self, needles: Option<f64>) -> Result<Gauge, ReadError> {
+    pub(super) fn gauge(&self, needles: Option<f64>) -> Result<Gauge, ReadError> {
         let (source, table) = (self.source, self.table);
         let number = |field, value: &Option<Spanned<f64>>, (low, high)| {
             value.as_ref().map(|value| source.number(field, value, low, high)).transpose()
@@ -307,7 +263,7 @@ impl Reader<'_> {
 
     /// Numbers of the yarns of `knit.yarns`, one after another, and their names by number. Where nothing is given, it is the only
     /// yarn that there is.
-    fn yarns_in_turn(&self) -> Result<(Vec<u32>, Vec<Named>), ReadError> {
+    pub(super) fn yarns_in_turn(&self) -> Result<(Vec<u32>, Vec<Named>), ReadError> {
         let Some(list) = &self.table.yarns else {
             return match self.yarns.only() {
                 Some(only) => Ok((vec![0], vec![only])),
@@ -322,7 +278,11 @@ impl Reader<'_> {
     }
 
     /// Refuses keys that belong to another one, which is not there.
-    fn belongs(&self, needs: &'static str, keys: &[(&str, Option<Range<usize>>)]) -> Result<(), ReadError> {
+    pub(super) fn belongs(
+        &self,
+        needs: &'static str,
+        keys: &[(&str, Option<Range<usize>>)],
+    ) -> Result<(), ReadError> {
         match keys.iter().find_map(|(field, span)| Some((field, span.clone()?))) {
             Some((field, span)) => Err(ReadError::Without { place: self.source.place(field, span), needs }),
             None => Ok(()),

@@ -3,7 +3,7 @@
 use texere_fabric::weft::Cells;
 use toml::Spanned;
 
-use super::schema::Source;
+use super::source::Source;
 use crate::read::ReadError;
 
 /// How far yarns may be pressed together, as a share of their diameter.

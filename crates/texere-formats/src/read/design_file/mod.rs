@@ -115,12 +115,34 @@ mod cloth;
 mod colors;
 mod finish;
 mod knit;
+#[cfg(feature = "knitout")]
+mod knitout;
 mod laid;
 pub(crate) mod limits;
 mod schema;
+mod source;
 mod threads;
+mod value;
 mod warp_knit;
 mod weave;
+
+#[cfg(not(feature = "knitout"))]
+mod knitout {
+    //! A build without knitout refuses it by name.
+
+    use toml::Spanned;
+
+    use super::knit::Reader;
+    use crate::read::{Design, ReadError};
+
+    impl Reader<'_> {
+        pub(super) fn knitout(&self, _: String, knitout: &Spanned<String>) -> Result<Design, ReadError> {
+            let file = self.source.beside(knitout);
+            Err(ReadError::Feature { file, what: "knitout files", feature: "knitout" }
+                .named(self.source.place("knit.knitout", knitout.span())))
+        }
+    }
+}
 
 use std::path::Path;
 
@@ -139,7 +161,8 @@ use super::file::{bytes_of, file_name};
 use super::threads::only_used;
 use super::{Design, ReadError, wif};
 use cloth::Cloth;
-use schema::{DesignFile, Source};
+use schema::DesignFile;
+use source::Source;
 use threads::YarnTable;
 
 pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
@@ -195,7 +218,7 @@ fn unused(file: &DesignFile, rests: bool) -> Vec<String> {
     let cloth =
         [("cloth.shape", file.cloth.shape.is_some()), ("cloth.warp_crimp", file.cloth.warp_crimp.is_some())];
     let flat = file.yarns.iter().filter(|(_, yarn)| yarn.flatness.is_some());
-    let flat = flat.map(|(name, _)| format!("yarns.{name}.flatness"));
+    let flat = flat.map(|(name, _)| format!("yarns.{}.flatness", name.as_ref()));
     let given = cloth.into_iter().filter(|(_, given)| *given).map(|(key, _)| key.to_owned());
     let said = |key| format!("{key} counts for nothing in cloth at rest; with finish.settle = false it does");
     given.chain(flat).filter(|_| rests).map(said).collect()

@@ -7,7 +7,9 @@ use texere_fabric::{COTTON_DENSITY, FLATNESS_MAX, FLATNESS_MIN, Thread};
 use toml::Spanned;
 
 use super::limits::{LENGTH_MM, TEX, TWIST_PER_M};
-use super::schema::{SectionSpec, Source, ThreadSet, YarnSpec, real};
+use super::schema::{ThreadSet, YarnSpec};
+use super::source::Source;
+use super::value::Any;
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
 use crate::read::memory::room;
@@ -36,9 +38,13 @@ pub(super) struct YarnTable {
 }
 
 impl YarnTable {
-    pub(super) fn new(source: &Source<'_>, specs: &BTreeMap<String, YarnSpec>) -> Result<Self, ReadError> {
+    pub(super) fn new(
+        source: &Source<'_>,
+        specs: &BTreeMap<Spanned<String>, YarnSpec>,
+    ) -> Result<Self, ReadError> {
         let mut table = Self { names: BTreeMap::new(), materials: Vec::new(), sections: Vec::new() };
         for (number, (name, spec)) in (0..).zip(specs) {
+            let name = name.as_ref();
             let field = |key: &str| format!("yarns.{name}.{key}");
             let tex = match (&spec.tex, &spec.cotton_count) {
                 (Some(_), Some(count)) => {
@@ -109,7 +115,7 @@ impl YarnTable {
                     stiffness: stiffness.transpose()?.unwrap_or(1.0) as f32,
                     material: number,
                     section: number,
-                    twist: (twist_per_m * std::f64::consts::TAU / 1000.0) as f32,
+                    twist: texere_fabric::twist_from_turns_per_m(twist_per_m),
                 },
             );
         }
@@ -226,17 +232,17 @@ impl YarnTable {
 }
 
 /// One spacing for all threads, or a list of them.
-fn spacings(source: &Source<'_>, field: &str, value: &Spanned<toml::Value>) -> Result<Vec<f64>, ReadError> {
+fn spacings(source: &Source<'_>, field: &str, value: &Spanned<Any>) -> Result<Vec<f64>, ReadError> {
     let expected = "a number of mm, or a list of them such as [0.9, 0.3]";
     let [low, high] = LENGTH_MM;
-    let Some(list) = value.as_ref().as_array() else {
+    let Some(list) = value.as_ref().list() else {
         return Ok(vec![source.number(field, &source.float(field, value, expected)?, low, high)?]);
     };
     if list.is_empty() {
         return Err(source.odd(field, value, expected));
     }
     let each = list.iter().zip(1..).map(|(item, place)| {
-        let number = real(item).ok_or_else(|| source.odd(field, value, expected))?;
+        let number = item.number().ok_or_else(|| source.odd(field, value, expected))?;
         source.number(&format!("{field}, number {place},"), &Spanned::new(value.span(), number), low, high)
     });
     each.collect()
@@ -258,22 +264,16 @@ fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, 
         let keys = "section and plies in a table of [yarns]";
         return Err(ReadError::ExactlyOne { file: source.path.into(), keys });
     }
-    let section = match shape.as_ref().clone() {
-        SectionSpec::Circle => Section::Circle,
-        SectionSpec::Ellipse { aspect } => Section::Ellipse { aspect },
-        SectionSpec::Lenticular { aspect, distortion } => Section::Lenticular { aspect, distortion },
-        SectionSpec::PowerEllipse { aspect, exponent } => Section::PowerEllipse { aspect, exponent },
-        SectionSpec::Polygon { corners } => Section::Polygon(corners),
-    };
     let place = || source.place(&format!("yarns.{name}.section"), shape.span());
-    section.validate().map_err(|error| ReadError::Section { place: place(), source: error })?;
+    shape.as_ref().validate().map_err(|error| ReadError::Section { place: place(), source: error })?;
     // A polygon's corners are the only points of an outline that a design gives; from those that face nowhere no
     // surface can be made.
     let faces = |corner: &SectionPoint| corner.normal_x.is_finite() && corner.normal_y.is_finite();
-    if let Section::Polygon(corners) = &section
-        && let Some(corner) = section.outline(corners.len() as u32).iter().position(|corner| !faces(corner))
+    if let Section::Polygon(corners) = shape.as_ref()
+        && let Some(corner) =
+            shape.as_ref().outline(corners.len() as u32).iter().position(|corner| !faces(corner))
     {
         return Err(ReadError::Corner { place: place(), corner: corner + 1 });
     }
-    Ok(section)
+    Ok(shape.as_ref().clone())
 }

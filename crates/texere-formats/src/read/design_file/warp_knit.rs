@@ -8,7 +8,8 @@ use texere_fabric::{FabricError, SPACING_MAX, SPACING_MIN, Structure, Thread};
 use toml::Spanned;
 
 use super::knit::{PER_CM, PER_INCH, without_weaving};
-use super::schema::{BarTable, DesignFile, Source, WarpKnitTable};
+use super::schema::{BarTable, DesignFile, WarpKnitTable};
+use super::source::Source;
 use super::threads::YarnTable;
 use super::{colors, laid};
 use crate::read::file::file_name;

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use texere_fabric::{Drawdown, Weave};
 use toml::Spanned;
 
-use super::schema::{Source, WeaveTable};
+use super::schema::WeaveTable;
+use super::source::Source;
 use crate::read::ReadError;
 use crate::read::error::{first_few, named, shown};
 use crate::read::point_paper::PointPaper;

@@ -8,6 +8,7 @@
 //! With an empty carrier set `knit` is `drop`, `split` is `xfer`, and `tuck` and `miss` are nothing. `pause` is nothing.
 
 mod carriers;
+mod design;
 mod header;
 mod line;
 mod operations;
@@ -23,6 +24,7 @@ use texere_fabric::weft::Program;
 use super::ReadError;
 use super::file::bytes_of;
 use carriers::Carriers;
+pub(super) use design::design;
 use header::Header;
 use line::Line;
 use operations::Operations;

@@ -19,11 +19,11 @@ mod threads;
 use std::path::Path;
 
 use texere_core::Section;
-use texere_fabric::{Draft, Drawdown, Shedding, Woven};
+use texere_fabric::{Draft, Drawdown, Relief, Shedding, Structure, Woven, WovenDesign};
 
-use super::ReadError;
 use super::file::{bytes_of, file_name};
 use super::threads::only_used;
+use super::{Design, ReadError};
 use ini::Ini;
 pub(crate) use numbers::LOOM_LIMIT;
 use numbers::{integer, lists};
@@ -45,6 +45,14 @@ pub(super) struct WifDraft {
     pub(super) woven: Woven,
     pub(super) draft: Draft,
     pub(super) warnings: Vec<String>,
+}
+
+/// The design of a draft alone. It says nothing of a finish.
+pub(super) fn design(path: &Path) -> Result<Design, ReadError> {
+    let wif = read(path)?;
+    let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
+    let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
+    Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings).left())
 }
 
 pub(super) fn read(path: &Path) -> Result<WifDraft, ReadError> {

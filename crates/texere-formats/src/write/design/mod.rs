@@ -3,13 +3,16 @@
 mod cloth;
 mod interlacing;
 mod text;
+#[cfg(feature = "toml")]
 mod toml;
 mod wif;
 mod wif_threads;
+#[cfg(feature = "toml")]
 mod yarns;
 
 use std::io::Write;
 
+#[cfg(feature = "toml")]
 use self::toml::TomlFile;
 use super::target::Target;
 use super::{Output, WriteError};
@@ -81,6 +84,7 @@ pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErro
 /// assert_eq!(read(&path)?.structure.woven().unwrap().cloth(), &cloth);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[cfg(feature = "toml")]
 pub fn toml(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, WriteError> {
     let output = ending(output.into(), "toml")?;
     let file = TomlFile::new(design)?;
@@ -91,6 +95,7 @@ pub fn toml(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, W
 /// Writes a woven design to `out` as texere's own design file: the bytes that [`toml`](fn@toml) writes to a file.
 ///
 /// **Errors**: those of [`toml`](fn@toml), with [`WriteError::Writer`] where `out` refuses.
+#[cfg(feature = "toml")]
 pub fn toml_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
     let file = TomlFile::new(design)?;
     file.write(Target::straight(out))?.done()?;

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use texere_core::{Material, Section, SectionPoint};
-use texere_fabric::{COTTON_DENSITY, Thread, Woven, diameter_mm};
+use texere_fabric::{COTTON_DENSITY, Thread, Woven, diameter_mm, turns_per_m, twist_from_turns_per_m};
 
 use super::super::WriteError;
 use super::interlacing::{Kinds, period};
@@ -158,8 +158,8 @@ fn table(name: &str, thread: &Thread, material: &Material, section: &Section) ->
         }
     }
     if thread.twist != 0.0 {
-        let reads = |per_m: f64| (per_m * std::f64::consts::TAU / 1000.0) as f32 == thread.twist;
-        let per_m = nearest(f64::from(thread.twist) * 1000.0 / std::f64::consts::TAU, reads).0;
+        let reads = |per_m| twist_from_turns_per_m(per_m) == thread.twist;
+        let per_m = nearest(turns_per_m(thread.twist), reads).0;
         let most = limits::TWIST_PER_M;
         within(FORMAT, || field("twist_per_m"), per_m, [-most, most])?;
         keys.push(format!("twist_per_m = {per_m:?}"));

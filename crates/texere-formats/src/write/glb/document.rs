@@ -2,16 +2,14 @@
 
 use std::borrow::Borrow;
 use std::collections::HashMap;
-use std::io::{self, Write};
 use std::ops::Range;
 
-use serde::Serialize;
-use serde_json::ser::{Formatter, Serializer};
 use texere_core::{Chunk, Draw, Material, Origin, Plan, Vertex};
 
+use super::json::Json;
 use super::schema::{
-    self, ARRAY_BUFFER, Accessor, Asset, Attributes, Bounds, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT,
-    Gltf, MetallicRoughness, Node, Primitive, Scene, UNSIGNED_INT,
+    self, ARRAY_BUFFER, Accessor, Asset, Attributes, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Gltf,
+    MetallicRoughness, Node, Primitive, Scene, UNSIGNED_INT,
 };
 
 /// The two views of the buffer: the index pattern, and every vertex.
@@ -99,11 +97,11 @@ impl Document {
                 break;
             }
             let own = (draw.start.max(first) - first) as usize..(draw.end.min(end) - first) as usize;
-            if let Some(bounds) = &mut self.gltf.accessors[2 * number].bounds {
+            if let Accessor { min: Some(min), max: Some(max), .. } = &mut self.gltf.accessors[2 * number] {
                 for vertex in &vertices[own] {
                     for (axis, &value) in vertex.position.iter().enumerate() {
-                        bounds.min[axis] = bounds.min[axis].min(value);
-                        bounds.max[axis] = bounds.max[axis].max(value);
+                        min[axis] = min[axis].min(value);
+                        max[axis] = max[axis].max(value);
                     }
                 }
             }
@@ -111,21 +109,12 @@ impl Document {
     }
 
     /// The document as text, of a length that is a multiple of four and does not depend on the bounds.
-    pub(super) fn to_json(&self) -> io::Result<Vec<u8>> {
-        let mut text = Vec::new();
-        self.gltf.serialize(&mut Serializer::with_formatter(&mut text, FixedWidth))?;
-        text.resize(text.len().next_multiple_of(4), b' ');
-        Ok(text)
-    }
-}
-
-/// Compact JSON whose floats all take fifteen bytes: a sign, nine digits and a point, an exponent of four. JSON allows
-/// the spaces before them.
-struct FixedWidth;
-
-impl Formatter for FixedWidth {
-    fn write_f32<W: ?Sized + Write>(&mut self, writer: &mut W, value: f32) -> io::Result<()> {
-        write!(writer, "{value:15e}")
+    pub(super) fn to_json(&self) -> String {
+        let mut text = String::new();
+        self.gltf.write(&mut text);
+        let padding = text.len().next_multiple_of(4) - text.len();
+        text.extend(std::iter::repeat_n(' ', padding));
+        text
     }
 }
 
@@ -141,14 +130,15 @@ fn name(number: usize, origin: Origin) -> String {
 fn nodes(meshes: &[schema::Mesh]) -> Vec<Node> {
     let root = Node {
         name: "fabric".into(),
+        mesh: None,
         scale: Some([MILLIMETRE; 3]),
         children: (1..=meshes.len()).collect(),
-        ..Node::default()
     };
     let yarns = meshes.iter().enumerate().map(|(mesh, yarn)| Node {
         name: yarn.name.clone(),
         mesh: Some(mesh),
-        ..Node::default()
+        scale: None,
+        children: Vec::new(),
     });
     std::iter::once(root).chain(yarns).collect()
 }
@@ -167,17 +157,17 @@ fn surface(material: &Material) -> schema::Material {
 
 /// Positions and normals of a draw. Bounds start inside out, so that the first vertex sets them.
 fn vertex_accessors(draw: &Draw) -> [Accessor; 2] {
-    let bounds = Bounds { min: [f32::MAX; 3], max: [f32::MIN; 3] };
-    [(0, Some(bounds)), (std::mem::offset_of!(Vertex, normal) as u64, None)].map(|(offset, bounds)| {
-        Accessor {
-            buffer_view: VERTICES,
-            byte_offset: draw.base_vertex * VERTEX_BYTES + offset,
-            component_type: FLOAT,
-            count: draw.vertices,
-            shape: "VEC3",
-            bounds,
-        }
-    })
+    let of = |offset, [min, max]: [Option<[f32; 3]>; 2]| Accessor {
+        buffer_view: VERTICES,
+        byte_offset: draw.base_vertex * VERTEX_BYTES + offset,
+        component_type: FLOAT,
+        count: draw.vertices,
+        shape: "VEC3",
+        min,
+        max,
+    };
+    let inside_out = [f32::MAX, f32::MIN].map(|bound| Some([bound; 3]));
+    [of(0, inside_out), of(std::mem::offset_of!(Vertex, normal) as u64, [None; 2])]
 }
 
 fn index_accessor(draw: &Draw) -> Accessor {
@@ -187,7 +177,8 @@ fn index_accessor(draw: &Draw) -> Accessor {
         component_type: UNSIGNED_INT,
         count: draw.indices.end - draw.indices.start,
         shape: "SCALAR",
-        bounds: None,
+        min: None,
+        max: None,
     }
 }
 

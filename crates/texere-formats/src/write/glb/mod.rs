@@ -3,6 +3,7 @@
 //! Source: Khronos Group, "glTF 2.0 Specification", section 4.4 for the container.
 
 mod document;
+mod json;
 mod schema;
 
 use std::borrow::Borrow;
@@ -45,13 +46,13 @@ impl<W: Write + Seek> GlbWriter<W> {
         check(plan.counts().bytes())?;
         let document = Document::new(plan, chunks, materials);
         check(document.buffer_bytes())?;
-        let json = document.to_json().map_err(|source| target.failed(source))?;
+        let json = document.to_json();
         let bytes = HEADER_BYTES + 2 * CHUNK_HEADER_BYTES + json.len() as u64 + document.buffer_bytes();
         check(bytes)?;
         target.write(b"glTF")?;
         target.write_words(&[2, bytes as u32, json.len() as u32])?;
         target.write(b"JSON")?;
-        target.write(&json)?;
+        target.write(json.as_bytes())?;
         target.write_words(&[document.buffer_bytes() as u32])?;
         target.write(b"BIN\0")?;
         target.write_words(&plan.shared_indices())?;
@@ -67,8 +68,7 @@ impl<W: Write + Seek> MeshWriter<W> for GlbWriter<W> {
 
     fn finish(mut self: Box<Self>) -> Result<Target<W>, WriteError> {
         self.target.go_to(HEADER_BYTES + CHUNK_HEADER_BYTES)?;
-        let json = self.document.to_json().map_err(|source| self.target.failed(source))?;
-        self.target.write(&json)?;
+        self.target.write(self.document.to_json().as_bytes())?;
         Ok(self.target)
     }
 }

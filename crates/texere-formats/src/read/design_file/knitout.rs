@@ -1,0 +1,55 @@
+//! A `[knit]` table that names a knitout file.
+
+use toml::Spanned;
+
+use super::knit::{LOOP_MM, Reader};
+use crate::read::error::{first_few, named, shown};
+use crate::read::knit::Drawn;
+use crate::read::knitout::{self, LoopLengths};
+use crate::read::{Design, ReadError};
+
+impl Reader<'_> {
+    pub(super) fn knitout(&self, name: String, knitout: &Spanned<String>) -> Result<Design, ReadError> {
+        let (source, table) = (self.source, self.table);
+        self.belongs(
+            "knit.chart or knit.image",
+            &[
+                ("knit.colors", table.colors.as_ref().map(Spanned::span)),
+                ("knit.rows", table.rows.as_ref().map(Spanned::span)),
+                ("knit.backing", table.backing.as_ref().map(Spanned::span)),
+                ("knit.beds", table.beds.as_ref().map(Spanned::span)),
+                ("knit.repeat", table.repeat.as_ref().map(Spanned::span)),
+            ],
+        )?;
+        let mut lengths = LoopLengths::new();
+        for (size, length) in &table.stitch_lengths_mm {
+            let field = format!("knit.stitch_lengths_mm.\"{}\"", shown(size.as_ref()));
+            let Some(name) = knitout::size(size.as_ref()) else {
+                let expected = "a stitch size: the number behind x-stitch-number, or both behind stitch";
+                return Err(source.unfit(&field, size.span(), expected));
+            };
+            let length = source.number(&field, length, LOOP_MM.0, LOOP_MM.1)?;
+            if lengths.insert(name, length).is_some() {
+                return Err(source.unfit(&field, size.span(), "each stitch size once, as a number"));
+            }
+        }
+        let path = source.beside(knitout);
+        let mut read = knitout::read(&path, &lengths)
+            .map_err(|error| error.named(source.place("knit.knitout", knitout.span())))?;
+        if !read.unused_sizes.is_empty() {
+            let unused = first_few(read.unused_sizes.iter().cloned());
+            let said = format!("knit.stitch_lengths_mm has sizes that {} does not: {unused}", named(&path));
+            read.warnings.push(said);
+        }
+        let (turn, yarns) = self.yarns_in_turn()?;
+        // Yarns go in turn to the carriers that are used at all; what the others have nobody sees.
+        let mut turn = turn.into_iter().cycle();
+        let of_carrier = |used| if used { turn.next().unwrap_or(0) } else { 0 };
+        let carriers = read.used_carriers().into_iter().map(of_carrier);
+        let threads = carriers.map(|yarn| yarns[yarn as usize].1).collect();
+        let gauge = self.gauge(read.gauge)?;
+        let drawn = Drawn::Lines { file: path.clone() };
+        let knit = self.knit(gauge, threads)?;
+        Ok(knit.design(source.path, name, read.program, drawn, read.warnings)?.noting(&path))
+    }
+}

@@ -1,0 +1,149 @@
+//! A design file's text, and how to find the line that a fault stands on.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use texere_fabric::{FabricError, Weave};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::value::{Any, Node, Value};
+use crate::read::error::{said, shown};
+use crate::read::{Place, ReadError};
+
+/// Most threads of a warp or weft.
+const THREAD_LIMIT: i64 = 1_000_000;
+
+/// A design file's text and where it came from.
+#[derive(Debug)]
+pub(super) struct Source<'a> {
+    pub(super) path: &'a Path,
+    text: &'a str,
+}
+
+impl<'a> Source<'a> {
+    pub(super) fn new(path: &'a Path, bytes: &'a [u8]) -> Result<Self, ReadError> {
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+            ReadError::Syntax { file: path.into(), line, message: "not UTF-8".into() }
+        })?;
+        Ok(Self { path, text })
+    }
+
+    /// The path of a file that the design names: it lies beside the design.
+    pub(super) fn beside(&self, file: &Spanned<String>) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(file.as_ref())
+    }
+
+    /// What the file says.
+    pub(super) fn parse<T: Value>(&self) -> Result<T, ReadError> {
+        let table = DeTable::parse(self.text).map_err(|error| ReadError::Syntax {
+            file: self.path.into(),
+            line: self.line(error.span().unwrap_or(0..0)),
+            message: said(error.message()),
+        })?;
+        let span = table.span();
+        T::read(&Node::root(self, &Spanned::new(span, DeValue::Table(table.into_inner()))))
+    }
+
+    /// A value as the file has it, without its quotes.
+    fn written(&self, span: Range<usize>) -> String {
+        shown(self.text.get(span).unwrap_or_default().trim_matches(['"', '\'']))
+    }
+
+    fn line(&self, span: Range<usize>) -> usize {
+        self.text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1
+    }
+
+    pub(super) fn place(&self, field: &str, span: Range<usize>) -> Place {
+        Place::new(self.path, self.line(span), field)
+    }
+
+    pub(super) fn bad<T: ToString>(&self, field: &str, value: &Spanned<T>, expected: &str) -> ReadError {
+        let (place, value) = (self.place(field, value.span()), shown(&value.as_ref().to_string()));
+        ReadError::BadValue { place, value, expected: expected.into() }
+    }
+
+    /// The refusal of a value that is not even of the right kind: it is shown as the file has it.
+    pub(super) fn odd(&self, field: &str, value: &Spanned<Any>, expected: &str) -> ReadError {
+        self.unfit(field, value.span(), expected)
+    }
+
+    /// The refusal of what stands at `span`, shown as the file has it.
+    pub(super) fn unfit(&self, field: &str, span: Range<usize>, expected: &str) -> ReadError {
+        let (place, value) = (self.place(field, span.clone()), self.written(span));
+        ReadError::BadValue { place, value, expected: expected.into() }
+    }
+
+    /// A number of any size, whole or not.
+    pub(super) fn float(
+        &self,
+        field: &str,
+        value: &Spanned<Any>,
+        expected: &str,
+    ) -> Result<Spanned<f64>, ReadError> {
+        let number = value.as_ref().number().ok_or_else(|| self.odd(field, value, expected))?;
+        Ok(Spanned::new(value.span(), number))
+    }
+
+    /// A number above 0 (or of either sign, where `low` is negative) within its limits.
+    pub(super) fn number(
+        &self,
+        field: &str,
+        value: &Spanned<f64>,
+        low: f64,
+        high: f64,
+    ) -> Result<f64, ReadError> {
+        if (low..=high).contains(value.as_ref()) {
+            return Ok(*value.as_ref());
+        }
+        Err(ReadError::OutOfRange {
+            place: self.place(field, value.span()),
+            value: *value.as_ref(),
+            low,
+            high,
+        })
+    }
+
+    /// A number of threads.
+    pub(super) fn count(&self, field: &str, value: &Spanned<i64>) -> Result<usize, ReadError> {
+        self.integer(field, value, 1, THREAD_LIMIT).map(|count| count as usize)
+    }
+
+    pub(super) fn integer(
+        &self,
+        field: &str,
+        value: &Spanned<i64>,
+        low: i64,
+        high: i64,
+    ) -> Result<u32, ReadError> {
+        let number = *value.as_ref();
+        match u32::try_from(number) {
+            Ok(fits) if (low..=high).contains(&number) => Ok(fits),
+            _ => {
+                let (place, value) = (self.place(field, value.span()), number as f64);
+                Err(ReadError::OutOfRange { place, value, low: low as f64, high: high as f64 })
+            }
+        }
+    }
+
+    /// A colour as `#rrggbb`.
+    pub(super) fn rgb(&self, field: &str, color: &Spanned<String>) -> Result<[u8; 3], ReadError> {
+        let is_hex =
+            |digits: &&str| digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let digits = color.as_ref().strip_prefix('#').filter(is_hex);
+        let value = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
+        let [_, red, green, blue] =
+            value.ok_or_else(|| self.bad(field, color, "a colour like #26406e"))?.to_be_bytes();
+        Ok([red, green, blue])
+    }
+
+    pub(super) fn weave(&self, field: &str, notation: &Spanned<String>) -> Result<Weave, ReadError> {
+        let weave = Weave::parse(notation.as_ref());
+        weave.map_err(|source| ReadError::Weave { place: self.place(field, notation.span()), source })
+    }
+
+    pub(super) fn fabric(&self, source: FabricError) -> ReadError {
+        ReadError::fabric(self.path, source)
+    }
+}

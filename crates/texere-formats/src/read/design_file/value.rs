@@ -1,0 +1,227 @@
+//! From TOML's values to those of a design, each of which knows its key and its line.
+
+use std::collections::BTreeMap;
+
+use toml::Spanned;
+use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
+
+use super::source::Source;
+use crate::read::ReadError;
+use crate::read::error::shown;
+
+/// What a key may hold.
+pub(super) trait Value: Sized {
+    /// What stands for a key that is not there; nothing where it is needed.
+    fn absent() -> Option<Self> {
+        None
+    }
+
+    fn read(node: &Node<'_>) -> Result<Self, ReadError>;
+}
+
+/// A value of a design file and the keys that lead to it.
+#[derive(Debug)]
+pub(super) struct Node<'a> {
+    source: &'a Source<'a>,
+    /// The table that it stands in, and its key there. The file itself stands in none.
+    stands: Option<(&'a Node<'a>, &'a str)>,
+    value: &'a Spanned<DeValue<'a>>,
+}
+
+impl<'a> Node<'a> {
+    /// The whole file.
+    pub(super) fn root(source: &'a Source<'a>, file: &'a Spanned<DeValue<'a>>) -> Self {
+        Self { source, stands: None, value: file }
+    }
+
+    /// All keys that lead to it, as errors write them.
+    fn field(&self) -> String {
+        match self.stands {
+            None => String::new(),
+            Some((Node { stands: None, .. }, key)) => key.into(),
+            Some((table, key)) => format!("{}.{key}", table.field()),
+        }
+    }
+
+    pub(super) fn text(&self) -> Option<&'a str> {
+        self.value.as_ref().as_str()
+    }
+
+    /// The table that it is.
+    pub(super) fn any_table(&self) -> Result<&'a DeTable<'a>, ReadError> {
+        self.value.as_ref().as_table().ok_or_else(|| self.unfit("a table"))
+    }
+
+    /// The table that it is, without other keys than those `known`.
+    pub(super) fn table(&self, known: &[&str]) -> Result<&'a DeTable<'a>, ReadError> {
+        let table = self.any_table()?;
+        self.only(table, known)?;
+        Ok(table)
+    }
+
+    /// Refuses the first key of its table that is none of those `known`.
+    pub(super) fn only(&self, table: &DeTable<'_>, known: &[&str]) -> Result<(), ReadError> {
+        let others = table.keys().filter(|key| !known.contains(&key.as_ref().as_ref()));
+        let Some(key) = others.min_by_key(|key| key.span().start) else { return Ok(()) };
+        let place = self.source.place(&format!("key \"{}\"", shown(key.as_ref())), key.span());
+        Err(ReadError::UnknownKey { place, nearest: nearest(key.as_ref(), known) })
+    }
+
+    /// What its table has under a key.
+    pub(super) fn key<T: Value>(&self, table: &DeTable<'_>, key: &str) -> Result<T, ReadError> {
+        match table.get(key) {
+            Some(value) => T::read(&Node { source: self.source, stands: Some((self, key)), value }),
+            None => T::absent().ok_or_else(|| ReadError::Value {
+                place: self.source.place(&self.field(), self.value.span()),
+                message: format!("key \"{key}\" is missing"),
+            }),
+        }
+    }
+
+    /// The refusal of it, as the file has it.
+    pub(super) fn unfit(&self, expected: &str) -> ReadError {
+        self.source.unfit(&self.field(), self.value.span(), expected)
+    }
+}
+
+/// The known key nearest to one that is not, if any is near.
+fn nearest(key: &str, known: &[&str]) -> Option<String> {
+    // Further apart than a third of its letters, a key is another word, not a misspelling. One much longer than all
+    // known ones is that without being compared letter by letter.
+    let most = |known: &str| known.len().max(3) / 3 + 1;
+    let nearest = known
+        .iter()
+        .filter(|known| key.len() <= known.len() + 4 * most(known))
+        .map(|known| (strsim::damerau_levenshtein(key, known), known))
+        .filter(|(distance, known)| *distance <= most(known))
+        .min();
+    nearest.map(|(_, known)| (*known).into())
+}
+
+fn whole(number: &DeInteger<'_>) -> Option<i64> {
+    i64::from_str_radix(number.as_str(), number.radix()).ok()
+}
+
+/// A number, unless it is larger than any of 64 bits.
+fn real(number: &DeFloat<'_>) -> Option<f64> {
+    let value: f64 = number.as_str().parse().ok()?;
+    (!value.is_infinite() || number.as_str().contains("inf")).then_some(value)
+}
+
+/// A value of any kind, for keys that say themselves what it should be.
+#[derive(Debug)]
+pub(super) enum Any {
+    Text(String),
+    Number(f64),
+    Truth(bool),
+    List(Vec<Self>),
+    /// A table, a date, or a number that is too large.
+    Other,
+}
+
+impl Any {
+    fn of(value: &DeValue<'_>) -> Self {
+        match value {
+            DeValue::String(text) => Self::Text(text.to_string()),
+            DeValue::Integer(number) => whole(number).map_or(Self::Other, |whole| Self::Number(whole as f64)),
+            DeValue::Float(number) => real(number).map_or(Self::Other, Self::Number),
+            DeValue::Boolean(truth) => Self::Truth(*truth),
+            DeValue::Array(list) => Self::List(list.iter().map(|item| Self::of(item.as_ref())).collect()),
+            DeValue::Datetime(_) | DeValue::Table(_) => Self::Other,
+        }
+    }
+
+    pub(super) fn text(&self) -> Option<&str> {
+        if let Self::Text(text) = self { Some(text) } else { None }
+    }
+
+    /// A number, written with a point or without.
+    pub(super) fn number(&self) -> Option<f64> {
+        if let Self::Number(number) = self { Some(*number) } else { None }
+    }
+
+    pub(super) fn truth(&self) -> Option<bool> {
+        if let Self::Truth(truth) = self { Some(*truth) } else { None }
+    }
+
+    pub(super) fn list(&self) -> Option<&[Self]> {
+        if let Self::List(list) = self { Some(list) } else { None }
+    }
+}
+
+impl Value for Any {
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        Ok(Self::of(node.value.as_ref()))
+    }
+}
+
+impl Value for String {
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        node.text().map(Self::from).ok_or_else(|| node.unfit("text in quotes"))
+    }
+}
+
+impl Value for i64 {
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        let number = node.value.as_ref().as_integer().and_then(whole);
+        number.ok_or_else(|| node.unfit("a whole number"))
+    }
+}
+
+impl Value for f64 {
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        Any::of(node.value.as_ref()).number().ok_or_else(|| node.unfit("a number"))
+    }
+}
+
+impl Value for f32 {
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        f64::read(node).map(|number| number as Self)
+    }
+}
+
+impl<T: Value> Value for Option<T> {
+    fn absent() -> Option<Self> {
+        Some(None)
+    }
+
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        T::read(node).map(Some)
+    }
+}
+
+impl<T: Value> Value for Spanned<T> {
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        T::read(node).map(|value| Self::new(node.value.span(), value))
+    }
+}
+
+impl<T: Value> Value for Vec<T> {
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        let list = node.value.as_ref().as_array().ok_or_else(|| node.unfit("a list"))?;
+        list.iter().map(|value| T::read(&Node { value, ..*node })).collect()
+    }
+}
+
+/// A point.
+impl Value for [f32; 2] {
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        Vec::read(node)?.try_into().map_err(|_| node.unfit("two numbers"))
+    }
+}
+
+impl<T: Value> Value for BTreeMap<Spanned<String>, T> {
+    fn absent() -> Option<Self> {
+        Some(Self::new())
+    }
+
+    fn read(node: &Node<'_>) -> Result<Self, ReadError> {
+        let table = node.any_table()?;
+        let values = table.iter().map(|(key, value)| {
+            let stands = Some((node, key.as_ref().as_ref()));
+            let value = T::read(&Node { stands, value, ..*node })?;
+            Ok((Spanned::new(key.span(), key.as_ref().to_string()), value))
+        });
+        values.collect()
+    }
+}

@@ -1,0 +1,54 @@
+//! A knitout file that is a design of its own.
+
+use std::path::Path;
+
+use texere_core::{Material, Section};
+use texere_fabric::Thread;
+use texere_fabric::weft::{Cells, Gauge};
+
+use super::LoopLengths;
+use crate::read::file::file_name;
+use crate::read::knit::{Drawn, Knit};
+use crate::read::{Design, ReadError};
+
+/// Needles to the inch where a file says nothing.
+const GAUGE: f64 = 15.0;
+
+/// How many times a yarn's diameter a wale is where a file says nothing: that of plain jersey.
+const WALE_OF_DIAMETER: f64 = 5.0;
+
+/// Colours of carriers where a file says nothing that can be drawn: easily told apart, none too dark to show its shape.
+const COLORS: [[u8; 3]; 8] = [
+    [0xd9, 0xcf, 0xb8],
+    [0x9c, 0x3b, 0x2e],
+    [0x3d, 0x5a, 0x80],
+    [0x5b, 0x8c, 0x5a],
+    [0xc9, 0x8b, 0x2b],
+    [0x7a, 0x5a, 0x8a],
+    [0x4b, 0x9a, 0x9a],
+    [0x8a, 0x8a, 0x8a],
+];
+
+/// The design of a knitout file alone: plain jersey's proportions, and yarns of different colours.
+pub(in crate::read) fn design(path: &Path) -> Result<Design, ReadError> {
+    let read = super::read(path, &LoopLengths::new())?;
+    let gauge = Gauge::plain(read.gauge.unwrap_or(GAUGE));
+    let materials: Vec<_> = read
+        .program
+        .carriers
+        .iter()
+        .zip(&read.yarns)
+        .zip(COLORS.iter().cycle())
+        .map(|((carrier, yarn), &srgb)| {
+            let name = yarn.as_ref().map_or_else(|| carrier.clone(), |yarn| format!("{carrier}: {yarn}"));
+            Material { name, srgb, tex: None }
+        })
+        .collect();
+    let thread =
+        |material| Thread { material, ..Thread::new(0.0, (gauge.wale_mm / WALE_OF_DIAMETER / 2.0) as f32) };
+    let threads: Vec<_> = (0..materials.len() as u32).map(thread).collect();
+    let (yarns, materials, sections) = Knit::yarns_of(threads, 1.0, &materials, &[Section::Circle]);
+    let knit =
+        Knit { gauge, yarns, materials, sections, copies: [1, 1], cells: Cells::Round, float_max: None };
+    knit.design(path, file_name(path), read.program, Drawn::Lines { file: path.into() }, read.warnings)
+}

@@ -1,10 +1,11 @@
-//! A device against its floor, side by side: the mesh stage beside a plain fill of the same bytes, reading and uploading
+//! A device against its floor, side by side: the mesh stage, also with packed vertices, beside a plain fill of the same bytes, reading and uploading
 //! beside plain copies from and to pinned memory.
 
 use std::error::Error;
 use std::time::Duration;
 
-use texere::{Backend, Frame, Settings, Topology, Yarns};
+use texere::{Backend, Frame, PackedVertex, Settings, Topology, Yarns};
+use texere_core::{SessionError, StageTimings};
 
 use crate::fill::{Fill, Gpu};
 use crate::measure::{Bench, median_time};
@@ -24,6 +25,8 @@ struct Case {
     flatness: f32,
     /// The paper's mapping, a lane a yarn, instead of ours.
     per_yarn: bool,
+    /// Packed vertices instead of the mesh.
+    packed: bool,
 }
 
 const PAPER: Case = Case {
@@ -34,13 +37,20 @@ const PAPER: Case = Case {
     twist: 0.0,
     flatness: 1.0,
     per_yarn: false,
+    packed: false,
 };
 
 const TWISTED: Case = Case { name: "upright, indexed, twisted", twist: 0.7, ..PAPER };
 
-const CASES: [Case; 8] = [
+const PACKED: Case =
+    Case { name: "upright, shared, packed", topology: Topology::Shared, packed: true, ..PAPER };
+
+const CASES: [Case; 11] = [
     PAPER,
     Case { name: "upright, shared", topology: Topology::Shared, ..PAPER },
+    PACKED,
+    Case { name: "upright, shared, packed, flattened", flatness: 2.0, ..PACKED },
+    Case { name: "upright, shared, packed, twisted", twist: 0.7, ..PACKED },
     Case { name: "rotation-minimising, indexed", frame: Frame::RotationMinimizing, ..PAPER },
     Case { name: "upright, indexed, in one yarn", joined: true, ..PAPER },
     Case { name: "upright, indexed, flattened", flatness: 2.0, ..PAPER },
@@ -144,14 +154,17 @@ fn print_case(
     let settings = Settings { frame: case.frame, topology: case.topology, ..Settings::default() };
     let yarns = if case.joined { one_yarn(yarns)? } else { shaped(yarns, case.twist, case.flatness)? };
     let counts = *texere::Pipeline::new(&yarns).settings(settings).plan()?.counts();
-    let mut fill = gpu.fill(&buffers(counts.bytes()))?;
-    let (fill, scan, mesh) = beside_fill(&mut *fill, backend, yarns, settings, rounds)?;
+    let bytes = if case.packed { counts.vertices * size_of::<PackedVertex>() as u64 } else { counts.bytes() };
+    let mut fill = gpu.fill(&buffers(bytes))?;
+    let stages = if case.packed { Bench::packed } else { Bench::fused };
+    let bench = Bench::new(backend, yarns, settings)?;
+    let (fill, scan, mesh) = beside_fill(&mut *fill, bench, stages, rounds)?;
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
     println!(
         "| {device} | {cloth} | {} | {:.3} | {:.0} | {:.3} | {:.3} | {:.2} | {:.2} |",
         case.name,
         ms(fill),
-        counts.bytes() as f64 / fill.as_secs_f64() / 1e9,
+        bytes as f64 / fill.as_secs_f64() / 1e9,
         ms(scan),
         ms(mesh),
         (scan + mesh).as_secs_f64() / fill.as_secs_f64(),
@@ -163,18 +176,16 @@ fn print_case(
 /// Medians of the fill, the scan and the mesh with stage 1 in it, in turn.
 fn beside_fill(
     fill: &mut dyn Fill,
-    backend: &dyn Backend,
-    yarns: Yarns,
-    settings: Settings,
+    mut bench: Bench,
+    stages: fn(&mut Bench) -> Result<StageTimings, SessionError>,
     rounds: usize,
 ) -> Result<(Duration, Duration, Duration), Box<dyn Error>> {
-    let mut bench = Bench::new(backend, yarns, settings)?;
-    bench.fused()?;
+    stages(&mut bench)?;
     fill.run()?;
     let (mut fills, mut scans, mut meshes) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..rounds {
         fills.push(fill.run()?);
-        let stages = bench.fused()?;
+        let stages = stages(&mut bench)?;
         scans.push(stages.scan);
         meshes.push(stages.trajectory + stages.mesh);
     }

@@ -62,6 +62,13 @@ impl Bench {
         self.run(|session, chunk| session.mesh(chunk))
     }
 
+    /// Scan and packed vertices once, likewise.
+    ///
+    /// **Errors**: [`SessionError`] from the device.
+    pub fn packed(&mut self) -> Result<StageTimings, SessionError> {
+        self.run(|session, chunk| session.packed(chunk))
+    }
+
     /// Scan, then stage 1 and stage 2 one after the other for each chunk. Times of this run alone; a device that always
     /// fuses does stage 1 twice.
     ///

@@ -1,4 +1,4 @@
-//! The CPU's mesh stage beside a plain fill of as many bytes, in turn and in one process.
+//! The CPU's mesh stage, also with packed vertices, beside a plain fill of as many bytes, in turn and in one process.
 //!
 //! `cargo run --release -p texere-bench --bin shares -- [ENDS PICKS [ROUNDS]]`
 //!
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use rayon::ThreadPoolBuilder;
-use texere::{Frame, Pipeline, Plan, Settings, Topology, Vertex, Yarns};
+use texere::{Frame, PackedVertex, Pipeline, Plan, Settings, Topology, Vertex, Yarns};
 use texere_bench::{median, paper_cloth, plan, session, shaped, stream};
 use texere_core::{Chunk, ControlPoint, MeshMut, Session};
 use texere_cpu::ParallelBackend;
@@ -19,12 +19,22 @@ use texere_cpu::ParallelBackend;
 /// A kind of mesh, ready to be made.
 struct Case {
     name: &'static str,
+    output: Output,
     plan: Arc<Plan>,
     chunks: Vec<Chunk>,
     session: Session,
     /// The first control point.
     first: ControlPoint,
     rounds: Vec<Round>,
+}
+
+/// What is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Output {
+    /// Vertices and, where the topology has any, indices, into memory of the bench's.
+    Mesh,
+    /// Packed vertices, into memory of the session's.
+    Packed,
 }
 
 /// How long everything took in one round.
@@ -43,20 +53,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     let bare = Settings { topology: Topology::None, ..Settings::default() };
     let upright = Settings::default();
     let kinds = [
-        ("upright", upright, yarns.clone()),
-        ("upright, flattened", upright, shaped(&yarns, 0.0, 2.0)?),
-        ("upright, twisted", upright, shaped(&yarns, 0.7, 1.0)?),
-        ("upright, twisted and flattened", upright, shaped(&yarns, 0.7, 2.0)?),
-        ("rotation minimising", minimizing, yarns.clone()),
-        ("no indices", bare, yarns.clone()),
+        ("upright", upright, yarns.clone(), Output::Mesh),
+        ("upright, flattened", upright, shaped(&yarns, 0.0, 2.0)?, Output::Mesh),
+        ("upright, twisted", upright, shaped(&yarns, 0.7, 1.0)?, Output::Mesh),
+        ("upright, twisted and flattened", upright, shaped(&yarns, 0.7, 2.0)?, Output::Mesh),
+        ("rotation minimising", minimizing, yarns.clone(), Output::Mesh),
+        ("no indices", bare, yarns.clone(), Output::Mesh),
+        ("packed", bare, yarns.clone(), Output::Packed),
+        ("packed, flattened", bare, shaped(&yarns, 0.0, 2.0)?, Output::Packed),
     ];
 
     let mut room: (Vec<Vertex>, Vec<u32>) = (Vec::new(), Vec::new());
     for threads in [1, 2] {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
         let mut cases = Vec::new();
-        for (name, settings, yarns) in &kinds {
-            cases.push(Case::new(name, *settings, yarns)?);
+        for (name, settings, yarns, output) in &kinds {
+            cases.push(Case::new(name, *settings, yarns, *output)?);
         }
         for _ in 0..rounds {
             for case in &mut cases {
@@ -93,10 +105,15 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 impl Case {
-    fn new(name: &'static str, settings: Settings, yarns: &Yarns) -> Result<Self, Box<dyn Error>> {
+    fn new(
+        name: &'static str,
+        settings: Settings,
+        yarns: &Yarns,
+        output: Output,
+    ) -> Result<Self, Box<dyn Error>> {
         let (plan, chunks) = plan(yarns, settings)?;
         let session = session(&ParallelBackend::open()?, &plan, yarns)?;
-        Ok(Self { name, plan, chunks, session, first: yarns.points()[0], rounds: Vec::new() })
+        Ok(Self { name, output, plan, chunks, session, first: yarns.points()[0], rounds: Vec::new() })
     }
 
     fn round(
@@ -105,7 +122,10 @@ impl Case {
         indices: &mut [u32],
     ) -> Result<Round, texere_core::SessionError> {
         let start = Instant::now();
-        stream::fill(bytemuck::cast_slice_mut(vertices), 1.0);
+        let floats: &mut [f32] = bytemuck::cast_slice_mut(vertices);
+        let share = if self.output == Output::Packed { 2 } else { 1 };
+        let written = floats.len() / share;
+        stream::fill(&mut floats[..written], 1.0);
         stream::fill(bytemuck::cast_slice_mut(indices), 1.0);
         let fill = start.elapsed();
 
@@ -116,6 +136,12 @@ impl Case {
         let scan = start.elapsed();
 
         let start = Instant::now();
+        if self.output == Output::Packed {
+            for chunk in &self.chunks {
+                self.session.packed(chunk)?;
+            }
+            return Ok(Round { fill, scan, mesh: start.elapsed() });
+        }
         let (mut vertices, mut indices) = (vertices, indices);
         for chunk in &self.chunks {
             let (own_vertices, others) = vertices.split_at_mut(chunk.vertices() as usize);
@@ -135,12 +161,16 @@ impl Case {
             self.rounds.iter().map(|round| round.fill.as_secs_f64() / round.mesh.as_secs_f64()).collect();
         let best = shares.iter().copied().fold(0.0, f64::max);
         let counts = self.plan.counts();
+        let bytes = match self.output {
+            Output::Mesh => counts.bytes(),
+            Output::Packed => counts.vertices * size_of::<PackedVertex>() as u64,
+        };
         println!(
             "{threads} thread(s), {}: {:.1} M triangles/s, {:.0} % of the fill's {:.1} GB/s (best round {:.0} %), scan {:.0} % of the mesh",
             self.name,
             counts.triangles as f64 / mesh / 1e6,
             100.0 * median(shares),
-            counts.bytes() as f64 / fill / 1e9,
+            bytes as f64 / fill / 1e9,
             100.0 * best,
             100.0 * median(seconds(|round| round.scan).collect()) / mesh,
         );

@@ -16,11 +16,7 @@ void caps(const Params params, const ulong window, __global const uint4 *points,
     CapRow cap = rows[number / params.sides];
     uint corner = number % params.sides;
 
-    // The start is t = 0 of the first interval, the finish t = 1 of the last.
-    Segment segment = segment_new(points + window + cap.first_point, params.s);
-    Sample sample = segment_sample(&segment, cap.end == 0u ? 0.0f : 1.0f);
-    float3 normal = sample.tangent * (cap.end == 0u ? -1.0f : 1.0f);
-
+    float3 normal = cap_normal(points + window, &params, &cap);
     float3 position = vload3(0, vertices + 6 * (size_t)(cap.ring_vertex + corner));
     __global float *out = vertices + 6 * (size_t)(cap.first_vertex + corner);
     vstore3(position, 0, out);

@@ -53,7 +53,7 @@ typedef struct {
     uint rolled;
     float s;
     float step;
-    uint padding;
+    float quanta_per_mm;
 } Params;
 
 // A control point (Rust: ControlPoint) is a uint4: the bits of x, y, z, and two half floats, half width and half height.
@@ -287,6 +287,14 @@ RingSample ring_sample(__global const uint4 *points, const Params *params, const
 // The way from `here` to the next ring's centre, whose offset in its interval is `next_offset`.
 float3 chord_to(const RingSample *here, float3 next_offset) {
     return (here->ends_interval ? here->span : next_offset) - here->sample.offset;
+}
+
+// The normal of a closed end: the tangent there, out of the yarn. `points` start at the window.
+float3 cap_normal(__global const uint4 *points, const Params *params, const CapRow *cap) {
+    // The start is t = 0 of the first interval, the finish t = 1 of the last.
+    Segment segment = segment_new(points + cap->first_point, params->s);
+    Sample sample = segment_sample(&segment, cap->end == 0u ? 0.0f : 1.0f);
+    return sample.tangent * (cap->end == 0u ? -1.0f : 1.0f);
 }
 
 // ---- Frame ----

@@ -52,6 +52,15 @@ pub const ATTRIBUTES_OF_TUBES: EntryPoint = EntryPoint { name: "attributes", gro
 /// Those of its caps, after [`ATTRIBUTES_OF_TUBES`]: a lane a cap vertex.
 pub const ATTRIBUTES_OF_CAPS: EntryPoint = EntryPoint { name: "cap_attributes", group: 64 };
 
+/// Packed vertices of a chunk's tubes, for an even number of sides: a workgroup a row of its block table.
+pub const PACKED: EntryPoint = EntryPoint { name: "packed", group: 64 };
+
+/// The same for an odd number of sides.
+pub const PACKED_ODD: EntryPoint = EntryPoint { name: "packed_odd", group: 64 };
+
+/// Those of its caps, after [`PACKED`]: a lane a cap vertex.
+pub const PACKED_CAPS: EntryPoint = EntryPoint { name: "packed_caps", group: 64 };
+
 /// The paper's algorithm 2: a lane a part of the chunk.
 pub const TRAJECTORY_PER_YARN: EntryPoint = EntryPoint { name: "trajectory_per_yarn", group: 64 };
 
@@ -134,6 +143,7 @@ pub const PER_RING: Program = Program {
         include_str!("rings.cl"),
         include_str!("scan.cl"),
         include_str!("trajectory.cl"),
+        include_str!("share.cl"),
         include_str!("mesh.cl"),
         include_str!("caps.cl"),
     ],
@@ -152,6 +162,18 @@ pub const ATTRIBUTES: Program = Program {
     name: "attributes",
     sources: &[include_str!("common.cl"), include_str!("attributes.cl")],
     entries: &[BLOCK_LENGTHS, YARN_LENGTHS, ATTRIBUTES_OF_TUBES, ATTRIBUTES_OF_CAPS],
+};
+
+/// Packed vertices. It is compiled apart from the others, where they are first wanted.
+pub const PACKING: Program = Program {
+    name: "packing",
+    sources: &[
+        include_str!("common.cl"),
+        include_str!("rings.cl"),
+        include_str!("share.cl"),
+        include_str!("packed.cl"),
+    ],
+    entries: &[PACKED, PACKED_ODD, PACKED_CAPS],
 };
 
 /// A settling. It is compiled apart from the others, where a settler is first wanted.
@@ -204,7 +226,7 @@ mod tests {
 
     #[test]
     fn workgroups_are_what_the_sources_require() {
-        for program in [PER_RING, PER_YARN, ATTRIBUTES, SETTLING, CROSSINGS] {
+        for program in [PER_RING, PER_YARN, ATTRIBUTES, PACKING, SETTLING, CROSSINGS] {
             let source = program.sources.concat();
             for entry in program.entries {
                 let head = source.split_once(&format!("void {}(", entry.name)).unwrap().0;
@@ -223,7 +245,7 @@ mod tests {
 
     #[test]
     fn no_function_of_lower_accuracy_is_called() {
-        for program in [PER_RING, PER_YARN, ATTRIBUTES, SETTLING, CROSSINGS] {
+        for program in [PER_RING, PER_YARN, ATTRIBUTES, PACKING, SETTLING, CROSSINGS] {
             let source = program.sources.concat();
             // Half widths, half heights, half gaps and half ways are no functions of the language.
             let source = ["half_width", "half_height", "half_gap", "half_way"]

@@ -1,28 +1,7 @@
-// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.cl and rings.cl.
+// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.cl, rings.cl and share.cl.
 //
 // The twin of mesh.wgsl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
 // at a time (8 where sides are odd in number), contiguous across the workgroup.
-
-// A lane's share of the stores of a workgroup's rings, all of which have equally many: the same one, `store`, of ring `ring`
-// and of each `step`th ring after it. So a lane fetches its part of the outline or of the pattern only once. Where a ring
-// has more stores than the workgroup has lanes, a lane goes on `across` stores further.
-typedef struct {
-    uint store;
-    uint across;
-    uint ring;
-    uint step;
-} Share;
-
-// The share of lane `lane` in rings of `stores`. Lanes that are left over get none.
-Share share_of(uint lane, uint stores) {
-    uint lanes = (uint)get_local_size(0);
-    Share share;
-    share.across = min(stores, lanes);
-    share.step = quotient(lanes, share.across);
-    share.ring = quotient(lane, share.across);
-    share.store = share.ring < share.step ? lane - share.ring * share.across : stores;
-    return share;
-}
 
 // Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an even number: so they hold
 // floats of at most one normal and one position.
@@ -61,7 +40,7 @@ __kernel void mesh(const Params params, const ulong window, __global const uint4
     block_rings(points + window, &params, &yarn, &block, rolls, whole, lane, &rings);
 
     uint stores = 3u * params.sides / 2u;
-    Share share = share_of(lane, stores);
+    Share share = share_of(lane, (uint)get_local_size(0), stores);
     __global const float4 *outline = outlines + yarn.section * params.sides;
     __global float4 *out = vertices + 3 * (size_t)block.first_vertex / 2;
     for (uint store = share.store; store < stores; store += share.across) {
@@ -96,7 +75,7 @@ __kernel void mesh_odd(const Params params, const ulong window, __global const u
     block_rings(points + window, &params, &yarn, &block, rolls, whole, lane, &rings);
 
     uint stores = 3u * params.sides;
-    Share share = share_of(lane, stores);
+    Share share = share_of(lane, (uint)get_local_size(0), stores);
     __global const float4 *outline = outlines + yarn.section * params.sides;
     __global float2 *out = vertices + 3 * (size_t)block.first_vertex;
     for (uint store = share.store; store < stores; store += share.across) {

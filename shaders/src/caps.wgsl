@@ -21,11 +21,7 @@ fn caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     let cap = cap_rows[number / params.sides];
     let corner = number % params.sides;
 
-    // The start is t = 0 of the first interval, the finish t = 1 of the last.
-    let segment = segment_new(cap.first_point, params.s);
-    let sample = segment_sample(segment, select(1.0, 0.0, cap.end == 0u));
-    let normal = sample.tangent * select(1.0, -1.0, cap.end == 0u);
-
+    let normal = cap_normal(cap);
     let ring_vertex = 6u * (cap.ring_vertex + corner);
     let out = 6u * (cap.first_vertex + corner);
     for (var k = 0u; k < 3u; k++) {

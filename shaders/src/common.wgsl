@@ -51,7 +51,7 @@ struct Params {
     rolled: u32,
     s: f32,
     step: f32,
-    padding: u32,
+    quanta_per_mm: f32,
 }
 
 // A control point (Rust: ControlPoint) is a vec4<u32>: the bits of x, y, z, and two half floats, half width and half height.
@@ -284,6 +284,14 @@ fn ring_sample(yarn: YarnRow, block: Block, k: u32) -> RingSample {
 // The way from `here` to the next ring's centre, whose offset in its interval is `next_offset`.
 fn chord_to(here: RingSample, next_offset: vec3<f32>) -> vec3<f32> {
     return select(next_offset, here.span, here.ends_interval) - here.sample.offset;
+}
+
+// The normal of a closed end: the tangent there, out of the yarn.
+fn cap_normal(cap: CapRow) -> vec3<f32> {
+    // The start is t = 0 of the first interval, the finish t = 1 of the last.
+    let segment = segment_new(cap.first_point, params.s);
+    let sample = segment_sample(segment, select(1.0, 0.0, cap.end == 0u));
+    return sample.tangent * select(1.0, -1.0, cap.end == 0u);
 }
 
 // ---- Frame ----

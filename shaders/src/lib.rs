@@ -4,11 +4,14 @@
 //! | file | entry points | work |
 //! |---|---|---|
 //! | `common.wgsl` | | tables, turn, spline, frame, vertex: stands before each of the others |
-//! | `rings.wgsl` | | a block's rings in workgroup memory: stands before `trajectory` and `mesh` |
+//! | `rings.wgsl` | | a block's rings in workgroup memory: stands before `trajectory`, `mesh` and `packed` |
+//! | `share.wgsl` | | how lanes share a ring's stores: stands before `mesh` and `packed` |
 //! | `scan.wgsl` | `block_turns`, `yarn_rolls` | the roll at each block's start |
 //! | `trajectory.wgsl` | `trajectory` | stage 1 |
 //! | `mesh.wgsl` | `mesh`, `mesh_odd` | stage 2 with stage 1 in it |
 //! | `caps.wgsl` | `caps` | closed ends |
+//! | `packed.wgsl` | `packed`, `packed_odd`, `packed_caps` | stage 2 likewise, as packed vertices |
+//! | `unpack.wgsl` | | packed vertices as they were, for shaders of a caller's |
 //! | `attributes.wgsl` | `block_lengths`, `yarn_lengths`, `attributes`, `cap_attributes` | attributes of vertices |
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
@@ -129,6 +132,8 @@ pub enum Resource {
     ArcLengths = 42,
     /// `Attribute`s of a chunk.
     Attributes = 43,
+    /// `PackedVertex`es of a chunk.
+    Packed = 44,
 }
 
 /// How a shader uses a resource.
@@ -184,7 +189,10 @@ macro_rules! rings {
 }
 
 const SCAN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("scan.wgsl"));
-const MESH_SOURCE: &str = concat!(include_str!("common.wgsl"), rings!(), include_str!("mesh.wgsl"));
+const MESH_SOURCE: &str =
+    concat!(include_str!("common.wgsl"), rings!(), include_str!("share.wgsl"), include_str!("mesh.wgsl"));
+const PACKED_SOURCE: &str =
+    concat!(include_str!("common.wgsl"), rings!(), include_str!("share.wgsl"), include_str!("packed.wgsl"));
 const ATTRIBUTES_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("attributes.wgsl"));
 const PER_YARN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("per_yarn.wgsl"));
 
@@ -258,6 +266,55 @@ pub const CAPS: Shader = Shader {
         read(Resource::CapPattern),
     ],
 };
+
+/// Packed vertices of a chunk's tubes for an even number of sides: a workgroup a row.
+pub const PACKED: Shader = Shader {
+    entry_point: "packed",
+    source: PACKED_SOURCE,
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Points),
+        read(Resource::Yarns),
+        read(Resource::Blocks),
+        read(Resource::Rolls),
+        read(Resource::Outlines),
+        write(Resource::Packed),
+    ],
+};
+
+/// The same for an odd number of sides.
+pub const PACKED_ODD: Shader = Shader { entry_point: "packed_odd", ..PACKED };
+
+/// Packed vertices of a chunk's caps: a lane a vertex.
+pub const PACKED_CAPS: Shader = Shader {
+    entry_point: "packed_caps",
+    source: PACKED_SOURCE,
+    workgroup: 64,
+    bindings: &[
+        uniform(Resource::Params),
+        read(Resource::Points),
+        read(Resource::CapRows),
+        write(Resource::Packed),
+    ],
+};
+
+/// What unpacks packed vertices in shaders of a caller's, `unpacked_position` and `unpacked_normal`: to be put before them, it binds nothing.
+///
+/// A vertex shader that draws a cloth, whose middle lies at (50, 50, 0) mm, from its packed vertices:
+///
+/// ```
+/// let source = format!("{}{}", texere_shaders::UNPACK, "
+///     @group(0) @binding(0) var<uniform> clip_from_cloth: mat4x4<f32>;
+///     struct Drawn { @builtin(position) clip: vec4<f32>, @location(0) normal: vec3<f32> }
+///     @vertex fn draw(@location(0) position: vec2<u32>, @location(1) normal: vec2<f32>) -> Drawn {
+///         let place = unpacked_position(position, vec3(50.0, 50.0, 0.0), 1.0 / 4096.0);
+///         return Drawn(clip_from_cloth * vec4(place, 1.0), unpacked_normal(normal));
+///     }
+/// ");
+/// assert!(source.contains("fn unpacked_position("));
+/// ```
+pub const UNPACK: &str = include_str!("unpack.wgsl");
 
 /// The length of each block of a chunk: a workgroup a row.
 pub const BLOCK_LENGTHS: Shader = Shader {
@@ -336,13 +393,16 @@ pub const MESH_PER_YARN: Shader = Shader {
 };
 
 /// All shaders.
-pub const ALL: [&Shader; 12] = [
+pub const ALL: [&Shader; 15] = [
     &BLOCK_TURNS,
     &YARN_ROLLS,
     &TRAJECTORY,
     &MESH,
     &MESH_ODD,
     &CAPS,
+    &PACKED,
+    &PACKED_ODD,
+    &PACKED_CAPS,
     &BLOCK_LENGTHS,
     &YARN_LENGTHS,
     &ATTRIBUTES_OF_TUBES,

@@ -1,4 +1,4 @@
-// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.wgsl and rings.wgsl.
+// Stage 2 with stage 1 in it: the vertices and indices of a chunk's tubes. After common.wgsl, rings.wgsl and share.wgsl.
 //
 // The twin of mesh.cl and of texere-cpu's serial/mesh.rs. Memory is what limits this stage, so lanes store 16 bytes
 // at a time (8 where sides are odd in number), contiguous across the workgroup.
@@ -14,24 +14,6 @@ const MESH_GROUP = 128u;
 @group(0) @binding(6) var<storage, read> pattern_pairs: array<vec2<u32>>;
 @group(0) @binding(7) var<storage, read_write> vertex_pairs: array<vec2<f32>>;
 @group(0) @binding(8) var<storage, read_write> index_pairs: array<vec2<u32>>;
-
-// A lane's share of the stores of a workgroup's rings, all of which have equally many: the same one, `store`, of ring `ring`
-// and of each `step`th ring after it. So a lane fetches its part of the outline or of the pattern only once. Where a ring
-// has more stores than the workgroup has lanes, a lane goes on `across` stores further.
-struct Share {
-    store: u32,
-    across: u32,
-    ring: u32,
-    step: u32,
-}
-
-// The share of lane `lane` in rings of `stores`. Lanes that are left over get none.
-fn share_of(lane: u32, stores: u32) -> Share {
-    let across = min(stores, MESH_GROUP);
-    let step = quotient(MESH_GROUP, across);
-    let ring = quotient(lane, across);
-    return Share(select(stores, lane - ring * across, ring < step), across, ring, step);
-}
 
 // Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an even number: so they hold
 // floats of at most one normal and one position.
@@ -63,7 +45,7 @@ fn mesh(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     let block = blocks[row];
     let yarn = yarns[block.yarn];
     let stores = 3u * params.sides / 2u;
-    let share = share_of(lane, stores);
+    let share = share_of(lane, MESH_GROUP, stores);
     if params.indexed != 0u {
         for (var store = share.store; store < stores; store += share.across) {
             let own = pattern[store] + block.first_vertex;
@@ -96,7 +78,7 @@ fn mesh_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     let block = blocks[row];
     let yarn = yarns[block.yarn];
     let stores = 3u * params.sides;
-    let share = share_of(lane, stores);
+    let share = share_of(lane, MESH_GROUP, stores);
     if params.indexed != 0u {
         for (var store = share.store; store < stores; store += share.across) {
             let own = pattern_pairs[store] + block.first_vertex;

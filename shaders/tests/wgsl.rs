@@ -9,12 +9,12 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
 use texere_core::crossings::{Crossing, Lie};
 use texere_core::settling::Place;
-use texere_core::{ArcLength, Attribute, Block, ControlPoint, Ring, SectionPoint, Vertex};
+use texere_core::{ArcLength, Attribute, Block, ControlPoint, PackedVertex, Ring, SectionPoint, Vertex};
 use texere_gpu::{
     BoundsRow, CapRow, ChordRow, CrossingsParams, CrossingsSeenRow, ExtentRow, Language, Params, PlaceRow,
     SeenRow, SettledParams, SettledRow, SettlingParams, StrandRow, ThreadRow, YarnRow, prelude,
 };
-use texere_shaders::{ALL, Access, Shader, crossings, picture, settling};
+use texere_shaders::{ALL, Access, Shader, UNPACK, crossings, picture, settling};
 
 /// Those of meshes and those that bring yarns and crossings to rest.
 fn all() -> impl Iterator<Item = &'static Shader> {
@@ -37,6 +37,18 @@ fn parse_with(source: &str, capabilities: Capabilities) -> (Module, ModuleInfo) 
         .validate(&module)
         .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
     (module, info)
+}
+
+/// It takes vertices as `PACKED_LAYOUT` of texere-wgpu lays them out.
+#[test]
+fn what_unpacks_stands_alone_in_a_vertex_shader() {
+    let (module, _) = parse_source(&format!(
+        "{UNPACK}
+        @vertex fn draw(@location(0) words: vec2<u32>, @location(1) normal: vec2<f32>) -> @builtin(position) vec4<f32> {{
+            return vec4(unpacked_position(words, vec3(0.0), 0.25) + unpacked_normal(normal), 1.0);
+        }}"
+    ));
+    assert_eq!((module.entry_points.len(), module.global_variables.len()), (1, 0));
 }
 
 #[test]
@@ -116,7 +128,7 @@ fn tables_lie_as_in_rust() {
                 rolled,
                 s,
                 step,
-                padding
+                quanta_per_mm
             }
         );
     }
@@ -260,6 +272,8 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (41, size_of::<CrossingsSeenRow>()),
         (42, size_of::<ArcLength>()),
         (43, size_of::<Attribute>()),
+        // Two at a time, with an even number of sides.
+        (44, 2 * size_of::<PackedVertex>()),
     ];
     let rust = BTreeMap::from(rust);
     for shader in all() {
@@ -284,6 +298,8 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         [offset_of!(Ring, half_height), offset_of!(Ring, width_growth), offset_of!(Ring, height_growth)];
     assert_eq!(sizes, [32, 36, 40]);
     assert_eq!((offset_of!(Vertex, position), offset_of!(Vertex, normal)), (0, 12));
+    // Written word by word.
+    assert_eq!((offset_of!(PackedVertex, position), offset_of!(PackedVertex, normal)), (0, 8));
     // Written as three pairs.
     let attribute =
         [offset_of!(Attribute, angle), offset_of!(Attribute, along), offset_of!(Attribute, tangent)];

@@ -8,7 +8,7 @@ use std::time::Duration;
 use glam::Vec3;
 use texere_core::{
     Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Engine, Limits, MeshMut, MeshPiece, MeshSink,
-    Part, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Turn, Vertex,
+    PackedSink, Part, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Turn, Vertex,
 };
 use texere_cpu::SerialBackend;
 
@@ -63,6 +63,12 @@ pub enum Sabotage {
     WholeUpload,
     /// Later uploads of control points are ignored.
     LostEdit,
+    /// One packed coordinate is two quanta off.
+    ShiftedPacked,
+    /// One packed normal points inward.
+    InwardPacked,
+    /// The ring that a cut repeats is packed a quantum off.
+    CrackedPacked,
     /// It calls itself per-yarn, and refuses nothing.
     Eager,
     /// It calls itself per-yarn, and refuses everything.
@@ -100,6 +106,9 @@ impl Sabotage {
             | Self::FastClock
             | Self::WholeUpload
             | Self::LostEdit
+            | Self::ShiftedPacked
+            | Self::InwardPacked
+            | Self::CrackedPacked
             | Self::Eager
             | Self::Lazy => &[],
             Self::ShiftedVertex => &[Fault::Position],
@@ -343,6 +352,33 @@ impl Engine for SabotagedEngine {
             return Ok(flow);
         }
         Ok(sink(MeshPiece::Indices { first: 0, indices: &indices }))
+    }
+
+    fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.serial.packed(slot, chunk)
+    }
+
+    fn read_packed(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: PackedSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let mut packed = Vec::new();
+        let _ = self.serial.read_packed(slot, chunk, &mut |_, piece| {
+            packed.extend_from_slice(piece);
+            ControlFlow::Continue(())
+        })?;
+        match self.sabotage {
+            Sabotage::ShiftedPacked if chunk.index() == VICTIM => packed[70].position[0] ^= 2,
+            Sabotage::InwardPacked if chunk.index() == VICTIM => packed[70].normal = [0, 1],
+            Sabotage::CrackedPacked if chunk.repeats_ring() => {
+                let end = chunk.rings() * self.plan.settings().sides;
+                packed[end as usize - 1].position[0] ^= 1;
+            }
+            _ => {}
+        }
+        Ok(sink(0, &packed))
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {

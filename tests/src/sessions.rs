@@ -14,15 +14,17 @@ use texere_core::{
 
 use crate::cases;
 use crate::drive::Lent;
+use crate::packed::{PackedError, check_packed};
 use crate::rest;
 
 /// A guarantee's name, and the check of a device for it.
 type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);
 
-const PROMISES: [Promise; 4] = [
+const PROMISES: [Promise; 5] = [
     ("every-stage-is-timed", every_stage_is_timed),
     ("a-second-scan-is-no-work", a_second_scan_is_no_work),
     ("an-edit-moves-one-yarn", an_edit_moves_one_yarn),
+    ("packed-vertices-are-the-meshs", packed_vertices_are_the_meshs),
     ("settled-yarns-stay-on-their-device", settled_yarns_stay_on_their_device),
 ];
 
@@ -185,6 +187,20 @@ fn meshes(session: &mut Session, chunks: &[Chunk]) -> Result<Vec<Lent>, SessionE
         Lent::read(session, chunk)
     };
     chunks.iter().map(read).collect()
+}
+
+/// Packed vertices lie where the mesh's do, in chunks as in the whole; or they are refused by name.
+fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
+    let limits = Limits { blocks: 3, ..Limits::NONE };
+    for (sides, closed) in [(6, false), (5, false), (8, true), (7, true)] {
+        let (settings, yarn) = all_of(device);
+        let yarns = cases::winding(150, Yarn { closed, ..yarn });
+        match check_packed(&yarns, Settings { sides, ..settings }, &limits, device, false) {
+            Err(PackedError::Session(SessionError::Backend(BackendError::NoPacking))) => return Ok(()),
+            checked => checked?,
+        }
+    }
+    Ok(())
 }
 
 /// Yarns that a settler has moved are meshed where it left them: as those that are read from it and sent again, but no byte goes

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use texere_conformance::DeferredBackend;
 use texere_core::{
-    Backend, ControlPoint, Frame, Limits, Mesh, PaddedPoints, Pipeline, Plan, Section, Settings, Topology,
-    Trajectory, Vertex, Yarn, Yarns,
+    Backend, ControlPoint, Frame, Limits, Mesh, PaddedPoints, Pipeline, Plan, Quantum, Section, Settings,
+    Topology, Trajectory, Vertex, Yarn, Yarns,
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 
@@ -53,14 +53,16 @@ fn settings() -> impl Strategy<Value = Settings> {
     let frame = prop_oneof![Just(Frame::Upright), Just(Frame::RotationMinimizing)];
     let topology = prop_oneof![Just(Topology::Indexed), Just(Topology::Shared), Just(Topology::None)];
     let tension = prop_oneof![Just(0.0f32), 0.0f32..1.0];
-    (tension, 0u32..9, 3u32..20, frame, topology, any::<bool>()).prop_map(
-        |(tension, subdivisions, sides, frame, topology, caps)| Settings {
+    let quantum = prop_oneof![Just(Quantum::USUAL), (1e-2f32..1e7).prop_map(Quantum::reaching)];
+    (tension, 0u32..9, 3u32..20, frame, topology, any::<bool>(), quantum).prop_map(
+        |(tension, subdivisions, sides, frame, topology, caps, quantum)| Settings {
             tension,
             subdivisions,
             sides,
             frame,
             topology,
             caps,
+            quantum,
         },
     )
 }
@@ -100,6 +102,8 @@ proptest! {
             let (other, other_trajectory) = run(&yarns, settings, Limits::NONE, &device);
             prop_assert!(bytemuck::cast_slice::<_, u8>(&mesh.vertices) == bytemuck::cast_slice::<_, u8>(&other.vertices));
             prop_assert_eq!(&mesh.indices, &other.indices);
+            let packed = |device: &dyn Backend| Pipeline::new(&yarns).settings(settings).packed(device).unwrap();
+            prop_assert!(packed(&SerialBackend::new()) == packed(&device));
             prop_assert!(bytes(&trajectory) == bytes(&other_trajectory));
         }
         let (other, other_trajectory) = run(&yarns, settings, Limits::NONE, &DeferredBackend::new());

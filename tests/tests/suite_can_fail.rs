@@ -97,6 +97,12 @@ const WASTEFUL: &[Entry] = &[Entry::near("wasteful", || sabotaged(Sabotage::Whol
 
 const STALE: &[Entry] = &[Entry::near("stale", || sabotaged(Sabotage::LostEdit))];
 
+const SHIFTED: &[Entry] = &[Entry::near("shifted", || sabotaged(Sabotage::ShiftedPacked))];
+
+const INWARD: &[Entry] = &[Entry::near("inward", || sabotaged(Sabotage::InwardPacked))];
+
+const CRACKED: &[Entry] = &[Entry::near("cracked", || sabotaged(Sabotage::CrackedPacked))];
+
 const EAGER: &[Entry] = &[Entry::near("eager", || sabotaged(Sabotage::Eager))];
 
 const LAZY: &[Entry] = &[Entry::near("lazy", || sabotaged(Sabotage::Lazy))];
@@ -175,6 +181,25 @@ fn an_edit_that_moves_too_much_or_nothing_is_reported() {
     };
     edited(WASTEFUL, "WholeUpload", "the edited yarn: ");
     edited(STALE, "LostEdit", "a new session makes another mesh of the edited cloth");
+}
+
+#[test]
+fn packed_vertices_that_lie_elsewhere_or_crack_are_reported() {
+    let packed = |registry, device, why| {
+        assert_fails(
+            "packed-vertices",
+            registry,
+            &format!("session::packed-vertices-are-the-meshs::{device}"),
+            why,
+        );
+    };
+    packed(SHIFTED, "ShiftedPacked", "MeshPlace { yarn: 0, ring: 75, side: 4, cap: None } lies at ");
+    packed(INWARD, "InwardPacked", "MeshPlace { yarn: 0, ring: 75, side: 4, cap: None } points to ");
+    packed(CRACKED, "CrackedPacked", "MeshPlace { yarn: 0, ring: 64, side: 5, cap: None } is ");
+    assert_eq!(
+        failures("packed-vertices", &[Entry::near("honest", || sabotaged(Sabotage::None))], ""),
+        [""; 0]
+    );
 }
 
 #[test]

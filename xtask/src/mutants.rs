@@ -88,9 +88,54 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "normal_point = outline[(4u * store + 2u) / 6u];",
     ),
     // Where a ring has more stores than a workgroup lanes, the rest is left out.
-    opencl("kernels/src/mesh.cl", "mesh_odd", "share.across = min(stores, lanes);", "share.across = stores;"),
+    opencl(
+        "kernels/src/share.cl",
+        "share_of",
+        "share.across = min(stores, lanes);",
+        "share.across = stores;",
+    ),
+    // What a coordinate has above its bits runs into the next one.
+    opencl(
+        "kernels/src/packed.cl",
+        "packed_coordinate",
+        "as_uint(convert_int(rint(rest))) & ((1u << COORDINATE_BITS) - 1u);",
+        "as_uint(convert_int(rint(rest)));",
+    ),
+    // The normal's word is the next vertex's.
+    opencl(
+        "kernels/src/packed.cl",
+        "two_words",
+        "uint normal = packed_normal(normal_at(&stance, point));",
+        "uint normal = packed_normal(normal_at(&stance, next));",
+    ),
+    // The lower half of the octahedron is folded the other way round.
+    wgpu(
+        "shaders/src/packed.wgsl",
+        "packed_normal",
+        "select(vec2(1.0), vec2(-1.0), level < vec2(0.0));",
+        "select(vec2(-1.0), vec2(1.0), level < vec2(0.0));",
+    ),
+    // Words of odd sides begin with the wrong one.
+    wgpu(
+        "shaders/src/packed.wgsl",
+        "packed_odd",
+        "one_word(ring, store % 3u, point);",
+        "one_word(ring, (store + 1u) % 3u, point);",
+    ),
+    // A cap of packed vertices keeps its ring's normals.
+    wgpu(
+        "shaders/src/packed.wgsl",
+        "packed_caps",
+        "packed_words[own + 2u] = packed_normal(cap_normal(cap));",
+        "packed_words[own + 2u] = packed_words[ring + 2u];",
+    ),
     // Caps look inwards.
-    opencl("kernels/src/caps.cl", "caps", "cap.end == 0u ? -1.0f : 1.0f", "cap.end == 0u ? 1.0f : -1.0f"),
+    opencl(
+        "kernels/src/common.cl",
+        "cap_normal",
+        "cap->end == 0u ? -1.0f : 1.0f",
+        "cap->end == 0u ? 1.0f : -1.0f",
+    ),
     // The width grows, normals don't lean.
     opencl(
         "kernels/src/per_yarn.cl",

@@ -7,7 +7,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::settling::{Settler, points_of};
-use crate::{Attribute, BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, Plan, Ring, Traffic};
+use crate::{
+    Attribute, BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, PackedVertex, Plan, Ring, Traffic,
+};
 
 /// One of an engine's places for a chunk. The chunk's tables, rings and mesh lie there until another chunk takes the slot.
 ///
@@ -56,6 +58,9 @@ pub type MeshSink<'a> = &'a mut dyn FnMut(MeshPiece<'_>) -> ControlFlow<()>;
 /// A callback that borrows attributes, piece by piece, each with the number of its first vertex, from the chunk's start.
 pub type AttributeSink<'a> = &'a mut dyn FnMut(u32, &[Attribute]) -> ControlFlow<()>;
 
+/// A callback that borrows packed vertices, likewise.
+pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow<()>;
+
 /// The work on one plan on one device. It owns all memory that the work needs.
 ///
 /// A [`Session`](crate::Session) calls it, and keeps these rules, so that no engine has to check them:
@@ -64,7 +69,7 @@ pub type AttributeSink<'a> = &'a mut dyn FnMut(u32, &[Attribute]) -> ControlFlow
 /// - Where the plan needs a scan, one comes before any stage, and again after each upload.
 /// - Every chunk is the plan's own, or a [patch](crate::Plan::patch) of one. It is loaded into a slot before a stage is run for it there. After
 ///   a chunk come only patches of it where its results are still wanted: they must stay where they are.
-/// - `mesh` of an engine that [reads rings](Engine::mesh_reads_rings) comes after `trajectory` in the same slot.
+/// - `mesh` and `packed` of an engine that [reads rings](Engine::mesh_reads_rings) come after `trajectory` in the same slot.
 /// - What is read has been made, and nothing has taken its slot since. Slices to write into are as long as the chunk says.
 ///
 /// A caller without a session has to keep them. An engine whose kernels check no bounds checks the two that memory safety
@@ -109,7 +114,7 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Takes the tables of `chunk` into `slot`, in place of any other chunk's.
     fn load(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError>;
 
-    /// Whether `mesh` works from the rings that `trajectory` left rather than from control points.
+    /// Whether `mesh` and `packed` work from the rings that `trajectory` left rather than from control points.
     fn mesh_reads_rings(&self) -> bool {
         false
     }
@@ -162,6 +167,26 @@ pub trait Engine: Any + fmt::Debug + Send {
     ) -> Result<ControlFlow<()>, BackendError> {
         let _ = (slot, chunk, sink);
         Err(BackendError::NoAttributes)
+    }
+
+    /// Packed vertices of `chunk`, into `slot`, in memory of their own: no mesh is needed, and no indices are made.
+    ///
+    /// Provided, as the one that follows: refused, by an engine that packs nothing.
+    fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let _ = (slot, chunk);
+        Err(BackendError::NoPacking)
+    }
+
+    /// Waits for the packed vertices in `slot` and lends them piece by piece, in order. A sink that answers `Break` ends the reading,
+    /// and the answer comes back.
+    fn read_packed(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: PackedSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let _ = (slot, chunk, sink);
+        Err(BackendError::NoPacking)
     }
 
     /// Stage 2 straight into the caller's slices.

@@ -381,6 +381,9 @@ pub enum BackendError {
     /// The device, or its schedule, makes no attributes.
     #[error("no attributes are made on this device, or not in its schedule")]
     NoAttributes,
+    /// The device, or its schedule, packs no vertices.
+    #[error("no vertices are packed on this device, or not in its schedule")]
+    NoPacking,
     /// The device, or its schedule, can't make a mesh that is edited.
     #[error("yarns can't be edited on this device, or not in its schedule")]
     NoEditing,

@@ -29,6 +29,7 @@ mod live;
 mod material;
 mod mesh;
 mod null;
+mod packed;
 mod padded;
 mod pipeline;
 mod plan;
@@ -51,7 +52,8 @@ pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
 pub use boundary::{Boundary, Ends};
 pub use crossings::{Crossings, CrossingsError, CrossingsPlan, CrossingsSettler};
 pub use engine::{
-    AttributeSink, Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings, take_over_host,
+    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
+    take_over_host,
 };
 pub use error::{
     BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,
@@ -61,6 +63,7 @@ pub use live::{Change, LiveMesh};
 pub use material::Material;
 pub use mesh::{ChunkDraw, Draw, Mesh, MeshMut, MeshPiece};
 pub use null::NullBackend;
+pub use packed::{PackedVertex, Quantum};
 pub use padded::{PaddedPoints, renew_virtual_ends, zeroed};
 pub use pipeline::{Pipeline, Progress};
 pub use plan::{

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::{
     AttributeSink, Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits,
-    MeshSink, Plan, RingSink, ScanChunks, Schedule, Slot, StageTimings,
+    MeshSink, PackedSink, Plan, RingSink, ScanChunks, Schedule, Slot, StageTimings,
 };
 
 /// A backend that writes nothing: outputs stay as they were.
@@ -117,6 +117,19 @@ impl Engine for NullEngine {
         _slot: Slot,
         _chunk: &Chunk,
         _sink: AttributeSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn packed(&mut self, _slot: Slot, _chunk: &Chunk) -> Result<(), BackendError> {
+        Ok(())
+    }
+
+    fn read_packed(
+        &mut self,
+        _slot: Slot,
+        _chunk: &Chunk,
+        _sink: PackedSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
         Ok(ControlFlow::Continue(()))
     }

@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::{
-    Attribute, Backend, Bounds, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PaddedPoints, PipelineError,
-    Plan, Ring, Session, Settings, Settler, Topology, Trajectory, Yarns, zeroed,
+    Attribute, Backend, Bounds, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PackedVertex, PaddedPoints,
+    PipelineError, Plan, Quantum, Ring, Session, SessionError, Settings, Settler, Topology, Trajectory,
+    Yarns, zeroed,
 };
 
 /// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed in between.
@@ -112,6 +113,13 @@ impl<'a> Pipeline<'a> {
     #[must_use]
     pub fn caps(mut self, caps: bool) -> Self {
         self.settings.caps = caps;
+        self
+    }
+
+    /// The grid that [packed](Pipeline::packed) positions lie on.
+    #[must_use]
+    pub fn quantum(mut self, quantum: Quantum) -> Self {
+        self.settings.quantum = quantum;
         self
     }
 
@@ -275,22 +283,57 @@ impl<'a> Pipeline<'a> {
     /// ```
     ///
     /// **Errors**: those of [`Pipeline::mesh`], and [`BackendError::NoAttributes`](crate::BackendError::NoAttributes).
-    pub fn attributes(mut self, device: &dyn Backend) -> Result<Vec<Attribute>, PipelineError> {
-        let (plan, mut session) = self.start(device)?;
-        session.measure()?;
-        let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
-        let total = chunks.iter().map(|chunk| u64::from(chunk.vertices())).sum();
-        let mut attributes: Vec<Attribute> = zeroed("attributes", total)?;
-        for chunk in &chunks {
+    pub fn attributes(self, device: &dyn Backend) -> Result<Vec<Attribute>, PipelineError> {
+        self.of_vertices(device, "attributes", |session, chunk, out: &mut [Attribute]| {
+            session.measure()?;
             session.attributes(chunk)?;
-            let own = &mut attributes[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
-            let _ = session.read_attributes(chunk, &mut |first, piece| {
-                own[first as usize..][..piece.len()].copy_from_slice(piece);
+            session.read_attributes(chunk, &mut |first, piece| {
+                out[first as usize..][..piece.len()].copy_from_slice(piece);
                 ControlFlow::Continue(())
-            })?;
+            })
+        })
+    }
+
+    /// Packed vertices, 12 bytes each, in host memory: in the order of [`Pipeline::mesh`]'s vertices with the same settings and limits.
+    ///
+    /// ```
+    /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
+    /// use texere_core::{Pipeline, Quantum};
+    /// let quantum = Quantum::reaching(750.0); // a cloth of 1.5 by 1.5 m
+    /// for vertex in Pipeline::new(yarns).quantum(quantum).packed(device)? {
+    ///     println!("{:?}", vertex.unpack([750.0, 750.0, 0.0], quantum).position);
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// **Errors**: those of [`Pipeline::mesh`], and [`BackendError::NoPacking`](crate::BackendError::NoPacking).
+    pub fn packed(self, device: &dyn Backend) -> Result<Vec<PackedVertex>, PipelineError> {
+        self.of_vertices(device, "packed vertices", |session, chunk, out: &mut [PackedVertex]| {
+            session.packed(chunk)?;
+            session.read_packed(chunk, &mut |first, piece| {
+                out[first as usize..][..piece.len()].copy_from_slice(piece);
+                ControlFlow::Continue(())
+            })
+        })
+    }
+
+    /// What `make` makes of all vertices, chunk by chunk, in host memory.
+    fn of_vertices<T: bytemuck::Zeroable>(
+        mut self,
+        device: &dyn Backend,
+        what: &'static str,
+        make: impl Fn(&mut Session, &Chunk, &mut [T]) -> Result<ControlFlow<()>, SessionError>,
+    ) -> Result<Vec<T>, PipelineError> {
+        let (plan, mut session) = self.start(device)?;
+        let chunks: Vec<_> = plan.chunks(&self.limits_on(device))?.collect();
+        let mut all = zeroed(what, chunks.iter().map(|chunk| u64::from(chunk.vertices())).sum())?;
+        for chunk in &chunks {
+            let own = &mut all[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
+            let _ = make(&mut session, chunk, own)?;
             self.tell(&plan, chunk)?;
         }
-        Ok(attributes)
+        Ok(all)
     }
 
     /// The centrelines alone, in host memory.

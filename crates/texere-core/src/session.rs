@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::engine::{AttributeSink, Engine, MeshSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings};
+use crate::engine::{
+    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
+};
 use crate::settling::{Settler, Strand};
 use crate::{
     Backend, BackendError, Chunk, ControlPoint, Limits, MeshMut, Plan, Ring, SessionError, TablesId, Vertex,
@@ -16,7 +18,7 @@ pub struct Traffic {
     /// Control points, their virtual ends included, sent by [`Session::upload`] or [`Session::take_settled`]. Tables are not
     /// counted: they are sent once.
     pub uploaded: u64,
-    /// Rings, vertices and indices that came back, and control points of a settler on another device.
+    /// Rings, vertices, packed or not, and indices that came back, and control points of a settler on another device.
     pub read: u64,
 }
 
@@ -71,11 +73,12 @@ struct InFlight {
     has_rings: bool,
     has_mesh: bool,
     has_attributes: bool,
+    has_packed: bool,
 }
 
 impl InFlight {
     fn forget_results(&mut self) {
-        (self.has_rings, self.has_mesh, self.has_attributes) = (false, false, false);
+        *self = Self { tables: self.tables.take(), ..Self::default() };
     }
 }
 
@@ -215,7 +218,8 @@ impl<E: Engine + ?Sized> Session<E> {
     ///
     /// **Errors**: those of [`Session::trajectory`].
     pub fn mesh(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
-        let slot = self.start_mesh(chunk)?;
+        let slot = self.start_mesh("mesh", chunk)?;
+        self.in_flight[slot.index()].has_mesh = false;
         self.engine.mesh(slot, chunk)?;
         self.in_flight[slot.index()].has_mesh = true;
         Ok(())
@@ -303,6 +307,50 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(flow?)
     }
 
+    /// Stage 2 with packed vertices instead of others, 12 bytes each, in memory of their own: no mesh is needed for it. They have the order of the
+    /// mesh's vertices, and come without indices: [`Plan::shared_indices`] has those of [`Topology::Shared`](crate::Topology::Shared),
+    /// which is meant for whoever saves memory. May return before it is done.
+    ///
+    /// ```
+    /// # fn example(session: &mut texere_core::Session, chunk: &texere_core::Chunk) -> Result<(), texere_core::SessionError> {
+    /// use std::ops::ControlFlow;
+    /// let (quantum, middle) = (session.plan().settings().quantum, [50.0, 50.0, 0.0]); // of a cloth of 100 by 100 mm
+    /// session.packed(chunk)?;
+    /// let _ = session.read_packed(chunk, &mut |first, piece| {
+    ///     println!("vertex {first} lies at {:?}", piece[0].unpack(middle, quantum).position);
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// **Errors**: [`BackendError::NoPacking`], and those of [`Session::trajectory`].
+    pub fn packed(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
+        let slot = self.start_mesh("packed", chunk)?;
+        self.engine.packed(slot, chunk)?;
+        self.in_flight[slot.index()].has_packed = true;
+        Ok(())
+    }
+
+    /// Waits for this chunk's packed vertices and lends them piece by piece, in order, each piece with the number of its first. A sink that
+    /// answers `Break` ends the reading, and the answer comes back.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and what the device says.
+    pub fn read_packed(
+        &mut self,
+        chunk: &Chunk,
+        sink: PackedSink<'_>,
+    ) -> Result<ControlFlow<()>, SessionError> {
+        let slot = self.find(chunk, |here| here.has_packed)?;
+        let mut bytes = 0;
+        let flow = self.engine.read_packed(slot, chunk, &mut |first, piece| {
+            bytes += size_of_val(piece) as u64;
+            sink(first, piece)
+        });
+        self.count_read(bytes);
+        Ok(flow?)
+    }
+
     /// Runs stage 2 into the caller's slices, which must be exactly as long as planned. The mesh is not in flight afterwards.
     ///
     /// **Errors**: [`SessionError::OutputLength`] for slices of another length, and those of [`Session::mesh`].
@@ -316,7 +364,8 @@ impl<E: Engine + ?Sized> Session<E> {
                 return Err(SessionError::OutputLength { what, given, planned });
             }
         }
-        let slot = self.start_mesh(chunk)?;
+        let slot = self.start_mesh("mesh", chunk)?;
+        self.in_flight[slot.index()].has_mesh = false;
         let bytes = size_of_val(out.vertices) + size_of_val(out.indices);
         self.engine.mesh_into(slot, chunk, out)?;
         self.count_read(bytes as u64);
@@ -344,6 +393,14 @@ impl<E: Engine + ?Sized> Session<E> {
     /// for this chunk.
     pub fn slot_of_attributes(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
         self.find(chunk, |here| here.has_attributes)
+    }
+
+    /// Where the packed vertices of `chunk` lie on the device, likewise.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::packed`] has been called
+    /// for this chunk.
+    pub fn slot_of_packed(&self, chunk: &Chunk) -> Result<Slot, SessionError> {
+        self.find(chunk, |here| here.has_packed)
     }
 
     /// Time spent in each stage so far. Waits for all that has been launched.
@@ -394,13 +451,12 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(slot)
     }
 
-    /// The same for stage 2, with the rings that it reads. An older mesh of the chunk is given up.
-    fn start_mesh(&mut self, chunk: &Chunk) -> Result<Slot, SessionError> {
-        let slot = self.start("mesh", chunk)?;
+    /// The same for stage 2, with the rings that it reads.
+    fn start_mesh(&mut self, call: &'static str, chunk: &Chunk) -> Result<Slot, SessionError> {
+        let slot = self.start(call, chunk)?;
         if self.engine.mesh_reads_rings() {
             self.ensure_rings(slot, chunk)?;
         }
-        self.in_flight[slot.index()].has_mesh = false;
         Ok(slot)
     }
 

@@ -1,6 +1,6 @@
 //! The closed ends of yarns.
 
-use texere_core::{Chunk, End, MeshMut, Topology, Vertex};
+use texere_core::{Cap, Chunk, End, MeshMut, Topology, Vertex};
 
 use crate::engine::Work;
 
@@ -9,11 +9,7 @@ pub(crate) fn caps(work: &Work, chunk: &Chunk, out: MeshMut<'_>) {
     let plan = &work.plan;
     let sides = plan.settings().sides as usize;
     for cap in chunk.caps() {
-        let yarn = cap.yarn as usize;
-        let rings = plan.rings(yarn);
-        let (ring, sign) = if cap.end == End::Start { (0, -1.0) } else { (rings - 1, 1.0) };
-        let end = plan.sampling().sample(work.points.yarn(plan, yarn), ring, rings, false);
-        let normal = (end.sample.tangent * sign).to_array();
+        let (yarn, normal) = (cap.yarn as usize, end_normal(work, cap));
         let ring_vertex = cap.chunk_ring as usize * sides;
         for k in 0..sides {
             let position = out.vertices[ring_vertex + k].position;
@@ -26,4 +22,13 @@ pub(crate) fn caps(work: &Work, chunk: &Chunk, out: MeshMut<'_>) {
             }
         }
     }
+}
+
+/// The normal of a closed end: the tangent there, out of the yarn.
+pub(crate) fn end_normal(work: &Work, cap: &Cap) -> [f32; 3] {
+    let (plan, yarn) = (&work.plan, cap.yarn as usize);
+    let rings = plan.rings(yarn);
+    let (ring, sign) = if cap.end == End::Start { (0, -1.0) } else { (rings - 1, 1.0) };
+    let end = plan.sampling().sample(work.points.yarn(plan, yarn), ring, rings, false);
+    (end.sample.tangent * sign).to_array()
 }

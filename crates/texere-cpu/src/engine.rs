@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use texere_core::{
     ArcLength, Attribute, AttributeSink, BackendError, Chunk, ControlPoint, Engine, MeshMut, MeshPiece,
-    MeshSink, PaddedPoints, Plan, Ring, RingSink, ScanChunks, Slot, StageTimings, Vertex, zeroed,
+    MeshSink, PackedSink, PackedVertex, PaddedPoints, Plan, Ring, RingSink, ScanChunks, Slot, StageTimings,
+    Vertex, zeroed,
 };
 
 use crate::pages;
@@ -25,7 +26,7 @@ pub(crate) struct Work {
 
 /// One way to run the scan and the two stages on a CPU.
 pub(crate) trait Executor: Copy + Debug + Send + 'static {
-    /// Whether `mesh` works out its rings itself.
+    /// Whether `mesh` and `packed` work out their rings themselves.
     const FUSED: bool;
     /// The rolls of `yarns`; those of others stay.
     fn scan(
@@ -38,6 +39,8 @@ pub(crate) trait Executor: Copy + Debug + Send + 'static {
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]);
     /// `rings` are those of `chunk`, unless fused.
     fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>);
+    /// `rings` likewise.
+    fn packed(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: &mut [PackedVertex]);
     /// How long `yarns` are at each block's start; `lengths` has one for each block of the plan.
     fn measure(self, plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>);
     fn attributes(self, work: &Work, chunk: &Chunk, out: &mut [Attribute]);
@@ -50,6 +53,7 @@ struct ChunkMemory {
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
     attributes: Vec<Attribute>,
+    packed: Vec<PackedVertex>,
 }
 
 #[derive(Debug)]
@@ -185,6 +189,22 @@ impl<E: Executor> Engine for CpuEngine<E> {
         sink: AttributeSink<'_>,
     ) -> Result<ControlFlow<()>, BackendError> {
         Ok(sink(0, &self.memory[slot.index()].attributes))
+    }
+
+    fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        let ChunkMemory { rings, packed, .. } = &mut self.memory[slot.index()];
+        resize("packed vertices", packed, chunk.vertices().into())?;
+        timed(&mut self.timings.mesh, || self.executor.packed(&self.work, chunk, rings, packed));
+        Ok(())
+    }
+
+    fn read_packed(
+        &mut self,
+        slot: Slot,
+        _chunk: &Chunk,
+        sink: PackedSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        Ok(sink(0, &self.memory[slot.index()].packed))
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {

@@ -22,6 +22,7 @@ mod caps;
 mod cells;
 mod crossings;
 mod engine;
+mod packed;
 mod pages;
 mod parallel;
 mod pick;

@@ -112,6 +112,7 @@ fn flattened_yarns_have_the_bits_of_the_reference() {
             frame: [Frame::Upright, Frame::RotationMinimizing][round / 2 % 2],
             topology: [Topology::Indexed, Topology::Shared][round / 3 % 2],
             caps: round / 4 % 2 == 0,
+            ..Settings::default()
         };
         let pipeline = || Pipeline::new(&yarns).settings(settings);
         let mesh_bits = |mesh: &texere_core::Mesh| bytemuck::cast_slice::<_, u32>(&mesh.vertices).to_vec();

@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use texere_core::{
     ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, ARCTANGENT, ArcLength, BLOCK_RINGS, COSINE, Frame,
-    NO_LENGTH, NO_MIRROR, RADIUS_FLOOR, SINE, SLOPE_LIMIT, TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY,
-    crossings, settling,
+    NO_LENGTH, NO_MIRROR, PackedVertex, Quantum, RADIUS_FLOOR, SINE, SLOPE_LIMIT, TAN_EIGHTH, Turn, VERTICAL,
+    ZERO_VELOCITY, crossings, settling,
 };
 
 use crate::crossings::CrossingsParams;
@@ -48,7 +48,7 @@ const fn integer(name: &'static str, value: u32) -> Constant {
 }
 
 /// All of them, each the core's of the same name. The numbers behind `SINE`, `COSINE` and `ARCTANGENT` are powers.
-pub const CONSTANTS: [Constant; 35] = [
+pub const CONSTANTS: [Constant; 38] = [
     integer("BLOCK_RINGS", BLOCK_RINGS),
     float("TURN_STEPS", Turn::STEPS),
     float("RADIANS_PER_STEP", Turn::RADIANS_PER_STEP),
@@ -84,6 +84,9 @@ pub const CONSTANTS: [Constant; 35] = [
     float("LENGTH_STEPS", ArcLength::STEPS),
     float("LENGTH_MM_MAX", ArcLength::MM_MAX),
     float("FULL_TURN", TAU),
+    integer("COORDINATE_BITS", Quantum::BITS),
+    float("QUANTA_WRAP", Quantum::WRAP),
+    float("NORMAL_STEPS", PackedVertex::NORMAL_STEPS),
 ];
 
 /// Those of settling, which stand before all sources, too. `UNSEEN` and the two flags are [`SettlingParams`]' own, all others the
@@ -203,7 +206,7 @@ mod tests {
     use super::*;
 
     /// The core's values, each written here once more: a number in place of a name above is found.
-    const OF_THE_CORE: [(&str, &[f32]); 81] = [
+    const OF_THE_CORE: [(&str, &[f32]); 84] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
         ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
@@ -225,6 +228,9 @@ mod tests {
         ("LENGTH_STEPS", &[ArcLength::STEPS]),
         ("LENGTH_MM_MAX", &[ArcLength::MM_MAX]),
         ("FULL_TURN", &[TAU]),
+        ("COORDINATE_BITS", &[Quantum::BITS as f32]),
+        ("QUANTA_WRAP", &[Quantum::WRAP]),
+        ("NORMAL_STEPS", &[PackedVertex::NORMAL_STEPS]),
         ("MARGIN", &[settling::MARGIN]),
         ("NEAR", &[settling::NEAR]),
         ("SHORT", &[settling::SHORT]),

@@ -80,11 +80,11 @@ pub struct Params {
     pub s: f32,
     /// `1 / (K + 1)`.
     pub step: f32,
-    /// Unused, 0.
-    pub padding: u32,
+    /// Quanta of packed positions in a mm.
+    pub quanta_per_mm: f32,
 }
 
-const _: () = assert!(size_of::<Params>() == 48 && std::mem::offset_of!(Params, padding) == 44);
+const _: () = assert!(size_of::<Params>() == 48 && std::mem::offset_of!(Params, quanta_per_mm) == 44);
 
 impl YarnRow {
     /// All yarns of `plan`.
@@ -157,7 +157,7 @@ impl Params {
             rolled: plan.needs_scan().into(),
             s: plan.sampling().s(),
             step: plan.sampling().step(),
-            padding: 0,
+            quanta_per_mm: settings.quantum.per_mm(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use texere_core::{Attribute, BackendError, Chunk, Plan, Ring, Schedule, Topology, Vertex};
+use texere_core::{Attribute, BackendError, Chunk, PackedVertex, Plan, Ring, Schedule, Topology, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, part_rows};
 
 use crate::buffers::Buffer;
@@ -22,6 +22,8 @@ pub(crate) struct ChunkMemory {
     pub(crate) indices: Buffer,
     /// Empty until they are asked for.
     pub(crate) attributes: Buffer,
+    /// Likewise.
+    pub(crate) packed: Buffer,
     /// The last command that writes here.
     pub(crate) ready: Option<Arc<Handle>>,
 }
@@ -29,8 +31,8 @@ pub(crate) struct ChunkMemory {
 impl ChunkMemory {
     /// Bytes of its tables and results.
     pub(crate) fn bytes(&self) -> u64 {
-        let Self { table, caps, rings, vertices, indices, attributes, .. } = self;
-        [table, caps, rings, vertices, indices, attributes].map(Buffer::bytes).iter().sum()
+        let Self { table, caps, rings, vertices, indices, attributes, packed, .. } = self;
+        [table, caps, rings, vertices, indices, attributes, packed].map(Buffer::bytes).iter().sum()
     }
 
     /// Takes `chunk`, one of `plan`'s: sends its tables, beside the kernels of the other chunk in flight but after those
@@ -71,6 +73,12 @@ impl ChunkMemory {
     pub(crate) fn reserve_attributes(&mut self, opened: &Opened, chunk: &Chunk) -> Result<(), BackendError> {
         let bytes = u64::from(chunk.vertices()) * size_of::<Attribute>() as u64;
         self.attributes.reserve(opened, "attributes", bytes)
+    }
+
+    /// Makes room for the packed vertices of `chunk`.
+    pub(crate) fn reserve_packed(&mut self, opened: &Opened, chunk: &Chunk) -> Result<(), BackendError> {
+        let bytes = u64::from(chunk.vertices()) * size_of::<PackedVertex>() as u64;
+        self.packed.reserve(opened, "packed vertices", bytes)
     }
 
     /// Makes room for the vertices and indices of `chunk`.

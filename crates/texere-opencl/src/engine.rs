@@ -7,9 +7,9 @@ use std::time::Instant;
 
 use opencl3::command_queue::{finish, flush};
 use texere_core::{
-    AttributeSink, BackendError, Chunk, ControlPoint, Engine, Limits, MeshMut, MeshPiece, MeshSink, Plan,
-    RingSink, ScanChunk, ScanChunks, Schedule, Settler, Slot, StageTimings, Traffic, Vertex, take_over_host,
-    zeroed,
+    AttributeSink, BackendError, Chunk, ControlPoint, Engine, Limits, MeshMut, MeshPiece, MeshSink,
+    PackedSink, Plan, RingSink, ScanChunk, ScanChunks, Schedule, Settler, Slot, StageTimings, Traffic,
+    Vertex, take_over_host, zeroed,
 };
 use texere_gpu::{YarnEnds, YarnRow, check_schedule, settles_flattened};
 
@@ -19,6 +19,7 @@ use crate::chunk_memory::ChunkMemory;
 use crate::clock::{Clock, Stage};
 use crate::kernels::{Kernels, Launches, Work, kernels};
 use crate::opened::Opened;
+use crate::packed::Packed;
 use crate::session::DeviceMesh;
 use crate::settling::OpenClSettler;
 use crate::tables::Tables;
@@ -35,6 +36,8 @@ pub struct OpenClEngine {
     flattened: bool,
     /// None until attributes are asked for.
     attributes: Option<Box<Attributes>>,
+    /// Likewise, for as many yarns as the other kernels.
+    packed: Option<Packed>,
     /// One for each [`Slot`].
     memory: Vec<ChunkMemory>,
     staging: Staging,
@@ -52,6 +55,7 @@ impl OpenClEngine {
             kernels: kernels(&opened, &plan, false)?,
             flattened: false,
             attributes: None,
+            packed: None,
             plan,
             memory: Vec::new(),
             staging: Staging::default(),
@@ -105,6 +109,7 @@ impl OpenClEngine {
         if self.ends.flattened() && !self.flattened {
             self.kernels = kernels(&self.opened, &self.plan, true)?;
             self.flattened = true;
+            self.packed = None;
         }
         Ok(())
     }
@@ -327,6 +332,31 @@ impl Engine for OpenClEngine {
         let Self { opened, memory, staging, clock, .. } = self;
         let ChunkMemory { attributes, ready, .. } = &memory[slot.index()];
         staging.read(opened, attributes, chunk.vertices(), ready.as_deref(), clock, sink)
+    }
+
+    fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.check_loaded(slot, chunk)?;
+        let mut packed = match self.packed.take() {
+            Some(packed) => packed,
+            None => Packed::new(&self.opened, &self.plan, self.flattened)?,
+        };
+        self.memory[slot.index()].reserve_packed(&self.opened, chunk)?;
+        let started = Instant::now();
+        let work = Work { opened: &self.opened, plan: &self.plan, tables: &self.tables };
+        let launches = packed.make(work, chunk, &self.memory[slot.index()]);
+        self.packed = Some(packed);
+        self.note(Stage::Mesh, Some(slot), started, launches)
+    }
+
+    fn read_packed(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: PackedSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let Self { opened, memory, staging, clock, .. } = self;
+        let ChunkMemory { packed, ready, .. } = &memory[slot.index()];
+        staging.read(opened, packed, chunk.vertices(), ready.as_deref(), clock, sink)
     }
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {

@@ -27,6 +27,7 @@ mod handles;
 mod kernel;
 mod kernels;
 mod opened;
+mod packed;
 mod per_yarn;
 mod pinned;
 mod room;

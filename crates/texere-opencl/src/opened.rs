@@ -11,7 +11,7 @@ use opencl3::program::{
 };
 use texere_core::{BackendError, DeviceInfo, Schedule};
 use texere_gpu::{Language, prelude, serial_unsupported};
-use texere_kernels::{ATTRIBUTES, CROSSINGS, PER_RING, PER_YARN, Program, SETTLING};
+use texere_kernels::{ATTRIBUTES, CROSSINGS, PACKING, PER_RING, PER_YARN, Program, SETTLING};
 
 use crate::faults::failed;
 use crate::handles::Handle;
@@ -34,7 +34,9 @@ pub(crate) struct Opened {
     flattened: OnceLock<Handle>,
     /// That of attributes, likewise.
     attributes: OnceLock<Handle>,
-    /// Those of settlings, for round yarns alone and for all, likewise.
+    /// Those of packed vertices, for round yarns alone and for all, likewise.
+    packing: [OnceLock<Handle>; 2],
+    /// Those of settlings, likewise.
     settling: [OnceLock<Handle>; 2],
     /// That of crossings, likewise.
     crossings: OnceLock<Handle>,
@@ -61,6 +63,7 @@ impl Opened {
             round,
             flattened: OnceLock::new(),
             attributes: OnceLock::new(),
+            packing: Default::default(),
             settling: Default::default(),
             crossings: OnceLock::new(),
         })
@@ -82,6 +85,13 @@ impl Opened {
     pub(crate) fn attributes(&self) -> Result<&Handle, BackendError> {
         // They do not depend on sizes.
         self.compiled(&self.attributes, ATTRIBUTES, false)
+    }
+
+    /// The program of packed vertices, of round yarns alone or of all.
+    ///
+    /// **Errors**: [`BackendError::Compile`].
+    pub(crate) fn packing(&self, flattened: bool) -> Result<&Handle, BackendError> {
+        self.compiled(&self.packing[usize::from(flattened)], PACKING, flattened)
     }
 
     /// The program of settlings, of round yarns alone or of all.

@@ -44,6 +44,8 @@ pub struct DeviceMesh<'a> {
     pub indices: *mut c_void,
     /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices; null where none were made.
     pub attributes: *mut c_void,
+    /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start; null where none were made.
+    pub packed: *mut c_void,
     /// The `cl_event` of the last command that writes them: wait for it, also in a queue.
     pub ready: *mut c_void,
     memory: PhantomData<&'a ChunkMemory>,
@@ -55,6 +57,7 @@ impl<'a> DeviceMesh<'a> {
             vertices: memory.vertices.raw(),
             indices: memory.indices.raw(),
             attributes: memory.attributes.raw(),
+            packed: memory.packed.raw(),
             ready: memory.ready.as_deref().map_or(ptr::null_mut(), Handle::raw),
             memory: PhantomData,
         }
@@ -70,6 +73,14 @@ impl OpenClSession {
         let slot = self.0.slot_of_mesh(chunk)?;
         let mesh = DeviceMesh::new(self.0.engine().memory(slot));
         Ok(if chunk.indices() > 0 { mesh } else { DeviceMesh { indices: ptr::null_mut(), ..mesh } })
+    }
+
+    /// The packed vertices of `chunk` where they lie on the device, likewise; whether there is a mesh beside them is not asked.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless [`Session::packed`] has been called
+    /// for this chunk.
+    pub fn device_packed(&self, chunk: &Chunk) -> Result<DeviceMesh<'_>, SessionError> {
+        Ok(DeviceMesh::new(self.0.engine().memory(self.0.slot_of_packed(chunk)?)))
     }
 
     /// Bytes of device memory that it holds: in the schedule per-ring the buffers of

@@ -36,6 +36,7 @@ const SETTINGS: Settings = Settings {
     frame: texere_core::Frame::Upright,
     topology: texere_core::Topology::Indexed,
     caps: false,
+    quantum: texere_core::Quantum::USUAL,
 };
 
 const ENDS: usize = 10;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use texere_core::{Attribute, BackendError, Block, Chunk, ControlPoint, Plan, Ring, Vertex};
+use texere_core::{Attribute, BackendError, Block, Chunk, ControlPoint, PackedVertex, Plan, Ring, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, Params};
 use texere_shaders::Resource;
 use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
@@ -28,6 +28,8 @@ pub(crate) struct ChunkMemory {
     pub(crate) indices: Buffer,
     /// Empty until they are asked for.
     pub(crate) attributes: Buffer,
+    /// Likewise.
+    pub(crate) packed: Buffer,
 }
 
 impl ChunkMemory {
@@ -47,13 +49,14 @@ impl ChunkMemory {
             vertices: buffer("vertices", output | BufferUsages::VERTEX)?,
             indices: buffer("indices", output | BufferUsages::INDEX)?,
             attributes: buffer("attributes", output | BufferUsages::VERTEX)?,
+            packed: buffer("packed vertices", output | BufferUsages::VERTEX)?,
         })
     }
 
     /// Bytes of its tables and results.
     pub(crate) fn bytes(&self) -> u64 {
-        let Self { blocks, cap_rows, rings, vertices, indices, attributes, .. } = self;
-        [blocks, cap_rows, rings, vertices, indices, attributes].map(Buffer::bytes).iter().sum()
+        let Self { blocks, cap_rows, rings, vertices, indices, attributes, packed, .. } = self;
+        [blocks, cap_rows, rings, vertices, indices, attributes, packed].map(Buffer::bytes).iter().sum()
     }
 
     /// Sends the tables of another chunk.
@@ -96,6 +99,12 @@ impl ChunkMemory {
         Ok(())
     }
 
+    /// Makes room for the packed vertices of the chunk.
+    pub(crate) fn reserve_packed(&mut self, gpu: &Gpu, chunk: &Chunk) -> Result<(), BackendError> {
+        self.packed.reserve(gpu, u64::from(chunk.vertices()) * size_of::<PackedVertex>() as u64)?;
+        Ok(())
+    }
+
     /// What a shader that works on this chunk sees as `resource`; nothing where that is none of a mesh.
     pub(crate) fn resource<'a>(
         &'a self,
@@ -124,6 +133,7 @@ impl ChunkMemory {
             Resource::Indices => &self.indices,
             Resource::ArcLengths => &tables.lengths,
             Resource::Attributes => &self.attributes,
+            Resource::Packed => &self.packed,
             _ => return None,
         };
         Some(buffer.buffer().as_entire_binding())

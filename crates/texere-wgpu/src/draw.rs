@@ -1,6 +1,6 @@
 //! Drawing a live mesh in a render pass of the caller's.
 
-use texere_core::{Attribute, LiveMesh, Slot, Topology, Vertex};
+use texere_core::{Attribute, LiveMesh, PackedVertex, Slot, Topology, Vertex};
 
 use crate::WgpuEngine;
 
@@ -17,6 +17,14 @@ pub const ATTRIBUTE_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBuff
     array_stride: size_of::<Attribute>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![2 => Uint32, 3 => Float32, 4 => Float32, 5 => Float32x3],
+};
+
+/// The layout of buffers of packed vertices: the two words of the position, `u32`s, at location 0, and the octahedral normal at location 1, two
+/// floats from -1 to 1. [`UNPACK`](crate::UNPACK) unpacks them.
+pub const PACKED_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<PackedVertex>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Uint32x2, 1 => Snorm16x2],
 };
 
 /// Draws a whole live mesh in `pass`, whose pipeline is the caller's: sets its vertices as vertex buffer 0 ([`VERTEX_LAYOUT`]), its attributes, where

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use texere_core::{
-    AttributeSink, BackendError, Chunk, ControlPoint, Engine, MeshPiece, MeshSink, Plan, RingSink, ScanChunk,
-    ScanChunks, Settler, Slot, StageTimings, Traffic, take_over_host, zeroed,
+    AttributeSink, BackendError, Chunk, ControlPoint, Engine, MeshPiece, MeshSink, PackedSink, Plan,
+    RingSink, ScanChunk, ScanChunks, Settler, Slot, StageTimings, Traffic, take_over_host, zeroed,
 };
 use texere_gpu::{Params, YarnEnds, YarnRow, check_schedule, part_rows, settles_flattened};
 
@@ -126,6 +126,12 @@ impl WgpuEngine {
     #[must_use]
     pub fn attribute_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.attributes.buffer())
+    }
+
+    /// The packed vertices of the chunk in `slot`, likewise: one of 12 bytes for each vertex. Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    #[must_use]
+    pub fn packed_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
+        Some(self.memory.get(slot.index())?.packed.buffer())
     }
 
     /// Bytes of device memory that it holds.
@@ -271,6 +277,28 @@ impl Engine for WgpuEngine {
     ) -> Result<ControlFlow<()>, BackendError> {
         let attributes = self.memory[slot.index()].attributes.buffer();
         self.readback.lend(&self.opened.gpu, attributes, chunk.vertices(), sink)
+    }
+
+    fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
+        self.check_loaded(slot, chunk)?;
+        let kernels = self.opened.packing(self.is_flattened())?;
+        let memory = &mut self.memory[slot.index()];
+        let (rows, cap_vertices) = (memory.rows, memory.cap_vertices);
+        memory.reserve_packed(&self.opened.gpu, chunk)?;
+        let even = self.plan.settings().sides.is_multiple_of(2);
+        let tubes = if even { &kernels.tubes } else { &kernels.tubes_odd };
+        let caps = kernels.caps.workgroups(cap_vertices);
+        self.run(slot, Timed::Mesh, &[(tubes, rows), (&kernels.caps, caps)])
+    }
+
+    fn read_packed(
+        &mut self,
+        slot: Slot,
+        chunk: &Chunk,
+        sink: PackedSink<'_>,
+    ) -> Result<ControlFlow<()>, BackendError> {
+        let packed = self.memory[slot.index()].packed.buffer();
+        self.readback.lend(&self.opened.gpu, packed, chunk.vertices(), sink)
     }
 
     fn is_editable(&self) -> bool {

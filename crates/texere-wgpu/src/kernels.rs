@@ -12,6 +12,7 @@ use wgpu::{
 use crate::attributes::AttributeKernels;
 use crate::crossings::CrossingsKernels;
 use crate::gpu::Gpu;
+use crate::packed::PackedKernels;
 use crate::settling::SettlingKernels;
 
 /// A shader, ready to run.
@@ -33,7 +34,9 @@ pub(crate) struct Opened {
     flattened: OnceLock<Arc<Kernels>>,
     /// Those that make attributes, likewise.
     attributes: OnceLock<Arc<AttributeKernels>>,
-    /// Those that bring yarns to rest, for round yarns alone and for all yarns, likewise.
+    /// Those that pack vertices, for round yarns alone and for all yarns, likewise.
+    packing: [OnceLock<Arc<PackedKernels>>; 2],
+    /// Those that bring yarns to rest, likewise.
     settling: [OnceLock<Arc<SettlingKernels>>; 2],
     /// Those that bring crossings to rest, likewise.
     crossings: OnceLock<Arc<CrossingsKernels>>,
@@ -51,6 +54,7 @@ impl Opened {
             round,
             flattened: OnceLock::new(),
             attributes: OnceLock::new(),
+            packing: <_>::default(),
             settling: <_>::default(),
             crossings: OnceLock::new(),
         })
@@ -71,6 +75,17 @@ impl Opened {
             return Err(BackendError::NoAttributes);
         }
         compiled(&self.attributes, || AttributeKernels::new(&self.gpu))
+    }
+
+    /// The shaders that pack vertices, for all yarns or for round ones alone.
+    ///
+    /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`].
+    pub(crate) fn packing(&self, flattened: bool) -> Result<Arc<PackedKernels>, BackendError> {
+        if self.schedule != Schedule::PerRing {
+            return Err(BackendError::NoPacking);
+        }
+        let place = &self.packing[usize::from(flattened)];
+        compiled(place, || PackedKernels::new(&self.gpu, flattened))
     }
 
     /// The shaders that bring yarns to rest, for all yarns or for round ones alone.
@@ -268,7 +283,7 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // - Divisors are `subdivisions + 1`, `sides`, at least 3, a lane's share `across`, at least 1 since a ring has at
     //   least 5 stores, and constants above zero; a yarn's `rings - 1` divides as a
     //   float only.
-    // - The lengths along yarns have one for each of the plan's blocks, and attributes one for each of the chunk's vertices.
+    // - The lengths along yarns have one for each of the plan's blocks, and attributes and packed vertices one for each of the chunk's.
     // In the shaders of settling it is so, too:
     // - Places, yarns and chords come from the tables of a settling's plan, bound whole, as is all that has a number each. An
     //   interval's place has one before it and two behind it. A number that a shader has written is below what it numbers, or

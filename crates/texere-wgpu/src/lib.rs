@@ -38,6 +38,7 @@ mod engine;
 mod gpu;
 mod kernels;
 mod mapped;
+mod packed;
 mod per_yarn;
 mod readback;
 mod room;
@@ -47,10 +48,11 @@ mod tables;
 mod upload;
 
 pub use device::{LONG_ATOMICS, WgpuBackend};
-pub use draw::{ATTRIBUTE_LAYOUT, VERTEX_LAYOUT, draw};
+pub use draw::{ATTRIBUTE_LAYOUT, PACKED_LAYOUT, VERTEX_LAYOUT, draw};
 pub use engine::WgpuEngine;
 pub use session::{ChunkTables, WgpuSession};
 pub use texere_core::Schedule;
+pub use texere_shaders::UNPACK;
 /// The wgpu that devices and buffers are of, version 30: a program that gives texere its device makes that with this one. A new major version of it
 /// is a new minor version of texere.
 pub use wgpu;

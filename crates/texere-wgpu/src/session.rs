@@ -63,6 +63,17 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).attributes.buffer())
     }
 
+    /// The packed vertices of `chunk`, which [`Session::packed`] has been called for, likewise: a [`PackedVertex`](texere_core::PackedVertex) of 12
+    /// bytes for each vertex, in the layout [`PACKED_LAYOUT`](crate::PACKED_LAYOUT).
+    ///
+    /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    ///
+    /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`] before [`Session::packed`].
+    pub fn packed_buffer(&self, chunk: &Chunk) -> Result<&wgpu::Buffer, SessionError> {
+        let slot = self.0.slot_of_packed(chunk)?;
+        Ok(self.0.engine().memory(slot).packed.buffer())
+    }
+
     /// The control points and tables that shaders make `chunk` from, for shaders of the caller's. No stage is run, and no memory is taken for
     /// its results.
     ///

@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use texere_conformance::drive::Lent;
 use texere_core::{
-    Backend, BackendError, Chunk, Frame, Layout, Limits, MeshMut, MeshPiece, Plan, Ring, Section, Session,
-    Settings, Traffic, Vertex, Yarn,
+    Backend, BackendError, Chunk, Frame, Layout, Limits, MeshMut, MeshPiece, Plan, Quantum, Ring, Section,
+    Session, Settings, Traffic, Vertex, Yarn,
 };
 use texere_cpu::SerialBackend;
 use texere_wgpu::{Schedule, WgpuBackend};
@@ -24,6 +24,7 @@ const ROLLED: Settings = Settings {
     frame: Frame::RotationMinimizing,
     topology: texere_core::Topology::Indexed,
     caps: true,
+    quantum: Quantum::USUAL,
 };
 
 /// The only chunk of a small plan.

@@ -62,6 +62,7 @@
 //! | edit a cloth and keep its mesh on a device | [`Live`] |
 //! | draw with a pipeline of your own, on your own device | `WgpuBackend::from_device`, [`Live`], `draw`, `VERTEX_LAYOUT` (feature `wgpu`) |
 //! | know what lies under the mouse | [`Live::pick`] or [`Picker`]; [`YarnPlace::at`], [`Structure::place`] and [`Design::named`] say it in words |
+//! | have vertices in half the memory, 12 bytes each | [`Pipeline::packed`], [`Session::packed`], [`Quantum`] |
 //! | know yarn, angle and length along the yarn of each vertex | [`Pipeline::attributes`], [`Live::keep_attributes`] |
 //! | make pictures | `Renderer`, `Scene`, `Camera` (feature `render`) |
 //! | say what is wrong with a cloth | [`clearance`], [`Diagnosis`], [`Measures`] |
@@ -131,10 +132,10 @@ pub use texere_core::{
     ArcLength, Attribute, BLOCK_RINGS, Backend, BackendError, Block, Boundary, BoundaryError, Bounds,
     COORDINATE_LIMIT, Cap, Change, Chunk, ChunkDraw, Chunks, ControlPoint, Counts, DeviceInfo, DeviceKind,
     Ends, Frame, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace, NullBackend, Origin,
-    PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError, Progress, RADIUS_MAX, RADIUS_MIN,
-    RINGS_MAX, Ray, Ring, Sampling, Schedule, Section, SectionError, SectionPoint, Settings, SettlingError,
-    TWIST_LIMIT, TablesId, Topology, Trajectory, Vertex, YARN_RINGS_MAX, Yarn, YarnError, Yarns,
-    YarnsBuilder, crossings, settling,
+    PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError, Progress, Quantum,
+    RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section, SectionError, SectionPoint,
+    Settings, SettlingError, TWIST_LIMIT, TablesId, Topology, Trajectory, Vertex, YARN_RINGS_MAX, Yarn,
+    YarnError, Yarns, YarnsBuilder, crossings, settling,
 };
 pub use texere_core::{
     Draw, End, Engine, Layout, MeshMut, Part, ScanChunks, Session, SessionError, Slot, StageTimings, Traffic,
@@ -176,5 +177,6 @@ pub use texere_render::{
 };
 #[cfg(feature = "wgpu")]
 pub use texere_wgpu::{
-    ATTRIBUTE_LAYOUT, LONG_ATOMICS, VERTEX_LAYOUT, WgpuBackend, WgpuEngine, WgpuSession, draw, wgpu,
+    ATTRIBUTE_LAYOUT, LONG_ATOMICS, PACKED_LAYOUT, UNPACK, VERTEX_LAYOUT, WgpuBackend, WgpuEngine,
+    WgpuSession, draw, wgpu,
 };

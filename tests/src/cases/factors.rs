@@ -87,7 +87,7 @@ impl Counts {
         let (twist_name, twist) = TWISTS[twist];
         let (limit_name, tight) = LIMITS[limit];
         let (flattening_name, flatten) = FLATTENINGS[flattening];
-        let settings = Settings { tension: 0.0, subdivisions, sides, frame, topology, caps };
+        let settings = Settings { subdivisions, sides, frame, topology, caps, ..Settings::default() };
         let name = format!(
             "{set}::k{subdivisions}-n{sides}-{section_name}-{end_name}-{caps_name}-{topology_name}-{twist_name}-\
              {limit_name}-{flattening_name}::{frame_name}"

@@ -12,7 +12,7 @@ pub use factors::{pairwise, product};
 use std::fmt;
 use std::sync::Arc;
 
-use texere_core::{Frame, SIDES_MAX, Section, Settings, Topology, Yarn, Yarns};
+use texere_core::{Frame, Quantum, SIDES_MAX, Section, Settings, Topology, Yarn, Yarns};
 
 use crate::limits::Tight;
 
@@ -50,6 +50,7 @@ const USUAL: Settings = Settings {
     frame: Frame::Upright,
     topology: Topology::Indexed,
     caps: true,
+    quantum: Quantum::USUAL,
 };
 
 impl Case {

@@ -59,6 +59,8 @@ impl SettingsArgs {
                 TopologyArg::None => Topology::None,
             },
             caps: self.caps,
+            // No file has packed vertices.
+            ..Settings::default()
         }
     }
 }

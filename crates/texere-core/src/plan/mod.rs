@@ -26,8 +26,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::{
-    Frame, Layout, PlanError, Ring, SIDES_MAX, SIDES_MIN, Sampling, Section, SectionPoint, TWIST_LIMIT,
-    Topology, Turn, Yarn, triangulate,
+    Frame, Layout, PlanError, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sampling, Section, SectionPoint,
+    TWIST_LIMIT, Topology, Turn, Yarn, triangulate,
 };
 
 /// The choices that a mesh is made with.
@@ -45,10 +45,12 @@ pub struct Settings {
     pub topology: Topology,
     /// Whether the ends of open yarns are closed with a cap, which makes every yarn watertight.
     pub caps: bool,
+    /// The grid that [packed](crate::PackedVertex) positions lie on.
+    pub quantum: Quantum,
 }
 
 impl Default for Settings {
-    /// The paper's: tension 0, K = 1, nc = 6, no caps.
+    /// The paper's: tension 0, K = 1, nc = 6, no caps. Packed positions lie on a grid of 2⁻¹² mm.
     fn default() -> Self {
         Self {
             tension: 0.0,
@@ -57,6 +59,7 @@ impl Default for Settings {
             frame: Frame::Upright,
             topology: Topology::Indexed,
             caps: false,
+            quantum: Quantum::USUAL,
         }
     }
 }

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ArcLength, Attribute, Block, Chunk, PaddedPoints, Plan};
+use texere_core::{ArcLength, Attribute, Chunk, PaddedPoints, Plan};
 
-use super::runs::take;
+use super::runs::{take, vertex_runs};
 use crate::attributes::{block, block_length, blocks_of, caps, sum_up};
 use crate::engine::Work;
 
@@ -25,15 +25,7 @@ pub(super) fn measure(plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLeng
 }
 
 pub(super) fn attributes(work: &Work, chunk: &Chunk, out: &mut [Attribute]) {
-    let sides = work.plan.settings().sides;
-    let (mut left, mut first) = (&mut *out, 0);
-    let own = |row: &Block| {
-        // Between blocks there may be room for more.
-        take(&mut left, (row.first_vertex - first) as usize);
-        first = row.first_vertex + row.rings * sides;
-        take(&mut left, (row.rings * sides) as usize)
-    };
-    let rows: Vec<_> = chunk.blocks().iter().map(own).collect();
-    chunk.blocks().par_iter().zip(rows).for_each(|(row, out)| block(work, row, out));
+    let runs = vertex_runs(chunk, 1, work.plan.settings().sides, out);
+    runs.into_par_iter().for_each(|(rows, out)| block(work, &rows[0], out));
     caps(work, chunk, out);
 }

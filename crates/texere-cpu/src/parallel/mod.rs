@@ -8,6 +8,7 @@ mod avx512;
 mod crossings;
 mod instruction_set;
 mod lines;
+mod packed;
 mod planar;
 mod portable;
 mod rings;
@@ -26,8 +27,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use texere_core::{
-    ArcLength, Attribute, BLOCK_RINGS, BackendError, Block, Chunk, MeshMut, PaddedPoints, Plan, Ring,
-    Topology, Vertex,
+    ArcLength, Attribute, BLOCK_RINGS, BackendError, Block, Chunk, MeshMut, PackedVertex, PaddedPoints, Plan,
+    Ring, Topology, Vertex,
 };
 
 use crate::caps::caps;
@@ -101,6 +102,10 @@ impl Executor for Parallel {
             .into_par_iter()
             .for_each(|run| set.run(MeshJob { maker, table, streams, run }));
         caps(work, chunk, out);
+    }
+
+    fn packed(self, work: &Work, chunk: &Chunk, _rings: &[Ring], out: &mut [PackedVertex]) {
+        packed::packed(self.0, work, chunk, out);
     }
 
     fn measure(self, plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>) {

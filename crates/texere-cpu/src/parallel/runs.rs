@@ -58,6 +58,21 @@ pub(super) fn mesh_runs<'a>(
     chunk.blocks().chunks(RUN_BLOCKS).map(run).collect()
 }
 
+/// Runs of `each` blocks, and where what each of their vertices has goes.
+pub(super) fn vertex_runs<'a, T>(
+    chunk: &'a Chunk,
+    each: usize,
+    sides: u32,
+    out: &'a mut [T],
+) -> Vec<(&'a [Block], &'a mut [T])> {
+    let mut rest = Rest { first: 0, rest: out };
+    let run = |blocks: &'a [Block]| {
+        let [first, last] = ends(blocks);
+        (blocks, rest.take(first.first_vertex, last.first_vertex + last.rings * sides))
+    };
+    chunk.blocks().chunks(each).map(run).collect()
+}
+
 /// The first and the last of some blocks.
 fn ends(blocks: &[Block]) -> [&Block; 2] {
     [&blocks[0], &blocks[blocks.len() - 1]]

@@ -3,6 +3,7 @@
 mod attributes;
 mod crossings;
 mod mesh;
+mod packed;
 mod scan;
 mod settling;
 mod trajectory;
@@ -14,7 +15,9 @@ pub(crate) use trajectory::rings;
 
 use std::ops::Range;
 
-use texere_core::{ArcLength, Attribute, BackendError, Chunk, MeshMut, PaddedPoints, Plan, Ring};
+use texere_core::{
+    ArcLength, Attribute, BackendError, Chunk, MeshMut, PackedVertex, PaddedPoints, Plan, Ring,
+};
 
 use crate::engine::{Executor, Work};
 use crate::rolls::Rolls;
@@ -41,6 +44,10 @@ impl Executor for Serial {
 
     fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>) {
         mesh::mesh(work, chunk, rings, out);
+    }
+
+    fn packed(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: &mut [PackedVertex]) {
+        packed::packed(work, chunk, rings, out);
     }
 
     fn measure(self, plan: &Plan, points: &PaddedPoints, lengths: &mut [ArcLength], yarns: Range<usize>) {

@@ -83,7 +83,7 @@ fn tables() -> Vec<Table> {
             rolled,
             s,
             step,
-            padding
+            quanta_per_mm
         }),
         vectors!("uint4", ControlPoint {
             "values[1].x" = x,

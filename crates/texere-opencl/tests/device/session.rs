@@ -6,8 +6,8 @@ use std::process::Command;
 use crate::support::{device, plan, read, waves};
 use texere_conformance::cases;
 use texere_core::{
-    Backend, BackendError, Chunk, Frame, Limits, MeshMut, MeshPiece, PaddedPoints, Ring, Session, Settings,
-    Topology, Vertex, Yarn,
+    Backend, BackendError, Chunk, Frame, Limits, MeshMut, MeshPiece, PaddedPoints, Quantum, Ring, Session,
+    Settings, Topology, Vertex, Yarn,
 };
 use texere_cpu::SerialBackend;
 use texere_opencl::{OpenClBackend, OpenClError, Schedule};
@@ -19,6 +19,7 @@ const TURNING: Settings = Settings {
     frame: Frame::RotationMinimizing,
     topology: Topology::Indexed,
     caps: true,
+    quantum: Quantum::USUAL,
 };
 
 fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {

@@ -1,0 +1,57 @@
+//! The kernels of packed vertices.
+
+use texere_core::{BackendError, Chunk, Plan, Schedule};
+use texere_gpu::Params;
+use texere_kernels::{PACKED, PACKED_CAPS, PACKED_ODD};
+
+use crate::chunk_memory::ChunkMemory;
+use crate::kernel::{Arg, Kernel};
+use crate::kernels::{Launches, Work};
+use crate::opened::Opened;
+
+/// What packs vertices, of an engine that was asked for it.
+#[derive(Debug)]
+pub(crate) struct Packed {
+    tubes: Kernel,
+    caps: Kernel,
+}
+
+impl Packed {
+    /// Compiles the kernels for round yarns alone, or for all, if no engine has before.
+    ///
+    /// **Errors**: [`BackendError::NoPacking`] in the schedule per-yarn, [`BackendError::Compile`].
+    pub(crate) fn new(opened: &Opened, plan: &Plan, flattened: bool) -> Result<Self, BackendError> {
+        if opened.schedule != Schedule::PerRing {
+            return Err(BackendError::NoPacking);
+        }
+        let program = opened.packing(flattened)?;
+        let tubes = if plan.settings().sides.is_multiple_of(2) { PACKED } else { PACKED_ODD };
+        Ok(Self {
+            tubes: Kernel::of(opened, program, tubes)?,
+            caps: Kernel::of(opened, program, PACKED_CAPS)?,
+        })
+    }
+
+    /// Packed vertices of the chunk, for all of which there is room.
+    pub(crate) fn make(
+        &mut self,
+        work: Work<'_>,
+        chunk: &Chunk,
+        memory: &ChunkMemory,
+    ) -> Result<Launches, BackendError> {
+        let Work { opened, plan, tables } = work;
+        let (params, window) = (Params::new(plan, chunk), chunk.window().start);
+        let inputs = work.inputs(&params, &window, memory);
+        let outputs = [Arg::Memory(&tables.outlines), Arg::Memory(&memory.packed)];
+        let args = [&inputs[..], &outputs].concat();
+        // SAFETY: the arguments are those of `packed`; a group reads its row of the chunk's table and what that names, and
+        // writes the row's packed vertices, for all of which there is room.
+        let tubes = unsafe { self.tubes.run(opened, &args, 0..memory.rows, memory.ready.as_deref()) }?;
+        let args = [&inputs[..3], &[Arg::Memory(&memory.caps), Arg::Memory(&memory.packed)]].concat();
+        let lanes = params.caps as usize * params.sides as usize;
+        // SAFETY: the arguments are those of `packed_caps`; a lane reads its cap's row, what that names and a packed vertex of
+        // the ring, and writes one, for all of which there is room. Lanes past the last do nothing.
+        let caps = unsafe { self.caps.run(opened, &args, 0..lanes.div_ceil(self.caps.group()), None) }?;
+        Ok([tubes, caps].concat())
+    }
+}

@@ -1,0 +1,179 @@
+//! Packed vertices against the mesh that they stand for, unpacked in f64 by code of this file's own.
+
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use texere_core::{
+    Backend, Limits, MeshPiece, MeshPlace, PackedVertex, Plan, Quantum, Session, SessionError, Settings,
+    Vertex, Yarns,
+};
+use thiserror::Error;
+
+/// How far a normal may be turned by packing, rad: half a step of either coordinate where a step turns it most, in the middle of a face.
+const NORMAL: f64 = 6.6e-5;
+
+/// How much further a GPU's may be, whose two kernels need not round alike, rad.
+const NORMAL_NEAR: f64 = 1e-5;
+
+/// What packed vertices are wrong in.
+#[derive(Debug, Error)]
+pub enum PackedError {
+    /// The device failed, or packs nothing.
+    #[error(transparent)]
+    Session(#[from] SessionError),
+    /// A vertex lies too far from the mesh's.
+    #[error("{place:?} lies at {actual}, not {expected}")]
+    Position {
+        /// The vertex.
+        place: MeshPlace,
+        /// Where the mesh has it, mm.
+        expected: DVec3,
+        /// Where it unpacks, mm.
+        actual: DVec3,
+    },
+    /// A normal points elsewhere than the mesh's.
+    #[error("{place:?} points to {actual}, not {expected}")]
+    Normal {
+        /// The vertex.
+        place: MeshPlace,
+        /// The mesh's normal.
+        expected: DVec3,
+        /// The normal that it unpacks to.
+        actual: DVec3,
+    },
+    /// Two vertices of one corner of one ring, in two chunks or in two cuts, are packed differently.
+    #[error("{place:?} is {one:?} and {other:?}: a crack")]
+    Crack {
+        /// The vertex.
+        place: MeshPlace,
+        /// As it is packed here.
+        one: PackedVertex,
+        /// As it is packed there.
+        other: PackedVertex,
+    },
+}
+
+/// Packs the vertices of `yarns` on `device`, in chunks of `limits` and in those of the device's own, and checks that each lies within half a
+/// quantum of the mesh's (within one unless `exact`), that its normal is as near, and that the same corner of the same ring is packed alike
+/// wherever it is: in a cap, where a chunk repeats it, where a closed yarn does, and in both cuts.
+///
+/// ```
+/// use texere_conformance::{cases, check_packed};
+/// use texere_core::Limits;
+/// use texere_cpu::SerialBackend;
+/// let case = &cases::all()[0];
+/// let limits = Limits { blocks: 2, ..Limits::NONE };
+/// check_packed(&case.yarns(), case.settings, &limits, &SerialBackend::new(), true)?;
+/// # Ok::<(), texere_conformance::PackedError>(())
+/// ```
+///
+/// **Errors**: [`PackedError`], the first one found.
+pub fn check_packed(
+    yarns: &Yarns,
+    settings: Settings,
+    limits: &Limits,
+    device: &dyn Backend,
+    exact: bool,
+) -> Result<(), PackedError> {
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).map_err(SessionError::from)?);
+    let step = f64::from(settings.quantum.mm());
+    let (most, turned) = if exact { (0.5 * step, NORMAL) } else { (step, NORMAL + NORMAL_NEAR) };
+    let mut seen = HashMap::new();
+    for limits in [limits, &Limits::NONE] {
+        for (place, packed, vertex) in both(yarns, &plan, &limits.min(&device.info().limits), device)? {
+            let near = control_point(yarns, &plan, &place);
+            let (actual, expected) =
+                (position(packed, near, settings.quantum), DVec3::from(vertex.position.map(f64::from)));
+            // Where f32 has no finer digits, two kernels may differ by its last one.
+            let digits =
+                if exact { 0.0 } else { 4.0 * f64::from(f32::EPSILON) * expected.abs().max_element() };
+            if !(actual - expected).abs().cmple(DVec3::splat(most + digits)).all() {
+                return Err(PackedError::Position { place, expected, actual });
+            }
+            let (actual, expected) = (normal(packed), DVec3::from(vertex.normal.map(f64::from)));
+            // Not by the cosine, which says nothing of small angles.
+            if !(actual.cross(expected).length() <= turned && actual.dot(expected) > 0.0) {
+                return Err(PackedError::Normal { place, expected, actual });
+            }
+            let closes =
+                plan.yarn(place.yarn as usize).closed && place.ring + 1 == plan.rings(place.yarn as usize);
+            let ring = if closes { 0 } else { place.ring };
+            // A cap has the ring's positions with a normal of its own.
+            let tube = MeshPlace { cap: None, ring, ..place };
+            for (place, value) in [(place, packed), (tube, PackedVertex { normal: [0; 2], ..packed })] {
+                let one = *seen.entry((place, value.normal == [0; 2])).or_insert(value);
+                if one != value {
+                    return Err(PackedError::Crack { place, one, other: value });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// All packed vertices and those of the mesh, with their places.
+fn both(
+    yarns: &Yarns,
+    plan: &Arc<Plan>,
+    limits: &Limits,
+    device: &dyn Backend,
+) -> Result<Vec<(MeshPlace, PackedVertex, Vertex)>, SessionError> {
+    let mut session = Session::new(device, plan.clone())?.with_limits(limits);
+    session.upload(0, yarns.points())?;
+    session.scan()?;
+    let mut all = Vec::new();
+    for chunk in plan.chunks(limits)? {
+        let unwritten = PackedVertex { position: [u32::MAX; 2], normal: [i16::MIN; 2] };
+        let mut packed = vec![unwritten; chunk.vertices() as usize];
+        let mut vertices = vec![Vertex::default(); chunk.vertices() as usize];
+        session.packed(&chunk)?;
+        let _ = session.read_packed(&chunk, &mut |first, piece| {
+            packed[first as usize..][..piece.len()].copy_from_slice(piece);
+            ControlFlow::Continue(())
+        })?;
+        session.mesh(&chunk)?;
+        let _ = session.read_mesh(&chunk, &mut |piece| {
+            if let MeshPiece::Vertices { first, vertices: piece } = piece {
+                vertices[first as usize..][..piece.len()].copy_from_slice(piece);
+            }
+            ControlFlow::Continue(())
+        })?;
+        let places = (0..).map_while(|vertex| plan.place_of_vertex(&chunk, vertex));
+        all.extend(
+            places
+                .zip(packed.into_iter().zip(vertices))
+                .map(|(place, (packed, vertex))| (place, packed, vertex)),
+        );
+    }
+    Ok(all)
+}
+
+/// The control point at or before the first ring of the block that a vertex lies in.
+fn control_point(yarns: &Yarns, plan: &Plan, place: &MeshPlace) -> DVec3 {
+    let first = place.ring / texere_core::BLOCK_RINGS * texere_core::BLOCK_RINGS;
+    let points = yarns.yarn_points(place.yarn as usize).unwrap_or_default();
+    let point = points[plan.interval(first).0 as usize % points.len()];
+    DVec3::new(point.x.into(), point.y.into(), point.z.into())
+}
+
+/// The position nearest to `near` that the bits may stand for: bits 0 to 20, 21 to 41 and 42 to 62 of the 64.
+fn position(packed: PackedVertex, near: DVec3, quantum: Quantum) -> DVec3 {
+    let bits = u64::from(packed.position[0]) | u64::from(packed.position[1]) << 32;
+    let (step, range) = (f64::from(quantum.mm()), f64::from(1u32 << 21));
+    let coordinate = |axis: usize| {
+        let quanta = (bits >> (21 * axis) & 0x1f_ffff) as f64;
+        (quanta + ((near[axis] / step - quanta) / range).round() * range) * step
+    };
+    DVec3::new(coordinate(0), coordinate(1), coordinate(2))
+}
+
+/// The unit vector through the place of the octahedron that was unfolded to the steps.
+fn normal(packed: PackedVertex) -> DVec3 {
+    let flat = DVec2::from(packed.normal.map(|steps| f64::from(steps) / 32767.0));
+    let z = 1.0 - flat.x.abs() - flat.y.abs();
+    let unfolded = (DVec2::ONE - DVec2::new(flat.y.abs(), flat.x.abs())) * flat.map(f64::signum);
+    let level = if z < 0.0 { unfolded } else { flat };
+    level.extend(z).normalize()
+}

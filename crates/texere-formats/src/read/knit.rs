@@ -187,7 +187,7 @@ pub(super) fn from_knitout(path: &Path, name: String, read: Knitout) -> Result<D
         .zip(COLORS.iter().cycle())
         .map(|((carrier, yarn), &srgb)| {
             let name = yarn.as_ref().map_or_else(|| carrier.clone(), |yarn| format!("{carrier}: {yarn}"));
-            Material { name, srgb, tex: None }
+            Material { name, srgb, ..Material::default() }
         })
         .collect();
     let thread =

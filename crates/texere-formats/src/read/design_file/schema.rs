@@ -133,6 +133,7 @@ pub(super) struct YarnSpec {
     pub(super) flatness: Option<Spanned<f64>>,
     pub(super) stiffness: Option<Spanned<f64>>,
     pub(super) twist_per_m: Option<Spanned<f64>>,
+    pub(super) hairiness: Option<Spanned<f64>>,
 }
 
 #[derive(Debug, Clone, Deserialize)]

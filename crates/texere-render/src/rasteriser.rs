@@ -33,13 +33,14 @@ impl Keys {
     }
 }
 
-/// The shaders of a device, for round yarns and for all yarns, each compiled where it is wanted first.
+/// The shaders of a device, for round yarns and for all yarns, with fibres that stand off or none, each compiled where it is wanted first.
 #[derive(Debug)]
 pub(crate) struct Rasteriser {
     pub(crate) keys: Keys,
     raster: &'static str,
+    hairs: &'static str,
     resolve: Cow<'static, str>,
-    kinds: [OnceLock<Arc<Pipelines>>; 2],
+    kinds: [[OnceLock<Arc<Pipelines>>; 2]; 2],
 }
 
 /// The shaders for one kind of yarns.
@@ -51,16 +52,18 @@ pub(crate) struct Pipelines {
     pub(crate) count_left: wgpu::ComputePipeline,
     pub(crate) left: wgpu::ComputePipeline,
     pub(crate) caps: wgpu::ComputePipeline,
+    /// Where any yarn has hairs.
+    pub(crate) hairs: Option<wgpu::ComputePipeline>,
     pub(crate) resolve: wgpu::ComputePipeline,
 }
 
 impl Rasteriser {
     pub(crate) fn new(keys: Keys) -> Self {
-        let raster = match keys {
-            Keys::Whole => picture::RASTER,
-            Keys::InRounds => picture::RASTER_IN_ROUNDS,
+        let (raster, hairs) = match keys {
+            Keys::Whole => (picture::RASTER, picture::HAIRS),
+            Keys::InRounds => (picture::RASTER_IN_ROUNDS, picture::HAIRS_IN_ROUNDS),
         };
-        Self { keys, raster, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
+        Self { keys, raster, hairs, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
     }
 
     /// The same with another shader of what samples show, such as a broken one that a test must find.
@@ -69,15 +72,16 @@ impl Rasteriser {
         Self { resolve: Cow::Owned(resolve), ..self }
     }
 
-    /// The shaders for all yarns, or for round ones alone.
+    /// The shaders for all yarns, or for round ones alone; for yarns of which any are `hairy`, or for bald ones alone.
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub(crate) fn pipelines(
         &self,
         device: &WgpuBackend,
         flattened: bool,
+        hairy: bool,
     ) -> Result<Arc<Pipelines>, BackendError> {
-        let place = &self.kinds[usize::from(flattened)];
+        let place = &self.kinds[usize::from(flattened)][usize::from(hairy)];
         if let Some(compiled) = place.get() {
             return Ok(compiled.clone());
         }
@@ -85,7 +89,8 @@ impl Rasteriser {
             let device = device.device();
             let before = prelude(Language::Wgsl, flattened);
             let module = |source: &str| module(device, before.clone() + source);
-            let (cull, raster, resolve) = (module(picture::CULL), module(self.raster), module(&self.resolve));
+            let (cull, raster) = (module(picture::CULL), module(self.raster));
+            let resolve = module(&(picture::hairy(hairy).to_owned() + &self.resolve));
             Arc::new(Pipelines {
                 cull: pipeline(device, &cull, "cull"),
                 count_listed: pipeline(device, &cull, "count_listed"),
@@ -93,6 +98,7 @@ impl Rasteriser {
                 count_left: pipeline(device, &cull, "count_left"),
                 left: pipeline(device, &raster, "raster_left"),
                 caps: pipeline(device, &raster, "raster_caps"),
+                hairs: hairy.then(|| pipeline(device, &module(self.hairs), "hairs")),
                 resolve: pipeline(device, &resolve, "resolve"),
             })
         })?;

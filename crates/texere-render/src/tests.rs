@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
+mod hairs;
 mod mesh_path;
 mod scenes;
 mod spectrum;
@@ -71,7 +72,7 @@ impl Cloth {
     fn yarns(&self) -> Yarns {
         let mut yarns = Yarns::builder();
         for (name, srgb) in [("navy", [38, 56, 110]), ("madder", [176, 54, 40]), ("linen", [222, 210, 184])] {
-            yarns.material(Material { name: name.into(), srgb, tex: None });
+            yarns.material(Material { name: name.into(), srgb, ..Material::default() });
         }
         yarns.section(Section::Circle);
         yarns.section(Section::Ellipse { aspect: 1.6 });
@@ -114,7 +115,7 @@ fn cameras(extent: &Extent) -> [(&'static str, Camera); 5] {
 
 fn draw(renderer: &Renderer, yarns: &Yarns, camera: &Camera, limits: &Limits) -> RgbImage {
     let mut scene = renderer.scene(yarns, &SETTINGS).unwrap().with_limits(limits);
-    let picture = scene.picture(camera, Quality { supersampling: 1 }).unwrap();
+    let picture = scene.picture(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     image_of(picture.size, picture.rgb)
 }
 
@@ -211,7 +212,7 @@ fn chunks_draw_the_same_picture() {
         let draw = |limits: &Limits| {
             let mut scene = renderer.scene(&yarns, &long).unwrap().with_limits(limits);
             assert!(scene.plan().rings(0) > 64);
-            scene.picture(&camera, Quality { supersampling: 1 }).unwrap().rgb
+            scene.picture(&camera, Quality { supersampling: 1, ..Quality::default() }).unwrap().rgb
         };
         assert!(draw(&Limits::NONE) == draw(&Limits { blocks: 2, ..Limits::NONE }), "{name}");
     }
@@ -249,7 +250,7 @@ fn settled_yarns_are_drawn_where_they_rest() {
     let mut scene = renderer.settled_scene(&yarns, &SETTINGS, settler.as_mut()).unwrap();
     assert_eq!(scene.traffic(), Traffic::default());
     let camera = Camera::oblique(scene.extent(), -0.5, SIZE).unwrap();
-    let picture = scene.picture(&camera, Quality { supersampling: 1 }).unwrap();
+    let picture = scene.picture(&camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     let drawn = RgbImage::from_raw(picture.size[0], picture.size[1], picture.rgb).unwrap();
 
     let points = settled(&plan, settler.as_mut(), yarns.points()).unwrap();
@@ -398,13 +399,16 @@ fn sizes_that_no_texture_has_and_views_of_nothing_are_refused() {
     let renderer = renderer().lock().unwrap();
     let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
     for (size, supersampling) in [([0, 10], 1), ([1 << 20, 10], 1), ([1 << 31, 1], 2), ([0, 1], 0)] {
-        let refused = scene.picture(&Camera::face(&extent, size), Quality { supersampling });
+        let refused =
+            scene.picture(&Camera::face(&extent, size), Quality { supersampling, ..Quality::default() });
         assert!(matches!(refused, Err(RenderError::Size { .. })), "{size:?}");
     }
     // A picture that fits without supersampling is refused for the supersampling.
     let limit = renderer.side_limit();
     for (size, given, most) in [([10, 10], 0, limit / 10), ([limit, 1], 2, 1), ([1, limit / 2], 3, 2)] {
-        match scene.picture(&Camera::face(&extent, size), Quality { supersampling: given }) {
+        match scene
+            .picture(&Camera::face(&extent, size), Quality { supersampling: given, ..Quality::default() })
+        {
             Err(RenderError::Supersampling { supersampling, most: allowed, .. }) => {
                 assert_eq!((supersampling, allowed), (given, most), "{size:?}");
             }

@@ -47,7 +47,7 @@ fn box_of(block: Block) -> Box {
         next = after;
     }
     let largest = max(abs(low), abs(high));
-    let reach = size * sweep.reach * (1.0 + BOX_SLACK) + BOX_SLACK * max(largest.x, max(largest.y, largest.z));
+    let reach = size * sweep.reach * (1.0 + BOX_SLACK) + sweep.hair_reach + BOX_SLACK * max(largest.x, max(largest.y, largest.z));
     return Box(low - reach, high + reach);
 }
 

@@ -3,11 +3,13 @@
 //! | file | entry points | work |
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
-//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next seven |
+//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next nine |
 //! | `cull.wgsl` | `cull`, `count_listed`, `count_left` | the blocks that the view may show |
 //! | `weights.wgsl` | | shares of a triangle's corners |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
 //! | `cover.wgsl` | | the samples that a triangle covers |
+//! | `hair.wgsl` | | what a fibre that stands off its yarn is like |
+//! | `hairs.wgsl` | `hairs` | draws those of a chunk |
 //! | `raster.wgsl` | `raster`, `raster_left`, `raster_caps` | draws a chunk from its control points |
 //! | `kept.wgsl` | | what is kept of a sample until it is lit |
 //! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
@@ -27,9 +29,9 @@ macro_rules! fabric {
     };
 }
 
-/// `raster`, `raster_left` and `raster_caps` with a kind of keys.
-macro_rules! raster {
-    ($keys:literal) => {
+/// What draws with a kind of keys.
+macro_rules! drawing {
+    ($keys:literal, $($own:literal),+) => {
         concat!(
             fabric!(),
             "const RINGS_BEYOND = 1u;\n",
@@ -37,23 +39,40 @@ macro_rules! raster {
             include_str!("weights.wgsl"),
             include_str!($keys),
             include_str!("cover.wgsl"),
-            include_str!("raster.wgsl")
+            $(include_str!($own)),+
         )
     };
 }
 
-/// `cull`, `count_listed` and `count_left`. This one and the next three stand after `texere_gpu::prelude`.
+/// `cull`, `count_listed` and `count_left`. This one and the next five stand after `texere_gpu::prelude`.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
 /// `raster`, `raster_left` and `raster_caps`, for devices with atomics of 64 bits.
-pub const RASTER: &str = raster!("keys_64.wgsl");
+pub const RASTER: &str = drawing!("keys_64.wgsl", "raster.wgsl");
 
 /// The same for any device.
-pub const RASTER_IN_ROUNDS: &str = raster!("keys_32.wgsl");
+pub const RASTER_IN_ROUNDS: &str = drawing!("keys_32.wgsl", "raster.wgsl");
 
-/// `resolve`.
-pub const RESOLVE: &str =
-    concat!(fabric!(), include_str!("weights.wgsl"), include_str!("kept.wgsl"), include_str!("resolve.wgsl"));
+/// `hairs`, for devices with atomics of 64 bits.
+pub const HAIRS: &str = drawing!("keys_64.wgsl", "hair.wgsl", "hairs.wgsl");
+
+/// The same for any device.
+pub const HAIRS_IN_ROUNDS: &str = drawing!("keys_32.wgsl", "hair.wgsl", "hairs.wgsl");
+
+/// `resolve`, behind [`hairy`].
+pub const RESOLVE: &str = concat!(
+    fabric!(),
+    include_str!("weights.wgsl"),
+    include_str!("kept.wgsl"),
+    include_str!("hair.wgsl"),
+    include_str!("resolve.wgsl")
+);
+
+/// What stands before [`RESOLVE`]: whether any yarn has fibres that stand off.
+#[must_use]
+pub const fn hairy(hairs: bool) -> &'static str {
+    if hairs { "const HAIRY = true;\n" } else { "const HAIRY = false;\n" }
+}
 
 /// `visibility`.
 pub const VISIBILITY: &str =

@@ -113,6 +113,11 @@ fn cameras(extent: &Extent) -> [(&'static str, Camera); 5] {
     ]
 }
 
+/// The view that has a golden of hairs.
+fn near(yarns: &Yarns) -> Camera {
+    Camera::close_up(&Extent::of(yarns), [5.0, 3.5], 2.5, SIZE).unwrap()
+}
+
 fn draw(renderer: &Renderer, yarns: &Yarns, camera: &Camera, limits: &Limits) -> RgbImage {
     let mut scene = renderer.scene(yarns, &SETTINGS).unwrap().with_limits(limits);
     let picture = scene.picture(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
@@ -148,21 +153,24 @@ fn golden(name: &str) -> RgbImage {
 fn pictures_are_their_goldens() {
     let yarns = TWILL.yarns();
     let mut wrong = Vec::new();
-    for (name, camera) in cameras(&Extent::of(&yarns)) {
-        let drawn = picture(&yarns, &camera);
+    let mut check = |name: &str, drawn: RgbImage| {
         let off = image::open(golden_path(name)).map(|golden| difference(&drawn, &golden.into_rgb8()));
         if !off.as_ref().is_ok_and(|off| *off <= TOLERANCE) {
             let kept = std::env::temp_dir().join(format!("texere-{name}.png"));
             drawn.save(&kept).unwrap();
             wrong.push(format!("{name}: {off:?}; what was drawn is {}", kept.display()));
         }
+    };
+    for (name, camera) in cameras(&Extent::of(&yarns)) {
+        check(name, picture(&yarns, &camera));
     }
+    check("hairs", picture(&hairs::hairy(&yarns, 8.0), &near(&yarns)));
     assert!(wrong.is_empty(), "look at these, and where they are right put them into goldens/: {wrong:#?}");
 }
 
-/// Each of these must be found to differ from the golden of the face.
-fn assert_seen(what: &str, drawn: &RgbImage) {
-    let off = difference(drawn, &golden("face"));
+/// Each of these must be found to differ from its golden.
+fn assert_seen(what: &str, name: &str, drawn: &RgbImage) {
+    let off = difference(drawn, &golden(name));
     assert!(off > TOLERANCE, "{what} is off by {off} only");
 }
 
@@ -179,8 +187,10 @@ fn broken_cloths_are_not_the_golden() {
         ("two ends of swapped colours", Cloth { end_color: |end| u32::from(end == 3 || end == 9), ..TWILL }),
     ];
     for (what, cloth) in broken {
-        assert_seen(what, &picture(&cloth.yarns(), &camera));
+        assert_seen(what, "face", &picture(&cloth.yarns(), &camera));
     }
+    let yarns = TWILL.yarns();
+    assert_seen("bald yarns", "hairs", &picture(&yarns, &near(&yarns)));
 }
 
 #[test]
@@ -192,6 +202,7 @@ fn a_flipped_normal_is_not_the_golden() {
     let camera = Camera::face(&Extent::of(&yarns), SIZE);
     assert_seen(
         "a yarn of flipped normals",
+        "face",
         &draw(&open(Rasteriser::new(Keys::Whole).with_resolve(source)), &yarns, &camera, &Limits::NONE),
     );
 }

@@ -12,7 +12,7 @@ use crate::{Background, Camera, Extent, Picture, Pose, Quality, Renderer};
 const WIDTH_MM: f64 = 0.012;
 
 /// The same yarns with this hairiness.
-fn hairy(yarns: &Yarns, hairiness: f32) -> Yarns {
+pub(super) fn hairy(yarns: &Yarns, hairiness: f32) -> Yarns {
     let mut hairy = yarns.clone();
     let materials = yarns.materials().iter().map(|material| Material { hairiness, ..material.clone() });
     hairy.set_materials(materials.collect()).unwrap();

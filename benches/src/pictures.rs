@@ -35,7 +35,8 @@ pub fn print(
                 [("above", above(&extent, nearer, size)?), ("aside", aside(&extent, nearer, size)?)]
             {
                 for supersampling in [1, 2] {
-                    let pictures = (0..rounds).map(|_| scene.picture(&camera, Quality { supersampling }));
+                    let pictures = (0..rounds)
+                        .map(|_| scene.picture(&camera, Quality { supersampling, ..Quality::default() }));
                     let all: Vec<_> =
                         pictures.map(|picture| Ok(picture?.timings)).collect::<Result<_, RenderError>>()?;
                     let median = |stage: fn(&PictureTimings) -> Duration| {

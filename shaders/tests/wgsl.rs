@@ -76,10 +76,13 @@ fn drawing_shaders_have_their_entry_points() {
         (picture::RASTER_IN_ROUNDS[1], core, &["raster", "raster_left", "raster_caps"]),
         (picture::RASTER[0], long, &["raster", "raster_left", "raster_caps"]),
         (picture::RASTER[1], long, &["raster", "raster_left", "raster_caps"]),
+        (picture::HAIRS_IN_ROUNDS, core, &["hairs"]),
+        (picture::HAIRS, long, &["hairs"]),
         (picture::RESOLVE, core, &["resolve"]),
     ] {
-        for flattened in [false, true] {
-            let (module, _) = parse_with(&(prelude(Language::Wgsl, flattened) + source), capabilities);
+        for (flattened, hairs) in [(false, false), (false, true), (true, false), (true, true)] {
+            let before = prelude(Language::Wgsl, flattened) + picture::hairy(hairs);
+            let (module, _) = parse_with(&(before + source), capabilities);
             let names: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
             assert_eq!(names, entries);
         }

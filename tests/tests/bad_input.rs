@@ -182,6 +182,19 @@ fn twists_out_of_range() {
 }
 
 #[test]
+fn hairiness_out_of_range() {
+    for hairiness in [f32::NAN, f32::INFINITY, -0.1, 30.1] {
+        let hairy = || vec![Material::default(), Material { hairiness, ..Material::default() }];
+        let layout = Layout::new(vec![Yarn::default()], vec![0, 3], vec![Section::Circle]).unwrap();
+        let given = Yarns::new(layout, hairy(), straight(3)).unwrap_err();
+        assert!(matches!(given, YarnError::Hairiness { material: 1, limit: 30.0, .. }), "{given:?}");
+        let mut yarns = one_yarn(Yarn::default(), &straight(3)).unwrap();
+        let set = yarns.set_materials(hairy()).unwrap_err();
+        assert!(matches!(set, YarnError::Hairiness { material: 1, .. }), "{set:?}");
+    }
+}
+
+#[test]
 fn sections_out_of_range() {
     let named = |section: Section, expected: &str| {
         let error = with_section(section.clone());

@@ -44,7 +44,7 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     let mut scene = stages.time("upload", || renderer.scene(&yarns, &settings))?;
     scene.set_background(args.background);
     let cameras = cameras(args, &design, scene.extent())?;
-    let quality = Quality { supersampling: args.supersampling };
+    let quality = Quality { supersampling: args.supersampling, ..Quality::default() };
     let mut text = settling.map(|settling| format!("settling: {}\n", line(settling))).unwrap_or_default();
     for (output, camera) in outputs.into_iter().zip(cameras) {
         let picture = scene.picture(&camera, quality)?;

@@ -146,6 +146,16 @@ pub enum YarnError {
         /// The steepest taken.
         limit: f32,
     },
+    /// A hairiness that is not a number, below 0 or beyond what is taken.
+    #[error("material {material} has a hairiness of {hairiness}, which is not between 0 and {limit}")]
+    Hairiness {
+        /// The material.
+        material: usize,
+        /// Its hairiness, Uster's H.
+        hairiness: f32,
+        /// The most taken.
+        limit: f32,
+    },
     /// A control point with NaN or infinity in it.
     #[error("{field} of point {point} of yarn {yarn} is {value}")]
     NotFinite {

@@ -60,7 +60,7 @@ pub use error::{
 };
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use live::{Change, LiveMesh};
-pub use material::Material;
+pub use material::{HAIRINESS_LIMIT, Material};
 pub use mesh::{ChunkDraw, Draw, Mesh, MeshMut, MeshPiece};
 pub use null::NullBackend;
 pub use packed::{PackedVertex, Quantum};

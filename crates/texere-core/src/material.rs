@@ -4,7 +4,7 @@
 ///
 /// ```
 /// use texere_core::Material;
-/// let cotton = Material { name: "cotton".into(), srgb: [236, 229, 212], tex: Some(30.0) };
+/// let cotton = Material { name: "cotton".into(), srgb: [236, 229, 212], tex: Some(30.0), hairiness: 6.0 };
 /// assert_eq!(cotton.linear_rgb()[0], (236.0f32 / 255.0 + 0.055).powf(2.4) / 1.055f32.powf(2.4));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -15,12 +15,18 @@ pub struct Material {
     pub srgb: [u8; 3],
     /// Linear density in tex (g/km), where the design gives one.
     pub tex: Option<f32>,
+    /// Fibres that stand off the yarn: their length in cm for a cm of yarn, as Uster testers have it in their H. 0 for none, as of filament;
+    /// [`HAIRINESS_LIMIT`] at most. Only pictures show them.
+    pub hairiness: f32,
 }
 
+/// The most hairiness that is taken: spun yarns have 3 to 11 by Uster's testers, and coarse woollen some more.
+pub const HAIRINESS_LIMIT: f32 = 30.0;
+
 impl Default for Material {
-    /// Undyed yarn of unknown weight.
+    /// Undyed yarn of unknown weight, off which no fibres stand.
     fn default() -> Self {
-        Self { name: "undyed".into(), srgb: [232, 226, 212], tex: None }
+        Self { name: "undyed".into(), srgb: [232, 226, 212], tex: None, hairiness: 0.0 }
     }
 }
 

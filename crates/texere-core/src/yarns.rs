@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::{COORDINATE_LIMIT, ControlPoint, Material, RADIUS_MAX, RADIUS_MIN, Section, YarnError};
+use crate::{
+    COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section, YarnError,
+};
 
 /// Where in the structure a yarn comes from, counted from 1 as weavers and knitters do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -208,7 +210,7 @@ impl Yarns {
 
     /// Yarns of a layout, its materials and its control points (as many as the layout says, yarn after yarn).
     ///
-    /// **Errors**: [`YarnError`] for a wrong number of points or materials, and for the first control point that is not
+    /// **Errors**: [`YarnError`] for a wrong number of points or materials, a hairiness outside \[0, [`HAIRINESS_LIMIT`]\], and for the first control point that is not
     /// finite, lies beyond [`COORDINATE_LIMIT`], or whose half width or half height is outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\].
     pub fn new(
         layout: Layout,
@@ -293,7 +295,7 @@ impl Yarns {
 
     /// Replaces the materials: a change of colour that leaves all geometry as it is.
     ///
-    /// **Errors**: [`YarnError::UnknownMaterial`] when a yarn refers to one that is missing.
+    /// **Errors**: [`YarnError::UnknownMaterial`] when a yarn refers to one that is missing, [`YarnError::Hairiness`].
     pub fn set_materials(&mut self, materials: Vec<Material>) -> Result<(), YarnError> {
         check_materials(&self.layout, &materials)?;
         self.materials = materials.into();
@@ -309,6 +311,11 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
                 material: each.material,
                 materials: materials.len(),
             });
+        }
+    }
+    for (material, &Material { hairiness, .. }) in materials.iter().enumerate() {
+        if !(0.0..=HAIRINESS_LIMIT).contains(&hairiness) {
+            return Err(YarnError::Hairiness { material, hairiness, limit: HAIRINESS_LIMIT });
         }
     }
     Ok(())

@@ -66,6 +66,29 @@ fn every_key_arrives() {
     assert!((end.radius_mm * 2.0 - 25.4 / (28.0 * (590.5f32 / 84.0).sqrt())).abs() < 2e-3);
 }
 
+/// Fibres stand off spun staple, which has twist, and not off filament; a design may say how many.
+#[test]
+fn yarns_of_every_structure_have_their_hairiness() {
+    let jersey = "[knit]\nchart = \"k\"\nrepeat = [4, 4]\nloop_length_mm = 3.2\n";
+    let tricot = "[warp_knit]\nwales = 4\ncourses = 4\nwales_per_cm = 10.0\ncourses_per_cm = 13.0\n\
+        [[warp_knit.bars]]\nlapping = \"tricot\"\n";
+    let plain = "[weave]\nnotation = \"plain\"\nends = 4\npicks = 4\n[warp]\nyarns = [\"ecru\"]\nper_cm = 12.0\n\
+        [weft]\nyarns = [\"ecru\"]\nper_cm = 12.0\n";
+    for structure in [jersey, tricot, plain] {
+        for (said, hairiness) in [
+            ("", 0.0),
+            ("twist_per_m = -700.0", 5.0),
+            ("hairiness = 8.5", 8.5),
+            ("twist_per_m = 9.0\nhairiness = 0", 0.0),
+        ] {
+            let text = format!("{structure}[yarns.ecru]\ntex = 20.0\n{said}\n");
+            let yarns = read_text(&text).unwrap().structure.yarns().unwrap();
+            let material = yarns.layout().yarns()[0].material as usize;
+            assert_eq!(yarns.materials()[material].hairiness, hairiness, "{text}");
+        }
+    }
+}
+
 #[test]
 fn sections_have_their_numbers() {
     for (text, section) in [
@@ -385,6 +408,10 @@ fn faults_are_named_with_their_line() {
     refused("plies = 2", "section = { shape = \"blob\" }", &["line 12", "blob"]);
     refused("twist_per_m = -500.0", "twist_per_m = 1e9", &["yarns.indigo.twist_per_m"]);
     refused("twist_per_m = -500.0", "stiffness = 200.0", &["yarns.indigo.stiffness", "200", "0.01", "100"]);
+    for value in ["-0.1", "30.5", "nan"] {
+        let line = format!("twist_per_m = -500.0\nhairiness = {value}");
+        refused("twist_per_m = -500.0", &line, &["line 10", "yarns.indigo.hairiness", "0", "30"]);
+    }
     refused("\"2 indigo\"", "\"2 denim\"", &["line 14", "\"2 denim\"", "\"ecru\", \"indigo\""]);
     refused("\"2 indigo\"", "\"0 indigo\"", &["\"0 indigo\"", "a number from 1"]);
     refused("[\"2 indigo\", \"ecru\"]", "[]", &["warp.yarns", "at least one"]);

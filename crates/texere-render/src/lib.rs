@@ -14,6 +14,7 @@ mod background;
 mod camera;
 mod error;
 mod extent;
+mod hairs;
 mod memory;
 mod projection;
 mod raster;

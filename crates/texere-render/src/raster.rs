@@ -3,13 +3,16 @@
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use texere_core::{BLOCK_RINGS, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Limits, Plan};
+use texere_core::{
+    BLOCK_RINGS, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Limits, Plan, Yarns,
+};
 use texere_shaders::{Resource, grid};
 use texere_wgpu::ChunkTables;
 use wgpu::{BindingResource, BufferUsages};
 
 use crate::Renderer;
-use crate::rasteriser::{Keys, Pipelines, group};
+use crate::hairs;
+use crate::rasteriser::{Keys, Kind, Pipelines, group};
 use crate::screen::{SCREEN_GROUP, Screen};
 
 /// `Sweep` of `fabric.wgsl`.
@@ -21,7 +24,8 @@ struct Sweep {
     number: u32,
     reach: f32,
     is_first: u32,
-    padding: [u32; 3],
+    hair_reach: f32,
+    padding: [u32; 2],
 }
 
 const _: () = assert!(size_of::<Sweep>() == 32);
@@ -44,10 +48,14 @@ pub(crate) struct Raster {
     reach: f32,
     /// Whether sections turn anywhere.
     rolled: bool,
+    /// Where fibres stand off any yarn: how many of each.
+    hair_densities: Option<wgpu::Buffer>,
+    /// Whether the next picture shows them.
+    pub(crate) has_hairs: bool,
 }
 
 impl Raster {
-    pub(crate) fn new(renderer: &Renderer, plan: &Plan) -> Result<Self, BackendError> {
+    pub(crate) fn new(renderer: &Renderer, plan: &Plan, yarns: &Yarns) -> Result<Self, BackendError> {
         let buffer = |what, bytes, usage| renderer.buffer(what, bytes, usage);
         let sweep = || buffer("sweep", size_of::<Sweep>() as u64, BufferUsages::UNIFORM);
         let reach = plan.outlines().iter().map(|point| point.x.hypot(point.y)).fold(0.0, f32::max);
@@ -58,15 +66,23 @@ impl Raster {
             ring_rolls: buffer("rolls of rings", 0, BufferUsages::STORAGE)?,
             reach,
             rolled: plan.needs_scan(),
+            hair_densities: hairs::any(yarns).then(|| hairs::densities(renderer, yarns)).transpose()?,
+            has_hairs: false,
         })
     }
 
-    /// The limits that chunks are cut to: their tables fit a binding, their triangles a number of 32 bits, and none takes long.
-    pub(crate) fn chunk_limits(plan: &Plan, device: &DeviceInfo) -> Limits {
+    /// Whether fibres stand off any yarn.
+    pub(crate) const fn is_hairy(&self) -> bool {
+        self.hair_densities.is_some()
+    }
+
+    /// The limits that chunks are cut to: their tables fit a binding, their triangles and hairs a number of 32 bits, and none takes long.
+    pub(crate) fn chunk_limits(plan: &Plan, yarns: &Yarns, device: &DeviceInfo) -> Limits {
         let settings = plan.settings();
         let triangles = 2 * u64::from(BLOCK_RINGS) * u64::from(settings.sides);
         // A row has two caps at most, each with as many numbers as a block.
-        let numbered = u64::from(u32::MAX) / triangles / 3;
+        let hairs = if hairs::any(yarns) { hairs::OF_BLOCK } else { 0 };
+        let numbered = u64::from(u32::MAX) / (3 * triangles + hairs);
         let points = u64::from(BLOCK_RINGS) / (u64::from(settings.subdivisions) + 1) + 24;
         let blocks = if device.kind == DeviceKind::DiscreteGpu { BLOCKS_MOST } else { device.limits.blocks };
         let bound = device.limits.binding_bytes / (points * size_of::<ControlPoint>() as u64);
@@ -84,7 +100,8 @@ impl Raster {
         band: Range<u32>,
     ) -> Result<wgpu::SubmissionIndex, BackendError> {
         let (device, keys) = (&renderer.device, renderer.rasteriser.keys);
-        let pipelines = renderer.rasteriser.pipelines(device, tables.are_flattened(), self.rolled)?;
+        let kind = Kind { flattened: tables.are_flattened(), rolled: self.rolled, hairy: self.is_hairy() };
+        let pipelines = renderer.rasteriser.pipelines(device, kind)?;
         let rows = band.end - band.start;
         renderer.reserve(&mut self.listed, 8 * (chunk.blocks().len() as u64 + 1))?;
         renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
@@ -94,7 +111,8 @@ impl Raster {
             number: 0,
             reach: self.reach,
             is_first: (chunk.index() == 0).into(),
-            padding: [0; 3],
+            hair_reach: if self.has_hairs { hairs::REACH } else { 0.0 },
+            padding: [0; 2],
         };
         for (number, buffer) in (0..).zip(&self.sweeps[..keys.rounds()]) {
             renderer.write(buffer, bytemuck::bytes_of(&Sweep { number, ..first }))?;
@@ -147,25 +165,25 @@ impl Binder<'_> {
     /// Records what finds the nearest triangle of each sample.
     fn find(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, chunk: &Chunk, keys: Keys) {
         use Resource::{Blocks, CapPattern, CapRows, Outlines, Params, Points, Rolls, Yarns};
-        let Raster { listed, groups, ring_rolls, rolled, .. } = self.raster;
+        let Raster { listed, groups, ring_rolls, rolled, hair_densities, has_hairs, .. } = self.raster;
         let view = (0, self.view.as_entire_binding());
         let [listed, counted, samples, rolls] =
             [(2, listed), (3, groups), (4, &self.screen.keys), (5, ring_rolls)]
                 .map(|(number, buffer)| (number, buffer.as_entire_binding()));
-        let Pipelines { cull, count_listed, count_left, few, left, caps, .. } = pipelines;
+        let Pipelines { cull, count_listed, count_left, few, left, caps, hairs, .. } = pipelines;
         self.set(pass, cull, 0, &[Params, Points, Blocks], &[view.clone(), listed.clone()]);
         let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULLED_BLOCKS));
         pass.dispatch_workgroups(columns, rows, 1);
+        let each = |pass: &mut wgpu::ComputePass<'_>, count: &wgpu::ComputePipeline| {
+            pass.set_pipeline(count);
+            let counts = group(self.device, count, 1, &[listed.clone(), counted.clone()]);
+            pass.set_bind_group(1, &counts, &[]);
+            pass.dispatch_workgroups(1, 1, 1);
+        };
         for round in 0..keys.rounds() {
+            let fabric = [Params, Points, Yarns, Blocks, Outlines, Rolls];
             for (count, raster) in [(count_listed, few), (count_left, left)] {
-                pass.set_pipeline(count);
-                pass.set_bind_group(
-                    1,
-                    &group(self.device, count, 1, &[listed.clone(), counted.clone()]),
-                    &[],
-                );
-                pass.dispatch_workgroups(1, 1, 1);
-                let fabric = [Params, Points, Yarns, Blocks, Outlines, Rolls];
+                each(pass, count);
                 let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
                 // Where nothing turns there are no rolls.
                 let without = usize::from(!rolled);
@@ -178,6 +196,13 @@ impl Binder<'_> {
                 self.set(pass, caps, round, &fabric, &own);
                 let (columns, rows) = grid(chunk.caps().len() as u32);
                 pass.dispatch_workgroups(columns, rows, 1);
+            }
+            if let (true, Some(hairs), Some(densities)) = (*has_hairs, hairs, hair_densities) {
+                each(pass, count_listed);
+                let densities = (6, densities.as_entire_binding());
+                let own = [view.clone(), listed.clone(), samples.clone(), densities];
+                self.set(pass, hairs, round, &fabric, &own);
+                pass.dispatch_workgroups_indirect(groups, 0);
             }
         }
     }

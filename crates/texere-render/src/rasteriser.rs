@@ -38,9 +38,18 @@ impl Keys {
 pub(crate) struct Rasteriser {
     pub(crate) keys: Keys,
     raster: [&'static str; 2],
+    hairs: &'static str,
     resolve: Cow<'static, str>,
-    /// For round yarns alone and for all; of each for those whose sections nowhere turn, and for all.
-    kinds: [[OnceLock<Arc<Pipelines>>; 2]; 2],
+    /// By `flattened`, `rolled`, `hairy`.
+    kinds: [[[OnceLock<Arc<Pipelines>>; 2]; 2]; 2],
+}
+
+/// What of a fabric shaders differ for: whether yarns are flattened anywhere, sections turn, fibres stand off.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Kind {
+    pub(crate) flattened: bool,
+    pub(crate) rolled: bool,
+    pub(crate) hairy: bool,
 }
 
 /// The shaders for one kind of fabric.
@@ -52,16 +61,18 @@ pub(crate) struct Pipelines {
     pub(crate) count_left: wgpu::ComputePipeline,
     pub(crate) left: wgpu::ComputePipeline,
     pub(crate) caps: wgpu::ComputePipeline,
+    /// Where any yarn has hairs.
+    pub(crate) hairs: Option<wgpu::ComputePipeline>,
     pub(crate) resolve: wgpu::ComputePipeline,
 }
 
 impl Rasteriser {
     pub(crate) fn new(keys: Keys) -> Self {
-        let raster = match keys {
-            Keys::Whole => picture::RASTER,
-            Keys::InRounds => picture::RASTER_IN_ROUNDS,
+        let (raster, hairs) = match keys {
+            Keys::Whole => (picture::RASTER, picture::HAIRS),
+            Keys::InRounds => (picture::RASTER_IN_ROUNDS, picture::HAIRS_IN_ROUNDS),
         };
-        Self { keys, raster, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
+        Self { keys, raster, hairs, resolve: Cow::Borrowed(picture::RESOLVE), kinds: <_>::default() }
     }
 
     /// The same with another shader of what samples show, such as a broken one that a test must find.
@@ -70,16 +81,12 @@ impl Rasteriser {
         Self { resolve: Cow::Owned(resolve), ..self }
     }
 
-    /// The shaders for fabrics whose yarns are `flattened` anywhere, or `rolled`.
+    /// The shaders for a kind of fabric.
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
-    pub(crate) fn pipelines(
-        &self,
-        device: &WgpuBackend,
-        flattened: bool,
-        rolled: bool,
-    ) -> Result<Arc<Pipelines>, BackendError> {
-        let place = &self.kinds[usize::from(flattened)][usize::from(rolled)];
+    pub(crate) fn pipelines(&self, device: &WgpuBackend, kind: Kind) -> Result<Arc<Pipelines>, BackendError> {
+        let Kind { flattened, rolled, hairy } = kind;
+        let place = &self.kinds[usize::from(flattened)][usize::from(rolled)][usize::from(hairy)];
         if let Some(compiled) = place.get() {
             return Ok(compiled.clone());
         }
@@ -89,7 +96,7 @@ impl Rasteriser {
             let module = |source: &str| module(device, before.clone() + source);
             let cull = module(picture::CULL);
             let raster = module(self.raster[usize::from(rolled)]);
-            let resolve = module(&self.resolve);
+            let resolve = module(&(picture::hairy(hairy).to_owned() + &self.resolve));
             Arc::new(Pipelines {
                 cull: pipeline(device, &cull, "cull"),
                 count_listed: pipeline(device, &cull, "count_listed"),
@@ -97,6 +104,7 @@ impl Rasteriser {
                 count_left: pipeline(device, &cull, "count_left"),
                 left: pipeline(device, &raster, "raster_left"),
                 caps: pipeline(device, &raster, "raster_caps"),
+                hairs: hairy.then(|| pipeline(device, &module(self.hairs), "hairs")),
                 resolve: pipeline(device, &resolve, "resolve"),
             })
         })?;

@@ -25,12 +25,14 @@ const CHUNKS_KEPT: usize = 2;
 pub struct Quality {
     /// Pixels of the screen for a pixel of the picture, each way. Each has four samples, whatever this is.
     pub supersampling: u32,
+    /// Whether fibres that stand off yarns are drawn, where threads are four pixels wide or more.
+    pub hairs: bool,
 }
 
 impl Default for Quality {
-    /// Four pixels of the screen, sixteen samples, for a pixel of the picture.
+    /// Four pixels of the screen, sixteen samples, for a pixel of the picture, and fibres.
     fn default() -> Self {
-        Self { supersampling: 2 }
+        Self { supersampling: 2, hairs: true }
     }
 }
 
@@ -147,7 +149,7 @@ impl Renderer {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
         let mut session = self.device.lending_session(plan.clone())?;
-        let limits = Raster::chunk_limits(&plan, self.info());
+        let limits = Raster::chunk_limits(&plan, yarns, self.info());
         let mut chunks = Ok(Vec::new());
         // Cut while points are sent.
         rayon::in_place_scope(|scope| {
@@ -165,7 +167,7 @@ impl Renderer {
                 bytemuck::cast_slice(&YarnLook::all(yarns, &ring_lengths(yarns, &plan))),
                 BufferUsages::STORAGE,
             )?,
-            raster: Raster::new(self, &plan)?,
+            raster: Raster::new(self, &plan, yarns)?,
             view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
             background: Background::Ground,
             screen: None,
@@ -246,7 +248,7 @@ impl Scene {
         camera: &Camera,
         quality: Quality,
     ) -> Result<wgpu::TextureView, RenderError> {
-        let (size, supersampling) = (camera.size(), quality.supersampling);
+        let (size, Quality { supersampling, hairs }) = (camera.size(), quality);
         self.check_size(size, supersampling)?;
         let screen = match self.screen.take().filter(|screen| screen.fits(size, supersampling)) {
             Some(screen) => screen,
@@ -254,7 +256,8 @@ impl Scene {
         };
         let texture = self.screen.insert(screen).picture.clone();
         self.camera = Some(camera.clone());
-        let view = ViewUniform::new(camera, self.background, supersampling);
+        let view = ViewUniform::new(camera, self.background, supersampling, hairs && self.raster.is_hairy());
+        self.raster.has_hairs = view.has_hairs();
         self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
         Ok(texture)
     }
@@ -309,10 +312,14 @@ impl Scene {
         let (renderer, Some(screen)) = (&self.renderer, &self.screen) else { return Ok(()) };
         let texture = BindingResource::TextureView;
         let (view, visibility) = (self.view.as_entire_binding(), texture(&screen.visibility));
-        let kept =
-            [(0, view), (1, texture(&screen.depths)), (2, texture(&screen.directions)), (4, visibility)];
-        let lit =
-            [(3, texture(&screen.places)), (5, self.looks.as_entire_binding()), (6, texture(&screen.lit))];
+        let kept = [
+            (0, view),
+            (1, texture(&screen.depths)),
+            (2, texture(&screen.directions)),
+            (3, texture(&screen.places)),
+            (4, visibility),
+        ];
+        let lit = [(5, self.looks.as_entire_binding()), (6, texture(&screen.lit))];
         let gathered = [kept[0].clone(), (1, texture(&screen.lit)), (2, texture(&screen.picture))];
         let device = &renderer.device;
         let submission = device.scoped("Queue::submit", || {

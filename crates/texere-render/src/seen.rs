@@ -11,7 +11,7 @@ use crate::{RenderError, Scene};
 pub struct Seen {
     /// The number of the yarn, from 0.
     pub yarn: usize,
-    /// The place on its surface, mm. Where the yarn is cut open, that on the far side of its inside.
+    /// The place on its surface, mm, or on a fibre that stands off it. Where the yarn is cut open, that on the far side of its inside.
     pub position: [f64; 3],
 }
 
@@ -19,8 +19,8 @@ pub struct Seen {
 const PLACE_BYTES: u64 = 8;
 const DEPTH_BYTES: u64 = 4;
 
-/// `CUT` of `view.wgsl`.
-const CUT: u32 = 0x8000_0000;
+/// `MARKS` of `view.wgsl`.
+const MARKS: u32 = 0xc000_0000;
 
 impl Scene {
     /// What the last picture shows at a point, in pixels from its left and upper edges. None where it shows no yarn, outside, and before the
@@ -83,6 +83,6 @@ impl Scene {
         let clip = DVec3::new(middle(x, large[0]), -middle(y, large[1]), f64::from(depth));
         let local = camera.clip_from_local().inverse().project_point3(clip);
         let position = (local + camera.target.as_dvec3()).to_array();
-        Ok(Some(Seen { yarn: (yarn & !CUT) as usize, position }))
+        Ok(Some(Seen { yarn: (yarn & !MARKS) as usize, position }))
     }
 }

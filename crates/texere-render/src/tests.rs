@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
+mod hairs;
 mod mesh_path;
 mod scenes;
 mod spectrum;
@@ -72,7 +73,7 @@ impl Cloth {
     fn yarns(&self) -> Yarns {
         let mut yarns = Yarns::builder();
         for (name, srgb) in [("navy", [38, 56, 110]), ("madder", [176, 54, 40]), ("linen", [222, 210, 184])] {
-            yarns.material(Material { name: name.into(), srgb, tex: None });
+            yarns.material(Material { name: name.into(), srgb, ..Material::default() });
         }
         yarns.section(Section::Circle);
         yarns.section(Section::Ellipse { aspect: 1.6 });
@@ -113,9 +114,14 @@ fn cameras(extent: &Extent) -> [(&'static str, Camera); 5] {
     ]
 }
 
+/// The view that has a golden of hairs.
+fn near(yarns: &Yarns) -> Camera {
+    Camera::close_up(&Extent::of(yarns), [5.0, 3.5], 2.5, SIZE).unwrap()
+}
+
 fn draw(renderer: &Renderer, yarns: &Yarns, camera: &Camera, limits: &Limits) -> RgbImage {
     let mut scene = renderer.scene(yarns, &SETTINGS).unwrap().with_limits(limits);
-    let picture = scene.picture(camera, Quality { supersampling: 1 }).unwrap();
+    let picture = scene.picture(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     image_of(picture.size, picture.rgb)
 }
 
@@ -148,21 +154,24 @@ fn golden(name: &str) -> RgbImage {
 fn pictures_are_their_goldens() {
     let yarns = TWILL.yarns();
     let mut wrong = Vec::new();
-    for (name, camera) in cameras(&Extent::of(&yarns)) {
-        let drawn = picture(&yarns, &camera);
+    let mut check = |name: &str, drawn: RgbImage| {
         let off = image::open(golden_path(name)).map(|golden| difference(&drawn, &golden.into_rgb8()));
         if !off.as_ref().is_ok_and(|off| *off <= TOLERANCE) {
             let kept = std::env::temp_dir().join(format!("texere-{name}.png"));
             drawn.save(&kept).unwrap();
             wrong.push(format!("{name}: {off:?}; what was drawn is {}", kept.display()));
         }
+    };
+    for (name, camera) in cameras(&Extent::of(&yarns)) {
+        check(name, picture(&yarns, &camera));
     }
+    check("hairs", picture(&hairs::hairy(&yarns, 8.0), &near(&yarns)));
     assert!(wrong.is_empty(), "look at these, and where they are right put them into goldens/: {wrong:#?}");
 }
 
-/// Each of these must be found to differ from the golden of the face.
-fn assert_seen(what: &str, drawn: &RgbImage) {
-    let off = difference(drawn, &golden("face"));
+/// Each of these must be found to differ from its golden.
+fn assert_seen(what: &str, name: &str, drawn: &RgbImage) {
+    let off = difference(drawn, &golden(name));
     assert!(off > TOLERANCE, "{what} is off by {off} only");
 }
 
@@ -179,8 +188,10 @@ fn broken_cloths_are_not_the_golden() {
         ("two ends of swapped colours", Cloth { end_color: |end| u32::from(end == 3 || end == 9), ..TWILL }),
     ];
     for (what, cloth) in broken {
-        assert_seen(what, &picture(&cloth.yarns(), &camera));
+        assert_seen(what, "face", &picture(&cloth.yarns(), &camera));
     }
+    let yarns = TWILL.yarns();
+    assert_seen("bald yarns", "hairs", &picture(&yarns, &near(&yarns)));
 }
 
 #[test]
@@ -192,6 +203,7 @@ fn a_flipped_normal_is_not_the_golden() {
     let camera = Camera::face(&Extent::of(&yarns), SIZE);
     assert_seen(
         "a yarn of flipped normals",
+        "face",
         &draw(&open(Rasteriser::new(Keys::Whole).with_resolve(source)), &yarns, &camera, &Limits::NONE),
     );
 }
@@ -212,7 +224,7 @@ fn chunks_draw_the_same_picture() {
         let draw = |limits: &Limits| {
             let mut scene = renderer.scene(&yarns, &long).unwrap().with_limits(limits);
             assert!(scene.plan().rings(0) > 64);
-            scene.picture(&camera, Quality { supersampling: 1 }).unwrap().rgb
+            scene.picture(&camera, Quality { supersampling: 1, ..Quality::default() }).unwrap().rgb
         };
         assert!(draw(&Limits::NONE) == draw(&Limits { blocks: 2, ..Limits::NONE }), "{name}");
     }
@@ -250,7 +262,7 @@ fn settled_yarns_are_drawn_where_they_rest() {
     let mut scene = renderer.settled_scene(&yarns, &SETTINGS, settler.as_mut()).unwrap();
     assert_eq!(scene.traffic(), Traffic::default());
     let camera = Camera::oblique(scene.extent(), -0.5, SIZE).unwrap();
-    let picture = scene.picture(&camera, Quality { supersampling: 1 }).unwrap();
+    let picture = scene.picture(&camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     let drawn = RgbImage::from_raw(picture.size[0], picture.size[1], picture.rgb).unwrap();
 
     let points = settled(&plan, settler.as_mut(), yarns.points()).unwrap();
@@ -399,13 +411,16 @@ fn sizes_that_no_texture_has_and_views_of_nothing_are_refused() {
     let renderer = renderer().lock().unwrap();
     let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
     for (size, supersampling) in [([0, 10], 1), ([1 << 20, 10], 1), ([1 << 31, 1], 2), ([0, 1], 0)] {
-        let refused = scene.picture(&Camera::face(&extent, size), Quality { supersampling });
+        let refused =
+            scene.picture(&Camera::face(&extent, size), Quality { supersampling, ..Quality::default() });
         assert!(matches!(refused, Err(RenderError::Size { .. })), "{size:?}");
     }
     // A picture that fits without supersampling is refused for the supersampling.
     let limit = renderer.side_limit();
     for (size, given, most) in [([10, 10], 0, limit / 10), ([limit, 1], 2, 1), ([1, limit / 2], 3, 2)] {
-        match scene.picture(&Camera::face(&extent, size), Quality { supersampling: given }) {
+        match scene
+            .picture(&Camera::face(&extent, size), Quality { supersampling: given, ..Quality::default() })
+        {
             Err(RenderError::Supersampling { supersampling, most: allowed, .. }) => {
                 assert_eq!((supersampling, allowed), (given, most), "{size:?}");
             }

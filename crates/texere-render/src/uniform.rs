@@ -37,16 +37,26 @@ pub(crate) struct ViewUniform {
     background_kind: u32,
     background: [f32; 3],
     pub(crate) spread: f32,
+    has_hairs: u32,
+    padding: [u32; 3],
 }
 
-const _: () = assert!(size_of::<ViewUniform>() == 240);
+const _: () = assert!(size_of::<ViewUniform>() == 256);
 
 impl ViewUniform {
-    pub(crate) fn new(camera: &Camera, background: Background, supersampling: u32) -> Self {
+    /// `may_have_hairs`: whether fibres stand off the yarns and are wanted. They are shown where threads are four pixels wide or more; of finer ones no
+    /// fibre would be seen.
+    pub(crate) fn new(
+        camera: &Camera,
+        background: Background,
+        supersampling: u32,
+        may_have_hairs: bool,
+    ) -> Self {
         let radius = camera.extent.radius;
         let size = camera.size().map(|pixels| (pixels * supersampling) as f32);
         let clip_from_local = camera.clip_from_local();
         let (background, background_kind) = background.encoded();
+        let spread = spread(2.0 * radius * camera.size()[1] as f32 / camera.height_at_target());
         let up = if camera.is_over { Vec3::NEG_Z } else { Vec3::Z };
         let lowest = if camera.is_over { -camera.extent.high[2] } else { camera.extent.low[2] };
         let eye = match camera.projection {
@@ -70,8 +80,15 @@ impl ViewUniform {
             sees_inside: u32::from(camera.sees_inside()),
             background_kind,
             background,
-            spread: spread(2.0 * radius * camera.size()[1] as f32 / camera.height_at_target()),
+            spread,
+            has_hairs: (may_have_hairs && spread == 0.0).into(),
+            padding: [0; 3],
         }
+    }
+
+    /// Whether fibres that stand off yarns are shown.
+    pub(crate) const fn has_hairs(&self) -> bool {
+        self.has_hairs != 0
     }
 }
 

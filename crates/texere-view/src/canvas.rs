@@ -32,17 +32,18 @@ struct Look {
     size: [u32; 2],
 }
 
-/// How many pixels and samples a picture has.
+/// How many pixels and samples a picture has, and whether it has fibres that stand off yarns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Fineness {
     supersampling: u32,
     /// Pixels of the window for one of the picture, each way.
     coarseness: u32,
+    hairs: bool,
 }
 
 impl Fineness {
     /// What takes least of all pictures that have all pixels.
-    const PLAIN: Self = Self { supersampling: 1, coarseness: 1 };
+    const PLAIN: Self = Self { supersampling: 1, coarseness: 1, hairs: false };
 
     /// How fine the next picture may be while the view moves, where the last one, this fine, took so long.
     fn moving(self, took: Duration) -> Self {
@@ -58,7 +59,8 @@ impl Fineness {
     fn resting(self, took: Duration) -> Self {
         let best = Quality::default().supersampling;
         let more = best * self.coarseness / self.supersampling;
-        if took * more.pow(2) <= RESTING { Self { supersampling: best, ..Self::PLAIN } } else { Self::PLAIN }
+        let supersampling = if took * more.pow(2) <= RESTING { best } else { Self::PLAIN.supersampling };
+        Self { supersampling, hairs: true, ..Self::PLAIN }
     }
 }
 
@@ -129,7 +131,7 @@ impl Canvas {
 
     /// Pixels of the last picture, and samples of each.
     pub(crate) fn resolution(&self) -> ([u32; 2], u32) {
-        let Fineness { supersampling, coarseness } = self.fineness;
+        let Fineness { supersampling, coarseness, .. } = self.fineness;
         let size = self.drawn.map_or([0, 0], |drawn| drawn.size.map(|pixels| pixels / coarseness));
         (size, 4 * supersampling.pow(2))
     }
@@ -189,7 +191,10 @@ impl Canvas {
 
     fn picture(&mut self, cloth: &mut Cloth, look: Look) -> Result<PictureTimings, RenderError> {
         let camera = self.camera(cloth, look)?;
-        let frame = cloth.scene.frame(&camera, Quality { supersampling: self.fineness.supersampling })?;
+        let frame = cloth.scene.frame(
+            &camera,
+            Quality { supersampling: self.fineness.supersampling, hairs: self.fineness.hairs },
+        )?;
         if self.view.as_ref() != Some(&frame.texture) {
             let device = &self.render.device;
             let mut renderer = self.render.renderer.write();
@@ -281,7 +286,7 @@ mod tests {
             let moved = Fineness { coarseness, ..Fineness::PLAIN };
             for (whole, supersampling) in [(10, 2), (240, 2), (300, 1), (9000, 1)] {
                 let rests = moved.resting(took(moved, whole * MILLISECOND));
-                assert_eq!(rests, Fineness { supersampling, coarseness: 1 }, "{whole} ms");
+                assert_eq!(rests, Fineness { supersampling, coarseness: 1, hairs: true }, "{whole} ms");
             }
         }
     }

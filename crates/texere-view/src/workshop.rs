@@ -339,7 +339,7 @@ fn free_beside(design: &Path) -> PathBuf {
 fn scene(renderer: &Renderer, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {
     let mut scene = renderer.scene(yarns, settings)?;
     let camera = Camera::face(scene.extent(), [8, 8]);
-    scene.frame(&camera, Quality { supersampling: 1 })?;
+    scene.frame(&camera, Quality { supersampling: 1, ..Quality::default() })?;
     Ok(scene)
 }
 

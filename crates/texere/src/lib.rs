@@ -131,11 +131,11 @@ pub use live::{Live, LiveError, Update};
 pub use texere_core::{
     ArcLength, Attribute, BLOCK_RINGS, Backend, BackendError, Block, Boundary, BoundaryError, Bounds,
     COORDINATE_LIMIT, Cap, Change, Chunk, ChunkDraw, Chunks, ControlPoint, Counts, DeviceInfo, DeviceKind,
-    Ends, Frame, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace, NullBackend, Origin,
-    PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError, Progress, Quantum,
-    RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section, SectionError, SectionPoint,
-    Settings, SettlingError, TWIST_LIMIT, TablesId, Topology, Trajectory, Vertex, YARN_RINGS_MAX, Yarn,
-    YarnError, Yarns, YarnsBuilder, crossings, settling,
+    Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace,
+    NullBackend, Origin, PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError,
+    Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section,
+    SectionError, SectionPoint, Settings, SettlingError, TWIST_LIMIT, TablesId, Topology, Trajectory, Vertex,
+    YARN_RINGS_MAX, Yarn, YarnError, Yarns, YarnsBuilder, crossings, settling,
 };
 pub use texere_core::{
     Draw, End, Engine, Layout, MeshMut, Part, ScanChunks, Session, SessionError, Slot, StageTimings, Traffic,

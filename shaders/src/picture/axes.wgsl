@@ -18,7 +18,6 @@ fn axes_of(stance: Stance) -> Axes {
         y_axis = upward * stance.sin_cos.y - x_axis * stance.sin_cos.x;
         x_axis = x_axis * stance.sin_cos.y + upward * stance.sin_cos.x;
     }
-    let scale = vec4(screen_scale(), 1.0, 1.0);
-    return Axes(clip_of(stance.centre.xyz) * scale, view.clip_from_local * vec4(x_axis, 0.0) * scale,
-                view.clip_from_local * vec4(y_axis, 0.0) * scale);
+    return Axes(screen_of(clip_of(stance.centre.xyz)), screen_of(view.clip_from_local * vec4(x_axis, 0.0)),
+                screen_of(view.clip_from_local * vec4(y_axis, 0.0)));
 }

@@ -4,6 +4,8 @@
 // are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
 // top or left edge that is.
 
+const SUBPIXELS = 256.0;
+
 // Corners at most this far from the screen's middle, 1/256 pixels: edges are exact up to there.
 const REACHED = 4194304.0;
 
@@ -26,8 +28,12 @@ struct Corner {
 const BEYOND = 64u;
 
 // A point in screen space is one of clip space whose x and y are 1/256 pixels from the middle, y downwards, before they are divided by w.
-fn screen_scale() -> vec2<f32> {
-    return vec2(128.0, -128.0) * view.size;
+fn screen_of(clip: vec4<f32>) -> vec4<f32> {
+    return clip * screen_scale();
+}
+
+fn screen_scale() -> vec4<f32> {
+    return vec4(vec2(0.5, -0.5) * SUBPIXELS * view.size, 1.0, 1.0);
 }
 
 // Where that is on the screen, before it is rounded.
@@ -51,7 +57,7 @@ fn rounded(place: vec2<f32>) -> vec2<i32> {
 fn corner_of(at: vec4<f32>) -> Corner {
     let place = place_of(at.xy, at.w);
     let is_beyond = at.w < 1e-6 || any(abs(place) > vec2(REACHED));
-    let edge = vec3(128.0 * view.size, 1.0) * at.w;
+    let edge = vec3(0.5 * SUBPIXELS * view.size, 1.0) * at.w;
     let over = vec3<u32>(at.xyz > edge) * vec3(1u, 2u, 4u);
     let under = vec3<u32>(at.xyz < vec3(-edge.xy, 0.0)) * vec3(8u, 16u, 32u);
     let sides = over.x | over.y | over.z | under.x | under.y | under.z | select(0u, BEYOND, is_beyond);
@@ -198,7 +204,7 @@ fn samples_between(least: vec2<i32>, most: vec2<i32>, pixel: vec2<i32>) -> u32 {
     let low = least - pixel * 256;
     let high = most - pixel * 256;
     let down = (FIRST_SAMPLE_Y + shift.y) & (SAMPLE_ROW - 1);
-    let right = (vec4(96, 224, 32, 160) + shift.x) & vec4(255);
+    let right = (vec4(sample_x(0), sample_x(1), sample_x(2), sample_x(3)) + shift.x) & vec4(255);
     let y = vec4(0, 1, 2, 3) * SAMPLE_ROW + down;
     let is_between = (vec4(low.x) <= right) & (right <= vec4(high.x)) & (vec4(low.y) <= y) & (y <= vec4(high.y));
     let bits = select(vec4(0u), vec4(1u, 2u, 4u, 8u), is_between);

@@ -65,7 +65,7 @@ fn box_of(first: u32) -> Box {
         size = max(size, sizes[lane]);
     }
     let largest = max(abs(low), abs(high));
-    let reach = size * sweep.reach * (1.0 + BOX_SLACK) + BOX_SLACK * max(largest.x, max(largest.y, largest.z));
+    let reach = size * sweep.reach * (1.0 + BOX_SLACK) + sweep.hair_reach + BOX_SLACK * max(largest.x, max(largest.y, largest.z));
     return Box(low - reach, high + reach);
 }
 

@@ -2,7 +2,7 @@
 //
 // Group 0 holds what a session keeps of the chunk, each resource at its own number; group 1 what pictures add.
 
-// Rust: texere_render's Sweep, 24 bytes: one go through the chunk's blocks.
+// Rust: texere_render's Sweep, 32 bytes: one go through the chunk's blocks.
 struct Sweep {
     // Rows of the screen that have keys: the first, and how many.
     first_row: u32,
@@ -13,6 +13,8 @@ struct Sweep {
     reach: f32,
     // 1 where nothing was drawn before, else 0.
     is_first: u32,
+    // How far fibres stand off, mm: 0 where none are drawn.
+    hair_reach: f32,
 }
 
 // Blocks of the chunk that the view may show, and those of them whose triangles of many samples are left for later: numbers of

@@ -3,12 +3,14 @@
 //! | file | entry points | work |
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
-//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next eight |
+//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next ten |
 //! | `cull.wgsl` | `cull`, `count_listed`, `count_left` | the blocks that the view may show |
 //! | `weights.wgsl` | | shares of a triangle's corners |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
 //! | `cover.wgsl` | | the samples that a triangle covers |
 //! | `axes.wgsl`, `axes_level.wgsl`, `axes_rolled.wgsl` | | a block's rings on the screen, where nothing turns and where something does |
+//! | `hair.wgsl` | | what a fibre that stands off its yarn is like |
+//! | `hairs.wgsl` | `hairs` | draws those of a chunk |
 //! | `raster.wgsl` | `raster`, `raster_left`, `raster_caps` | draws a chunk from its control points |
 //! | `kept.wgsl` | | what is kept of a sample until it is lit |
 //! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
@@ -28,39 +30,72 @@ macro_rules! fabric {
     };
 }
 
-/// `raster`, `raster_left` and `raster_caps` with a kind of keys, for yarns whose sections turn or for those whose do not.
-macro_rules! raster {
-    ($keys:literal, rolled) => {
-        raster!($keys, "const RINGS_BEYOND = 1u;\n", include_str!("../rings.wgsl"), include_str!("axes_rolled.wgsl"))
-    };
-    ($keys:literal, level) => {
-        raster!($keys, include_str!("axes_level.wgsl"))
-    };
-    ($keys:literal, $($axes:expr),*) => {
-        concat!(
-            fabric!(),
-            include_str!("weights.wgsl"),
-            include_str!($keys),
-            include_str!("cover.wgsl"),
-            include_str!("axes.wgsl"),
-            $($axes,)*
-            include_str!("raster.wgsl")
-        )
+/// What draws with a kind of keys.
+macro_rules! drawing {
+    ($keys:literal, $($own:expr),+) => {
+        concat!(fabric!(), include_str!("weights.wgsl"), include_str!($keys), include_str!("cover.wgsl"), $($own),+)
     };
 }
 
-/// `cull`, `count_listed` and `count_left`. This one and the next three stand after `texere_gpu::prelude`.
+/// `raster`, `raster_left` and `raster_caps` with a kind of keys, where nothing turns and where something does.
+macro_rules! raster {
+    ($keys:literal) => {
+        [
+            drawing!(
+                $keys,
+                include_str!("axes.wgsl"),
+                include_str!("axes_level.wgsl"),
+                include_str!("raster.wgsl")
+            ),
+            drawing!(
+                $keys,
+                rings!(),
+                include_str!("axes.wgsl"),
+                include_str!("axes_rolled.wgsl"),
+                include_str!("raster.wgsl")
+            ),
+        ]
+    };
+}
+
+/// A block's rings, and the one after them.
+macro_rules! rings {
+    () => {
+        concat!("const RINGS_BEYOND = 1u;\n", include_str!("../rings.wgsl"))
+    };
+}
+
+/// `cull`, `count_listed` and `count_left`. This one and the next five stand after `texere_gpu::prelude`.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
 /// `raster`, `raster_left` and `raster_caps`, for devices with atomics of 64 bits: where nothing turns, and where something does.
-pub const RASTER: [&str; 2] = [raster!("keys_64.wgsl", level), raster!("keys_64.wgsl", rolled)];
+pub const RASTER: [&str; 2] = raster!("keys_64.wgsl");
 
 /// The same for any device.
-pub const RASTER_IN_ROUNDS: [&str; 2] = [raster!("keys_32.wgsl", level), raster!("keys_32.wgsl", rolled)];
+pub const RASTER_IN_ROUNDS: [&str; 2] = raster!("keys_32.wgsl");
 
-/// `resolve`.
-pub const RESOLVE: &str =
-    concat!(fabric!(), include_str!("weights.wgsl"), include_str!("kept.wgsl"), include_str!("resolve.wgsl"));
+/// `hairs`, for devices with atomics of 64 bits.
+pub const HAIRS: &str =
+    drawing!("keys_64.wgsl", rings!(), include_str!("hair.wgsl"), include_str!("hairs.wgsl"));
+
+/// The same for any device.
+pub const HAIRS_IN_ROUNDS: &str =
+    drawing!("keys_32.wgsl", rings!(), include_str!("hair.wgsl"), include_str!("hairs.wgsl"));
+
+/// `resolve`, behind [`hairy`].
+pub const RESOLVE: &str = concat!(
+    fabric!(),
+    include_str!("weights.wgsl"),
+    include_str!("kept.wgsl"),
+    include_str!("hair.wgsl"),
+    include_str!("resolve.wgsl")
+);
+
+/// What stands before [`RESOLVE`]: whether any yarn has fibres that stand off.
+#[must_use]
+pub const fn hairy(hairs: bool) -> &'static str {
+    if hairs { "const HAIRY = true;\n" } else { "const HAIRY = false;\n" }
+}
 
 /// `visibility`.
 pub const VISIBILITY: &str =

@@ -32,7 +32,7 @@ fn tube_at(axes: Axes, point: vec2<f32>) -> vec4<f32> {
 
 // The same in clip space, of a ring.
 fn tube_clip(ring: u32, point: vec2<f32>) -> vec4<f32> {
-    return tube_at(held_axes(ring), point) / vec4(screen_scale(), 1.0, 1.0);
+    return tube_at(held_axes(ring), point) / screen_scale();
 }
 
 // Of so many lanes that draw a triangle together, in eight columns.
@@ -277,7 +277,7 @@ fn cap_clip(cap: CapRow, stance: Stance, corner: u32) -> vec4<f32> {
 }
 
 fn cap_corner(cap: CapRow, stance: Stance, corner: u32) -> Corner {
-    return corner_of(cap_clip(cap, stance, corner) * vec4(screen_scale(), 1.0, 1.0));
+    return corner_of(screen_of(cap_clip(cap, stance, corner)));
 }
 
 // A workgroup of CAP_GROUP a cap.

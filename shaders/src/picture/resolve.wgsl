@@ -1,4 +1,5 @@
-// What each sample shows, worked out again from the number of its triangle. After fabric.wgsl, weights.wgsl, kept.wgsl.
+// What each sample shows, worked out again from the number of its triangle, or of its part of a hair. After fabric.wgsl, weights.wgsl, kept.wgsl
+// and hair.wgsl, and after HAIRY: false where no yarn has hairs.
 
 @group(0) @binding(10) var<storage, read> cap_rows: array<CapRow>;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
@@ -116,7 +117,27 @@ fn cap_at(number: u32, triangle: u32, place: vec2<i32>) -> vec4<u32> {
     return kept_of(normal, normal, 0.0, 0.0, cap.yarn | CUT, is_front);
 }
 
-fn kept_of_triangle(number: u32, place: vec2<i32>) -> vec4<u32> {
+// Part number `number` of the chunk's hairs: what faces the eye of it.
+fn hair_at(number: u32) -> vec4<u32> {
+    let block = blocks[number / hairs_of_block()];
+    let part = number % HAIR_PARTS;
+    let noted = number % hairs_of_block() / HAIR_PARTS;
+    let ring = noted / HAIRS_OF_GAP;
+    let yarn = yarns[block.yarn];
+    let seed = seed_of(block.yarn, block.first_ring + ring, noted % HAIRS_OF_GAP);
+    let stances = stances_at(block, ring);
+    let hair = hair_new(seed, yarn.section * params.sides, stances.here, stances.next);
+    let direction = hair_direction(hair, part);
+    let to_eye = view.eye.xyz - (hair.root - view.target_point) * view.eye.w;
+    let facing = to_eye - direction * dot(to_eye, direction);
+    let is_level = dot(facing, facing) > 1e-8 * dot(to_eye, to_eye);
+    return kept_of(select(to_eye, facing, is_level), direction, 0.0, 0.0, block.yarn | HAIR, true);
+}
+
+fn kept_of_number(number: u32, place: vec2<i32>) -> vec4<u32> {
+    if HAIRY && number >= first_hair() {
+        return hair_at(number - first_hair());
+    }
     let row = number / numbers_of_block();
     let triangle = number - row * numbers_of_block();
     if row < params.blocks {
@@ -147,7 +168,7 @@ fn resolve(@builtin(global_invocation_id) place: vec3<u32>) {
             if view.spread > 0.0 || key.x != last {
                 let middle_of_pixel = vec2<i32>(pixel) * 256 + 128 - middle();
                 let own = sample_place(i32(pixel.x), i32(4u * pixel.y) + sample);
-                kept = kept_of_triangle(~key.x, select(middle_of_pixel, own, view.spread > 0.0));
+                kept = kept_of_number(~key.x, select(middle_of_pixel, own, view.spread > 0.0));
                 last = key.x;
             }
             textureStore(directions, pixel, sample, vec4(kept.xy, 0u, 0u));

@@ -96,7 +96,7 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let packed_place = textureLoad(places, pixel, sample, 0);
     let number = packed_place.x;
     let place = halves(packed_place.y);
-    let yarn = number & ~CUT;
+    let yarn = number & ~MARKS;
     let look = looks[yarn];
     let fibre = from_octahedron(halves(textureLoad(directions, pixel, sample, 0).y));
     let eye = to_eye(here.local);
@@ -107,11 +107,13 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
         return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * open);
     }
     let fade = clamp(view.reach_pixels / 120.0 - 0.25, 0.0, 1.0);
-    let color = look.color * grain(look, yarn, f32(place.x) / 65536.0, f32(place.y) * (look.ring_length / 8.0), fade);
+    let is_hair = (number & HAIR) != 0u;
+    let share = grain(look, yarn, f32(place.x) / 65536.0, f32(place.y) * (look.ring_length / 8.0), fade);
+    let color = look.color * select(share, 1.0, is_hair);
     let fill = fill_direction();
-    // The yarn's body shades its own far side, softly, since light goes through its outer fibres.
-    let facing = clamp((dot(here.normal, view.light) + 0.15) / 1.15, 0.0, 1.0);
-    let fill_facing = clamp((dot(here.normal, fill) + 0.4) / 1.4, 0.0, 1.0);
+    // The yarn's body shades its own far side, softly, since light goes through its outer fibres; a fibre that stands off it is lit all round.
+    let facing = select(clamp((dot(here.normal, view.light) + 0.15) / 1.15, 0.0, 1.0), 1.0, is_hair);
+    let fill_facing = select(clamp((dot(here.normal, fill) + 0.4) / 1.4, 0.0, 1.0), 1.0, is_hair);
     var light = KEY * microcylinder(look, color, fibre, view.light, eye) * (facing * seen.y);
     light += FILL * microcylinder(look, color, fibre, fill, eye) * (fill_facing * seen.x);
     // Light that yarns send on to each other takes on their colour, so deep places are not grey (Jimenez et al. 2016,

@@ -1,6 +1,6 @@
 // What every picture shader reads: the view, and the encoding of visible samples until they are shaded.
 
-// Rust: texere_render's ViewUniform, 240 bytes. All positions are relative to the camera's target, since f32 has no
+// Rust: texere_render's ViewUniform, 256 bytes. All positions are relative to the camera's target, since f32 has no
 // tenth of a millimetre left at ten kilometres.
 struct View {
     clip_from_local: mat4x4<f32>,
@@ -33,6 +33,8 @@ struct View {
     background: vec3<f32>,
     // How far pixels of the picture reach for their samples: 0 for those in them alone, 1 for those of a pixel about them, too.
     spread: f32,
+    // 1 where fibres that stand off yarns are drawn, else 0.
+    has_hairs: u32,
 }
 
 // Kinds of background. Rust: texere_render's Background.
@@ -65,9 +67,14 @@ fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     return vec2<i32>(vec2(hash >> 24u, (hash >> 18u) & 63u));
 }
 
+// Where sample `sample` lies in a pixel without a shift, 1/256 pixels right of the pixel's left edge.
+fn sample_x(sample: i32) -> i32 {
+    return i32((SAMPLE_X >> (8u * u32(sample))) & 255u);
+}
+
 // A sample's place in its pixel, 1/256 pixels right of the pixel's corner and below it.
 fn sample_in(pixel: vec2<i32>, sample: i32) -> vec2<i32> {
-    let place = vec2(i32((SAMPLE_X >> (8u * u32(sample))) & 255u), FIRST_SAMPLE_Y) + shift_of(pixel);
+    let place = vec2(sample_x(sample), FIRST_SAMPLE_Y) + shift_of(pixel);
     return vec2(0, sample * SAMPLE_ROW) + (place & vec2(255, SAMPLE_ROW - 1));
 }
 
@@ -78,6 +85,12 @@ fn clip_of(position: vec3<f32>) -> vec4<f32> {
 
 // Marks the inside of a yarn, seen where the yarn is cut, in the number of a yarn.
 const CUT = 0x80000000u;
+
+// Marks a fibre that stands off a yarn, likewise.
+const HAIR = 0x40000000u;
+
+// What is left is the yarn's number.
+const MARKS = CUT | HAIR;
 
 // A unit vector as two numbers of 16 bits (Meyer et al. 2010, "On floating-point normal vectors": the octahedron).
 fn octahedron(v: vec3<f32>) -> vec2<u32> {

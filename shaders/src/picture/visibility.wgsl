@@ -15,6 +15,12 @@ const SPIRAL_TURNS = 9.0;
 const LEAST_PIXELS = 1.5;
 const AVERAGE = vec2(0.8, 0.85);
 
+// The depth of a yarn's body in a pixel, 1 where there is none. Single fibres are far thinner than what is taken to lie in the way of light.
+fn body_depth_at(pixel: vec2<i32>) -> f32 {
+    let is_hair = view.has_hairs != 0u && (textureLoad(places, pixel, 0, 0).x & HAIR) != 0u;
+    return select(depth_at(pixel, 0), 1.0, is_hair);
+}
+
 // Ambient visibility: McGuire, Mara and Luebke 2012, "Scalable ambient obscurance", the estimator of its equation 10
 // with the falloff of Alchemy (McGuire et al. 2011).
 fn ambient(here: Surface, pixel: vec2<i32>, turn: f32) -> f32 {
@@ -26,7 +32,7 @@ fn ambient(here: Surface, pixel: vec2<i32>, turn: f32) -> f32 {
         let angle = (share * SPIRAL_TURNS + turn) * 6.2831853;
         let offset = vec2(cos(angle), sin(angle)) * share * view.reach_pixels;
         let there = clamp(pixel + vec2<i32>(round(offset)), vec2(0), last);
-        let depth = depth_at(there, 0);
+        let depth = body_depth_at(there);
         if depth >= 1.0 {
             continue;
         }
@@ -58,7 +64,7 @@ fn lit(here: Surface, phase: f32) -> f32 {
         if any(pixel < vec2(0)) || any(pixel > last) {
             break;
         }
-        let depth = depth_at(pixel, 0);
+        let depth = body_depth_at(pixel);
         if depth < min(ndc.z, 1.0) {
             let before = dot(local_at(vec2<f32>(pixel) + 0.5, depth) - local, to_eye(local));
             if before > 0.02 * view.thickness && before < view.thickness {

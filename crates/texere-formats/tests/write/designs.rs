@@ -35,11 +35,16 @@ pub(crate) fn as_toml(design: &Design) -> (Design, Vec<String>, String) {
 }
 
 /// Everything of a thread but numbers of tables, which another order may change.
-fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 4], &'a Section, [u8; 3], Option<f32>) {
+fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 5], &'a Section, [u8; 3], Option<f32>) {
     let Thread { radius_mm, flatness, stiffness, twist, .. } = *thread;
     let material = &cloth.materials()[thread.material as usize];
     let section = &cloth.sections()[thread.section as usize];
-    ([radius_mm, flatness, stiffness, twist].map(f32::to_bits), section, material.srgb, material.tex)
+    (
+        [radius_mm, flatness, stiffness, twist, material.hairiness].map(f32::to_bits),
+        section,
+        material.srgb,
+        material.tex,
+    )
 }
 
 fn name<'a>(cloth: &'a Woven, thread: &Thread) -> &'a str {
@@ -110,6 +115,7 @@ pub(crate) fn check_wif(given: &Design) {
         ("yarns.flatness", any(&|each| each.flatness != 1.0)),
         ("yarns.stiffness", any(&|each| each.stiffness != 1.0)),
         ("yarns.twist_per_m", any(&|each| each.twist != 0.0)),
+        ("yarns.hairiness", any(&|each| cloth.materials()[each.material as usize].hairiness != 0.0)),
         ("cloth.selvedge", cloth.selvedge()),
         ("cloth.shape", cloth.shape() != made.shape()),
         ("cloth.warp_crimp", cloth.crimp() != made.crimp()),
@@ -249,7 +255,7 @@ fn our_own_designs_are_read_again() {
 
 /// Two by two threads, the first end red.
 fn small(drawdown: Drawdown, warp: Thread) -> Woven {
-    let red = Material { name: "red".into(), srgb: [200, 0, 0], tex: None };
+    let red = Material { name: "red".into(), srgb: [200, 0, 0], ..Material::default() };
     let (ends, picks) = (drawdown.ends(), drawdown.picks());
     let warp = vec![warp; ends];
     let weft = vec![Thread { material: 1, ..Thread::new(0.5, 0.1) }; picks];
@@ -306,6 +312,14 @@ fn what_no_reader_takes_is_refused_by_name() {
         let error = write::toml_to(&design(small(plain(), thread)), Vec::new()).unwrap_err();
         assert!(error.to_string().contains(said), "{error}");
     }
+    let threads = vec![Thread::new(0.5, 0.1); 4];
+    let hairy = Material { hairiness: 31.0, ..Material::default() };
+    let hairy = Woven::new(plain(), threads.clone(), threads, vec![hairy], vec![Section::Circle]).unwrap();
+    let error = write::toml_to(&design(hairy), Vec::new()).unwrap_err();
+    assert!(
+        error.to_string().contains("yarns.undyed.hairiness is 31; a design file takes 0 to 30"),
+        "{error}"
+    );
     let thin = design(small(plain(), Thread::new(0.5, 4e-4)));
     let error = write::wif_to(&thin, Vec::new()).unwrap_err();
     assert!(error.to_string().starts_with("[WARP THICKNESS] 1, in "), "{error}");

@@ -19,7 +19,7 @@ pub(crate) fn fabric() -> Yarns {
         .map(String::from)
         .into_iter()
         .zip([[236, 229, 212], [10, 0, 255]])
-        .map(|(name, srgb)| yarns.material(Material { name, srgb, tex: None }))
+        .map(|(name, srgb)| yarns.material(Material { name, srgb, ..Material::default() }))
         .collect();
     let (round, lobed) = (yarns.section(Section::Circle), yarns.section(Section::Lobed { plies: 3 }));
     let wave = |points: u32, height: f32, along_x: bool| -> Vec<ControlPoint> {

@@ -42,9 +42,10 @@ fn section() -> impl Strategy<Value = Section> {
 
 fn material() -> impl Strategy<Value = Material> {
     let tex = prop_oneof![Just(None), (0.002_f32..9e6).prop_map(Some), Just(Some(30.0))];
-    let named = (prop::sample::select(&NAMES[..]), any::<[u8; 3]>(), tex);
+    let hairiness = prop_oneof![Just(0.0_f32), Just(5.0), 0.0_f32..30.0];
+    let named = (prop::sample::select(&NAMES[..]), any::<[u8; 3]>(), tex, hairiness);
     prop_oneof![
-        3 => named.prop_map(|(name, srgb, tex)| Material { name: name.into(), srgb, tex }),
+        3 => named.prop_map(|(name, srgb, tex, hairiness)| Material { name: name.into(), srgb, tex, hairiness }),
         1 => Just(Material::default()),
     ]
 }

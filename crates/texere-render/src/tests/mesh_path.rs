@@ -115,8 +115,8 @@ pub(super) struct Judgement {
 
 /// Judges the picture of a fabric of one chunk. Its samples lie where the device has them, however far it is.
 pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
-    scene.look(camera, Quality { supersampling: 1 }).unwrap();
-    let mut view = ViewUniform::new(camera, Background::Ground, 1);
+    scene.look(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
+    let mut view = ViewUniform::new(camera, Background::Ground, 1, false);
     view.spread = 0.0;
     scene.renderer.write(&scene.view, bytemuck::bytes_of(&view)).unwrap();
     scene.draw().unwrap();

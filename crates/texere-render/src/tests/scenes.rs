@@ -33,7 +33,7 @@ fn drawn(yarns: &Yarns, camera: &Camera, background: Background) -> Picture {
     let renderer = renderer().lock().unwrap();
     let mut scene = renderer.scene(yarns, &SETTINGS).unwrap();
     scene.set_background(background);
-    scene.picture(camera, Quality { supersampling: 1 }).unwrap()
+    scene.picture(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap()
 }
 
 /// From aside, from near with a wide view and a tilted head, from below, and along parallel lines.
@@ -102,7 +102,7 @@ fn what_is_seen_at_a_point_is_what_its_ray_hits() {
     assert_eq!(scene.seen_at([1.0, 1.0]).unwrap(), None, "before the first picture");
     for (name, camera) in cameras(&Extent::of(&yarns)) {
         for supersampling in [1, 2] {
-            scene.frame(&camera, Quality { supersampling }).unwrap();
+            scene.frame(&camera, Quality { supersampling, ..Quality::default() }).unwrap();
             let (mut yarns_seen, mut nothing_seen) = (0, 0);
             for (x, y) in (2..SIZE[1])
                 .step_by(9)
@@ -143,18 +143,18 @@ fn a_scene_keeps_its_picture_while_others_are_drawn() {
     let scene = |yarns| renderer.scene(yarns, &SETTINGS).unwrap();
     let seen = |scene: &Scene| [4.5, 12.5, 20.5, 28.5].map(|x| scene.seen_at([x, 12.5]).unwrap());
     let mut first = scene(&twill);
-    first.frame(&camera, Quality { supersampling: 1 }).unwrap();
+    first.frame(&camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     let before = seen(&first);
     assert!(before.iter().any(Option::is_some));
     let mut beside = scene(&others);
     let aside = Camera::face(beside.extent(), [40, 24]);
-    beside.frame(&aside, Quality { supersampling: 1 }).unwrap();
+    beside.frame(&aside, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     assert_eq!(seen(&first), before);
     assert_ne!(seen(&beside), before);
     // What is left in it of a scene that is gone is not seen.
     drop((first, beside));
     let mut last = scene(&twill);
-    last.frame(&camera, Quality { supersampling: 1 }).unwrap();
+    last.frame(&camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     assert_eq!(seen(&last), before);
 }
 
@@ -179,7 +179,7 @@ fn threads_finer_than_pixels_are_seen_where_rays_hit_them() {
     for camera in [&whole, &Camera::oblique(&extent, 0.3, size).unwrap()] {
         let renderer = renderer().lock().unwrap();
         let mut scene = renderer.scene(&yarns, &SETTINGS).unwrap();
-        scene.frame(camera, Quality { supersampling: 1 }).unwrap();
+        scene.frame(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
         let (mut alike, mut others) = (0, 0);
         for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {
             let hit = picker.pick(&camera.ray(shifted_sample(x, y))).map(|hit| hit.place.yarn as usize);

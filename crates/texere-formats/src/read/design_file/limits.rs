@@ -1,5 +1,7 @@
 //! The limits of what a design file may say, which its writer keeps, too.
 
+use texere_core::HAIRINESS_LIMIT;
+
 /// The largest design file that is read, bytes: one that names each of a million threads takes as much.
 pub(crate) const FILE: u64 = 1 << 24;
 
@@ -11,6 +13,15 @@ pub(crate) const TEX: [f64; 2] = [1e-3, 1e7];
 
 /// Hardest twist, turns per metre either way.
 pub(crate) const TWIST_PER_M: f64 = 1e5;
+
+/// Baldest and hairiest yarn, Uster's H.
+pub(crate) const HAIRINESS: [f64; 2] = [0.0, HAIRINESS_LIMIT as f64];
+
+/// Uster's H where nothing is said, of a yarn of this twist: without any it is filament, else spun staple. Of that it is what combed ring-spun
+/// cotton of 20 tex has in the middle of the Uster Statistics.
+pub(crate) const fn hairiness_of(twist: f32) -> f32 {
+    if twist == 0.0 { 0.0 } else { 5.0 }
+}
 
 /// The most times relaxed cloth's that woven cloth is taut or pressed.
 pub(crate) const TIMES_MOST: f64 = 10.0;

@@ -131,6 +131,7 @@ tables! {
         flatness: Option<Spanned<f64>>,
         stiffness: Option<Spanned<f64>>,
         twist_per_m: Option<Spanned<f64>>,
+        hairiness: Option<Spanned<f64>>,
     }
 
     ThreadSet {

@@ -6,7 +6,7 @@ use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::{COTTON_DENSITY, FLATNESS_MAX, FLATNESS_MIN, Thread};
 use toml::Spanned;
 
-use super::limits::{LENGTH_MM, TEX, TWIST_PER_M};
+use super::limits::{HAIRINESS, LENGTH_MM, TEX, TWIST_PER_M, hairiness_of};
 use super::schema::{ThreadSet, YarnSpec};
 use super::source::Source;
 use super::value::Any;
@@ -97,6 +97,13 @@ impl YarnTable {
                 .map(|twist| source.number(&field("twist_per_m"), twist, -TWIST_PER_M, TWIST_PER_M))
                 .transpose()?
                 .unwrap_or(0.0);
+            let hairiness = spec
+                .hairiness
+                .as_ref()
+                .map(|hairiness| source.number(&field("hairiness"), hairiness, HAIRINESS[0], HAIRINESS[1]))
+                .transpose()?
+                .map(|hairiness| hairiness as f32);
+            let twist = texere_fabric::twist_from_turns_per_m(twist_per_m);
             table.materials.push(Material {
                 name: name.clone(),
                 srgb: match &spec.color {
@@ -104,6 +111,7 @@ impl YarnTable {
                     None => Material::default().srgb,
                 },
                 tex: tex.map(|tex| tex as f32),
+                hairiness: hairiness.unwrap_or_else(|| hairiness_of(twist)),
             });
             table.sections.push(section(source, name, spec)?);
             table.names.insert(
@@ -115,7 +123,7 @@ impl YarnTable {
                     stiffness: stiffness.transpose()?.unwrap_or(1.0) as f32,
                     material: number,
                     section: number,
-                    twist: texere_fabric::twist_from_turns_per_m(twist_per_m),
+                    twist,
                 },
             );
         }

@@ -41,7 +41,7 @@ pub(in crate::read) fn design(path: &Path) -> Result<Design, ReadError> {
         .zip(COLORS.iter().cycle())
         .map(|((carrier, yarn), &srgb)| {
             let name = yarn.as_ref().map_or_else(|| carrier.clone(), |yarn| format!("{carrier}: {yarn}"));
-            Material { name, srgb, tex: None }
+            Material { name, srgb, ..Material::default() }
         })
         .collect();
     let thread =

@@ -39,7 +39,11 @@ impl Palette {
                 scaled(channel, low, high)
             });
             palette.by_number.insert(number, palette.materials.len() as u32);
-            palette.materials.push(Material { name: format!("colour {number}"), srgb, tex: None });
+            palette.materials.push(Material {
+                name: format!("colour {number}"),
+                srgb,
+                ..Material::default()
+            });
         }
         if clamped > 0 {
             warnings.push(format!("{clamped} values of [COLOR TABLE] lie outside the range {low} to {high}"));
@@ -68,7 +72,7 @@ impl Palette {
             let srgb = [red, green, blue].map(|channel| scaled(channel, 0, 255));
             let material = self.materials.len() as u32;
             self.by_number.insert(number, material);
-            self.materials.push(Material { name: format!("colour {number}"), srgb, tex: None });
+            self.materials.push(Material { name: format!("colour {number}"), srgb, ..Material::default() });
             return Ok(Some(material));
         }
         if self.by_number.is_empty() {

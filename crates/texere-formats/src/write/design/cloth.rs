@@ -48,13 +48,16 @@ pub(super) fn beyond_wif(design: &Design, woven: &WovenDesign) -> Vec<String> {
     let cloth = woven.cloth();
     let any = |what: &dyn Fn(&Thread) -> bool| cloth.warp().iter().chain(cloth.weft()).any(what);
     let section = |thread: &Thread| cloth.sections()[thread.section as usize] != Section::Circle;
-    let tex = |thread: &Thread| cloth.materials()[thread.material as usize].tex.is_some();
+    let material = |thread: &Thread| &cloth.materials()[thread.material as usize];
+    let tex = |thread: &Thread| material(thread).tex.is_some();
+    let hairiness = |thread: &Thread| material(thread).hairiness != 0.0;
     let said = [
         (any(&tex), "yarns.tex"),
         (any(&|thread| thread.flatness != 1.0), "yarns.flatness"),
         (any(&|thread| thread.stiffness != 1.0), "yarns.stiffness"),
         (any(&section), "yarns.section"),
         (any(&|thread| thread.twist != 0.0), "yarns.twist_per_m"),
+        (any(&hairiness), "yarns.hairiness"),
         (cloth.shape() != Shape::default(), "cloth.shape"),
         (cloth.crimp() != Crimp::default(), "cloth.warp_crimp"),
         (cloth.selvedge(), "cloth.selvedge"),

@@ -164,6 +164,10 @@ fn table(name: &str, thread: &Thread, material: &Material, section: &Section) ->
         within(FORMAT, || field("twist_per_m"), per_m, [-most, most])?;
         keys.push(format!("twist_per_m = {per_m:?}"));
     }
+    if material.hairiness != limits::hairiness_of(thread.twist) {
+        let value = within(FORMAT, || field("hairiness"), material.hairiness.into(), limits::HAIRINESS)?;
+        keys.push(format!("hairiness = {:?}", nearest(value, |read| read as f32 == material.hairiness).0));
+    }
     Ok(keys.join("\n") + "\n")
 }
 

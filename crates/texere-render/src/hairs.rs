@@ -1,0 +1,42 @@
+//! Fibres that stand off their yarns: how many there are, and what the shaders know of them.
+
+use std::f32::consts::E;
+
+use texere_core::{BLOCK_RINGS, BackendError, Yarns};
+use wgpu::BufferUsages;
+
+use crate::Renderer;
+
+/// `HAIRS_OF_GAP` and `HAIR_PARTS` of `hair.wgsl`.
+const OF_GAP: u32 = 16;
+const PARTS: u32 = 16;
+
+/// `HAIR_SCALE` of `hair.wgsl`: the scale of their lengths' exponential distribution, mm.
+const SCALE: f32 = 0.6;
+
+/// `HAIR_LONGEST` of `hair.wgsl`: where that is cut off, in its scale.
+const LONGEST: f32 = 4.0;
+
+/// How far a hair reaches from its root, mm.
+pub(crate) const REACH: f32 = LONGEST * SCALE;
+
+/// Parts of hairs that a block has numbers for.
+pub(crate) const OF_BLOCK: u64 = BLOCK_RINGS as u64 * OF_GAP as u64 * PARTS as u64;
+
+/// A hair's mean length, mm.
+fn mean() -> f32 {
+    SCALE * (1.0 - LONGEST / (E.powf(LONGEST) - 1.0))
+}
+
+/// Whether fibres stand off any of these yarns.
+pub(crate) fn any(yarns: &Yarns) -> bool {
+    yarns.layout().yarns().iter().any(|yarn| yarns.materials()[yarn.material as usize].hairiness > 0.0)
+}
+
+/// Hairs a mm of each yarn, for `hairs.wgsl`. Uster's H is their length for a length of yarn, cm a cm or mm a mm.
+pub(crate) fn densities(renderer: &Renderer, yarns: &Yarns) -> Result<wgpu::Buffer, BackendError> {
+    let mean = mean();
+    let density = |yarn: &texere_core::Yarn| yarns.materials()[yarn.material as usize].hairiness / mean;
+    let each: Vec<_> = yarns.layout().yarns().iter().map(density).collect();
+    renderer.filled("hairs of yarns", bytemuck::cast_slice(&each), BufferUsages::STORAGE)
+}

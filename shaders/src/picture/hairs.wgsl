@@ -1,0 +1,119 @@
+// Draws the fibres that stand off the yarns of a chunk. After rings.wgsl, fabric.wgsl, cover.wgsl and hair.wgsl.
+//
+// A fibre is a ribbon that faces the eye, as wide as it is: where that is less than the distance of samples it covers as few of them as its area
+// does, so that it comes out fainter and not thicker.
+
+const HAIR_GROUP = 128u;
+
+// The greatest depth at which anything is seen.
+const DEEPEST = 0.99999994;
+
+@group(1) @binding(2) var<storage, read_write> listed: Listed;
+// Hairs a mm of each yarn.
+@group(1) @binding(6) var<storage, read> hair_density: array<f32>;
+
+// The hairs of a block: its gap, and its number there.
+var<workgroup> block_hairs: array<u32, BLOCK_RINGS * HAIRS_OF_GAP>;
+var<workgroup> hair_count: atomic<u32>;
+
+// Notes the hairs of the gap behind ring `ring` of the block: as many as its length has, with the fraction by chance.
+fn note_hairs(block: Block, ring: u32) {
+    let length = distance(standing.centre[ring].xyz, standing.centre[ring + 1u].xyz);
+    let chance = drawn(seed_of(block.yarn, block.first_ring + ring, HAIRS_OF_GAP), 0u);
+    let count = min(u32(length * hair_density[block.yarn] + chance), HAIRS_OF_GAP);
+    let place = atomicAdd(&hair_count, count);
+    for (var hair = 0u; hair < count; hair++) {
+        block_hairs[place + hair] = ring * HAIRS_OF_GAP + hair;
+    }
+}
+
+// 1/256 pixels that half a fibre's width takes at such a depth of clip space.
+fn half_width_at(w: f32) -> f32 {
+    let rows = view.clip_from_local;
+    let pixels_of_mm = 0.5 * view.size.y * length(vec3(rows[0].y, rows[1].y, rows[2].y)) / w;
+    return 0.5 * HAIR_WIDTH * SUBPIXELS * pixels_of_mm;
+}
+
+// The part of a hair between two places of the fabric, with round ends, so that parts join up.
+fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
+    let start_clip = clip_of(start);
+    let end_clip = clip_of(end);
+    let p = corner_of(screen_of(start_clip));
+    let q = corner_of(screen_of(end_clip));
+    if ((p.sides | q.sides) & BEYOND) != 0u {
+        return;
+    }
+    // The view is as deep as yarns are, and hairs stand off them: what lies beyond its ends is drawn there, but for what a cut cuts away.
+    var depths = vec2(p.depth, q.depth);
+    if view.has_ground != 0u {
+        depths = clamp(depths, vec2(0.0), vec2(DEEPEST));
+    }
+    let reach = half_width_at(0.5 * (start_clip.w + end_clip.w));
+    let base = vec2<f32>(p.place);
+    let way = vec2<f32>(q.place) - base;
+    let squared = max(dot(way, way), 1.0);
+    let corner = vec2<f32>(middle());
+    let low = min(base.y, base.y + way.y) - reach + corner.y;
+    let high = max(base.y, base.y + way.y) + reach + corner.y;
+    let first_row = max(i32(ceil((low - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * sweep.first_row));
+    let end_row = min(i32(floor((high - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * (sweep.first_row + sweep.rows)) - 1);
+    for (var row = first_row; row <= end_row; row++) {
+        // What of the part lies near the row.
+        let down = f32(sample_place(0, row).y) - base.y;
+        let shares = select(vec2(0.0, 1.0), (vec2(down) + vec2(-reach, reach)) / way.y, abs(way.y) > 1.0);
+        let ends = way.x * clamp(shares, vec2(0.0), vec2(1.0));
+        let across = base.x + corner.x - f32(sample_x(row & 3));
+        let first = max(i32(ceil((across + min(ends.x, ends.y) - reach) / SUBPIXELS)), 0);
+        let last = min(i32(floor((across + max(ends.x, ends.y) + reach) / SUBPIXELS)), i32(view.size.x) - 1);
+        for (var x = first; x <= last; x++) {
+            let to = vec2<f32>(sample_place(x, row)) - base;
+            let share = clamp(dot(to, way) / squared, 0.0, 1.0);
+            let off = to - way * share;
+            if dot(off, off) < reach * reach {
+                let depth = mix(depths.x, depths.y, share);
+                if depth >= 0.0 && depth <= 1.0 {
+                    let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
+                    offer(sample, ~bitcast<u32>(abs(depth)), ~number);
+                }
+            }
+        }
+    }
+}
+
+// A workgroup of HAIR_GROUP a listed block.
+@compute @workgroup_size(HAIR_GROUP)
+fn hairs(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+         @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    if number >= atomicLoad(&listed.count) {
+        return;
+    }
+    let row = listed.rows[number];
+    let block = blocks[row];
+    if hair_density[block.yarn] == 0.0 {
+        return;
+    }
+    if lane == 0u {
+        atomicStore(&hair_count, 0u);
+    }
+    block_rings(yarns[block.yarn], block, lane);
+    if lane < block.quads {
+        note_hairs(block, lane);
+    }
+    workgroupBarrier();
+    let outline = yarns[block.yarn].section * params.sides;
+    let parts = atomicLoad(&hair_count) * HAIR_PARTS;
+    let first_number = first_hair() + row * hairs_of_block();
+    for (var k = lane; k < parts; k += HAIR_GROUP) {
+        let noted = block_hairs[k / HAIR_PARTS];
+        let part = k % HAIR_PARTS;
+        let ring = noted / HAIRS_OF_GAP;
+        let seed = seed_of(block.yarn, block.first_ring + ring, noted % HAIRS_OF_GAP);
+        let hair = hair_new(seed, outline, stance_of(ring), stance_of(ring + 1u));
+        var start = hair.root;
+        for (var before = 0u; before < part; before++) {
+            start += hair_direction(hair, before) * hair.part;
+        }
+        draw_part(start, start + hair_direction(hair, part) * hair.part, first_number + noted * HAIR_PARTS + part);
+    }
+}

@@ -11,7 +11,7 @@
 uint packed_coordinate(float mm, float per_mm) {
     float quanta = mm * per_mm;
     float rest = quanta - rint(quanta * (1.0f / QUANTA_WRAP)) * QUANTA_WRAP;
-    return as_uint(convert_int_rte(rest)) & ((1u << COORDINATE_BITS) - 1u);
+    return as_uint(convert_int(rint(rest))) & ((1u << COORDINATE_BITS) - 1u);
 }
 
 // The words of a position.
@@ -29,7 +29,7 @@ uint packed_normal(float3 normal) {
     if (normal.z < 0.0f) {
         flat = (1.0f - fabs(flat.yx)) * (float2)(flat.x < 0.0f ? -1.0f : 1.0f, flat.y < 0.0f ? -1.0f : 1.0f);
     }
-    int2 steps = convert_int2_rte(flat * NORMAL_STEPS);
+    int2 steps = convert_int2(rint(flat * NORMAL_STEPS));
     return (as_uint(steps.x) & 0xffffu) | (as_uint(steps.y) << 16);
 }
 

@@ -98,8 +98,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     opencl(
         "kernels/src/packed.cl",
         "packed_coordinate",
-        "as_uint(convert_int_rte(rest)) & ((1u << COORDINATE_BITS) - 1u);",
-        "as_uint(convert_int_rte(rest));",
+        "as_uint(convert_int(rint(rest))) & ((1u << COORDINATE_BITS) - 1u);",
+        "as_uint(convert_int(rint(rest)));",
     ),
     // The normal's word is the next vertex's.
     opencl(

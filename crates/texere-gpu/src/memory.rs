@@ -11,7 +11,8 @@ use crate::upload::Ends;
 ///
 /// A backend may round each up to what its kernels read at a time, and adds parameters and time stamps, some hundred
 /// bytes. The 16 MiB that wgpu maps to upload through come on top where a driver takes them from the device's memory.
-/// Rings, 48 bytes each, come on top where [`Session::trajectory`](texere_core::Session::trajectory) is called.
+/// Rings, 48 bytes each, come on top where [`Session::trajectory`](texere_core::Session::trajectory) is called, packed vertices, 12 bytes each, where
+/// [`Session::packed`](texere_core::Session::packed) is.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};

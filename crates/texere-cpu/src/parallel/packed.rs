@@ -6,8 +6,7 @@ use texere_core::{Block, Chunk, PackedVertex, Quantum, Vertex};
 
 use super::lines::Lines;
 use super::runs::{MeshRun, vertex_runs};
-use super::simd::{Floats, Integers, Job, LINE, Mask, Simd};
-use super::vertices::VERTEX;
+use super::simd::{Floats, IN_TURN, Integers, Job, LANES_MAX, LINE, Mask, Simd};
 use super::{InstructionSet, Maker, MeshJob, STREAM_BYTES};
 use crate::engine::Work;
 use crate::packed::caps;
@@ -19,8 +18,8 @@ const BLOCKS: usize = 5;
 /// Words of a packed vertex.
 const WORDS: usize = 3;
 
-/// Words of as many packed vertices as are packed at a time, which are whole lines.
-type Group = [[u32; WORDS]; LINE];
+/// Two vertices, whose floats are three vectors of four.
+type Pair = [[f32; 4]; 3];
 
 pub(super) fn packed(set: InstructionSet, work: &Work, chunk: &Chunk, out: &mut [PackedVertex]) {
     let settings = work.plan.settings();
@@ -28,9 +27,9 @@ pub(super) fn packed(set: InstructionSet, work: &Work, chunk: &Chunk, out: &mut 
     pages::prefer_huge(out);
     vertex_runs(chunk, BLOCKS, settings.sides, out).into_par_iter().for_each_init(
         || (Vec::new(), Vec::new()),
-        |(vertices, groups): &mut (Vec<Vertex>, Vec<Group>), (blocks, out)| {
+        |(vertices, words): &mut (Vec<Vertex>, Vec<f32>), (blocks, out)| {
             vertices.resize(out.len(), Vertex::default());
-            groups.resize(out.len().div_ceil(LINE), Group::default());
+            words.resize(WORDS * out.len(), 0.0);
             let first_vertex = blocks[0].first_vertex;
             let run = MeshRun { blocks, first_vertex, first_index: 0, vertices, indices: &mut [] };
             set.run(MeshJob { maker, table: None, streams: false, run });
@@ -39,7 +38,7 @@ pub(super) fn packed(set: InstructionSet, work: &Work, chunk: &Chunk, out: &mut 
                 let first = (blocks[0].first_vertex - first_vertex) as usize;
                 let own = first..first + (rings * settings.sides) as usize;
                 let (vertices, out) = (&vertices[own.clone()], &mut out[own]);
-                set.run(PackJob { vertices, quantum: settings.quantum, groups, out, streams });
+                set.run(PackJob { vertices, quantum: settings.quantum, words, out, streams });
             }
         },
     );
@@ -50,8 +49,8 @@ pub(super) fn packed(set: InstructionSet, work: &Work, chunk: &Chunk, out: &mut 
 struct PackJob<'a> {
     vertices: &'a [Vertex],
     quantum: Quantum,
-    /// Memory in between, for as many vertices.
-    groups: &'a mut [Group],
+    /// Memory in between, for the words of as many vertices, whatever numbers their bits are.
+    words: &'a mut [f32],
     out: &'a mut [PackedVertex],
     streams: bool,
 }
@@ -59,17 +58,24 @@ struct PackJob<'a> {
 impl Job for PackJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
-        let Self { vertices, quantum, groups, out, streams } = self;
-        let (whole, rest) = vertices.as_chunks::<LINE>();
-        for (vertices, group) in whole.iter().zip(&mut *groups) {
-            pack(simd, vertices, quantum, group);
+        let Self { vertices, quantum, words, out, streams } = self;
+        let words = &mut words[..WORDS * vertices.len()];
+        let (pairs, _) = vertices.as_chunks::<2>();
+        let pairs: &[Pair] = bytemuck::cast_slice(pairs);
+        let whole = pairs.len() / S::LANES * S::LANES;
+        let (packed, rest) = words.split_at_mut(2 * WORDS * whole);
+        let vectors = pairs[..whole].chunks_exact(S::LANES);
+        for (pairs, words) in vectors.zip(packed.chunks_exact_mut(2 * WORDS * S::LANES)) {
+            pack(simd, pairs, quantum, words);
         }
-        if !rest.is_empty() {
-            let mut last = [Vertex::default(); LINE];
-            last[..rest.len()].copy_from_slice(rest);
-            pack(simd, &last, quantum, &mut groups[whole.len()]);
-        }
-        let from: &[f32] = &bytemuck::cast_slice(groups)[..WORDS * vertices.len()];
+        // Less than a vector of pairs, but perhaps half a pair more.
+        let mut last = [Vertex::default(); 2 * LANES_MAX];
+        last[..rest.len() / WORDS].copy_from_slice(&vertices[2 * whole..]);
+        let mut room = [0.0; 2 * WORDS * LANES_MAX];
+        let (pairs, _) = last.as_chunks::<2>();
+        pack(simd, bytemuck::cast_slice(pairs), quantum, &mut room);
+        rest.copy_from_slice(&room[..rest.len()]);
+        let from: &[f32] = words;
         let Lines { head, lines, tail, .. } = Lines::new(bytemuck::cast_slice_mut(out), streams);
         let (first, from) = from.split_at(head.len());
         head.copy_from_slice(first);
@@ -84,39 +90,27 @@ impl Job for PackJob<'_> {
     }
 }
 
-/// Packs vertices, a vertex a lane, as [`PackedVertex::pack`] does.
+/// Packs a vector of pairs, a pair a lane, as [`PackedVertex::pack`] does.
 #[cfg_attr(optimized, inline(always))]
-fn pack<S: Simd>(simd: S, vertices: &[Vertex; LINE], quantum: Quantum, group: &mut Group) {
-    let floats: &[[f32; VERTEX]] = bytemuck::cast_slice(vertices);
-    let mut columns = [[0.0; LINE]; VERTEX];
-    for (lane, vertex) in floats.iter().enumerate() {
-        for (column, value) in columns.iter_mut().zip(vertex) {
-            column[lane] = *value;
-        }
-    }
-    let mut words = [[0; LINE]; WORDS];
-    for first in (0..LINE).step_by(S::LANES) {
-        // No closures here: they would not be compiled for the instructions of the path.
-        let mut parts = [simd.splat(0.0); VERTEX];
-        for (part, column) in parts.iter_mut().zip(&columns) {
-            *part = simd.load(&column[first..]);
-        }
-        let [x, y, z, normal_x, normal_y, normal_z] = parts;
-        let [low, high] = position(simd, [x, y, z], quantum);
-        low.store(&mut words[0][first..]);
-        high.store(&mut words[1][first..]);
-        octahedral(simd, [normal_x, normal_y, normal_z]).store(&mut words[2][first..]);
-    }
-    for (lane, vertex) in group.iter_mut().enumerate() {
-        *vertex = [words[0][lane], words[1][lane], words[2][lane]];
-    }
+fn pack<S: Simd>(simd: S, pairs: &[Pair], quantum: Quantum, words: &mut [f32]) {
+    // No closures here: they would not be compiled for the instructions of the path.
+    let [x, y, z, normal_x] = simd.rows(pairs, &IN_TURN, 0);
+    let [normal_y, normal_z, next_x, next_y] = simd.rows(pairs, &IN_TURN, 1);
+    let [next_z, next_normal_x, next_normal_y, next_normal_z] = simd.rows(pairs, &IN_TURN, 2);
+    let [low, high] = position(simd, [x, y, z], quantum);
+    let normal = octahedral(simd, [normal_x, normal_y, normal_z]);
+    let [next_low, next_high] = position(simd, [next_x, next_y, next_z], quantum);
+    let next_normal = octahedral(simd, [next_normal_x, next_normal_y, next_normal_z]);
+    simd.scatter([low, high, normal, next_low], words, 2 * WORDS);
+    // Two of them again, so that no store reaches into the next pair.
+    simd.scatter([normal, next_low, next_high, next_normal], &mut words[2..], 2 * WORDS);
 }
 
 /// The words of positions.
 #[cfg_attr(optimized, inline(always))]
-fn position<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3], quantum: Quantum) -> [S::Integers; 2] {
+fn position<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3], quantum: Quantum) -> [S::Floats; 2] {
     let [x, y, z] = [wrapped(simd, x, quantum), wrapped(simd, y, quantum), wrapped(simd, z, quantum)];
-    [x + y.shift_left::<21>(), y.shift_right::<11>() + z.shift_left::<10>()]
+    [(x + y.shift_left::<21>()).bit_cast(), (y.shift_right::<11>() + z.shift_left::<10>()).bit_cast()]
 }
 
 const _: () = assert!(Quantum::BITS == 21);
@@ -133,7 +127,7 @@ fn wrapped<S: Simd>(simd: S, mm: S::Floats, quantum: Quantum) -> S::Integers {
 
 /// The words of normals.
 #[cfg_attr(optimized, inline(always))]
-fn octahedral<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3]) -> S::Integers {
+fn octahedral<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3]) -> S::Floats {
     let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
     let scale = one / (x.abs() + y.abs() + z.abs());
     let (x, y) = (x * scale, y * scale);
@@ -143,5 +137,5 @@ fn octahedral<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3]) -> S::Integers {
     let steps_y = lower.select(y.less(zero).select(-beyond_y, beyond_y), y);
     let (steps, rounding) = (simd.splat(PackedVertex::NORMAL_STEPS), simd.splat(PackedVertex::ROUNDING));
     let x = (steps_x * steps + rounding).to_bits().masked(0xffff);
-    x + (steps_y * steps + rounding).to_bits().shift_left::<16>()
+    (x + (steps_y * steps + rounding).to_bits().shift_left::<16>()).bit_cast()
 }

@@ -16,6 +16,9 @@ pub(super) struct Line(pub(super) [f32; LINE]);
 /// The most lanes that an implementation has.
 pub(super) const LANES_MAX: usize = 16;
 
+/// Entries one after the other, for [`Simd::rows`].
+pub(super) const IN_TURN: [u32; LANES_MAX] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
 /// A set of vector instructions, and proof that the processor has it.
 ///
 /// Only an implementation's own detection makes a value of the type. Vectors and masks are made with such a value or from other

@@ -6,8 +6,8 @@ use texere_core::settling::{
 };
 
 use super::curves::{Curve, acceleration, reach, velocity};
-use super::tables::{IN_TURN, IntervalRow, PullRow};
-use crate::parallel::simd::{Floats, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
+use super::tables::{IntervalRow, PullRow};
+use crate::parallel::simd::{Floats, IN_TURN, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
 
 /// Intervals whose own bends and lengths are worked out.
 #[derive(Debug, Clone, Copy)]

@@ -2,9 +2,9 @@
 
 use texere_core::settling::{BEND, Form, INERTIA, Pass, Place, Seen, SettlingPlan, moves};
 
-use super::tables::{FRONT, IN_TURN, PullRow};
+use super::tables::{FRONT, PullRow};
 use crate::parallel::simd::{
-    Floats, Integers, LANES_MAX, Simd, difference, dot, plus, rounded, scale, select, share,
+    Floats, IN_TURN, Integers, LANES_MAX, Simd, difference, dot, plus, rounded, scale, select, share,
 };
 
 /// What control points gather from.

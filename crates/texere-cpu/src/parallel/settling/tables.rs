@@ -9,9 +9,6 @@ use crate::parallel::simd::{
     Job, LANES_MAX, Simd, between, bit_cast, difference, plus, rounded, scale, to_bits, to_floats,
 };
 
-/// Entries one after the other.
-pub(super) const IN_TURN: [u32; LANES_MAX] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-
 /// Places that one task works on.
 pub(super) const TASK: usize = 512;
 

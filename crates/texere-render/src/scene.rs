@@ -25,7 +25,7 @@ const CHUNKS_KEPT: usize = 2;
 pub struct Quality {
     /// Pixels of the screen for a pixel of the picture, each way. Each has four samples, whatever this is.
     pub supersampling: u32,
-    /// Whether fibres that stand off yarns are drawn, where threads are four pixels wide or more.
+    /// Whether fibres that stand off yarns are drawn, where threads are four pixels wide or more; never in cuts.
     pub hairs: bool,
 }
 

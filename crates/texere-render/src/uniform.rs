@@ -44,8 +44,8 @@ pub(crate) struct ViewUniform {
 const _: () = assert!(size_of::<ViewUniform>() == 256);
 
 impl ViewUniform {
-    /// `may_have_hairs`: whether fibres stand off the yarns and are wanted. They are shown where threads are four pixels wide or more; of finer ones no
-    /// fibre would be seen.
+    /// `may_have_hairs`: whether fibres stand off the yarns and are wanted. They are shown where threads are four pixels wide or more, since of finer ones
+    /// no fibre would be seen, and not in cuts, where those of the whole cloth would lie before one another.
     pub(crate) fn new(
         camera: &Camera,
         background: Background,
@@ -81,7 +81,7 @@ impl ViewUniform {
             background_kind,
             background,
             spread,
-            has_hairs: (may_have_hairs && spread == 0.0).into(),
+            has_hairs: (may_have_hairs && spread == 0.0 && !camera.cuts).into(),
             padding: [0; 3],
         }
     }

@@ -43,11 +43,8 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     if ((p.sides | q.sides) & BEYOND) != 0u {
         return;
     }
-    // The view is as deep as yarns are, and hairs stand off them: what lies beyond its ends is drawn there, but for what a cut cuts away.
-    var depths = vec2(p.depth, q.depth);
-    if view.has_ground != 0u {
-        depths = clamp(depths, vec2(0.0), vec2(DEEPEST));
-    }
+    // The view is as deep as yarns are, and hairs stand off them: what lies beyond its ends is drawn there.
+    let depths = clamp(vec2(p.depth, q.depth), vec2(0.0), vec2(DEEPEST));
     let reach = half_width_at(0.5 * (start_clip.w + end_clip.w));
     let base = vec2<f32>(p.place);
     let way = vec2<f32>(q.place) - base;
@@ -70,11 +67,8 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
             let share = clamp(dot(to, way) / squared, 0.0, 1.0);
             let off = to - way * share;
             if dot(off, off) < reach * reach {
-                let depth = mix(depths.x, depths.y, share);
-                if depth >= 0.0 && depth <= 1.0 {
-                    let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
-                    offer(sample, ~bitcast<u32>(abs(depth)), ~number);
-                }
+                let depth = clamp(mix(depths.x, depths.y, share), 0.0, DEEPEST);
+                offer(key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3)), ~bitcast<u32>(abs(depth)), ~number);
             }
         }
     }

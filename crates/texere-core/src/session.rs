@@ -327,6 +327,8 @@ impl<E: Engine + ?Sized> Session<E> {
     /// **Errors**: [`BackendError::NoPacking`], and those of [`Session::trajectory`].
     pub fn packed(&mut self, chunk: &Chunk) -> Result<(), SessionError> {
         let slot = self.start_mesh("packed", chunk)?;
+        // What an earlier call has left is gone, whatever becomes of this one.
+        self.in_flight[slot.index()].has_packed = false;
         self.engine.packed(slot, chunk)?;
         self.in_flight[slot.index()].has_packed = true;
         Ok(())

@@ -7,7 +7,7 @@ use texere_core::{
     BLOCK_RINGS, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Limits, Plan, Yarns,
 };
 use texere_shaders::{Resource, grid};
-use texere_wgpu::ChunkTables;
+use texere_wgpu::{ChunkTables, LAUNCH_BLOCKS};
 use wgpu::{BindingResource, BufferUsages};
 
 use crate::Renderer;
@@ -84,7 +84,9 @@ impl Raster {
         let hairs = if hairs::any(yarns) { hairs::OF_BLOCK } else { 0 };
         let numbered = u64::from(u32::MAX) / (3 * triangles + hairs);
         let points = u64::from(BLOCK_RINGS) / (u64::from(settings.subdivisions) + 1) + 24;
-        let blocks = if device.kind == DeviceKind::DiscreteGpu { BLOCKS_MOST } else { device.limits.blocks };
+        // A caller's own limit stands.
+        let is_fast = device.kind == DeviceKind::DiscreteGpu && device.limits.blocks == LAUNCH_BLOCKS;
+        let blocks = if is_fast { BLOCKS_MOST } else { device.limits.blocks };
         let bound = device.limits.binding_bytes / (points * size_of::<ControlPoint>() as u64);
         Limits { blocks: numbered.min(bound).min(blocks).max(2), ..Limits::NONE }
     }
@@ -104,7 +106,9 @@ impl Raster {
         let pipelines = renderer.rasteriser.pipelines(device, kind)?;
         let rows = band.end - band.start;
         renderer.reserve(&mut self.listed, 8 * (chunk.blocks().len() as u64 + 1))?;
-        renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
+        if self.rolled {
+            renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
+        }
         let first = Sweep {
             first_row: band.start,
             rows,

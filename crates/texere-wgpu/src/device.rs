@@ -17,9 +17,9 @@ use crate::kernels::Opened;
 use crate::session::WgpuSession;
 use crate::settling::WgpuSettler;
 
-/// Most blocks of a launch: some 16 million rings, so that none takes long enough for a watchdog to end it, even on a
+/// Most blocks of a launch, unless a caller says otherwise: some 16 million rings, so that none takes long enough for a watchdog to end it, even on a
 /// software device.
-const LAUNCH_BLOCKS: u64 = 1 << 18;
+pub const LAUNCH_BLOCKS: u64 = 1 << 18;
 
 /// Features with which a picture finds depth and triangle of a sample at once; without them it takes two rounds.
 pub const LONG_ATOMICS: Features = Features::SHADER_INT64.union(Features::SHADER_INT64_ATOMIC_MIN_MAX);

@@ -47,7 +47,7 @@ mod settling;
 mod tables;
 mod upload;
 
-pub use device::{LONG_ATOMICS, WgpuBackend};
+pub use device::{LAUNCH_BLOCKS, LONG_ATOMICS, WgpuBackend};
 pub use draw::{ATTRIBUTE_LAYOUT, PACKED_LAYOUT, VERTEX_LAYOUT, draw};
 pub use engine::WgpuEngine;
 pub use session::{ChunkTables, WgpuSession};

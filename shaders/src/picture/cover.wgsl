@@ -1,4 +1,4 @@
-// The samples that a triangle covers. After fabric.wgsl and one of keys_64.wgsl and keys_32.wgsl.
+// The samples that a triangle covers. After fabric.wgsl, weights.wgsl and one of keys_64.wgsl and keys_32.wgsl.
 //
 // The rules are those of any rasteriser, so that triangles with a common edge leave no sample out and have none twice: corners
 // are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
@@ -97,7 +97,7 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
 }
 
 // Which samples a quad may have: NONE; those of two by two pixels, a bit each, four for a pixel, from the pixel of the least x and y
-// on, row by row; FEW of some pixels more; or MANY, as one that lies partly beyond what is reached may have.
+// on, row by row; FEW of some pixels more, or all of those; or MANY, as one that lies partly beyond what is reached may have.
 const NONE = 0u;
 const FEW = 0xffffu;
 const MANY = 0x10000u;
@@ -115,7 +115,7 @@ fn area_of(p: Corner, q: Corner, r: Corner) -> f32 {
     return pq.x * pr.y - pq.y * pr.x;
 }
 
-// The same of corners less than EXTENT apart, by an area that is wrong by less than 256: whether a triangle may show.
+// The same of corners less than EXTENT apart, by an area that is wrong by less than 256: whether a triangle may show. Smaller ones may.
 fn near_may_show(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>) -> bool {
     let pq = q - p;
     let pr = r - p;
@@ -142,7 +142,7 @@ fn look_of(quad: Quad) -> u32 {
     if max(across.x, across.y) >= EXTENT {
         return select(NONE, MANY, is_seen(area_of(quad.p, quad.q, quad.r)) || is_seen(area_of(quad.q, quad.s, quad.r)));
     }
-    return near_look_of(vec2<f32>(quad.p.place), vec2<f32>(quad.q.place), vec2<f32>(quad.r.place), vec2<f32>(quad.s.place));
+    return near_look_of(vec2<f32>(quad.p.place), vec2<f32>(quad.q.place), vec2<f32>(quad.r.place), vec2<f32>(quad.s.place), ALONE);
 }
 
 fn lowest(quad: Quad) -> vec2<i32> {
@@ -154,13 +154,13 @@ fn highest(quad: Quad) -> vec2<i32> {
 }
 
 // The same of a quad whose corners all have a place and lie less than EXTENT apart.
-fn near_look_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> u32 {
+fn near_look_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>, alone: i32) -> u32 {
     if !(near_may_show(p, q, r) | near_may_show(q, s, r) | (view.sees_inside != 0u)) {
         return NONE;
     }
-    let screen = view.size * 128.0;
-    let least = rounded(min(min(p, q), min(r, s)) + screen);
-    let most = rounded(max(max(p, q), max(r, s)) + screen);
+    // One more each way, in case that a compiler rounds otherwise where it is drawn.
+    let least = rounded(min(min(p, q), min(r, s))) + (middle() - 1);
+    let most = rounded(max(max(p, q), max(r, s))) + (middle() + 1);
     let pixels = pixels_of(least, most);
     let first = pixels.first;
     let last = pixels.last;
@@ -170,7 +170,7 @@ fn near_look_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> u32 {
     }
     if max(across.x, across.y) > 1 {
         let most_samples = 4 * (across.x + 1) * (across.y + 1);
-        return select(MANY, FEW, most_samples <= ALONE);
+        return select(MANY, FEW, most_samples <= alone);
     }
     // Most quads lie between samples.
     var samples = samples_between(least, most, first);
@@ -294,7 +294,7 @@ fn draw_alone(quad: Quad, look: u32, triangle: u32) {
         draw_together(quad.s, quad.r, quad.q, triangle + 1u, Lanes(0, 0, 1, 1));
         return;
     }
-    let first = pixels_of(lowest(quad) + middle(), highest(quad) + middle()).first;
+    let first = pixels_of(lowest(quad) + (middle() - 1), highest(quad) + middle()).first;
     for (var samples = look; samples != 0u; samples &= samples - 1u) {
         let sample = i32(firstTrailingBit(samples));
         let pixel = first + vec2((sample >> 2u) & 1, sample >> 3u);
@@ -347,7 +347,7 @@ fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
     let r = vec2<f32>(turned.r.place);
     let reach = reach_beside(reach_beside(reach_beside(vec2(-REACHED, REACHED), p, q, rows), q, r, rows), r, p, rows);
     // What floats leave out.
-    return reach + vec2(-16.0, 16.0);
+    return clamp(reach + vec2(-16.0, 16.0), vec2(-REACHED), vec2(REACHED));
 }
 
 // What an edge leaves of a reach. One that leads down has the triangle on its left, one that leads up on its right.

@@ -40,7 +40,11 @@ fn numbers_of_block() -> u32 {
 fn quad_at(number: u32) -> vec3<u32> {
     let ring = quotient(number, params.sides);
     let side = number - ring * params.sides;
-    return vec3(ring, side, select(side + 1u, 0u, side + 1u == params.sides));
+    return vec3(ring, side, side_beside(side));
+}
+
+fn side_beside(side: u32) -> u32 {
+    return select(side + 1u, 0u, side + 1u == params.sides);
 }
 
 // The screen's middle, 1/256 pixels from its left and upper edges.

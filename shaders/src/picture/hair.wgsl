@@ -51,7 +51,7 @@ fn seed_of(yarn: u32, ring: u32, hair: u32) -> u32 {
 // twist, forward or backward; then it bends at random and lies down. It never leads back through the plane that it left.
 fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     let side = min(u32(drawn(seed, 0u) * f32(params.sides)), params.sides - 1u);
-    let beside = select(side + 1u, 0u, side + 1u == params.sides);
+    let beside = side_beside(side);
     let point = mix(outlines[outline + side], outlines[outline + beside], drawn(seed, 1u));
     let start = position_at(here, point);
     let end = position_at(next, point);

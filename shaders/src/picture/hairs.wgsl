@@ -43,6 +43,11 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     if ((p.sides | q.sides) & BEYOND) != 0u {
         return;
     }
+    // Not just before the eye, where it would hide the cloth.
+    let plane = 1.0 / (view.local_from_clip * vec4(0.0, 0.0, 0.0, 1.0)).w;
+    if min(start_clip.w, end_clip.w) < 0.5 * plane {
+        return;
+    }
     // The view is as deep as yarns are, and hairs stand off them: what lies beyond its ends is drawn there.
     let depths = clamp(vec2(p.depth, q.depth), vec2(0.0), vec2(DEEPEST));
     let reach = half_width_at(0.5 * (start_clip.w + end_clip.w));

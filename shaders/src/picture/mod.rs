@@ -3,7 +3,7 @@
 //! | file | entry points | work |
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
-//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before the next ten |
+//! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before all down to `resolve.wgsl` |
 //! | `cull.wgsl` | `cull`, `count_listed`, `count_left` | the blocks that the view may show |
 //! | `weights.wgsl` | | shares of a triangle's corners |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |

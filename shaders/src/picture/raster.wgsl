@@ -18,9 +18,11 @@ const SIDES_LOOKED = 6u;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
 
-// Quads that have samples, and above FOUND_SHIFT which.
+// Quads that have samples, and above FOUND_SHIFT which. That is enough for `raster_left`, too, whose workgroups have a ring each.
 const FOUND_SHIFT = 16u;
-var<workgroup> found: array<u32, RASTER_GROUP * SIDES_LOOKED>;
+const FOUND_MOST = RASTER_GROUP * SIDES_LOOKED;
+var<workgroup> found: array<u32, FOUND_MOST>;
+const_assert BLOCK_RINGS <= LEFT_SHARES && FOUND_MOST >= 256u;
 var<workgroup> found_count: atomic<u32>;
 // 1 where one of many samples is among them that were left out, else 0.
 var<workgroup> is_left: atomic<u32>;
@@ -92,10 +94,6 @@ fn quad_of(outline: u32, ring: u32, side: u32, beside: u32) -> Quad {
                 corner_of(tube_at(next, other)));
 }
 
-fn side_beside(side: u32) -> u32 {
-    return select(side + 1u, 0u, side + 1u == params.sides);
-}
-
 // Some sides of a ring that a lane looks at in one go: the ring of the block, the number of its first quad in `found`, and the sides.
 struct Stint {
     ring: u32,
@@ -128,7 +126,7 @@ fn note_few(outline: u32, at: Stint) {
         let point = outlines[outline + side_beside(side)].xy;
         let q = near_place(here, point);
         let s = near_place(next, point);
-        let look = near_look_of(p, q, r, s);
+        let look = near_look_of(p, q, r, s, ALONE);
         if look == MANY {
             atomicStore(&is_left, 1u);
         } else if look != NONE {
@@ -152,7 +150,12 @@ fn note_many(outline: u32, at: Stint) {
         if is_near {
             let own = outlines[outline + side].xy;
             let other = outlines[outline + side_beside(side)].xy;
-            is_wanted = near_look_of(near_place(here, own), near_place(here, other), near_place(next, own), near_place(next, other)) == MANY;
+            let p = near_place(here, own);
+            let q = near_place(here, other);
+            let r = near_place(next, own);
+            let s = near_place(next, other);
+            // Some fewer, in case that a compiler rounds otherwise here: twice does no harm.
+            is_wanted = near_look_of(p, q, r, s, ALONE - 128) == MANY;
         } else {
             is_wanted = look_of(quad_of(outline, at.ring, side, side_beside(side))) != NONE;
         }

@@ -35,15 +35,22 @@ struct Stances {
     next: Stance,
 }
 
-// Both lie in one interval, or at its ends.
-fn stances_at(block: Block, ring: u32) -> Stances {
+// Both lie in one interval, or at its ends: the spline is the same there as in the next interval, but where it comes to rest and turns round.
+fn stances_at(yarn: YarnRow, block: Block, ring: u32) -> Stances {
     let per_interval = params.subdivisions + 1u;
     let place = block.first_ring % per_interval + ring;
     let interval = quotient(place, per_interval);
     let part = place - interval * per_interval;
     let segment = segment_new(block.first_point + interval, params.s);
     let here = segment_sample(segment, f32(part) * params.step);
-    let next = segment_sample(segment, f32(part + 1u) * params.step);
+    let ends_interval = part + 1u == per_interval;
+    let arrival = segment.c1.xyz + segment.c2.xyz * 2.0 + segment.c3.xyz * 3.0;
+    var next: Sample;
+    if ends_interval && dot(arrival, arrival) <= segment.at_rest {
+        next = ring_sample(yarn, block, ring + 1u).sample;
+    } else {
+        next = segment_sample(segment, select(f32(part + 1u) * params.step, 1.0, ends_interval));
+    }
     return Stances(stance_of_sample(here, roll_of(block.chunk_ring + ring)),
                    stance_of_sample(next, roll_of(block.chunk_ring + ring + 1u)));
 }
@@ -75,7 +82,7 @@ fn tube_at(row: u32, number: u32, place: vec2<i32>) -> vec4<u32> {
     let ring = at.x;
     let side = at.y;
     let beside = at.z;
-    let stances = stances_at(block, ring);
+    let stances = stances_at(yarn, block, ring);
     let outline = yarn.section * params.sides;
     let own = outlines[outline + side];
     let other = outlines[outline + beside];
@@ -125,7 +132,7 @@ fn hair_at(number: u32) -> vec4<u32> {
     let ring = noted / HAIRS_OF_GAP;
     let yarn = yarns[block.yarn];
     let seed = seed_of(block.yarn, block.first_ring + ring, noted % HAIRS_OF_GAP);
-    let stances = stances_at(block, ring);
+    let stances = stances_at(yarn, block, ring);
     let hair = hair_new(seed, yarn.section * params.sides, stances.here, stances.next);
     let direction = hair_direction(hair, part);
     let to_eye = view.eye.xyz - (hair.root - view.target_point) * view.eye.w;

@@ -36,15 +36,6 @@ fn screen_scale() -> vec4<f32> {
     return vec4(vec2(0.5, -0.5) * SUBPIXELS * view.size, 1.0, 1.0);
 }
 
-// Where that is on the screen, before it is rounded.
-fn place_of(xy: vec2<f32>, w: f32) -> vec2<f32> {
-    // In a parallel view w is 1 everywhere.
-    if view.eye.w == 0.0 {
-        return xy;
-    }
-    return xy * (1.0 / w);
-}
-
 // Next to 3 * 2^22 floats lie 1 apart, and their last bits count them: so a sum rounds. A conversion takes a GPU eight times as long.
 const ROUNDER = 12582912.0;
 const ROUNDER_BITS = 0x4b400000;
@@ -52,6 +43,16 @@ const ROUNDER_BITS = 0x4b400000;
 // The nearest whole numbers, up to REACHED.
 fn rounded(place: vec2<f32>) -> vec2<i32> {
     return bitcast<vec2<i32>>(place + ROUNDER) - ROUNDER_BITS;
+}
+
+// Where that is on the screen, in whole numbers.
+fn place_of(xy: vec2<f32>, w: f32) -> vec2<f32> {
+    // In a parallel view w is 1 everywhere.
+    if view.eye.w == 0.0 {
+        return (xy + ROUNDER) - ROUNDER;
+    }
+    // A sum might be fused with the product in one place and not in another, and round otherwise there.
+    return round(xy * (1.0 / w));
 }
 
 fn corner_of(at: vec4<f32>) -> Corner {

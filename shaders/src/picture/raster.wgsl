@@ -82,7 +82,7 @@ fn are_near(one: Disc, other: Disc) -> bool {
 // Where a corner is, in whole numbers.
 fn near_place(axes: Axes, point: vec2<f32>) -> vec2<f32> {
     let xyw = axes.centre.xyw + (axes.x.xyw * point.x + axes.y.xyw * point.y);
-    return (place_of(xyw.xy, xyw.z) + ROUNDER) - ROUNDER;
+    return place_of(xyw.xy, xyw.z);
 }
 
 fn quad_of(outline: u32, ring: u32, side: u32, beside: u32) -> Quad {

@@ -162,9 +162,8 @@ fn near_look_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>, alone: i
     // One more each way, in case that a compiler rounds otherwise where it is drawn.
     let least = rounded(min(min(p, q), min(r, s))) + (middle() - 1);
     let most = rounded(max(max(p, q), max(r, s))) + (middle() + 1);
-    let pixels = pixels_of(least, most);
-    let first = pixels.first;
-    let last = pixels.last;
+    let first = first_pixel(least);
+    let last = last_pixel(most);
     let across = last - first;
     if min(across.x, across.y) < 0 {
         return NONE;
@@ -187,16 +186,14 @@ fn near_look_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>, alone: i
     return samples;
 }
 
-// The pixels of the band between `least` and `most`, 1/256 pixels from the screen's upper left corner.
-struct Pixels {
-    first: vec2<i32>,
-    last: vec2<i32>,
+// The first pixel of the band from `least` on, 1/256 pixels from the screen's upper left corner.
+fn first_pixel(least: vec2<i32>) -> vec2<i32> {
+    return max(least >> vec2(8u), vec2(0, i32(sweep.first_row)));
 }
 
-fn pixels_of(least: vec2<i32>, most: vec2<i32>) -> Pixels {
-    let last_row = i32(sweep.first_row + sweep.rows) - 1;
-    return Pixels(max(least >> vec2(8u), vec2(0, i32(sweep.first_row))),
-                  min(most >> vec2(8u), vec2(i32(view.size.x) - 1, last_row)));
+// The last one up to `most`.
+fn last_pixel(most: vec2<i32>) -> vec2<i32> {
+    return min(most >> vec2(8u), vec2(i32(view.size.x) - 1, i32(sweep.first_row + sweep.rows) - 1));
 }
 
 // The samples of a pixel that lie between `least` and `most`, likewise, a bit each.
@@ -295,7 +292,8 @@ fn draw_alone(quad: Quad, look: u32, triangle: u32) {
         draw_together(quad.s, quad.r, quad.q, triangle + 1u, Lanes(0, 0, 1, 1));
         return;
     }
-    let first = pixels_of(lowest(quad) + (middle() - 1), highest(quad) + middle()).first;
+    // The pixel that `near_look_of` has begun at.
+    let first = first_pixel(lowest(quad) + (middle() - 1));
     for (var samples = look; samples != 0u; samples &= samples - 1u) {
         let sample = i32(firstTrailingBit(samples));
         let pixel = first + vec2((sample >> 2u) & 1, sample >> 3u);
@@ -308,8 +306,8 @@ fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
     let place = sample_place(x, row);
     if view.sees_inside != 0u {
         // A quad that is folded may show both.
-        offer_covered(turned(quad.p, quad.q, quad.r), x, row, triangle);
-        offer_covered(turned(quad.s, quad.r, quad.q), x, row, triangle + 1u);
+        offer_covered(turned(quad.p, quad.q, quad.r), place, x, row, triangle);
+        offer_covered(turned(quad.s, quad.r, quad.q), place, x, row, triangle + 1u);
         return;
     }
     let diagonal = quad.q.place - quad.r.place;
@@ -318,11 +316,12 @@ fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
     if is_first {
         seen = Turned(quad.p, quad.r, quad.q, true);
     }
-    offer_covered(seen, x, row, select(triangle + 1u, triangle, is_first));
+    offer_covered(seen, place, x, row, select(triangle + 1u, triangle, is_first));
 }
 
-fn offer_covered(turned: Turned, x: i32, row: i32, triangle: u32) {
-    let coverage = coverage_of(turned, sample_place(x, row));
+// Offers a triangle in a sample that lies at `place`, where it covers it.
+fn offer_covered(turned: Turned, place: vec2<i32>, x: i32, row: i32, triangle: u32) {
+    let coverage = coverage_of(turned, place);
     if turned.is_seen && coverage.is_covered {
         offer_at(x, row, coverage.depth, triangle);
     }

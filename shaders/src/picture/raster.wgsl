@@ -42,21 +42,6 @@ fn lanes_of(lane: u32, lanes: u32) -> Lanes {
     return Lanes(i32(lane % 8u), i32(lane / 8u), 8, i32(lanes / 8u));
 }
 
-// A lane's share of rings: a ring, and some of its sides.
-struct RingShare {
-    ring: u32,
-    first_side: u32,
-    end_side: u32,
-}
-
-fn ring_share(lane: u32, lanes: u32, rings: u32) -> RingShare {
-    let parts = max(lanes / rings, 1u);
-    let part = quotient(lane, rings);
-    let first = part * params.sides / parts;
-    let end = (part + 1u) * params.sides / parts;
-    return RingShare(lane - part * rings, select(0u, first, part < parts), select(0u, end, part < parts));
-}
-
 // A ring on the screen: where its middle is, and how far its corners lie from there at most.
 struct Disc {
     place: vec2<f32>,
@@ -103,9 +88,18 @@ struct Stint {
 }
 
 fn stint_of(first_ring: u32, rings: u32, stint: u32, lane: u32, lanes: u32) -> Stint {
-    let share = ring_share(lane, lanes, rings);
-    let first = share.first_side + stint * SIDES_LOOKED;
-    return Stint(first_ring + share.ring, share.ring * params.sides, first, min(share.end_side, first + SIDES_LOOKED));
+    let parts = parts_of(rings, lanes);
+    let part = quotient(lane, rings);
+    let ring = lane - part * rings;
+    let first = part * params.sides / parts + stint * SIDES_LOOKED;
+    // Lanes that are left over get none.
+    let end = select(0u, (part + 1u) * params.sides / parts, part < parts);
+    return Stint(first_ring + ring, ring * params.sides, first, min(end, first + SIDES_LOOKED));
+}
+
+// Lanes that share a ring's sides, of so many that have so many rings.
+fn parts_of(rings: u32, lanes: u32) -> u32 {
+    return max(lanes / rings, 1u);
 }
 
 // Notes those of its quads that have few samples, and whether others may have many.
@@ -170,7 +164,7 @@ fn stints_for(rings: u32, lanes: u32) -> u32 {
     if rings == 0u {
         return 0u;
     }
-    let parts = max(lanes / rings, 1u);
+    let parts = parts_of(rings, lanes);
     let most = (params.sides + parts - 1u) / parts;
     return (most + SIDES_LOOKED - 1u) / SIDES_LOOKED;
 }

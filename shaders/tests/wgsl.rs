@@ -53,13 +53,14 @@ fn what_unpacks_stands_alone_in_a_vertex_shader() {
 
 #[test]
 fn picture_shaders_have_their_entry_points() {
-    for (source, entries) in [
-        (picture::KEPT, &[][..]),
-        (picture::VISIBILITY, &["visibility"]),
-        (picture::SHADE, &["shade"]),
-        (picture::GATHER, &["gather"]),
+    for (before, source, entries) in [
+        ("", picture::KEPT, &[][..]),
+        ("", picture::VISIBILITY, &["visibility"]),
+        (picture::far(false), picture::SHADE, &["shade"]),
+        (picture::far(true), picture::SHADE, &["shade"]),
+        ("", picture::GATHER, &["gather"]),
     ] {
-        let (module, _) = parse_source(source);
+        let (module, _) = parse_source(&(before.to_owned() + source));
         let names: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
         assert_eq!(names, entries);
     }

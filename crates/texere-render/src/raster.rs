@@ -30,7 +30,8 @@ struct Sweep {
 
 const _: () = assert!(size_of::<Sweep>() == 32);
 
-/// Most blocks of a chunk on a GPU of its own memory: some sixty million rings, which take it a hundredth of a second. Each further chunk costs a look at all samples.
+/// Most blocks of a chunk, some sixty million rings, on CPUs and on GPUs with memory of their own, which take a hundredth of a second for it. GPUs of
+/// other kinds get smaller chunks, so that the desktop does not wait for them. Each chunk costs a look at all samples.
 const BLOCKS_MOST: u64 = 1 << 20;
 
 /// Blocks of a workgroup of `cull.wgsl`: `CULL_GROUP / BLOCK_LANES`.
@@ -83,11 +84,15 @@ impl Raster {
         // A row has two caps at most, each with as many numbers as a block.
         let hairs = if hairs::any(yarns) { hairs::OF_BLOCK } else { 0 };
         let numbered = u64::from(u32::MAX) / (3 * triangles + hairs);
-        let points = u64::from(BLOCK_RINGS) / (u64::from(settings.subdivisions) + 1) + 24;
+        // Those that a block's rings read, and at most three more: of the yarn's ends, or its neighbours'.
+        let points = u64::from(BLOCK_RINGS.div_ceil(settings.subdivisions + 1)) + 3;
         // A caller's own limit stands.
-        let is_fast = device.kind == DeviceKind::DiscreteGpu && device.limits.blocks == LAUNCH_BLOCKS;
+        let kinds = [DeviceKind::DiscreteGpu, DeviceKind::Cpu];
+        let is_fast = kinds.contains(&device.kind) && device.limits.blocks == LAUNCH_BLOCKS;
         let blocks = if is_fast { BLOCKS_MOST } else { device.limits.blocks };
-        let bound = device.limits.binding_bytes / (points * size_of::<ControlPoint>() as u64);
+        // A window begins and ends a little before and behind them.
+        let bound =
+            (device.limits.binding_bytes / size_of::<ControlPoint>() as u64).saturating_sub(32) / points;
         Limits { blocks: numbered.min(bound).min(blocks).max(2), ..Limits::NONE }
     }
 

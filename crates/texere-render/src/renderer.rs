@@ -1,6 +1,6 @@
 //! The pipelines: yarns, visibility, light, pixels.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use texere_core::{Backend, BackendError, DeviceInfo};
 use texere_shaders::picture;
@@ -31,7 +31,8 @@ pub struct Renderer {
     pub(crate) device: WgpuBackend,
     pub(crate) rasteriser: Arc<Rasteriser>,
     pub(crate) visibility: wgpu::ComputePipeline,
-    pub(crate) shade: wgpu::ComputePipeline,
+    /// For near views and for far ones, each compiled where it is wanted first.
+    shade: Arc<[OnceLock<wgpu::ComputePipeline>; 2]>,
     pub(crate) gather: wgpu::ComputePipeline,
     /// That of the last picture.
     screen: Arc<Mutex<Option<Arc<Screen>>>>,
@@ -47,16 +48,31 @@ impl Renderer {
     }
 
     pub(crate) fn with_rasteriser(device: WgpuBackend, rasteriser: Rasteriser) -> Result<Self, BackendError> {
-        let [visibility, shade, gather] = device.scoped("Device::create_compute_pipeline", || {
+        let [visibility, gather] = device.scoped("Device::create_compute_pipeline", || {
             let device = device.device();
             [
                 pipeline(device, &module(device, picture::VISIBILITY), "visibility"),
-                pipeline(device, &module(device, picture::SHADE), "shade"),
                 pipeline(device, &module(device, picture::GATHER), "gather"),
             ]
         })?;
-        let (rasteriser, screen) = (Arc::new(rasteriser), Arc::default());
+        let (rasteriser, shade, screen) = (Arc::new(rasteriser), Arc::default(), Arc::default());
         Ok(Self { device, rasteriser, visibility, shade, gather, screen })
+    }
+
+    /// What lights samples.
+    ///
+    /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
+    pub(crate) fn shade(&self, is_far: bool) -> Result<&wgpu::ComputePipeline, BackendError> {
+        let place = &self.shade[usize::from(is_far)];
+        if let Some(compiled) = place.get() {
+            return Ok(compiled);
+        }
+        let compiled = self.device.scoped("Device::create_compute_pipeline", || {
+            let device = self.device.device();
+            pipeline(device, &module(device, picture::far(is_far).to_owned() + picture::SHADE), "shade")
+        })?;
+        // Another scene may have been faster.
+        Ok(place.get_or_init(|| compiled))
     }
 
     /// What a picture of this size is drawn into: that of the last one where it fits and no scene has it any more. A device takes longer to

@@ -102,6 +102,8 @@ pub struct Scene {
     pub(crate) view: wgpu::Buffer,
     background: Background,
     pub(crate) screen: Option<Arc<Screen>>,
+    /// Whether the last picture's yarns are finer than visibility is found for.
+    is_far: bool,
     /// Of the last picture.
     pub(crate) camera: Option<Camera>,
 }
@@ -171,6 +173,7 @@ impl Renderer {
             view: buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?,
             background: Background::Ground,
             screen: None,
+            is_far: false,
             camera: None,
             chunks: chunks?,
             limits,
@@ -258,6 +261,7 @@ impl Scene {
         self.camera = Some(camera.clone());
         let view = ViewUniform::new(camera, self.background, supersampling, hairs && self.raster.is_hairy());
         self.raster.has_hairs = view.has_hairs();
+        self.is_far = view.is_far();
         self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
         Ok(texture)
     }
@@ -321,7 +325,7 @@ impl Scene {
         ];
         let lit = [(5, self.looks.as_entire_binding()), (6, texture(&screen.lit))];
         let gathered = [kept[0].clone(), (1, texture(&screen.lit)), (2, texture(&screen.picture))];
-        let device = &renderer.device;
+        let (device, shade) = (&renderer.device, renderer.shade(self.is_far)?);
         let submission = device.scoped("Queue::submit", || {
             let mut encoder = device.device().create_command_encoder(&Default::default());
             {
@@ -332,8 +336,10 @@ impl Scene {
                     let [columns, rows] = size.map(|pixels| pixels.div_ceil(SCREEN_GROUP));
                     pass.dispatch_workgroups(columns, rows, 1);
                 };
-                fill(&renderer.visibility, &kept, screen.large());
-                fill(&renderer.shade, &[&kept[..], &lit].concat(), screen.large());
+                if !self.is_far {
+                    fill(&renderer.visibility, &kept, screen.large());
+                }
+                fill(shade, &[&kept[..], &lit].concat(), screen.large());
                 fill(&renderer.gather, &gathered, screen.size());
             }
             device.queue().submit([encoder.finish()])

@@ -16,6 +16,9 @@ const SHADOW_RADII: f32 = 9.0;
 /// How thick what casts a shadow is taken to be, radii of a yarn: two yarns, one on the other.
 const THICKNESS_RADII: f32 = 4.0;
 
+/// Where what ambient occlusion looks at is fewer pixels across, there is nothing on the screen to find.
+const LEAST_REACH: f32 = 1.5;
+
 /// `View` of `view.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -89,6 +92,11 @@ impl ViewUniform {
     /// Whether fibres that stand off yarns are shown.
     pub(crate) const fn has_hairs(&self) -> bool {
         self.has_hairs != 0
+    }
+
+    /// Whether yarns are too fine for what takes light from them to be found on the screen.
+    pub(crate) fn is_far(&self) -> bool {
+        self.reach_pixels < LEAST_REACH
     }
 }
 

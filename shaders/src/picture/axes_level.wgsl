@@ -6,9 +6,12 @@ fn held_axes(ring: u32) -> Axes {
     return held[ring];
 }
 
-// Puts the rings of a block there: a lane a ring. A barrier must come before they are read.
-fn project_block(block: Block, lane: u32) {
+// Puts the rings of a block there: a lane a ring, which it gives. A barrier must come before others are read.
+fn project_block(block: Block, lane: u32) -> Axes {
+    var own: Axes;
     if lane <= block.quads {
-        held[lane] = axes_of(stance_of_sample(ring_sample(yarns[block.yarn], block, lane).sample, 0u));
+        own = axes_of(stance_of_sample(ring_sample(yarns[block.yarn], block, lane).sample, 0u));
+        held[lane] = own;
     }
+    return own;
 }

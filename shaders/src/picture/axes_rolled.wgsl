@@ -5,14 +5,16 @@ fn held_axes(ring: u32) -> Axes {
     return Axes(standing.centre[ring], standing.tangent[ring], standing.side[ring]);
 }
 
-// Puts the rings of a block there: a lane a ring. Every lane must come here, and a barrier before they are read.
-fn project_block(block: Block, lane: u32) {
+// Puts the rings of a block there: a lane a ring, which it gives. Every lane must come here, and a barrier before others are read.
+fn project_block(block: Block, lane: u32) -> Axes {
+    var own: Axes;
     block_rings(yarns[block.yarn], block, lane);
     if lane < rings_made(block) {
         ring_rolls[block.chunk_ring + lane] = standing.roll[lane];
-        let axes = axes_of(stance_of(lane));
-        standing.centre[lane] = axes.centre;
-        standing.tangent[lane] = axes.x;
-        standing.side[lane] = axes.y;
+        own = axes_of(stance_of(lane));
+        standing.centre[lane] = own.centre;
+        standing.tangent[lane] = own.x;
+        standing.side[lane] = own.y;
     }
+    return own;
 }

@@ -101,13 +101,19 @@ pub const fn hairy(hairs: bool) -> &'static str {
 pub const VISIBILITY: &str =
     concat!(include_str!("view.wgsl"), include_str!("screen.wgsl"), include_str!("visibility.wgsl"));
 
-/// `shade`.
+/// `shade`, behind [`far`].
 pub const SHADE: &str = concat!(
     include_str!("view.wgsl"),
     include_str!("screen.wgsl"),
     include_str!("lit.wgsl"),
     include_str!("shade.wgsl")
 );
+
+/// What stands before [`SHADE`]: whether yarns are too fine for `visibility`, which then has no part in the picture.
+#[must_use]
+pub const fn far(far: bool) -> &'static str {
+    if far { "const FAR = true;\n" } else { "const FAR = false;\n" }
+}
 
 /// `gather`.
 pub const GATHER: &str =

@@ -102,32 +102,45 @@ fn parts_of(rings: u32, lanes: u32) -> u32 {
     return max(lanes / rings, 1u);
 }
 
-// Notes those of its quads that have few samples, and whether others may have many.
-fn note_few(outline: u32, at: Stint) {
+// Notes those of its quads that have few samples, and whether others may have many. `here` are the axes of its ring.
+fn note_few(outline: u32, at: Stint, here: Axes) {
     if at.first_side >= at.end_side {
         return;
     }
-    let here = held_axes(at.ring);
     let next = held_axes(at.ring + 1u);
     if !are_near(disc_of(here), disc_of(next)) {
         atomicStore(&is_left, 1u);
         return;
     }
+    // What has been found: 16 bits for each side, two sides in a number, and a bit for each that has any.
+    var looks = vec3(0u);
+    var noted = 0u;
+    var has_many = false;
     let point = outlines[outline + at.first_side].xy;
     var p = near_place(here, point);
     var r = near_place(next, point);
-    for (var side = at.first_side; side < at.end_side; side++) {
-        let point = outlines[outline + side_beside(side)].xy;
+    for (var k = 0u; k < at.end_side - at.first_side; k++) {
+        let point = outlines[outline + side_beside(at.first_side + k)].xy;
         let q = near_place(here, point);
         let s = near_place(next, point);
         let look = near_look_of(p, q, r, s, ALONE);
-        if look == MANY {
-            atomicStore(&is_left, 1u);
-        } else if look != NONE {
-            found[atomicAdd(&found_count, 1u)] = (at.first_number + side) | (look << FOUND_SHIFT);
-        }
+        has_many |= look == MANY;
+        let few = look & FEW;
+        looks |= select(vec3(0u), vec3(few << (16u * (k & 1u))), vec3(k / 2u) == vec3(0u, 1u, 2u));
+        noted |= select(0u, 1u << k, few != 0u);
         p = q;
         r = s;
+    }
+    if has_many {
+        atomicStore(&is_left, 1u);
+    }
+    var place = atomicAdd(&found_count, countOneBits(noted));
+    for (; noted != 0u; noted &= noted - 1u) {
+        let k = firstTrailingBit(noted);
+        let pair = select(select(looks.x, looks.y, k >= 2u), looks.z, k >= 4u);
+        let look = (pair >> (16u * (k & 1u))) & FEW;
+        found[place] = (at.first_number + at.first_side + k) | (look << FOUND_SHIFT);
+        place++;
     }
 }
 
@@ -187,18 +200,19 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
         return;
     }
     let row = listed.rows[number];
-    project_block(blocks[row], lane);
+    let own = project_block(blocks[row], lane);
     if lane == 0u {
         atomicStore(&is_left, 0u);
         atomicStore(&found_count, 0u);
     }
     workgroupBarrier();
     let outline = yarns[blocks[row].yarn].section * params.sides;
-    let rings = blocks[row].quads;
     let base = row * numbers_of_block();
-    let stints = stints_for(rings, RASTER_GROUP);
-    for (var stint = 0u; stint < stints; stint++) {
-        note_few(outline, stint_of(0u, rings, stint, lane, RASTER_GROUP));
+    // Lanes that have no ring look at no sides.
+    let sides = select(0u, params.sides, lane < blocks[row].quads);
+    for (var first_side = 0u; first_side < params.sides; first_side += SIDES_LOOKED) {
+        let end_side = min(sides, first_side + SIDES_LOOKED);
+        note_few(outline, Stint(lane, lane * params.sides, first_side, end_side), own);
         workgroupBarrier();
         let count = atomicLoad(&found_count);
         for (var k = lane; k < count; k += RASTER_GROUP) {
@@ -206,7 +220,7 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
             let at = quad_at(number);
             draw_alone(quad_of(outline, at.x, at.y, at.z), found[k] >> FOUND_SHIFT, base + 2u * number);
         }
-        if stint + 1u < stints {
+        if first_side + SIDES_LOOKED < params.sides {
             empty_found(lane);
         }
     }
@@ -225,7 +239,7 @@ fn raster_left(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
     }
     let row = listed.rows[params.blocks + number / LEFT_SHARES];
     let share = number % LEFT_SHARES;
-    project_block(blocks[row], lane);
+    _ = project_block(blocks[row], lane);
     if lane == 0u {
         atomicStore(&is_left, 0u);
         atomicStore(&found_count, 0u);

@@ -153,36 +153,85 @@ fn kept_of_number(number: u32, place: vec2<i32>) -> vec4<u32> {
     return cap_at(row - params.blocks, triangle, place);
 }
 
-// A lane a pixel: its samples, where they are nearer than what earlier chunks left.
-@compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
-fn resolve(@builtin(global_invocation_id) place: vec3<u32>) {
+// What a workgroup works out: samples of its pixels, each for itself and those of its pixel that show the same. The pixel's lane is in the
+// lowest bits, then the sample, then a bit for each sample of the pixel that shows anything, then one for each that is listed.
+const RESOLVE_GROUP = SCREEN_GROUP * SCREEN_GROUP;
+const SAMPLE_SHIFT = 6u;
+const SHOWN_SHIFT = 8u;
+const LISTED_SHIFT = 12u;
+const_assert RESOLVE_GROUP <= 1u << SAMPLE_SHIFT && SAMPLES == 4;
+var<workgroup> wanted: array<u32, RESOLVE_GROUP * 4u>;
+var<workgroup> wanted_count: atomic<u32>;
+
+// Lists the samples of a lane's pixel where they are nearer than what earlier chunks left, and keeps their depths.
+fn list_wanted(place: vec2<u32>, lane: u32) {
     let pixel = vec2(place.x, place.y + sweep.first_row);
-    if place.x >= u32(view.size.x) || place.y >= sweep.rows {
-        return;
-    }
+    var shown = 0u;
+    var own = 0u;
     var last = 0u;
-    var kept = vec4(0u);
-    for (var sample = 0; sample < SAMPLES; sample++) {
-        let key = keys[key_at(place.x, place.y, u32(sample))];
+    for (var sample = 0u; sample < u32(SAMPLES); sample++) {
+        let key = keys[key_at(place.x, place.y, sample)];
         var nearest = 1.0;
         if sweep.is_first == 0u {
             nearest = textureLoad(depths, pixel, sample).x;
         }
         let depth = select(bitcast<f32>(~key.y), 1.0, key.y == 0u);
-        if depth < nearest {
-            // In the pixel's middle, as rasterisers do: so samples of one triangle in a pixel are alike. Where triangles are finer than pixels each
-            // has its own place, for the middle lies far outside, and the pattern of middles would beat with them.
-            if view.spread > 0.0 || key.x != last {
-                let middle_of_pixel = vec2<i32>(pixel) * 256 + 128 - middle();
-                let own = sample_place(i32(pixel.x), i32(4u * pixel.y) + sample);
-                kept = kept_of_number(~key.x, select(middle_of_pixel, own, view.spread > 0.0));
-                last = key.x;
-            }
-            textureStore(directions, pixel, sample, vec4(kept.xy, 0u, 0u));
-            textureStore(places, pixel, sample, vec4(kept.zw, 0u, 0u));
-        }
         if depth < nearest || sweep.is_first != 0u {
             textureStore(depths, pixel, sample, vec4(min(depth, nearest), 0.0, 0.0, 0.0));
+        }
+        if depth < nearest {
+            shown |= 1u << sample;
+            // Samples of one triangle in a pixel are alike, but where each has its own place.
+            if view.spread > 0.0 || key.x != last {
+                own |= 1u << sample;
+                last = key.x;
+            }
+        }
+    }
+    var place_in_list = atomicAdd(&wanted_count, countOneBits(own));
+    for (var rest = own; rest != 0u; rest &= rest - 1u) {
+        wanted[place_in_list] = lane | (firstTrailingBit(rest) << SAMPLE_SHIFT) | (shown << SHOWN_SHIFT) | (own << LISTED_SHIFT);
+        place_in_list++;
+    }
+}
+
+// The samples that one of a list stands for, a bit each: from its own to the next that is listed.
+fn alike_of(sample: u32, entry: u32) -> u32 {
+    let shown = (entry >> SHOWN_SHIFT) & 15u;
+    let later = (entry >> LISTED_SHIFT) & (30u << sample);
+    let before_next = (later & (~later + 1u)) - 1u;
+    return shown & before_next & (15u << sample);
+}
+
+// A lane a pixel, then a lane a sample that is worked out: many show the same as the one before.
+@compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
+fn resolve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) own: vec3<u32>,
+           @builtin(local_invocation_index) lane: u32) {
+    if lane == 0u {
+        atomicStore(&wanted_count, 0u);
+    }
+    workgroupBarrier();
+    let corner = group.xy * SCREEN_GROUP;
+    let place = corner + own.xy;
+    if place.x < u32(view.size.x) && place.y < sweep.rows {
+        list_wanted(place, lane);
+    }
+    workgroupBarrier();
+    let count = atomicLoad(&wanted_count);
+    for (var k = lane; k < count; k += RESOLVE_GROUP) {
+        let entry = wanted[k];
+        let sample = (entry >> SAMPLE_SHIFT) & 3u;
+        let place = corner + vec2(entry % SCREEN_GROUP, (entry / SCREEN_GROUP) % SCREEN_GROUP);
+        let pixel = vec2<i32>(vec2(place.x, place.y + sweep.first_row));
+        // In the pixel's middle, as rasterisers do. Where triangles are finer than pixels each sample has its own place, for the middle lies far
+        // outside, and the pattern of middles would beat with them.
+        let middle_of_pixel = pixel * 256 + 128 - middle();
+        let at = select(middle_of_pixel, sample_place(pixel.x, 4 * pixel.y + i32(sample)), view.spread > 0.0);
+        let kept = kept_of_number(~keys[key_at(place.x, place.y, sample)].x, at);
+        for (var alike = alike_of(sample, entry); alike != 0u; alike &= alike - 1u) {
+            let layer = firstTrailingBit(alike);
+            textureStore(directions, pixel, layer, vec4(kept.xy, 0u, 0u));
+            textureStore(places, pixel, layer, vec4(kept.zw, 0u, 0u));
         }
     }
 }

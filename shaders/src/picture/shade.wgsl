@@ -1,4 +1,5 @@
-// Lights what is seen, sample by sample, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl.
+// Lights what is seen, sample by sample, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl, and after FAR: true where what lies about a
+// place is no wider than a pixel, so that the screen does not show what takes light from it.
 
 // Rust: texere_render's YarnLook, 32 bytes.
 struct YarnLook {
@@ -146,8 +147,14 @@ fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
     return mix(color * (pressed / peak), vec3(pressed), pale);
 }
 
+// What is visible on yarns on the average: of all round, and of the key light.
+const AVERAGE = vec2(0.8, 0.85);
+
 // Both visibilities: the mean of the four by four pixels about that lie in the surface's plane, or near it.
 fn visibility_of(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
+    if FAR {
+        return select(vec2(1.0), AVERAGE, here.is_yarn);
+    }
     let last = vec2<i32>(view.size) - 1;
     var sum = vec2(0.0);
     var weights = 0.0;

@@ -11,10 +11,6 @@ const LIGHT_RADIUS = 0.13;
 // Turns of the spiral that the taps lie on, prime to their number.
 const SPIRAL_TURNS = 9.0;
 
-// Below this many pixels there is nothing to find, and yarns' average is returned.
-const LEAST_PIXELS = 1.5;
-const AVERAGE = vec2(0.8, 0.85);
-
 // The depth of a yarn's body in a pixel, 1 where there is none. Single fibres are far thinner than what is taken to lie in the way of light.
 fn body_depth_at(pixel: vec2<i32>) -> f32 {
     let is_hair = view.has_hairs != 0u && (textureLoad(places, pixel, 0, 0).x & HAIR) != 0u;
@@ -89,9 +85,6 @@ fn visibility_at(pixel: vec2<i32>) -> vec2<f32> {
     let here = surface_at(pixel, 0);
     if !here.is_yarn && !here.is_ground {
         return vec2(1.0);
-    }
-    if view.reach_pixels < LEAST_PIXELS {
-        return select(vec2(1.0), AVERAGE, here.is_yarn);
     }
     let phase = f32(phase(vec2<u32>(pixel)));
     return vec2(ambient(here, pixel, phase / 16.0), lit(here, phase));

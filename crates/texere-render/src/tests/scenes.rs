@@ -4,10 +4,14 @@ use std::f64::consts::FRAC_PI_3;
 use std::sync::Arc;
 
 use glam::DVec3;
-use texere_core::{Layout, Placement, Plan, Ray, Settings, Topology, Yarn, Yarns};
+use texere_core::{
+    Backend, ControlPoint, DeviceInfo, DeviceKind, Layout, Limits, Placement, Plan, Ray, Settings, Topology,
+    Yarn, Yarns,
+};
 use texere_cpu::Picker;
 
 use super::{SETTINGS, SIZE, TWILL, renderer, two_yarns};
+use crate::raster::Raster;
 use crate::{Background, Camera, Extent, Picture, Pose, Quality, RenderError, Scene};
 
 /// Two cloths of warp in red and green and weft in blue, one beside the other, turned and larger.
@@ -266,5 +270,34 @@ fn eyes_that_see_nothing_are_refused() {
     for value in [0.0, -1.0, f32::NAN, f32::INFINITY] {
         let refused = Camera::orthographic(&extent, &good, value, SIZE);
         assert!(matches!(refused, Err(RenderError::Camera { .. })), "{value}");
+    }
+}
+
+/// A chunk's control points are bound as one piece, which must fit whatever yarns it is cut from.
+#[test]
+fn chunks_of_pictures_fit_a_binding() {
+    const BYTES: u64 = 1 << 17;
+    let info = renderer().lock().unwrap().info().clone();
+    // Yarns of all lengths, and then those that are one block each and have as many points as such a yarn can.
+    let counts = [&[3, 64, 65, 66, 130, 500, 4, 3, 3, 2000][..], &[63], &[64], &[31], &[8]];
+    for (counts, closed) in counts.iter().flat_map(|counts| [(counts, false), (counts, true)]) {
+        let mut yarns = Yarns::builder();
+        for &count in counts.iter().cycle().take(400) {
+            let points: Vec<_> = (0..count).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
+            yarns.yarn(Yarn { closed, ..Yarn::default() }, &points);
+        }
+        let yarns = yarns.build().unwrap();
+        for subdivisions in [0, 1, 7, 200] {
+            let settings = Settings { subdivisions, ..SETTINGS };
+            let plan = Plan::new(yarns.layout().clone(), settings).unwrap();
+            let kind = DeviceKind::DiscreteGpu;
+            let limits = Limits { binding_bytes: BYTES, ..Limits::NONE };
+            let device = DeviceInfo { kind, limits, ..info.clone() };
+            let limits = Raster::chunk_limits(&plan, &yarns, &device);
+            let windows = plan.chunks(&limits).unwrap().map(|chunk| chunk.window());
+            let bytes = windows.map(|window| (window.end - window.start) * size_of::<ControlPoint>() as u64);
+            let most = bytes.max().unwrap();
+            assert!(most <= BYTES, "{counts:?} {closed} {subdivisions} {most}");
+        }
     }
 }

@@ -269,11 +269,6 @@ impl Camera {
         self.size
     }
 
-    /// Whether the inside of yarns can be seen, at ends or where they are cut.
-    pub(crate) fn sees_inside(&self) -> bool {
-        self.cuts || matches!(self.projection, Projection::Perspective { .. })
-    }
-
     /// The picture's right and up.
     pub(crate) fn across(&self) -> [Vec3; 2] {
         across(self.up, self.toward)

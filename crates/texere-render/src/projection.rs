@@ -8,6 +8,9 @@ use texere_core::Ray;
 use crate::Camera;
 use crate::camera::Projection;
 
+/// The near plane is at least this share of the way to the target before the eye, so that the far end keeps enough depth resolution.
+const NEAREST: f64 = 0.02;
+
 impl Camera {
     /// The matrix from the cloth's coordinates, mm, to clip space as wgpu has it: x to the right and y up from -1 to 1, depth from 0 at
     /// the near plane to 1 at the far one, which stand as near to the cloth as may be.
@@ -77,6 +80,27 @@ impl Camera {
         [f64::from(near + spare), f64::from(far - spare)]
     }
 
+    /// Whether the inside of yarns can be seen: where they are cut, or where the near plane may go through them. They are closed at their ends.
+    pub(crate) fn sees_inside(&self) -> bool {
+        let Projection::Perspective { distance, field_of_view } = self.projection else { return self.cuts };
+        let eye = f64::from(distance);
+        if eye - self.depths()[0] >= eye * NEAREST {
+            // All of the cloth lies behind it.
+            return false;
+        }
+        // The box round what is seen of the plane against the cloth's.
+        let [right, above] = self.across().map(|axis| axis.as_dvec3().normalize());
+        let (target, toward) = (self.target.as_dvec3(), self.toward.as_dvec3().normalize());
+        let middle = target + toward * (eye * (1.0 - NEAREST));
+        let half = eye * NEAREST * (0.5 * f64::from(field_of_view)).tan();
+        let reach = right.abs() * (half * f64::from(self.aspect()))
+            + above.abs() * half
+            + DVec3::splat(f64::from(self.extent.radius));
+        let [low, high] =
+            [self.extent.low, self.extent.high].map(|corner| DVec3::from(corner.map(f64::from)));
+        (middle + reach).cmpge(low).all() && (middle - reach).cmple(high).all()
+    }
+
     /// Where a point relative to the target lies in clip space.
     pub(crate) fn clip_from_local(&self) -> DMat4 {
         // As near as the fabric is, and no farther: depth has 24 bits to tell yarns apart.
@@ -93,8 +117,7 @@ impl Camera {
             Projection::Perspective { distance, field_of_view } => {
                 let eye = f64::from(distance);
                 let look = view::look_to_mat4(toward * eye, -toward, up);
-                // The near plane: in front of the eye, and far enough from it to leave the far end enough depth resolution.
-                let nearest = (eye - near).max(eye * 0.02);
+                let nearest = (eye - near).max(eye * NEAREST);
                 let farthest = (eye - far).max(nearest * 1.01);
                 directx::perspective(f64::from(field_of_view), aspect, nearest, farthest) * look
             }

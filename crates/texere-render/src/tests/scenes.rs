@@ -301,3 +301,26 @@ fn chunks_of_pictures_fit_a_binding() {
         }
     }
 }
+
+/// Of yarns that an eye looks at from outside only the outside is drawn; one that the near plane goes through is seen from inside.
+#[test]
+fn an_eye_in_a_yarn_sees_its_wall() {
+    let mut yarns = Yarns::builder();
+    let points: Vec<_> = (0..=20).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 1.0)).collect();
+    yarns.yarn(Yarn::default(), &points);
+    let yarns = yarns.build().unwrap();
+    let extent = Extent::of(&yarns);
+    let camera =
+        |eye, target, up| Camera::perspective(&extent, &Pose { eye, target, up }, 1.0, SIZE).unwrap();
+    let along = camera([10.0, 0.0, 0.0], [12.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+    // The near plane lies a millimetre before the eye, half a millimetre deep in the yarn.
+    let down = camera([10.0, 0.0, 1.5], [10.0, 0.0, -48.5], [0.0, 1.0, 0.0]);
+    for (name, camera) in [("along", along), ("down", down)] {
+        let alpha = drawn(&yarns, &camera, Background::Nothing).alpha;
+        assert!(alpha.iter().all(|&alpha| alpha == 255), "{name}");
+    }
+    let above = camera([10.0, 0.0, 2.5], [10.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    assert!(!above.sees_inside());
+    let corner = drawn(&yarns, &above, Background::Nothing).alpha[0];
+    assert_eq!(corner, 0);
+}

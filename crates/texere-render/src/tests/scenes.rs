@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use texere_core::{
-    Backend, ControlPoint, DeviceInfo, DeviceKind, Layout, Limits, Placement, Plan, Ray, Settings, Topology,
-    Yarn, Yarns,
+    ControlPoint, DeviceInfo, DeviceKind, Layout, Limits, Placement, Plan, Ray, Settings, Topology, Yarn,
+    Yarns,
 };
 use texere_cpu::Picker;
 

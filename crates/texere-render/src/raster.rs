@@ -110,7 +110,7 @@ impl Raster {
         let kind = Kind { flattened: tables.are_flattened(), rolled: self.rolled, hairy: self.is_hairy() };
         let pipelines = renderer.rasteriser.pipelines(device, kind)?;
         let rows = band.end - band.start;
-        renderer.reserve(&mut self.listed, 8 * (chunk.blocks().len() as u64 + 1))?;
+        renderer.reserve(&mut self.listed, 12 * (chunk.blocks().len() as u64 + 1))?;
         if self.rolled {
             renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
         }
@@ -129,7 +129,7 @@ impl Raster {
         device.scoped("Queue::submit", || {
             let mut encoder = device.device().create_command_encoder(&Default::default());
             encoder.clear_buffer(&screen.keys, 0, Some(screen.key_bytes(rows)));
-            encoder.clear_buffer(&self.listed, 0, Some(8));
+            encoder.clear_buffer(&self.listed, 0, Some(12));
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
                 let of = Binder { raster: self, device: device.device(), tables, view, screen };
@@ -179,7 +179,7 @@ impl Binder<'_> {
         let [listed, counted, samples, rolls] =
             [(2, listed), (3, groups), (4, &self.screen.keys), (5, ring_rolls)]
                 .map(|(number, buffer)| (number, buffer.as_entire_binding()));
-        let Pipelines { cull, count_listed, count_left, few, left, caps, hairs, .. } = pipelines;
+        let Pipelines { cull, passes, caps, hairs, .. } = pipelines;
         self.set(pass, cull, 0, &[Params, Points, Blocks], &[view.clone(), listed.clone()]);
         let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULLED_BLOCKS));
         pass.dispatch_workgroups(columns, rows, 1);
@@ -191,7 +191,7 @@ impl Binder<'_> {
         };
         for round in 0..keys.rounds() {
             let fabric = [Params, Points, Yarns, Blocks, Outlines, Rolls];
-            for (count, raster) in [(count_listed, few), (count_left, left)] {
+            for [count, raster] in passes {
                 each(pass, count);
                 let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
                 // Where nothing turns there are no rolls.
@@ -207,7 +207,7 @@ impl Binder<'_> {
                 pass.dispatch_workgroups(columns, rows, 1);
             }
             if let (true, Some(hairs), Some(densities)) = (*has_hairs, hairs, hair_densities) {
-                each(pass, count_listed);
+                each(pass, &passes[0][0]);
                 let densities = (6, densities.as_entire_binding());
                 let own = [view.clone(), listed.clone(), samples.clone(), densities];
                 self.set(pass, hairs, round, &fabric, &own);

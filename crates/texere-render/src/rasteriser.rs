@@ -56,10 +56,8 @@ pub(crate) struct Kind {
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub(crate) cull: wgpu::ComputePipeline,
-    pub(crate) count_listed: wgpu::ComputePipeline,
-    pub(crate) few: wgpu::ComputePipeline,
-    pub(crate) count_left: wgpu::ComputePipeline,
-    pub(crate) left: wgpu::ComputePipeline,
+    /// What counts blocks, and what draws their quads: of a sample or none, of a few, of many.
+    pub(crate) passes: [[wgpu::ComputePipeline; 2]; 3],
     pub(crate) caps: wgpu::ComputePipeline,
     /// Where any yarn has hairs.
     pub(crate) hairs: Option<wgpu::ComputePipeline>,
@@ -99,10 +97,12 @@ impl Rasteriser {
             let resolve = module(&(picture::hairy(hairy).to_owned() + &self.resolve));
             Arc::new(Pipelines {
                 cull: pipeline(device, &cull, "cull"),
-                count_listed: pipeline(device, &cull, "count_listed"),
-                few: pipeline(device, &raster, "raster"),
-                count_left: pipeline(device, &cull, "count_left"),
-                left: pipeline(device, &raster, "raster_left"),
+                passes: [
+                    ["count_listed", "raster"],
+                    ["count_few", "raster_few"],
+                    ["count_many", "raster_many"],
+                ]
+                .map(|[count, draw]| [pipeline(device, &cull, count), pipeline(device, &raster, draw)]),
                 caps: pipeline(device, &raster, "raster_caps"),
                 hairs: hairy.then(|| pipeline(device, &module(self.hairs), "hairs")),
                 resolve: pipeline(device, &resolve, "resolve"),

@@ -65,28 +65,6 @@ fn corner_of(at: vec4<f32>) -> Corner {
     return Corner(rounded(select(place, vec2(0.0), vec2(is_beyond))), at.z / at.w, sides);
 }
 
-fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
-    return edge.x * to.y - edge.y * to.x;
-}
-
-// The samples of a triangle's box, or some more where pixels have shifts: rows of samples, and pixels.
-struct Span {
-    first: vec2<i32>,
-    last: vec2<i32>,
-}
-
-fn span_of(low: vec2<i32>, high: vec2<i32>) -> Span {
-    let slack = select(0, 32, view.spread > 0.0);
-    let least = low + middle() - slack;
-    let most = high + middle() + slack;
-    let first_row = max((least.y - FIRST_SAMPLE_Y + SAMPLE_ROW - 1) >> 6u, i32(4u * sweep.first_row));
-    let last_row = min((most.y - FIRST_SAMPLE_Y) >> 6u, i32(4u * (sweep.first_row + sweep.rows)) - 1);
-    // The sample of a pixel that lies farthest left is at 32, the one farthest right at 224.
-    let first_x = max((least.x - 224 + 255) >> 8u, 0);
-    let last_x = min((most.x - 32) >> 8u, i32(view.size.x) - 1);
-    return Span(vec2(first_x, first_row), vec2(last_x, last_row));
-}
-
 // Offers the triangle in the sample of pixel `x` in row `row`.
 fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
     if depth < 0.0 || depth > 1.0 {
@@ -97,11 +75,12 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// Which samples a quad may have: NONE; those of two by two pixels, a bit each, four for a pixel, from the pixel of the least x and y
-// on, row by row; FEW of some pixels more, or all of those; or MANY, as one that lies partly beyond what is reached may have.
+// How many samples a quad may have: NONE; SMALL, those of two by two pixels; FEW, those of some pixels more; or MANY, as one that lies partly beyond
+// what is reached may have.
 const NONE = 0u;
-const FEW = 0xffffu;
-const MANY = 0x10000u;
+const SMALL = 1u;
+const FEW = 2u;
+const MANY = 4u;
 
 // Whether an outside, or an inside where that may be seen, shows: from a triangle's area on the screen, twice. Outsides are
 // counter-clockwise as seen with y up: their areas are below 0.
@@ -131,19 +110,20 @@ struct Quad {
     s: Corner,
 }
 
-// Its triangles are p q r and q s r.
-fn look_of(quad: Quad) -> u32 {
+// Whether any of its triangles p q r and q s r may show.
+fn may_show(quad: Quad) -> bool {
     if (quad.p.sides & quad.q.sides & quad.r.sides & quad.s.sides & ~BEYOND) != 0u {
-        return NONE;
+        return false;
     }
     if ((quad.p.sides | quad.q.sides | quad.r.sides | quad.s.sides) & BEYOND) != 0u {
-        return MANY;
+        return true;
     }
     let across = highest(quad) - lowest(quad);
     if max(across.x, across.y) >= EXTENT {
-        return select(NONE, MANY, is_seen(area_of(quad.p, quad.q, quad.r)) || is_seen(area_of(quad.q, quad.s, quad.r)));
+        return is_seen(area_of(quad.p, quad.q, quad.r)) || is_seen(area_of(quad.q, quad.s, quad.r));
     }
-    return near_look_of(vec2<f32>(quad.p.place), vec2<f32>(quad.q.place), vec2<f32>(quad.r.place), vec2<f32>(quad.s.place), ALONE);
+    let box = near_box_of(vec2<f32>(quad.p.place), vec2<f32>(quad.q.place), vec2<f32>(quad.r.place), vec2<f32>(quad.s.place));
+    return size_of(box, ALONE) != NONE;
 }
 
 fn lowest(quad: Quad) -> vec2<i32> {
@@ -154,33 +134,50 @@ fn highest(quad: Quad) -> vec2<i32> {
     return max(max(quad.p.place, quad.q.place), max(quad.r.place, quad.s.place));
 }
 
-// The same of a quad whose corners all have a place and lie less than EXTENT apart.
-fn near_look_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>, alone: i32) -> u32 {
+// The box round a quad on the screen, 1/256 pixels from its upper left corner, and the pixels of the band in it: none where it does not show.
+struct QuadBox {
+    least: vec2<i32>,
+    most: vec2<i32>,
+    first: vec2<i32>,
+    last: vec2<i32>,
+}
+
+// That of a quad whose corners all have a place and lie less than EXTENT apart.
+fn near_box_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> QuadBox {
     if !(near_may_show(p, q, r) | near_may_show(q, s, r) | (view.sees_inside != 0u)) {
-        return NONE;
+        return QuadBox(vec2(0), vec2(0), vec2(0), vec2(-1));
     }
     // One more each way, in case that a compiler rounds otherwise where it is drawn.
     let least = rounded(min(min(p, q), min(r, s))) + (middle() - 1);
     let most = rounded(max(max(p, q), max(r, s))) + (middle() + 1);
-    let first = first_pixel(least);
-    let last = last_pixel(most);
-    let across = last - first;
+    return QuadBox(least, most, first_pixel(least), last_pixel(most));
+}
+
+// How many samples it may have, where up to `alone` are few.
+fn size_of(box: QuadBox, alone: i32) -> u32 {
+    let across = box.last - box.first;
     if min(across.x, across.y) < 0 {
         return NONE;
     }
-    if max(across.x, across.y) > 1 {
-        let most_samples = 4 * (across.x + 1) * (across.y + 1);
-        return select(MANY, FEW, most_samples <= alone);
+    if max(across.x, across.y) <= 1 {
+        return SMALL;
     }
-    // Most quads lie between samples.
-    var samples = samples_between(least, most, first);
-    if across.x > 0 {
-        samples |= samples_between(least, most, vec2(last.x, first.y)) << 4u;
+    return select(MANY, FEW, 4 * (across.x + 1) * (across.y + 1) <= alone);
+}
+
+// Which samples it has where it is SMALL, a bit each, four for a pixel, from the pixel of the least x and y on, row by row. Most quads lie between
+// samples.
+fn samples_of(box: QuadBox) -> u32 {
+    let first = box.first;
+    let last = box.last;
+    var samples = samples_between(box.least, box.most, first);
+    if last.x > first.x {
+        samples |= samples_between(box.least, box.most, vec2(last.x, first.y)) << 4u;
     }
-    if across.y > 0 {
-        samples |= samples_between(least, most, vec2(first.x, last.y)) << 8u;
-        if across.x > 0 {
-            samples |= samples_between(least, most, last) << 12u;
+    if last.y > first.y {
+        samples |= samples_between(box.least, box.most, vec2(first.x, last.y)) << 8u;
+        if last.x > first.x {
+            samples |= samples_between(box.least, box.most, last) << 12u;
         }
     }
     return samples;
@@ -207,200 +204,4 @@ fn samples_between(least: vec2<i32>, most: vec2<i32>, pixel: vec2<i32>) -> u32 {
     let is_between = (vec4(low.x) <= right) & (right <= vec4(high.x)) & (vec4(low.y) <= y) & (y <= vec4(high.y));
     let bits = select(vec4(0u), vec4(1u, 2u, 4u, 8u), is_between);
     return bits.x | bits.y | bits.z | bits.w;
-}
-
-// A triangle in the order in which edges go round it clockwise as seen on the screen.
-struct Turned {
-    p: Corner,
-    q: Corner,
-    r: Corner,
-    is_seen: bool,
-}
-
-fn turned(p: Corner, q: Corner, r: Corner) -> Turned {
-    let area = area_of(p, q, r);
-    if area < 0.0 {
-        return Turned(p, r, q, true);
-    }
-    return Turned(p, q, r, is_seen(area));
-}
-
-// 0 for an edge that its samples belong to, a top or a left one, else -1.
-fn edge_bias(edge: vec2<i32>) -> i32 {
-    return select(-1, 0, edge.y < 0 || (edge.y == 0 && edge.x > 0));
-}
-
-struct Coverage {
-    is_covered: bool,
-    depth: f32,
-}
-
-fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
-    let pq = turned.q.place - turned.p.place;
-    let qr = turned.r.place - turned.q.place;
-    let rp = turned.p.place - turned.r.place;
-    let over_r = cross_of(pq, place - turned.p.place);
-    let over_p = cross_of(qr, place - turned.q.place);
-    let over_q = cross_of(rp, place - turned.r.place);
-    // All three can be inside only where the edges go round clockwise.
-    let is_covered =
-        (over_r + edge_bias(pq) >= 0) & (over_p + edge_bias(qr) >= 0) & (over_q + edge_bias(rp) >= 0);
-    let share = 1.0 / f32(over_r + over_p + over_q);
-    let depth = turned.p.depth
-        + (f32(over_q) * (turned.q.depth - turned.p.depth) + f32(over_r) * (turned.r.depth - turned.p.depth)) * share;
-    return Coverage(is_covered, depth);
-}
-
-// Twice the area between `edge` and `to`, and its sign, exact for differences of 24 bits: in parts of 12 bits.
-struct Area {
-    sign: i32,
-    value: f32,
-}
-
-fn long_cross(edge: vec2<i32>, to: vec2<i32>) -> Area {
-    let edge_high = edge >> vec2(12u);
-    let edge_low = edge & vec2(4095);
-    let to_high = to >> vec2(12u);
-    let to_low = to & vec2(4095);
-    let low = cross_of(edge_low, to_low);
-    let middle = cross_of(edge_high, to_low) + cross_of(edge_low, to_high) + (low >> 12u);
-    let high = cross_of(edge_high, to_high) + (middle >> 12u);
-    let rest = ((middle & 4095) << 12u) | (low & 4095);
-    let sign = select(select(0, 1, high > 0 || rest != 0), -1, high < 0);
-    return Area(sign, f32(high) * 16777216.0 + f32(rest));
-}
-
-fn long_coverage(turned: Turned, place: vec2<i32>) -> Coverage {
-    let pq = turned.q.place - turned.p.place;
-    let qr = turned.r.place - turned.q.place;
-    let rp = turned.p.place - turned.r.place;
-    let over_r = long_cross(pq, place - turned.p.place);
-    let over_p = long_cross(qr, place - turned.q.place);
-    let over_q = long_cross(rp, place - turned.r.place);
-    let is_covered = over_r.sign + edge_bias(pq) >= 0 && over_p.sign + edge_bias(qr) >= 0
-        && over_q.sign + edge_bias(rp) >= 0;
-    let share = 1.0 / long_cross(pq, -rp).value;
-    let depth = turned.p.depth
-        + (over_q.value * (turned.q.depth - turned.p.depth) + over_r.value * (turned.r.depth - turned.p.depth)) * share;
-    return Coverage(is_covered, depth);
-}
-
-// Draws a quad, whose first triangle is number `triangle`, in those of its samples that `look` names.
-fn draw_alone(quad: Quad, look: u32, triangle: u32) {
-    if look == FEW {
-        draw_together(quad.p, quad.q, quad.r, triangle, Lanes(0, 0, 1, 1));
-        draw_together(quad.s, quad.r, quad.q, triangle + 1u, Lanes(0, 0, 1, 1));
-        return;
-    }
-    // The pixel that `near_look_of` has begun at.
-    let first = first_pixel(lowest(quad) + (middle() - 1));
-    for (var samples = look; samples != 0u; samples &= samples - 1u) {
-        let sample = i32(firstTrailingBit(samples));
-        let pixel = first + vec2((sample >> 2u) & 1, sample >> 3u);
-        draw_sample(quad, pixel.x, 4 * pixel.y + (sample & 3), triangle);
-    }
-}
-
-// Draws a quad in a sample: that of its triangles which lies on the sample's side of the diagonal between q and r.
-fn draw_sample(quad: Quad, x: i32, row: i32, triangle: u32) {
-    let place = sample_place(x, row);
-    if view.sees_inside != 0u {
-        // A quad that is folded may show both.
-        offer_covered(turned(quad.p, quad.q, quad.r), place, x, row, triangle);
-        offer_covered(turned(quad.s, quad.r, quad.q), place, x, row, triangle + 1u);
-        return;
-    }
-    let diagonal = quad.q.place - quad.r.place;
-    let is_first = cross_of(diagonal, place - quad.r.place) + edge_bias(diagonal) >= 0;
-    var seen = Turned(quad.s, quad.q, quad.r, true);
-    if is_first {
-        seen = Turned(quad.p, quad.r, quad.q, true);
-    }
-    offer_covered(seen, place, x, row, select(triangle + 1u, triangle, is_first));
-}
-
-// Offers a triangle in a sample that lies at `place`, where it covers it.
-fn offer_covered(turned: Turned, place: vec2<i32>, x: i32, row: i32, triangle: u32) {
-    let coverage = coverage_of(turned, place);
-    if turned.is_seen && coverage.is_covered {
-        offer_at(x, row, coverage.depth, triangle);
-    }
-}
-
-// A lane of some that share a triangle's samples, in so many columns and rows.
-struct Lanes {
-    column: i32,
-    row: i32,
-    columns: i32,
-    rows: i32,
-}
-
-// How far a row of samples may lie inside of a triangle, 1/256 pixels right of the screen's middle: before `x` and behind `y` it does not.
-fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
-    // Samples that have shifts lie anywhere in the row.
-    let is_shifted = view.spread > 0.0;
-    let upper = f32(row * SAMPLE_ROW + select(FIRST_SAMPLE_Y, 0, is_shifted) - middle().y);
-    let lower = upper + select(0.0, f32(SAMPLE_ROW), is_shifted);
-    let rows = vec2(upper, lower);
-    let p = vec2<f32>(turned.p.place);
-    let q = vec2<f32>(turned.q.place);
-    let r = vec2<f32>(turned.r.place);
-    let reach = reach_beside(reach_beside(reach_beside(vec2(-REACHED, REACHED), p, q, rows), q, r, rows), r, p, rows);
-    // What floats leave out.
-    return clamp(reach + vec2(-16.0, 16.0), vec2(-REACHED), vec2(REACHED));
-}
-
-// What an edge leaves of a reach. One that leads down has the triangle on its left, one that leads up on its right.
-fn reach_beside(reach: vec2<f32>, start: vec2<f32>, end: vec2<f32>, rows: vec2<f32>) -> vec2<f32> {
-    let edge = end - start;
-    let at = start.x + edge.x / edge.y * (rows - start.y);
-    return vec2(select(reach.x, max(reach.x, min(at.x, at.y)), edge.y < 0.0),
-                select(reach.y, min(reach.y, max(at.x, at.y)), edge.y > 0.0));
-}
-
-// Draws a triangle: a lane its share of the samples.
-fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lanes: Lanes) {
-    let turned = turned(p, q, r);
-    let low = min(p.place, min(q.place, r.place));
-    let high = max(p.place, max(q.place, r.place));
-    let span = span_of(low, high);
-    let is_long = max(high.x - low.x, high.y - low.y) >= EXTENT;
-    if !turned.is_seen {
-        return;
-    }
-    for (var row = span.first.y + lanes.row; row <= span.last.y; row += lanes.rows) {
-        let reach = (vec2<i32>(reach_in(turned, row)) + middle().x) >> vec2(8u);
-        let last = min(reach.y, span.last.x);
-        for (var x = max(reach.x, span.first.x) + lanes.column; x <= last; x += lanes.columns) {
-            var coverage: Coverage;
-            if is_long {
-                coverage = long_coverage(turned, sample_place(x, row));
-            } else {
-                coverage = coverage_of(turned, sample_place(x, row));
-            }
-            if coverage.is_covered {
-                offer_at(x, row, coverage.depth, triangle);
-            }
-        }
-    }
-}
-
-// Draws a triangle that lies partly behind the eye, or far aside: the whole screen against its edges in homogeneous coordinates
-// (Olano and Greer 1997, "Triangle scan conversion using 2D homogeneous coordinates").
-fn draw_beyond(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, triangle: u32, lane: u32, lanes: u32) {
-    let samples = u32(view.size.x) * sweep.rows * 4u;
-    for (var sample = lane; sample < samples; sample += lanes) {
-        let row = sample / u32(view.size.x);
-        let x = i32(sample - row * u32(view.size.x));
-        let sample_row = i32(row + 4u * sweep.first_row);
-        let weights = weights_at(p, q, r, sample_place(x, sample_row));
-        let determinant = dot(weights, vec3(p.w, q.w, r.w));
-        let is_front = determinant > 0.0;
-        // All of one sign: else the place lies outside, or the line of sight meets the triangle behind the eye.
-        let inside = select(-weights, weights, is_front);
-        if determinant != 0.0 && (is_front || view.sees_inside != 0u) && all(inside >= vec3(0.0)) {
-            let clip = p * weights.x + q * weights.y + r * weights.z;
-            offer_at(x, sample_row, clip.z / clip.w, triangle);
-        }
-    }
 }

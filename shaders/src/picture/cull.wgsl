@@ -122,12 +122,19 @@ fn set_groups(count: u32) {
 // A single lane: what the list takes, in columns and rows, before any block is left.
 @compute @workgroup_size(1)
 fn count_listed() {
-    atomicStore(&listed.left_count, 0u);
+    atomicStore(&listed.few_count, 0u);
+    atomicStore(&listed.many_count, 0u);
     set_groups(atomicLoad(&listed.count));
 }
 
-// The same for those that were left.
+// The same for those that have quads of FEW samples.
 @compute @workgroup_size(1)
-fn count_left() {
-    set_groups(atomicLoad(&listed.left_count) * LEFT_SHARES);
+fn count_few() {
+    set_groups(atomicLoad(&listed.few_count));
+}
+
+// The same for those that have some of MANY.
+@compute @workgroup_size(1)
+fn count_many() {
+    set_groups(atomicLoad(&listed.many_count) * MANY_SHARES);
 }

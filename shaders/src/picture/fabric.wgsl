@@ -17,16 +17,17 @@ struct Sweep {
     hair_reach: f32,
 }
 
-// Blocks of the chunk that the view may show, and those of them whose triangles of many samples are left for later: numbers of
-// rows, and from params.blocks on those of the others.
+// Blocks of the chunk that the view may show: numbers of rows. From params.blocks on those that have quads of a few samples, from twice as many on
+// those that have some of many: these are left for later.
 struct Listed {
     count: atomic<u32>,
-    left_count: atomic<u32>,
+    few_count: atomic<u32>,
+    many_count: atomic<u32>,
     rows: array<u32>,
 }
 
-// Workgroups that share a block whose triangles have many samples: such pictures show few blocks.
-const LEFT_SHARES = 64u;
+// Workgroups that share a block which has quads of many samples: such pictures show few blocks.
+const MANY_SHARES = 64u;
 
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
 @group(1) @binding(1) var<uniform> sweep: Sweep;

@@ -4,14 +4,15 @@
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
 //! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before all down to `resolve.wgsl` |
-//! | `cull.wgsl` | `cull`, `count_listed`, `count_left` | the blocks that the view may show |
+//! | `cull.wgsl` | `cull`, `count_listed`, `count_few`, `count_many` | the blocks that the view may show |
 //! | `weights.wgsl` | | shares of a triangle's corners |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
-//! | `cover.wgsl` | | the samples that a triangle covers |
+//! | `cover.wgsl` | | where corners lie on the screen, and the samples that a quad may have |
+//! | `draw.wgsl` | | draws quads and triangles in their samples |
 //! | `axes.wgsl`, `axes_level.wgsl`, `axes_rolled.wgsl` | | a block's rings on the screen, where nothing turns and where something does |
 //! | `hair.wgsl` | | what a fibre that stands off its yarn is like |
 //! | `hairs.wgsl` | `hairs` | draws those of a chunk |
-//! | `raster.wgsl` | `raster`, `raster_left`, `raster_caps` | draws a chunk from its control points |
+//! | `raster.wgsl` | `raster`, `raster_few`, `raster_many`, `raster_caps` | draws a chunk from its control points |
 //! | `kept.wgsl` | | what is kept of a sample until it is lit |
 //! | `resolve.wgsl` | `resolve` | works that out from the nearest triangle's number |
 //! | `screen.wgsl` | | reads back what is kept: stands before the two that follow |
@@ -33,22 +34,26 @@ macro_rules! fabric {
 /// What draws with a kind of keys.
 macro_rules! drawing {
     ($keys:literal, $($own:expr),+) => {
-        concat!(fabric!(), include_str!("weights.wgsl"), include_str!($keys), include_str!("cover.wgsl"), $($own),+)
+        concat!(fabric!(), include_str!($keys), include_str!("cover.wgsl"), $($own),+)
     };
 }
 
-/// `raster`, `raster_left` and `raster_caps` with a kind of keys, where nothing turns and where something does.
+/// `raster`, `raster_few`, `raster_many` and `raster_caps` with a kind of keys, where nothing turns and where something does.
 macro_rules! raster {
     ($keys:literal) => {
         [
             drawing!(
                 $keys,
+                include_str!("weights.wgsl"),
+                include_str!("draw.wgsl"),
                 include_str!("axes.wgsl"),
                 include_str!("axes_level.wgsl"),
                 include_str!("raster.wgsl")
             ),
             drawing!(
                 $keys,
+                include_str!("weights.wgsl"),
+                include_str!("draw.wgsl"),
                 rings!(),
                 include_str!("axes.wgsl"),
                 include_str!("axes_rolled.wgsl"),
@@ -65,10 +70,10 @@ macro_rules! rings {
     };
 }
 
-/// `cull`, `count_listed` and `count_left`. This one and the next five stand after `texere_gpu::prelude`.
+/// `cull`, `count_listed`, `count_few` and `count_many`. This one and the next five stand after `texere_gpu::prelude`.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
-/// `raster`, `raster_left` and `raster_caps`, for devices with atomics of 64 bits: where nothing turns, and where something does.
+/// `raster`, `raster_few`, `raster_many` and `raster_caps`, for devices with atomics of 64 bits: where nothing turns, and where something does.
 pub const RASTER: [&str; 2] = raster!("keys_64.wgsl");
 
 /// The same for any device.

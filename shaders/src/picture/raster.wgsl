@@ -1,4 +1,4 @@
-// Draws a chunk of the fabric from its control points: no mesh is written. After cover.wgsl, and axes_level.wgsl or axes_rolled.wgsl.
+// Draws a chunk of the fabric from its control points: no mesh is written. After draw.wgsl, and axes_level.wgsl or axes_rolled.wgsl.
 //
 // Drawing in compute (Schuetz, Kerbl and Wimmer 2021, "Rendering point clouds with compute shaders and vertex order
 // optimization"; Karis et al. 2021, "Nanite"): yarns have several triangles for each sample, which a rasteriser made for large
@@ -8,7 +8,7 @@
 // A lane for each ring of a block and the one after it, in eights for the scan of rolls. The less memory a workgroup takes, the more of them
 // run at a time.
 const RASTER_GROUP = BLOCK_RINGS + 8u;
-const LEFT_GROUP = 128u;
+const MANY_GROUP = 128u;
 const CAP_GROUP = 64u;
 
 // Sides that a lane looks at before what it has found is drawn.
@@ -18,14 +18,14 @@ const SIDES_LOOKED = 6u;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
 
-// Quads that have samples, and above FOUND_SHIFT which. That is enough for `raster_left`, too, whose workgroups have a ring each.
+// Quads that have samples, and above FOUND_SHIFT which. That is enough for `raster_many`, too, whose workgroups have a ring each.
 const FOUND_SHIFT = 16u;
 const FOUND_MOST = RASTER_GROUP * SIDES_LOOKED;
 var<workgroup> found: array<u32, FOUND_MOST>;
-const_assert BLOCK_RINGS <= LEFT_SHARES && FOUND_MOST >= 256u;
+const_assert BLOCK_RINGS <= MANY_SHARES && FOUND_MOST >= 256u;
 var<workgroup> found_count: atomic<u32>;
-// 1 where one of many samples is among them that were left out, else 0.
-var<workgroup> is_left: atomic<u32>;
+// Of which sizes others are.
+var<workgroup> other_sizes: atomic<u32>;
 
 // Where the corner at a section's `point` lies in screen space.
 fn tube_at(axes: Axes, point: vec2<f32>) -> vec4<f32> {
@@ -102,20 +102,20 @@ fn parts_of(rings: u32, lanes: u32) -> u32 {
     return max(lanes / rings, 1u);
 }
 
-// Notes those of its quads that have few samples, and whether others may have many. `here` are the axes of its ring.
-fn note_few(outline: u32, at: Stint, here: Axes) {
+// Notes those of its quads that are SMALL and have samples, or those that have FEW, and what others are. `here` are the axes of its ring.
+fn note_alone(outline: u32, at: Stint, here: Axes, size: u32) {
     if at.first_side >= at.end_side {
         return;
     }
     let next = held_axes(at.ring + 1u);
     if !are_near(disc_of(here), disc_of(next)) {
-        atomicStore(&is_left, 1u);
+        atomicOr(&other_sizes, MANY);
         return;
     }
-    // What has been found: 16 bits for each side, two sides in a number, and a bit for each that has any.
-    var looks = vec3(0u);
+    // What has been found: 16 bits for each side, two sides in a number, and a bit for each that is noted.
+    var samples = vec3(0u);
     var noted = 0u;
-    var has_many = false;
+    var sizes = 0u;
     let point = outlines[outline + at.first_side].xy;
     var p = near_place(here, point);
     var r = near_place(next, point);
@@ -123,28 +123,33 @@ fn note_few(outline: u32, at: Stint, here: Axes) {
         let point = outlines[outline + side_beside(at.first_side + k)].xy;
         let q = near_place(here, point);
         let s = near_place(next, point);
-        let look = near_look_of(p, q, r, s, ALONE);
-        has_many |= look == MANY;
-        let few = look & FEW;
-        looks |= select(vec3(0u), vec3(few << (16u * (k & 1u))), vec3(k / 2u) == vec3(0u, 1u, 2u));
-        noted |= select(0u, 1u << k, few != 0u);
+        let box = near_box_of(p, q, r, s);
+        let own_size = size_of(box, ALONE);
+        var is_noted = own_size == size;
+        if size == SMALL && is_noted {
+            let own = samples_of(box);
+            samples |= select(vec3(0u), vec3(own << (16u * (k & 1u))), vec3(k / 2u) == vec3(0u, 1u, 2u));
+            is_noted = own != 0u;
+        }
+        noted |= select(0u, 1u << k, is_noted);
+        sizes |= own_size;
         p = q;
         r = s;
     }
-    if has_many {
-        atomicStore(&is_left, 1u);
+    if (sizes & ~(size | SMALL)) != 0u {
+        atomicOr(&other_sizes, sizes);
     }
     var place = atomicAdd(&found_count, countOneBits(noted));
     for (; noted != 0u; noted &= noted - 1u) {
         let k = firstTrailingBit(noted);
-        let pair = select(select(looks.x, looks.y, k >= 2u), looks.z, k >= 4u);
-        let look = (pair >> (16u * (k & 1u))) & FEW;
-        found[place] = (at.first_number + at.first_side + k) | (look << FOUND_SHIFT);
+        let pair = select(select(samples.x, samples.y, k >= 2u), samples.z, k >= 4u);
+        let own = (pair >> (16u * (k & 1u))) & 0xffffu;
+        found[place] = (at.first_number + at.first_side + k) | (own << FOUND_SHIFT);
         place++;
     }
 }
 
-// Notes what that has left: all quads of a stint that may have any, or those that have many.
+// Notes what is left: all quads of a stint that may have any samples, or those that have many.
 fn note_many(outline: u32, at: Stint) {
     if at.first_side >= at.end_side {
         return;
@@ -162,9 +167,9 @@ fn note_many(outline: u32, at: Stint) {
             let r = near_place(next, own);
             let s = near_place(next, other);
             // Some fewer, in case that a compiler rounds otherwise here: twice does no harm.
-            is_wanted = near_look_of(p, q, r, s, ALONE - 128) == MANY;
+            is_wanted = size_of(near_box_of(p, q, r, s), ALONE - 128) == MANY;
         } else {
-            is_wanted = look_of(quad_of(outline, at.ring, side, side_beside(side))) != NONE;
+            is_wanted = may_show(quad_of(outline, at.ring, side, side_beside(side)));
         }
         if is_wanted {
             found[atomicAdd(&found_count, 1u)] = at.first_number + side;
@@ -191,18 +196,11 @@ fn empty_found(lane: u32) {
     workgroupBarrier();
 }
 
-// A workgroup of RASTER_GROUP a listed block: its quads of few samples. Where it has others it is left for later.
-@compute @workgroup_size(RASTER_GROUP)
-fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
-          @builtin(local_invocation_index) lane: u32) {
-    let number = group.y * grid.x + group.x;
-    if number >= atomicLoad(&listed.count) {
-        return;
-    }
-    let row = listed.rows[number];
+// Draws the quads of a block that are SMALL, or those that have FEW samples: a workgroup of RASTER_GROUP. Gives what other sizes there are.
+fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     let own = project_block(blocks[row], lane);
     if lane == 0u {
-        atomicStore(&is_left, 0u);
+        atomicStore(&other_sizes, 0u);
         atomicStore(&found_count, 0u);
     }
     workgroupBarrier();
@@ -212,50 +210,80 @@ fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid
     let sides = select(0u, params.sides, lane < blocks[row].quads);
     for (var first_side = 0u; first_side < params.sides; first_side += SIDES_LOOKED) {
         let end_side = min(sides, first_side + SIDES_LOOKED);
-        note_few(outline, Stint(lane, lane * params.sides, first_side, end_side), own);
+        note_alone(outline, Stint(lane, lane * params.sides, first_side, end_side), own, size);
         workgroupBarrier();
         let count = atomicLoad(&found_count);
         for (var k = lane; k < count; k += RASTER_GROUP) {
             let number = found[k] & ((1u << FOUND_SHIFT) - 1u);
             let at = quad_at(number);
-            draw_alone(quad_of(outline, at.x, at.y, at.z), found[k] >> FOUND_SHIFT, base + 2u * number);
+            let quad = quad_of(outline, at.x, at.y, at.z);
+            if size == SMALL {
+                draw_small(quad, found[k] >> FOUND_SHIFT, base + 2u * number);
+            } else {
+                draw_few(quad, base + 2u * number);
+            }
         }
         if first_side + SIDES_LOOKED < params.sides {
             empty_found(lane);
         }
     }
-    if lane == 0u && atomicLoad(&is_left) != 0u {
-        listed.rows[params.blocks + atomicAdd(&listed.left_count, 1u)] = row;
+    return atomicLoad(&other_sizes);
+}
+
+// A workgroup a listed block: its SMALL quads. Where it has others it is left for later.
+@compute @workgroup_size(RASTER_GROUP)
+fn raster(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+          @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    if number >= atomicLoad(&listed.count) {
+        return;
+    }
+    let row = listed.rows[number];
+    let others = draw_block(row, lane, SMALL);
+    if lane == 0u && (others & FEW) != 0u {
+        listed.rows[params.blocks + atomicAdd(&listed.few_count, 1u)] = row;
+    }
+    if lane == 0u && (others & MANY) != 0u {
+        listed.rows[2u * params.blocks + atomicAdd(&listed.many_count, 1u)] = row;
     }
 }
 
-// LEFT_SHARES workgroups of LEFT_GROUP a block that was left: its quads of many samples, each drawn by a whole workgroup.
-@compute @workgroup_size(LEFT_GROUP)
-fn raster_left(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+// The same for those that have some of FEW samples.
+@compute @workgroup_size(RASTER_GROUP)
+fn raster_few(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
+              @builtin(local_invocation_index) lane: u32) {
+    let number = group.y * grid.x + group.x;
+    if number < atomicLoad(&listed.few_count) {
+        _ = draw_block(listed.rows[params.blocks + number], lane, FEW);
+    }
+}
+
+// MANY_SHARES workgroups of MANY_GROUP a block that has some of MANY samples, each drawn by a whole workgroup.
+@compute @workgroup_size(MANY_GROUP)
+fn raster_many(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {
     let number = group.y * grid.x + group.x;
-    if number >= atomicLoad(&listed.left_count) * LEFT_SHARES {
+    if number >= atomicLoad(&listed.many_count) * MANY_SHARES {
         return;
     }
-    let row = listed.rows[params.blocks + number / LEFT_SHARES];
-    let share = number % LEFT_SHARES;
+    let row = listed.rows[2u * params.blocks + number / MANY_SHARES];
+    let share = number % MANY_SHARES;
     _ = project_block(blocks[row], lane);
     if lane == 0u {
-        atomicStore(&is_left, 0u);
         atomicStore(&found_count, 0u);
     }
     workgroupBarrier();
     let outline = yarns[blocks[row].yarn].section * params.sides;
     let quads = blocks[row].quads;
-    let first = quads * share / LEFT_SHARES;
-    let rings = quads * (share + 1u) / LEFT_SHARES - first;
+    let first = quads * share / MANY_SHARES;
+    let rings = quads * (share + 1u) / MANY_SHARES - first;
     if rings == 0u {
         return;
     }
     let base = row * numbers_of_block() + 2u * first * params.sides;
-    let stints = stints_for(rings, LEFT_GROUP);
+    let stints = stints_for(rings, MANY_GROUP);
     for (var stint = 0u; stint < stints; stint++) {
-        note_many(outline, stint_of(first, rings, stint, lane, LEFT_GROUP));
+        note_many(outline, stint_of(first, rings, stint, lane, MANY_GROUP));
         workgroupBarrier();
         let count = atomicLoad(&found_count);
         for (var k = 0u; k < count; k++) {
@@ -265,15 +293,15 @@ fn raster_left(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
             let quad = quad_of(outline, ring, at.y, at.z);
             let triangle = base + 2u * number;
             if ((quad.p.sides | quad.q.sides | quad.r.sides | quad.s.sides) & BEYOND) == 0u {
-                draw_together(quad.p, quad.q, quad.r, triangle, lanes_of(lane, LEFT_GROUP));
-                draw_together(quad.s, quad.r, quad.q, triangle + 1u, lanes_of(lane, LEFT_GROUP));
+                draw_together(quad.p, quad.q, quad.r, triangle, lanes_of(lane, MANY_GROUP));
+                draw_together(quad.s, quad.r, quad.q, triangle + 1u, lanes_of(lane, MANY_GROUP));
             } else {
                 let own = outlines[outline + at.y].xy;
                 let other = outlines[outline + at.z].xy;
                 let beside = tube_clip(ring, other);
                 let over = tube_clip(ring + 1u, own);
-                draw_beyond(tube_clip(ring, own), beside, over, triangle, lane, LEFT_GROUP);
-                draw_beyond(beside, tube_clip(ring + 1u, other), over, triangle + 1u, lane, LEFT_GROUP);
+                draw_beyond(tube_clip(ring, own), beside, over, triangle, lane, MANY_GROUP);
+                draw_beyond(beside, tube_clip(ring + 1u, other), over, triangle + 1u, lane, MANY_GROUP);
             }
         }
         if stint + 1u < stints {
@@ -312,8 +340,7 @@ fn raster_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
         let p = cap_corner(cap, stance, at.x);
         let q = cap_corner(cap, stance, at.y);
         let r = cap_corner(cap, stance, at.z);
-        let look = look_of(Quad(p, q, r, r));
-        if look == NONE {
+        if !may_show(Quad(p, q, r, r)) {
             continue;
         }
         if ((p.sides | q.sides | r.sides) & BEYOND) == 0u {

@@ -34,6 +34,9 @@ const _: () = assert!(size_of::<Sweep>() == 32);
 /// other kinds get smaller chunks, so that the desktop does not wait for them. Each chunk costs a look at all samples.
 const BLOCKS_MOST: u64 = 1 << 20;
 
+/// Bytes of an indirect dispatch's workgroups.
+const GROUPS_BYTES: u64 = 12;
+
 /// Blocks of a workgroup of `cull.wgsl`: `CULL_GROUP / BLOCK_LANES`.
 const CULLED_BLOCKS: u32 = 8;
 
@@ -63,7 +66,7 @@ impl Raster {
         Ok(Self {
             sweeps: [sweep()?, sweep()?],
             listed: buffer("listed blocks", 0, BufferUsages::STORAGE)?,
-            groups: buffer("workgroups", 12, BufferUsages::STORAGE | BufferUsages::INDIRECT)?,
+            groups: buffer("workgroups", 3 * GROUPS_BYTES, BufferUsages::STORAGE | BufferUsages::INDIRECT)?,
             ring_rolls: buffer("rolls of rings", 0, BufferUsages::STORAGE)?,
             reach,
             rolled: plan.needs_scan(),
@@ -179,11 +182,11 @@ impl Binder<'_> {
         let [listed, counted, samples, rolls] =
             [(2, listed), (3, groups), (4, &self.screen.keys), (5, ring_rolls)]
                 .map(|(number, buffer)| (number, buffer.as_entire_binding()));
-        let Pipelines { cull, passes, caps, hairs, .. } = pipelines;
+        let Pipelines { cull, count_listed, count_left, rasters, caps, hairs, .. } = pipelines;
         self.set(pass, cull, 0, &[Params, Points, Blocks], &[view.clone(), listed.clone()]);
         let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULLED_BLOCKS));
         pass.dispatch_workgroups(columns, rows, 1);
-        let each = |pass: &mut wgpu::ComputePass<'_>, count: &wgpu::ComputePipeline| {
+        let counted_by = |pass: &mut wgpu::ComputePass<'_>, count: &wgpu::ComputePipeline| {
             pass.set_pipeline(count);
             let counts = group(self.device, count, 1, &[listed.clone(), counted.clone()]);
             pass.set_bind_group(1, &counts, &[]);
@@ -191,13 +194,17 @@ impl Binder<'_> {
         };
         for round in 0..keys.rounds() {
             let fabric = [Params, Points, Yarns, Blocks, Outlines, Rolls];
-            for [count, raster] in passes {
-                each(pass, count);
-                let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
-                // Where nothing turns there are no rolls.
-                let without = usize::from(!rolled);
+            let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
+            // Where nothing turns there are no rolls.
+            let without = usize::from(!rolled);
+            for (number, raster) in (0..).zip(rasters) {
+                match number {
+                    0 => counted_by(pass, count_listed),
+                    1 => counted_by(pass, count_left),
+                    _ => {}
+                }
                 self.set(pass, raster, round, &fabric[..6 - without], &own[..4 - without]);
-                pass.dispatch_workgroups_indirect(groups, 0);
+                pass.dispatch_workgroups_indirect(groups, number * GROUPS_BYTES);
             }
             if !chunk.caps().is_empty() {
                 let fabric = [Params, Points, Yarns, Outlines, CapRows, CapPattern];
@@ -207,7 +214,6 @@ impl Binder<'_> {
                 pass.dispatch_workgroups(columns, rows, 1);
             }
             if let (true, Some(hairs), Some(densities)) = (*has_hairs, hairs, hair_densities) {
-                each(pass, &passes[0][0]);
                 let densities = (6, densities.as_entire_binding());
                 let own = [view.clone(), listed.clone(), samples.clone(), densities];
                 self.set(pass, hairs, round, &fabric, &own);

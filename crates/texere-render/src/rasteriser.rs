@@ -56,8 +56,10 @@ pub(crate) struct Kind {
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub(crate) cull: wgpu::ComputePipeline,
-    /// What counts blocks, and what draws their quads: of a sample or none, of a few, of many.
-    pub(crate) passes: [[wgpu::ComputePipeline; 2]; 3],
+    pub(crate) count_listed: wgpu::ComputePipeline,
+    pub(crate) count_left: wgpu::ComputePipeline,
+    /// What draws quads of a sample or none, of a few, of many.
+    pub(crate) rasters: [wgpu::ComputePipeline; 3],
     pub(crate) caps: wgpu::ComputePipeline,
     /// Where any yarn has hairs.
     pub(crate) hairs: Option<wgpu::ComputePipeline>,
@@ -97,12 +99,10 @@ impl Rasteriser {
             let resolve = module(&(picture::hairy(hairy).to_owned() + &self.resolve));
             Arc::new(Pipelines {
                 cull: pipeline(device, &cull, "cull"),
-                passes: [
-                    ["count_listed", "raster"],
-                    ["count_few", "raster_few"],
-                    ["count_many", "raster_many"],
-                ]
-                .map(|[count, draw]| [pipeline(device, &cull, count), pipeline(device, &raster, draw)]),
+                count_listed: pipeline(device, &cull, "count_listed"),
+                count_left: pipeline(device, &cull, "count_left"),
+                rasters: ["raster", "raster_few", "raster_many"]
+                    .map(|entry| pipeline(device, &raster, entry)),
                 caps: pipeline(device, &raster, "raster_caps"),
                 hairs: hairy.then(|| pipeline(device, &module(self.hairs), "hairs")),
                 resolve: pipeline(device, &resolve, "resolve"),

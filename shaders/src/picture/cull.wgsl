@@ -6,8 +6,8 @@ const CULL_GROUP = 64u;
 const BOX_SLACK = 1e-5;
 
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
-// Workgroups of the dispatch that goes through the blocks, or through those that were left.
-@group(1) @binding(3) var<storage, read_write> groups: array<u32, 3>;
+// Workgroups of the dispatches that go through the blocks: through all, those that have quads of a few samples, those that have some of many.
+@group(1) @binding(3) var<storage, read_write> groups: array<array<u32, 3>, 3>;
 
 struct Box {
     low: vec3<f32>,
@@ -112,11 +112,9 @@ fn cull(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: 
     }
 }
 
-fn set_groups(count: u32) {
+fn groups_of(count: u32) -> array<u32, 3> {
     let rows = (count + 65534u) / 65535u;
-    groups[0] = (count + max(rows, 1u) - 1u) / max(rows, 1u);
-    groups[1] = rows;
-    groups[2] = 1u;
+    return array((count + max(rows, 1u) - 1u) / max(rows, 1u), rows, 1u);
 }
 
 // A single lane: what the list takes, in columns and rows, before any block is left.
@@ -124,17 +122,12 @@ fn set_groups(count: u32) {
 fn count_listed() {
     atomicStore(&listed.few_count, 0u);
     atomicStore(&listed.many_count, 0u);
-    set_groups(atomicLoad(&listed.count));
+    groups[0] = groups_of(atomicLoad(&listed.count));
 }
 
-// The same for those that have quads of FEW samples.
+// The same for those that were left.
 @compute @workgroup_size(1)
-fn count_few() {
-    set_groups(atomicLoad(&listed.few_count));
-}
-
-// The same for those that have some of MANY.
-@compute @workgroup_size(1)
-fn count_many() {
-    set_groups(atomicLoad(&listed.many_count) * MANY_SHARES);
+fn count_left() {
+    groups[1] = groups_of(atomicLoad(&listed.few_count));
+    groups[2] = groups_of(atomicLoad(&listed.many_count) * MANY_SHARES);
 }

@@ -99,6 +99,12 @@ impl Extent {
         (Vec3::from(self.low) + Vec3::from(self.high)) * 0.5
     }
 
+    /// How far yarns may reach out of it: a spline leaves the box of its control points by up to an eighth of what that measures, where its tension is 0,
+    /// and sections have corners.
+    pub(crate) fn spare(&self) -> Vec3 {
+        (Vec3::from(self.high) - Vec3::from(self.low)) / 8.0 + self.radius
+    }
+
     /// Its eight corners.
     pub(crate) fn corners(&self) -> impl Iterator<Item = Vec3> {
         let (low, high) = (Vec3::from(self.low), Vec3::from(self.high));

@@ -76,7 +76,7 @@ impl Camera {
         let depths = self.extent.corners().map(|corner| (corner - self.target).dot(self.toward));
         let (far, near) =
             depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
-        let spare = self.extent.radius;
+        let spare = self.extent.spare().dot(self.toward.abs());
         [f64::from(near + spare), f64::from(far - spare)]
     }
 
@@ -95,7 +95,7 @@ impl Camera {
         let half = eye * NEAREST * (0.5 * f64::from(field_of_view)).tan();
         let reach = right.abs() * (half * f64::from(self.aspect()))
             + above.abs() * half
-            + DVec3::splat(f64::from(self.extent.radius));
+            + self.extent.spare().as_dvec3();
         let [low, high] =
             [self.extent.low, self.extent.high].map(|corner| DVec3::from(corner.map(f64::from)));
         (middle + reach).cmpge(low).all() && (middle - reach).cmple(high).all()

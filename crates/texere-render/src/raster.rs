@@ -30,9 +30,12 @@ struct Sweep {
 
 const _: () = assert!(size_of::<Sweep>() == 32);
 
-/// Most blocks of a chunk, some sixty million rings, on CPUs and on GPUs with memory of their own, which take a hundredth of a second for it. GPUs of
+/// Most blocks of a chunk, some sixty million rings, on CPUs and on GPUs with memory of their own; such GPUs take a hundredth of a second for it. GPUs of
 /// other kinds get smaller chunks, so that the desktop does not wait for them. Each chunk costs a look at all samples.
 const BLOCKS_MOST: u64 = 1 << 20;
+
+/// Bytes of a ring's roll.
+const ROLL_BYTES: u64 = 4;
 
 /// Bytes of an indirect dispatch's workgroups.
 const GROUPS_BYTES: u64 = 12;
@@ -93,10 +96,12 @@ impl Raster {
         let kinds = [DeviceKind::DiscreteGpu, DeviceKind::Cpu];
         let is_fast = kinds.contains(&device.kind) && device.limits.blocks == LAUNCH_BLOCKS;
         let blocks = if is_fast { BLOCKS_MOST } else { device.limits.blocks };
+        let binding = device.limits.binding_bytes;
         // A window begins and ends a little before and behind them.
-        let bound =
-            (device.limits.binding_bytes / size_of::<ControlPoint>() as u64).saturating_sub(32) / points;
-        Limits { blocks: numbered.min(bound).min(blocks).max(2), ..Limits::NONE }
+        let windows = (binding / size_of::<ControlPoint>() as u64).saturating_sub(32) / points;
+        // The rolls of all rings, and tables of less than that.
+        let tables = (binding / (u64::from(BLOCK_RINGS) * ROLL_BYTES)).saturating_sub(1);
+        Limits { blocks: numbered.min(windows).min(tables).min(blocks).max(2), ..Limits::NONE }
     }
 
     /// Draws a chunk over what earlier ones left on some rows of the screen, and hands the work over.
@@ -115,7 +120,7 @@ impl Raster {
         let rows = band.end - band.start;
         renderer.reserve(&mut self.listed, 12 * (chunk.blocks().len() as u64 + 1))?;
         if self.rolled {
-            renderer.reserve(&mut self.ring_rolls, 4 * u64::from(chunk.rings()))?;
+            renderer.reserve(&mut self.ring_rolls, ROLL_BYTES * u64::from(chunk.rings()))?;
         }
         let first = Sweep {
             first_row: band.start,
@@ -197,11 +202,10 @@ impl Binder<'_> {
             let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
             // Where nothing turns there are no rolls.
             let without = usize::from(!rolled);
-            for (number, raster) in (0..).zip(rasters) {
-                match number {
-                    0 => counted_by(pass, count_listed),
-                    1 => counted_by(pass, count_left),
-                    _ => {}
+            let counts = [Some(count_listed), Some(count_left), None];
+            for (number, (count, raster)) in (0..).zip(counts.into_iter().zip(rasters)) {
+                if let Some(count) = count {
+                    counted_by(pass, count);
                 }
                 self.set(pass, raster, round, &fabric[..6 - without], &own[..4 - without]);
                 pass.dispatch_workgroups_indirect(groups, number * GROUPS_BYTES);

@@ -58,7 +58,7 @@ pub(crate) struct Pipelines {
     pub(crate) cull: wgpu::ComputePipeline,
     pub(crate) count_listed: wgpu::ComputePipeline,
     pub(crate) count_left: wgpu::ComputePipeline,
-    /// What draws quads of a sample or none, of a few, of many.
+    /// What draws quads of at most two by two pixels, of a few samples, of many.
     pub(crate) rasters: [wgpu::ComputePipeline; 3],
     pub(crate) caps: wgpu::ComputePipeline,
     /// Where any yarn has hairs.

@@ -102,7 +102,7 @@ pub struct Scene {
     pub(crate) view: wgpu::Buffer,
     background: Background,
     pub(crate) screen: Option<Arc<Screen>>,
-    /// Whether the last picture's yarns are finer than visibility is found for.
+    /// Whether the last picture has no visibility of its own, as [`ViewUniform::is_far`] says.
     is_far: bool,
     /// Of the last picture.
     pub(crate) camera: Option<Camera>,
@@ -262,6 +262,8 @@ impl Scene {
         let view = ViewUniform::new(camera, self.background, supersampling, hairs && self.raster.is_hairy());
         self.raster.has_hairs = view.has_hairs();
         self.is_far = view.is_far();
+        // Where it is compiled first, that is no part of drawing.
+        self.renderer.shade(self.is_far)?;
         self.renderer.write(&self.view, bytemuck::bytes_of(&view))?;
         Ok(texture)
     }

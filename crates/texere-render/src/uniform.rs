@@ -16,7 +16,7 @@ const SHADOW_RADII: f32 = 9.0;
 /// How thick what casts a shadow is taken to be, radii of a yarn: two yarns, one on the other.
 const THICKNESS_RADII: f32 = 4.0;
 
-/// Where what ambient occlusion looks at is fewer pixels across, there is nothing on the screen to find.
+/// Where all that takes light from a place lies within so many pixels of it, there is nothing to find on the screen.
 const LEAST_REACH: f32 = 1.5;
 
 /// `View` of `view.wgsl`.
@@ -94,7 +94,7 @@ impl ViewUniform {
         self.has_hairs != 0
     }
 
-    /// Whether yarns are too fine for what takes light from them to be found on the screen.
+    /// Whether visibility is not looked for on the screen, since all that takes light from a place lies too near it there.
     pub(crate) fn is_far(&self) -> bool {
         self.reach_pixels < LEAST_REACH
     }

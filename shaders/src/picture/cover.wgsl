@@ -1,8 +1,4 @@
-// The samples that a triangle covers. After fabric.wgsl, weights.wgsl and one of keys_64.wgsl and keys_32.wgsl.
-//
-// The rules are those of any rasteriser, so that triangles with a common edge leave no sample out and have none twice: corners
-// are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
-// top or left edge that is.
+// Where corners lie on the screen, and the samples that a quad may have. After fabric.wgsl and one of keys_64.wgsl and keys_32.wgsl.
 
 const SUBPIXELS = 256.0;
 
@@ -65,18 +61,8 @@ fn corner_of(at: vec4<f32>) -> Corner {
     return Corner(rounded(select(place, vec2(0.0), vec2(is_beyond))), at.z / at.w, sides);
 }
 
-// Offers the triangle in the sample of pixel `x` in row `row`.
-fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
-    if depth < 0.0 || depth > 1.0 {
-        return;
-    }
-    let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
-    // Complements: the greatest key is that of the nearest triangle, and of those as near of the first one.
-    offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
-}
-
-// How many samples a quad may have: NONE; SMALL, those of two by two pixels; FEW, those of some pixels more; or MANY, as one that lies partly beyond
-// what is reached may have.
+// How many samples a quad may have, a bit for each answer: NONE; SMALL, those of at most two by two pixels; FEW, those of some pixels more; or MANY, as
+// one that lies partly beyond what is reached may have.
 const NONE = 0u;
 const SMALL = 1u;
 const FEW = 2u;
@@ -153,6 +139,12 @@ fn near_box_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> QuadBo
     return QuadBox(least, most, first_pixel(least), last_pixel(most));
 }
 
+// The same with one more each way, for a pass that must have no fewer quads than another one has left it: twice does no harm, and a compiler may round
+// otherwise there.
+fn wider(box: QuadBox) -> QuadBox {
+    return QuadBox(box.least, box.most, first_pixel(box.least - 1), last_pixel(box.most + 1));
+}
+
 // How many samples it may have, where up to `alone` are few.
 fn size_of(box: QuadBox, alone: i32) -> u32 {
     let across = box.last - box.first;
@@ -195,13 +187,25 @@ fn last_pixel(most: vec2<i32>) -> vec2<i32> {
 
 // The samples of a pixel that lie between `least` and `most`, likewise, a bit each.
 fn samples_between(least: vec2<i32>, most: vec2<i32>, pixel: vec2<i32>) -> u32 {
-    let shift = shift_of(pixel);
     let low = least - pixel * 256;
     let high = most - pixel * 256;
+    let at = samples_in(pixel);
+    return bits_of((vec4(low.x) <= at.x) & (at.x <= vec4(high.x)) & (vec4(low.y) <= at.y) & (at.y <= vec4(high.y)));
+}
+
+// The four samples of a pixel, 1/256 pixels right of its corner and below it.
+struct Four {
+    x: vec4<i32>,
+    y: vec4<i32>,
+}
+
+fn samples_in(pixel: vec2<i32>) -> Four {
+    let shift = shift_of(pixel);
     let down = (FIRST_SAMPLE_Y + shift.y) & (SAMPLE_ROW - 1);
-    let right = (vec4(sample_x(0), sample_x(1), sample_x(2), sample_x(3)) + shift.x) & vec4(255);
-    let y = vec4(0, 1, 2, 3) * SAMPLE_ROW + down;
-    let is_between = (vec4(low.x) <= right) & (right <= vec4(high.x)) & (vec4(low.y) <= y) & (y <= vec4(high.y));
-    let bits = select(vec4(0u), vec4(1u, 2u, 4u, 8u), is_between);
+    return Four((vec4(sample_x(0), sample_x(1), sample_x(2), sample_x(3)) + shift.x) & vec4(255), vec4(0, 1, 2, 3) * SAMPLE_ROW + down);
+}
+
+fn bits_of(each: vec4<bool>) -> u32 {
+    let bits = select(vec4(0u), vec4(1u, 2u, 4u, 8u), each);
     return bits.x | bits.y | bits.z | bits.w;
 }

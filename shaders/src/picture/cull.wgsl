@@ -129,5 +129,5 @@ fn count_listed() {
 @compute @workgroup_size(1)
 fn count_left() {
     groups[1] = groups_of(atomicLoad(&listed.few_count));
-    groups[2] = groups_of(atomicLoad(&listed.many_count) * MANY_SHARES);
+    groups[2] = groups_of(atomicLoad(&listed.many_count) * BLOCK_RINGS);
 }

@@ -1,4 +1,18 @@
 // Draws quads and triangles in their samples. After cover.wgsl and weights.wgsl.
+//
+// The rules are those of any rasteriser, so that triangles with a common edge leave no sample out and have none twice: corners
+// are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
+// top or left edge that is.
+
+// Offers the triangle in the sample of pixel `x` in row `row`.
+fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
+    if depth < 0.0 || depth > 1.0 {
+        return;
+    }
+    let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
+    // Complements: the greatest key is that of the nearest triangle, and of those as near of the first one.
+    offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
+}
 
 fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
     return edge.x * to.y - edge.y * to.x;
@@ -109,15 +123,15 @@ fn draw_small(quad: Quad, samples: u32, triangle: u32) {
     }
 }
 
-// An edge of a triangle: what y and x are multiplied with, and what is added, so that the sum is at least 0 on its inner side.
+// An edge of a triangle as x, y and z of x * b - y * a + z, which is at least 0 for places (a, b), from `origin` on, on its inner side.
 fn edge_of(start: vec2<i32>, end: vec2<i32>, origin: vec2<i32>) -> vec3<i32> {
     let edge = end - start;
     return vec3(edge, edge_bias(edge) - cross_of(edge, start - origin));
 }
 
-// That sum at four places, from the edge's `origin` on.
-fn sums_at(edge: vec3<i32>, x: vec4<i32>, y: vec4<i32>) -> vec4<i32> {
-    return edge.x * y - edge.y * x + edge.z;
+// That sum at four places. Its parts may wrap round, the sum is exact: places lie within a box of ALONE samples.
+fn sums_at(edge: vec3<i32>, places: Four) -> vec4<i32> {
+    return edge.x * places.y - edge.y * places.x + edge.z;
 }
 
 // Draws a quad that has few samples: four by two pixels at a time, first which of their samples it covers, then those.
@@ -130,10 +144,11 @@ fn draw_few(quad: Quad, triangle: u32) {
     }
     let origin = quad.r.place;
     let diagonal = edge_of(quad.r.place, quad.q.place, origin);
-    let first_from = edge_of(quad.p.place, quad.r.place, origin);
-    let first_to = edge_of(quad.q.place, quad.p.place, origin);
-    let second_from = edge_of(quad.s.place, quad.q.place, origin);
-    let second_to = edge_of(quad.r.place, quad.s.place, origin);
+    // The other edges of the triangle p q r, and of q s r.
+    let pr = edge_of(quad.p.place, quad.r.place, origin);
+    let qp = edge_of(quad.q.place, quad.p.place, origin);
+    let sq = edge_of(quad.s.place, quad.q.place, origin);
+    let rs = edge_of(quad.r.place, quad.s.place, origin);
     let first = first_pixel(lowest(quad) + middle());
     let last = last_pixel(highest(quad) + middle());
     for (var row = first.y; row <= last.y; row += 2) {
@@ -142,35 +157,22 @@ fn draw_few(quad: Quad, triangle: u32) {
             var covered = 0u;
             for (var y = row; y <= end.y; y++) {
                 for (var x = column; x <= end.x; x++) {
-                    let shift = shift_of(vec2(x, y));
                     let corner = vec2(x, y) * 256 - middle() - origin;
-                    let right = corner.x + ((vec4(sample_x(0), sample_x(1), sample_x(2), sample_x(3)) + shift.x) & vec4(255));
-                    let down = corner.y + vec4(0, 1, 2, 3) * SAMPLE_ROW + ((FIRST_SAMPLE_Y + shift.y) & (SAMPLE_ROW - 1));
-                    let in_first = sums_at(first_from, right, down) | sums_at(first_to, right, down);
-                    let in_second = sums_at(second_from, right, down) | sums_at(second_to, right, down);
-                    let sign = select(in_second, in_first, sums_at(diagonal, right, down) >= vec4(0));
-                    let bits = select(vec4(0u), vec4(1u, 2u, 4u, 8u), sign >= vec4(0));
-                    covered |= (bits.x | bits.y | bits.z | bits.w) << u32(16 * (y - row) + 4 * (x - column));
+                    let own = samples_in(vec2(x, y));
+                    let places = Four(own.x + corner.x, own.y + corner.y);
+                    // Negative where either sum is.
+                    let in_first = sums_at(pr, places) | sums_at(qp, places);
+                    let in_second = sums_at(sq, places) | sums_at(rs, places);
+                    let inside = select(in_second, in_first, sums_at(diagonal, places) >= vec4(0)) >= vec4(0);
+                    covered |= bits_of(inside) << u32(16 * (y - row) + 4 * (x - column));
                 }
             }
             for (; covered != 0u; covered &= covered - 1u) {
                 let sample = i32(firstTrailingBit(covered));
-                draw_covered(quad, column + ((sample >> 2u) & 3), 4 * (row + (sample >> 4u)) + (sample & 3), triangle);
+                draw_sample(quad, column + ((sample >> 2u) & 3), 4 * (row + (sample >> 4u)) + (sample & 3), triangle);
             }
         }
     }
-}
-
-// Draws a quad in a sample that it covers: that of its triangles which lies on the sample's side of the diagonal between q and r.
-fn draw_covered(quad: Quad, x: i32, row: i32, triangle: u32) {
-    let place = sample_place(x, row);
-    let diagonal = quad.q.place - quad.r.place;
-    let is_first = cross_of(diagonal, place - quad.r.place) + edge_bias(diagonal) >= 0;
-    var seen = Turned(quad.s, quad.q, quad.r, true);
-    if is_first {
-        seen = Turned(quad.p, quad.r, quad.q, true);
-    }
-    offer_at(x, row, coverage_of(seen, place).depth, select(triangle + 1u, triangle, is_first));
 }
 
 // Draws a quad in a sample: that of its triangles which lies on the sample's side of the diagonal between q and r.

@@ -26,9 +26,6 @@ struct Listed {
     rows: array<u32>,
 }
 
-// Workgroups that share a block which has quads of many samples: such pictures show few blocks.
-const MANY_SHARES = 64u;
-
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
 @group(1) @binding(1) var<uniform> sweep: Sweep;
 

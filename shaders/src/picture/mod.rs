@@ -114,7 +114,7 @@ pub const SHADE: &str = concat!(
     include_str!("shade.wgsl")
 );
 
-/// What stands before [`SHADE`]: whether yarns are too fine for `visibility`, which then has no part in the picture.
+/// What stands before [`SHADE`]: whether the picture does without `visibility`, since all that takes light from a place lies too near it on the screen.
 #[must_use]
 pub const fn far(far: bool) -> &'static str {
     if far { "const FAR = true;\n" } else { "const FAR = false;\n" }

@@ -18,13 +18,14 @@ const SIDES_LOOKED = 6u;
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
 
-// Quads that have samples, and above FOUND_SHIFT which. That is enough for `raster_many`, too, whose workgroups have a ring each.
+// Quads of the block that are to be drawn: their numbers, and above FOUND_SHIFT the samples that SMALL ones may have. In `raster_many` sides of the ring.
 const FOUND_SHIFT = 16u;
 const FOUND_MOST = RASTER_GROUP * SIDES_LOOKED;
 var<workgroup> found: array<u32, FOUND_MOST>;
-const_assert BLOCK_RINGS <= MANY_SHARES && FOUND_MOST >= 256u;
 var<workgroup> found_count: atomic<u32>;
-// Of which sizes others are.
+// Sections have up to 256 sides.
+const_assert BLOCK_RINGS * 256u <= 1u << FOUND_SHIFT && FOUND_MOST >= 256u && SIDES_LOOKED <= 6u;
+// Sizes of the quads that `raster` leaves to other passes.
 var<workgroup> other_sizes: atomic<u32>;
 
 // Where the corner at a section's `point` lies in screen space.
@@ -79,35 +80,12 @@ fn quad_of(outline: u32, ring: u32, side: u32, beside: u32) -> Quad {
                 corner_of(tube_at(next, other)));
 }
 
-// Some sides of a ring that a lane looks at in one go: the ring of the block, the number of its first quad in `found`, and the sides.
-struct Stint {
-    ring: u32,
-    first_number: u32,
-    first_side: u32,
-    end_side: u32,
-}
-
-fn stint_of(first_ring: u32, rings: u32, stint: u32, lane: u32, lanes: u32) -> Stint {
-    let parts = parts_of(rings, lanes);
-    let part = quotient(lane, rings);
-    let ring = lane - part * rings;
-    let first = part * params.sides / parts + stint * SIDES_LOOKED;
-    // Lanes that are left over get none.
-    let end = select(0u, (part + 1u) * params.sides / parts, part < parts);
-    return Stint(first_ring + ring, ring * params.sides, first, min(end, first + SIDES_LOOKED));
-}
-
-// Lanes that share a ring's sides, of so many that have so many rings.
-fn parts_of(rings: u32, lanes: u32) -> u32 {
-    return max(lanes / rings, 1u);
-}
-
-// Notes those of its quads that are SMALL and have samples, or those that have FEW, and what others are. `here` are the axes of its ring.
-fn note_alone(outline: u32, at: Stint, here: Axes, size: u32) {
-    if at.first_side >= at.end_side {
+// Notes those quads of some sides of a ring that are SMALL and have samples, or those that have FEW, and the sizes of others. `here` are the ring's axes.
+fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axes, size: u32) {
+    if first_side >= end_side {
         return;
     }
-    let next = held_axes(at.ring + 1u);
+    let next = held_axes(ring + 1u);
     if !are_near(disc_of(here), disc_of(next)) {
         atomicOr(&other_sizes, MANY);
         return;
@@ -116,27 +94,29 @@ fn note_alone(outline: u32, at: Stint, here: Axes, size: u32) {
     var samples = vec3(0u);
     var noted = 0u;
     var sizes = 0u;
-    let point = outlines[outline + at.first_side].xy;
+    let point = outlines[outline + first_side].xy;
     var p = near_place(here, point);
     var r = near_place(next, point);
-    for (var k = 0u; k < at.end_side - at.first_side; k++) {
-        let point = outlines[outline + side_beside(at.first_side + k)].xy;
+    for (var k = 0u; k < end_side - first_side; k++) {
+        let point = outlines[outline + side_beside(first_side + k)].xy;
         let q = near_place(here, point);
         let s = near_place(next, point);
         let box = near_box_of(p, q, r, s);
-        let own_size = size_of(box, ALONE);
-        var is_noted = own_size == size;
-        if size == SMALL && is_noted {
-            let own = samples_of(box);
-            samples |= select(vec3(0u), vec3(own << (16u * (k & 1u))), vec3(k / 2u) == vec3(0u, 1u, 2u));
-            is_noted = own != 0u;
+        if size == SMALL {
+            let own_size = size_of(box, ALONE);
+            sizes |= own_size;
+            if own_size == SMALL {
+                let own = samples_of(box);
+                samples |= select(vec3(0u), vec3(own << (16u * (k & 1u))), vec3(k / 2u) == vec3(0u, 1u, 2u));
+                noted |= select(0u, 1u << k, own != 0u);
+            }
+        } else if size_of(wider(box), ALONE + 128) == FEW {
+            noted |= 1u << k;
         }
-        noted |= select(0u, 1u << k, is_noted);
-        sizes |= own_size;
         p = q;
         r = s;
     }
-    if (sizes & ~(size | SMALL)) != 0u {
+    if (sizes & (FEW | MANY)) != 0u {
         atomicOr(&other_sizes, sizes);
     }
     var place = atomicAdd(&found_count, countOneBits(noted));
@@ -144,47 +124,23 @@ fn note_alone(outline: u32, at: Stint, here: Axes, size: u32) {
         let k = firstTrailingBit(noted);
         let pair = select(select(samples.x, samples.y, k >= 2u), samples.z, k >= 4u);
         let own = (pair >> (16u * (k & 1u))) & 0xffffu;
-        found[place] = (at.first_number + at.first_side + k) | (own << FOUND_SHIFT);
+        found[place] = (ring * params.sides + first_side + k) | (own << FOUND_SHIFT);
         place++;
     }
 }
 
-// Notes what is left: all quads of a stint that may have any samples, or those that have many.
-fn note_many(outline: u32, at: Stint) {
-    if at.first_side >= at.end_side {
-        return;
+// Whether a quad may have many samples. Where its rings are not near it is not known how many.
+fn may_have_many(outline: u32, ring: u32, side: u32) -> bool {
+    let here = held_axes(ring);
+    let next = held_axes(ring + 1u);
+    let beside = side_beside(side);
+    if !are_near(disc_of(here), disc_of(next)) {
+        return may_show(quad_of(outline, ring, side, beside));
     }
-    let here = held_axes(at.ring);
-    let next = held_axes(at.ring + 1u);
-    let is_near = are_near(disc_of(here), disc_of(next));
-    for (var side = at.first_side; side < at.end_side; side++) {
-        var is_wanted: bool;
-        if is_near {
-            let own = outlines[outline + side].xy;
-            let other = outlines[outline + side_beside(side)].xy;
-            let p = near_place(here, own);
-            let q = near_place(here, other);
-            let r = near_place(next, own);
-            let s = near_place(next, other);
-            // Some fewer, in case that a compiler rounds otherwise here: twice does no harm.
-            is_wanted = size_of(near_box_of(p, q, r, s), ALONE - 128) == MANY;
-        } else {
-            is_wanted = may_show(quad_of(outline, at.ring, side, side_beside(side)));
-        }
-        if is_wanted {
-            found[atomicAdd(&found_count, 1u)] = at.first_number + side;
-        }
-    }
-}
-
-// Stints that the lanes have with so many rings.
-fn stints_for(rings: u32, lanes: u32) -> u32 {
-    if rings == 0u {
-        return 0u;
-    }
-    let parts = parts_of(rings, lanes);
-    let most = (params.sides + parts - 1u) / parts;
-    return (most + SIDES_LOOKED - 1u) / SIDES_LOOKED;
+    let own = outlines[outline + side].xy;
+    let other = outlines[outline + beside].xy;
+    let box = near_box_of(near_place(here, own), near_place(here, other), near_place(next, own), near_place(next, other));
+    return size_of(box, ALONE - 128) == MANY;
 }
 
 // Every lane must come here when it no longer wants the quads in `found`.
@@ -196,7 +152,7 @@ fn empty_found(lane: u32) {
     workgroupBarrier();
 }
 
-// Draws the quads of a block that are SMALL, or those that have FEW samples: a workgroup of RASTER_GROUP. Gives what other sizes there are.
+// Draws the quads of a block that are SMALL, and gives what other sizes there are; or draws those that have FEW samples. A workgroup of RASTER_GROUP.
 fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     let own = project_block(blocks[row], lane);
     if lane == 0u {
@@ -210,7 +166,7 @@ fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
     let sides = select(0u, params.sides, lane < blocks[row].quads);
     for (var first_side = 0u; first_side < params.sides; first_side += SIDES_LOOKED) {
         let end_side = min(sides, first_side + SIDES_LOOKED);
-        note_alone(outline, Stint(lane, lane * params.sides, first_side, end_side), own, size);
+        note_alone(outline, lane, first_side, end_side, own, size);
         workgroupBarrier();
         let count = atomicLoad(&found_count);
         for (var k = lane; k < count; k += RASTER_GROUP) {
@@ -258,54 +214,47 @@ fn raster_few(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// MANY_SHARES workgroups of MANY_GROUP a block that has some of MANY samples, each drawn by a whole workgroup.
+// A workgroup of MANY_GROUP for each ring of a block that has quads of MANY samples: all lanes draw each of them together.
 @compute @workgroup_size(MANY_GROUP)
 fn raster_many(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {
     let number = group.y * grid.x + group.x;
-    if number >= atomicLoad(&listed.many_count) * MANY_SHARES {
+    if number >= atomicLoad(&listed.many_count) * BLOCK_RINGS {
         return;
     }
-    let row = listed.rows[2u * params.blocks + number / MANY_SHARES];
-    let share = number % MANY_SHARES;
+    let row = listed.rows[2u * params.blocks + number / BLOCK_RINGS];
+    let ring = number % BLOCK_RINGS;
+    if ring >= blocks[row].quads {
+        return;
+    }
     _ = project_block(blocks[row], lane);
     if lane == 0u {
         atomicStore(&found_count, 0u);
     }
     workgroupBarrier();
     let outline = yarns[blocks[row].yarn].section * params.sides;
-    let quads = blocks[row].quads;
-    let first = quads * share / MANY_SHARES;
-    let rings = quads * (share + 1u) / MANY_SHARES - first;
-    if rings == 0u {
-        return;
-    }
-    let base = row * numbers_of_block() + 2u * first * params.sides;
-    let stints = stints_for(rings, MANY_GROUP);
-    for (var stint = 0u; stint < stints; stint++) {
-        note_many(outline, stint_of(first, rings, stint, lane, MANY_GROUP));
-        workgroupBarrier();
-        let count = atomicLoad(&found_count);
-        for (var k = 0u; k < count; k++) {
-            let number = found[k];
-            let at = quad_at(number);
-            let ring = first + at.x;
-            let quad = quad_of(outline, ring, at.y, at.z);
-            let triangle = base + 2u * number;
-            if ((quad.p.sides | quad.q.sides | quad.r.sides | quad.s.sides) & BEYOND) == 0u {
-                draw_together(quad.p, quad.q, quad.r, triangle, lanes_of(lane, MANY_GROUP));
-                draw_together(quad.s, quad.r, quad.q, triangle + 1u, lanes_of(lane, MANY_GROUP));
-            } else {
-                let own = outlines[outline + at.y].xy;
-                let other = outlines[outline + at.z].xy;
-                let beside = tube_clip(ring, other);
-                let over = tube_clip(ring + 1u, own);
-                draw_beyond(tube_clip(ring, own), beside, over, triangle, lane, MANY_GROUP);
-                draw_beyond(beside, tube_clip(ring + 1u, other), over, triangle + 1u, lane, MANY_GROUP);
-            }
+    for (var side = lane; side < params.sides; side += MANY_GROUP) {
+        if may_have_many(outline, ring, side) {
+            found[atomicAdd(&found_count, 1u)] = side;
         }
-        if stint + 1u < stints {
-            empty_found(lane);
+    }
+    workgroupBarrier();
+    let count = atomicLoad(&found_count);
+    for (var k = 0u; k < count; k++) {
+        let side = found[k];
+        let beside_side = side_beside(side);
+        let quad = quad_of(outline, ring, side, beside_side);
+        let triangle = row * numbers_of_block() + 2u * (ring * params.sides + side);
+        if ((quad.p.sides | quad.q.sides | quad.r.sides | quad.s.sides) & BEYOND) == 0u {
+            draw_together(quad.p, quad.q, quad.r, triangle, lanes_of(lane, MANY_GROUP));
+            draw_together(quad.s, quad.r, quad.q, triangle + 1u, lanes_of(lane, MANY_GROUP));
+        } else {
+            let own = outlines[outline + side].xy;
+            let other = outlines[outline + beside_side].xy;
+            let beside = tube_clip(ring, other);
+            let over = tube_clip(ring + 1u, own);
+            draw_beyond(tube_clip(ring, own), beside, over, triangle, lane, MANY_GROUP);
+            draw_beyond(beside, tube_clip(ring + 1u, other), over, triangle + 1u, lane, MANY_GROUP);
         }
     }
 }

@@ -153,15 +153,20 @@ fn kept_of_number(number: u32, place: vec2<i32>) -> vec4<u32> {
     return cap_at(row - params.blocks, triangle, place);
 }
 
-// What a workgroup works out: samples of its pixels, each for itself and those of its pixel that show the same. The pixel's lane is in the
-// lowest bits, then the sample, then a bit for each sample of the pixel that shows anything, then one for each that is listed.
+// The samples that a workgroup works out, each for itself and for those of its pixel that show the same: fields of bits, from the lowest on
+// the pixel's lane (6), the sample (2), a bit for each sample of the pixel that shows anything (4), a bit for each that is listed (4).
 const RESOLVE_GROUP = SCREEN_GROUP * SCREEN_GROUP;
 const SAMPLE_SHIFT = 6u;
 const SHOWN_SHIFT = 8u;
 const LISTED_SHIFT = 12u;
-const_assert RESOLVE_GROUP <= 1u << SAMPLE_SHIFT && SAMPLES == 4;
+const_assert RESOLVE_GROUP == 1u << SAMPLE_SHIFT && SAMPLES == 4;
 var<workgroup> wanted: array<u32, RESOLVE_GROUP * 4u>;
 var<workgroup> wanted_count: atomic<u32>;
+
+// The pixel of a lane, from the first row that has keys on.
+fn place_of_lane(group: vec3<u32>, lane: u32) -> vec2<u32> {
+    return group.xy * SCREEN_GROUP + vec2(lane % SCREEN_GROUP, lane / SCREEN_GROUP);
+}
 
 // Lists the samples of a lane's pixel where they are nearer than what earlier chunks left, and keeps their depths.
 fn list_wanted(place: vec2<u32>, lane: u32) {
@@ -188,10 +193,10 @@ fn list_wanted(place: vec2<u32>, lane: u32) {
             }
         }
     }
-    var place_in_list = atomicAdd(&wanted_count, countOneBits(own));
+    var at = atomicAdd(&wanted_count, countOneBits(own));
     for (var rest = own; rest != 0u; rest &= rest - 1u) {
-        wanted[place_in_list] = lane | (firstTrailingBit(rest) << SAMPLE_SHIFT) | (shown << SHOWN_SHIFT) | (own << LISTED_SHIFT);
-        place_in_list++;
+        wanted[at] = lane | (firstTrailingBit(rest) << SAMPLE_SHIFT) | (shown << SHOWN_SHIFT) | (own << LISTED_SHIFT);
+        at++;
     }
 }
 
@@ -205,23 +210,21 @@ fn alike_of(sample: u32, entry: u32) -> u32 {
 
 // A lane a pixel, then a lane a sample that is worked out: many show the same as the one before.
 @compute @workgroup_size(SCREEN_GROUP, SCREEN_GROUP)
-fn resolve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) own: vec3<u32>,
-           @builtin(local_invocation_index) lane: u32) {
+fn resolve(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     if lane == 0u {
         atomicStore(&wanted_count, 0u);
     }
     workgroupBarrier();
-    let corner = group.xy * SCREEN_GROUP;
-    let place = corner + own.xy;
-    if place.x < u32(view.size.x) && place.y < sweep.rows {
-        list_wanted(place, lane);
+    let own_place = place_of_lane(group, lane);
+    if own_place.x < u32(view.size.x) && own_place.y < sweep.rows {
+        list_wanted(own_place, lane);
     }
     workgroupBarrier();
     let count = atomicLoad(&wanted_count);
     for (var k = lane; k < count; k += RESOLVE_GROUP) {
         let entry = wanted[k];
+        let place = place_of_lane(group, entry & (RESOLVE_GROUP - 1u));
         let sample = (entry >> SAMPLE_SHIFT) & 3u;
-        let place = corner + vec2(entry % SCREEN_GROUP, (entry / SCREEN_GROUP) % SCREEN_GROUP);
         let pixel = vec2<i32>(vec2(place.x, place.y + sweep.first_row));
         // In the pixel's middle, as rasterisers do. Where triangles are finer than pixels each sample has its own place, for the middle lies far
         // outside, and the pattern of middles would beat with them.

@@ -1,5 +1,5 @@
-// Lights what is seen, sample by sample, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl, and after FAR: true where what lies about a
-// place is no wider than a pixel, so that the screen does not show what takes light from it.
+// Lights what is seen, sample by sample, and maps tones. After view.wgsl, screen.wgsl and lit.wgsl, and after FAR: true where all that takes light from a
+// place lies within one and a half pixels of it, so that there is nothing to find on the screen.
 
 // Rust: texere_render's YarnLook, 32 bytes.
 struct YarnLook {

@@ -273,7 +273,7 @@ fn eyes_that_see_nothing_are_refused() {
     }
 }
 
-/// A chunk's control points are bound as one piece, which must fit whatever yarns it is cut from.
+/// A chunk's control points are bound as one piece, and so are the rolls of its rings: both must fit whatever yarns it is cut from.
 #[test]
 fn chunks_of_pictures_fit_a_binding() {
     const BYTES: u64 = 1 << 17;
@@ -294,10 +294,12 @@ fn chunks_of_pictures_fit_a_binding() {
             let limits = Limits { binding_bytes: BYTES, ..Limits::NONE };
             let device = DeviceInfo { kind, limits, ..info.clone() };
             let limits = Raster::chunk_limits(&plan, &yarns, &device);
-            let windows = plan.chunks(&limits).unwrap().map(|chunk| chunk.window());
-            let bytes = windows.map(|window| (window.end - window.start) * size_of::<ControlPoint>() as u64);
-            let most = bytes.max().unwrap();
-            assert!(most <= BYTES, "{counts:?} {closed} {subdivisions} {most}");
+            for chunk in plan.chunks(&limits).unwrap() {
+                let window = chunk.window();
+                let points = (window.end - window.start) * size_of::<ControlPoint>() as u64;
+                let rolls = 4 * u64::from(chunk.rings());
+                assert!(points.max(rolls) <= BYTES, "{counts:?} {closed} {subdivisions}: {points}, {rolls}");
+            }
         }
     }
 }
@@ -319,8 +321,26 @@ fn an_eye_in_a_yarn_sees_its_wall() {
         let alpha = drawn(&yarns, &camera, Background::Nothing).alpha;
         assert!(alpha.iter().all(|&alpha| alpha == 255), "{name}");
     }
-    let above = camera([10.0, 0.0, 2.5], [10.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let above = camera([10.0, 0.0, 2.6], [10.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     assert!(!above.sees_inside());
     let corner = drawn(&yarns, &above, Background::Nothing).alpha[0];
     assert_eq!(corner, 0);
+}
+
+/// Splines reach past their control points, and the near plane must not slice them there.
+#[test]
+fn a_crest_past_its_control_points_is_whole() {
+    let mut yarns = Yarns::builder();
+    let points = [(0.0, 0.0), (1.0, 2.0), (2.0, 2.0), (3.0, 0.0)];
+    yarns.yarn(Yarn::default(), &points.map(|(x, z)| ControlPoint::new(x, 0.0, z, 0.1)));
+    let yarns = yarns.build().unwrap();
+    let extent = Extent::of(&yarns);
+    let pose = Pose { eye: [1.5, 0.0, 40.0], target: [1.5, 0.0, 2.0], up: [0.0, 1.0, 0.0] };
+    let perspective = Camera::perspective(&extent, &pose, 0.02, SIZE).unwrap();
+    let parallel = Camera::orthographic(&extent, &pose, 0.8, SIZE).unwrap();
+    for (name, camera) in [("perspective", perspective), ("parallel", parallel)] {
+        let alpha = drawn(&yarns, &camera, Background::Nothing).alpha;
+        let [width, height] = SIZE.map(|pixels| pixels as usize);
+        assert_eq!(alpha[height / 2 * width + width / 2], 255, "{name}");
+    }
 }

@@ -72,7 +72,7 @@ fn drawing_shaders_have_their_entry_points() {
     let core = Capabilities::SHADER_FLOAT16_IN_FLOAT32;
     let long = core | Capabilities::SHADER_INT64 | Capabilities::SHADER_INT64_ATOMIC_MIN_MAX;
     for (source, capabilities, entries) in [
-        (picture::CULL, core, &["cull", "count_listed", "count_left"][..]),
+        (picture::CULL, core, &["cull", "list_all", "count_listed", "count_left"][..]),
         (picture::RASTER_IN_ROUNDS[0], core, &["raster", "raster_few", "raster_many", "raster_caps"]),
         (picture::RASTER_IN_ROUNDS[1], core, &["raster", "raster_few", "raster_many", "raster_caps"]),
         (picture::RASTER[0], long, &["raster", "raster_few", "raster_many", "raster_caps"]),

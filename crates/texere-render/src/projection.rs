@@ -101,6 +101,16 @@ impl Camera {
         (middle + reach).cmpge(low).all() && (middle - reach).cmple(high).all()
     }
 
+    /// Whether all of the cloth lies in the picture, or nearly.
+    pub(crate) fn sees_all(&self) -> bool {
+        let clip_from_local = self.clip_from_local();
+        !self.cuts
+            && self.extent.corners().all(|corner| {
+                let clip = clip_from_local * (corner - self.target).as_dvec3().extend(1.0);
+                clip.w > 0.0 && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w
+            })
+    }
+
     /// Where a point relative to the target lies in clip space.
     pub(crate) fn clip_from_local(&self) -> DMat4 {
         // As near as the fabric is, and no farther: depth has 24 bits to tell yarns apart.

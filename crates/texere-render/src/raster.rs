@@ -40,8 +40,9 @@ const ROLL_BYTES: u64 = 4;
 /// Bytes of an indirect dispatch's workgroups.
 const GROUPS_BYTES: u64 = 12;
 
-/// Blocks of a workgroup of `cull.wgsl`: `CULL_GROUP / BLOCK_LANES`.
+/// Blocks of a workgroup of `cull`: `CULL_GROUP / BLOCK_LANES`; and of `list_all`: `CULL_GROUP`.
 const CULLED_BLOCKS: u32 = 8;
+const LISTED_BLOCKS: u32 = 64;
 
 /// The buffers of one chunk at a time, as large as the largest so far.
 #[derive(Debug)]
@@ -59,6 +60,8 @@ pub(crate) struct Raster {
     hair_densities: Option<wgpu::Buffer>,
     /// Whether the next picture shows them.
     pub(crate) has_hairs: bool,
+    /// Whether it shows all of the fabric.
+    pub(crate) sees_all: bool,
 }
 
 impl Raster {
@@ -75,6 +78,7 @@ impl Raster {
             rolled: plan.needs_scan(),
             hair_densities: hairs::any(yarns).then(|| hairs::densities(renderer, yarns)).transpose()?,
             has_hairs: false,
+            sees_all: false,
         })
     }
 
@@ -141,6 +145,7 @@ impl Raster {
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
                 let of = Binder { raster: self, device: device.device(), tables, view, screen };
+                of.list(&mut pass, &pipelines, chunk, self.sees_all && rows == screen.large()[1]);
                 of.find(&mut pass, &pipelines, chunk, keys);
                 of.show(&mut pass, &pipelines.resolve, [screen.large()[0], rows]);
             }
@@ -159,12 +164,16 @@ struct Binder<'a> {
 }
 
 impl Binder<'_> {
-    /// Sets `pipeline` with `fabric` of the session, and the view, a sweep and `own` of the picture.
+    /// The sweep of a round, with its number in group 1.
+    fn sweep(&self, round: usize) -> (u32, BindingResource<'_>) {
+        (1, self.raster.sweeps[round].as_entire_binding())
+    }
+
+    /// Sets `pipeline` with `fabric` of the session and `own` of the picture.
     fn set(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
         pipeline: &wgpu::ComputePipeline,
-        sweep: usize,
         fabric: &[Resource],
         own: &[(u32, BindingResource<'_>)],
     ) {
@@ -172,11 +181,25 @@ impl Binder<'_> {
             .iter()
             .filter_map(|&wanted| Some((wanted as u32, self.tables.resource(wanted)?)))
             .collect();
-        let mut bound = vec![(1, self.raster.sweeps[sweep].as_entire_binding())];
-        bound.extend_from_slice(own);
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group(self.device, pipeline, 0, &tables), &[]);
-        pass.set_bind_group(1, &group(self.device, pipeline, 1, &bound), &[]);
+        pass.set_bind_group(1, &group(self.device, pipeline, 1, own), &[]);
+    }
+
+    /// Records what lists the blocks that the view may show, or all.
+    fn list(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, chunk: &Chunk, all: bool) {
+        use Resource::{Blocks, Params, Points};
+        let blocks = chunk.blocks().len() as u32;
+        let listed = (2, self.raster.listed.as_entire_binding());
+        let (columns, rows) = if all {
+            self.set(pass, &pipelines.list_all, &[Params], &[listed]);
+            grid(blocks.div_ceil(LISTED_BLOCKS))
+        } else {
+            let view = (0, self.view.as_entire_binding());
+            self.set(pass, &pipelines.cull, &[Params, Points, Blocks], &[view, self.sweep(0), listed]);
+            grid(blocks.div_ceil(CULLED_BLOCKS))
+        };
+        pass.dispatch_workgroups(columns, rows, 1);
     }
 
     /// Records what finds the nearest triangle of each sample.
@@ -187,10 +210,7 @@ impl Binder<'_> {
         let [listed, counted, samples, rolls] =
             [(2, listed), (3, groups), (4, &self.screen.keys), (5, ring_rolls)]
                 .map(|(number, buffer)| (number, buffer.as_entire_binding()));
-        let Pipelines { cull, count_listed, count_left, rasters, caps, hairs, .. } = pipelines;
-        self.set(pass, cull, 0, &[Params, Points, Blocks], &[view.clone(), listed.clone()]);
-        let (columns, rows) = grid((chunk.blocks().len() as u32).div_ceil(CULLED_BLOCKS));
-        pass.dispatch_workgroups(columns, rows, 1);
+        let Pipelines { count_listed, count_left, rasters, caps, hairs, .. } = pipelines;
         let counted_by = |pass: &mut wgpu::ComputePass<'_>, count: &wgpu::ComputePipeline| {
             pass.set_pipeline(count);
             let counts = group(self.device, count, 1, &[listed.clone(), counted.clone()]);
@@ -199,7 +219,8 @@ impl Binder<'_> {
         };
         for round in 0..keys.rounds() {
             let fabric = [Params, Points, Yarns, Blocks, Outlines, Rolls];
-            let own = [view.clone(), listed.clone(), samples.clone(), rolls.clone()];
+            let sweep = self.sweep(round);
+            let own = [view.clone(), sweep.clone(), listed.clone(), samples.clone(), rolls.clone()];
             // Where nothing turns there are no rolls.
             let without = usize::from(!rolled);
             let counts = [Some(count_listed), Some(count_left), None];
@@ -207,20 +228,20 @@ impl Binder<'_> {
                 if let Some(count) = count {
                     counted_by(pass, count);
                 }
-                self.set(pass, raster, round, &fabric[..6 - without], &own[..4 - without]);
+                self.set(pass, raster, &fabric[..6 - without], &own[..5 - without]);
                 pass.dispatch_workgroups_indirect(groups, number * GROUPS_BYTES);
             }
             if !chunk.caps().is_empty() {
                 let fabric = [Params, Points, Yarns, Outlines, CapRows, CapPattern];
-                let own = [view.clone(), samples.clone(), rolls.clone()];
-                self.set(pass, caps, round, &fabric, &own);
+                let own = [view.clone(), sweep.clone(), samples.clone(), rolls.clone()];
+                self.set(pass, caps, &fabric, &own);
                 let (columns, rows) = grid(chunk.caps().len() as u32);
                 pass.dispatch_workgroups(columns, rows, 1);
             }
             if let (true, Some(hairs), Some(densities)) = (*has_hairs, hairs, hair_densities) {
                 let densities = (6, densities.as_entire_binding());
-                let own = [view.clone(), listed.clone(), samples.clone(), densities];
-                self.set(pass, hairs, round, &fabric, &own);
+                let own = [view.clone(), sweep, listed.clone(), samples.clone(), densities];
+                self.set(pass, hairs, &fabric, &own);
                 pass.dispatch_workgroups_indirect(groups, 0);
             }
         }
@@ -237,13 +258,14 @@ impl Binder<'_> {
         let fabric = [Params, Points, Yarns, Blocks, Outlines, CapRows, CapPattern];
         let own = [
             (0, self.view.as_entire_binding()),
+            self.sweep(0),
             (4, self.screen.keys.as_entire_binding()),
             (5, self.raster.ring_rolls.as_entire_binding()),
             (6, BindingResource::TextureView(&self.screen.depths)),
             (7, BindingResource::TextureView(&self.screen.directions)),
             (8, BindingResource::TextureView(&self.screen.places)),
         ];
-        self.set(pass, resolve, 0, &fabric, &own);
+        self.set(pass, resolve, &fabric, &own);
         pass.dispatch_workgroups(columns.div_ceil(SCREEN_GROUP), rows.div_ceil(SCREEN_GROUP), 1);
     }
 }

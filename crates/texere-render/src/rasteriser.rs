@@ -56,6 +56,7 @@ pub(crate) struct Kind {
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub(crate) cull: wgpu::ComputePipeline,
+    pub(crate) list_all: wgpu::ComputePipeline,
     pub(crate) count_listed: wgpu::ComputePipeline,
     pub(crate) count_left: wgpu::ComputePipeline,
     /// What draws quads of at most two by two pixels, of a few samples, of many.
@@ -99,6 +100,7 @@ impl Rasteriser {
             let resolve = module(&(picture::hairy(hairy).to_owned() + &self.resolve));
             Arc::new(Pipelines {
                 cull: pipeline(device, &cull, "cull"),
+                list_all: pipeline(device, &cull, "list_all"),
                 count_listed: pipeline(device, &cull, "count_listed"),
                 count_left: pipeline(device, &cull, "count_left"),
                 rasters: ["raster", "raster_few", "raster_many"]

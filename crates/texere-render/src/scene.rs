@@ -261,6 +261,7 @@ impl Scene {
         self.camera = Some(camera.clone());
         let view = ViewUniform::new(camera, self.background, supersampling, hairs && self.raster.is_hairy());
         self.raster.has_hairs = view.has_hairs();
+        self.raster.sees_all = camera.sees_all();
         self.is_far = view.is_far();
         // Where it is compiled first, that is no part of drawing.
         self.renderer.shade(self.is_far)?;

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `view.wgsl` | | the view: stands before each of the others |
 //! | `fabric.wgsl` | | a chunk as it is drawn without a mesh: stands before all down to `resolve.wgsl` |
-//! | `cull.wgsl` | `cull`, `count_listed`, `count_left` | the blocks that the view may show |
+//! | `cull.wgsl` | `cull`, `list_all`, `count_listed`, `count_left` | the blocks that the view may show |
 //! | `weights.wgsl` | | shares of a triangle's corners |
 //! | `keys_64.wgsl`, `keys_32.wgsl` | | the nearest triangle in each sample, by atomics of 64 or of 32 bits |
 //! | `cover.wgsl` | | where corners lie on the screen, and the samples that a quad may have |
@@ -70,7 +70,7 @@ macro_rules! rings {
     };
 }
 
-/// `cull`, `count_listed` and `count_left`. This one and the next five stand after `texere_gpu::prelude`.
+/// `cull`, `list_all`, `count_listed` and `count_left`. This one and the next five stand after `texere_gpu::prelude`.
 pub const CULL: &str = concat!(fabric!(), include_str!("cull.wgsl"));
 
 /// `raster`, `raster_few`, `raster_many` and `raster_caps`, for devices with atomics of 64 bits: where nothing turns, and where something does.

@@ -8,6 +8,8 @@
 // A lane for each ring of a block and the one after it, in eights for the scan of rolls. The less memory a workgroup takes, the more of them
 // run at a time.
 const RASTER_GROUP = BLOCK_RINGS + 8u;
+// Of these so many draw what has been found: GPUs run 32 in step, and the few beyond would keep others waiting in each round.
+const DRAWING_LANES = 64u;
 const MANY_GROUP = 128u;
 const CAP_GROUP = 64u;
 
@@ -169,7 +171,7 @@ fn draw_block(row: u32, lane: u32, size: u32) -> u32 {
         note_alone(outline, lane, first_side, end_side, own, size);
         workgroupBarrier();
         let count = atomicLoad(&found_count);
-        for (var k = lane; k < count; k += RASTER_GROUP) {
+        for (var k = select(count, lane, lane < DRAWING_LANES); k < count; k += DRAWING_LANES) {
             let number = found[k] & ((1u << FOUND_SHIFT) - 1u);
             let at = quad_at(number);
             let quad = quad_of(outline, at.x, at.y, at.z);

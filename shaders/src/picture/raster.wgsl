@@ -8,7 +8,7 @@
 // A lane for each ring of a block and the one after it, in eights for the scan of rolls. The less memory a workgroup takes, the more of them
 // run at a time.
 const RASTER_GROUP = BLOCK_RINGS + 8u;
-// Of these so many draw what has been found: GPUs run 32 in step, and the few beyond would keep others waiting in each round.
+// Lanes of that group that draw what has been found: GPUs run 32 in step, and the few beyond would keep others waiting in each round.
 const DRAWING_LANES = 64u;
 const MANY_GROUP = 128u;
 const CAP_GROUP = 64u;

@@ -37,6 +37,9 @@ const BLOCKS_MOST: u64 = 1 << 20;
 /// Bytes of a ring's roll.
 const ROLL_BYTES: u64 = 4;
 
+/// Bytes of a block in the three lists of `Listed`, and of their counts.
+const LISTED_BYTES: u64 = 12;
+
 /// Bytes of an indirect dispatch's workgroups.
 const GROUPS_BYTES: u64 = 12;
 
@@ -122,7 +125,7 @@ impl Raster {
         let kind = Kind { flattened: tables.are_flattened(), rolled: self.rolled, hairy: self.is_hairy() };
         let pipelines = renderer.rasteriser.pipelines(device, kind)?;
         let rows = band.end - band.start;
-        renderer.reserve(&mut self.listed, 12 * (chunk.blocks().len() as u64 + 1))?;
+        renderer.reserve(&mut self.listed, LISTED_BYTES * (chunk.blocks().len() as u64 + 1))?;
         if self.rolled {
             renderer.reserve(&mut self.ring_rolls, ROLL_BYTES * u64::from(chunk.rings()))?;
         }
@@ -141,7 +144,7 @@ impl Raster {
         device.scoped("Queue::submit", || {
             let mut encoder = device.device().create_command_encoder(&Default::default());
             encoder.clear_buffer(&screen.keys, 0, Some(screen.key_bytes(rows)));
-            encoder.clear_buffer(&self.listed, 0, Some(12));
+            encoder.clear_buffer(&self.listed, 0, Some(LISTED_BYTES));
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
                 let of = Binder { raster: self, device: device.device(), tables, view, screen };

@@ -88,11 +88,7 @@ impl Rasteriser {
     pub(crate) fn pipelines(&self, device: &WgpuBackend, kind: Kind) -> Result<Arc<Pipelines>, BackendError> {
         let Kind { flattened, rolled, hairy } = kind;
         let place = &self.kinds[usize::from(flattened)][usize::from(rolled)][usize::from(hairy)];
-        if let Some(compiled) = place.get() {
-            return Ok(compiled.clone());
-        }
-        let compiled = device.scoped("Device::create_compute_pipeline", || {
-            let device = device.device();
+        let compiled = compiled_once(place, device, |device| {
             let before = prelude(Language::Wgsl, flattened);
             let module = |source: &str| module(device, before.clone() + source);
             let cull = module(picture::CULL);
@@ -110,9 +106,24 @@ impl Rasteriser {
                 resolve: pipeline(device, &resolve, "resolve"),
             })
         })?;
-        // Another scene may have been faster.
-        Ok(place.get_or_init(|| compiled).clone())
+        Ok(compiled.clone())
     }
+}
+
+/// What `place` has, compiled if nobody has wanted it before.
+///
+/// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
+pub(crate) fn compiled_once<'a, T>(
+    place: &'a OnceLock<T>,
+    device: &WgpuBackend,
+    compile: impl FnOnce(&wgpu::Device) -> T,
+) -> Result<&'a T, BackendError> {
+    if let Some(compiled) = place.get() {
+        return Ok(compiled);
+    }
+    let compiled = device.scoped("Device::create_compute_pipeline", || compile(device.device()))?;
+    // Another scene may have been faster.
+    Ok(place.get_or_init(|| compiled))
 }
 
 pub(crate) fn module(device: &wgpu::Device, source: impl Into<Cow<'static, str>>) -> wgpu::ShaderModule {

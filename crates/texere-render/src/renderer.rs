@@ -6,7 +6,7 @@ use texere_core::{Backend, BackendError, DeviceInfo};
 use texere_shaders::picture;
 use texere_wgpu::WgpuBackend;
 
-use crate::rasteriser::{Keys, Rasteriser, module, pipeline};
+use crate::rasteriser::{Keys, Rasteriser, compiled_once, module, pipeline};
 use crate::screen::Screen;
 
 /// An open device with the pipelines that make pictures.
@@ -63,16 +63,9 @@ impl Renderer {
     ///
     /// **Errors**: [`BackendError::Driver`], [`BackendError::DeviceLost`].
     pub(crate) fn shade(&self, is_far: bool) -> Result<&wgpu::ComputePipeline, BackendError> {
-        let place = &self.shade[usize::from(is_far)];
-        if let Some(compiled) = place.get() {
-            return Ok(compiled);
-        }
-        let compiled = self.device.scoped("Device::create_compute_pipeline", || {
-            let device = self.device.device();
+        compiled_once(&self.shade[usize::from(is_far)], &self.device, |device| {
             pipeline(device, &module(device, picture::far(is_far).to_owned() + picture::SHADE), "shade")
-        })?;
-        // Another scene may have been faster.
-        Ok(place.get_or_init(|| compiled))
+        })
     }
 
     /// What a picture of this size is drawn into: that of the last one where it fits and no scene has it any more. A device takes longer to

@@ -61,6 +61,16 @@ fn corner_of(at: vec4<f32>) -> Corner {
     return Corner(rounded(select(place, vec2(0.0), vec2(is_beyond))), at.z / at.w, sides);
 }
 
+// Offers a triangle, or a part of a hair, in the sample of pixel `x` in row `row`.
+fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
+    if depth < 0.0 || depth > 1.0 {
+        return;
+    }
+    let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
+    // Complements: the greatest key is that of the nearest triangle, and of those as near of the first one.
+    offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
+}
+
 // How many samples a quad may have, a bit for each answer: NONE; SMALL, those of at most two by two pixels; FEW, those of some pixels more; or MANY, as
 // one that lies partly beyond what is reached may have.
 const NONE = 0u;

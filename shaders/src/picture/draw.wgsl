@@ -4,16 +4,6 @@
 // are rounded to 1/256 of a pixel, edges are tested in whole numbers, and a sample on an edge belongs to the triangle whose
 // top or left edge that is.
 
-// Offers the triangle in the sample of pixel `x` in row `row`.
-fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
-    if depth < 0.0 || depth > 1.0 {
-        return;
-    }
-    let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
-    // Complements: the greatest key is that of the nearest triangle, and of those as near of the first one.
-    offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
-}
-
 fn cross_of(edge: vec2<i32>, to: vec2<i32>) -> i32 {
     return edge.x * to.y - edge.y * to.x;
 }
@@ -62,6 +52,13 @@ struct Coverage {
     depth: f32,
 }
 
+// The depth where the shares of q and r in the triangle's area are these, all twice.
+fn depth_of(turned: Turned, over_q: f32, over_r: f32, area: f32) -> f32 {
+    let share = 1.0 / area;
+    return turned.p.depth
+        + (over_q * (turned.q.depth - turned.p.depth) + over_r * (turned.r.depth - turned.p.depth)) * share;
+}
+
 fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
     let pq = turned.q.place - turned.p.place;
     let qr = turned.r.place - turned.q.place;
@@ -72,10 +69,7 @@ fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
     // All three can be inside only where the edges go round clockwise.
     let is_covered =
         (over_r + edge_bias(pq) >= 0) & (over_p + edge_bias(qr) >= 0) & (over_q + edge_bias(rp) >= 0);
-    let share = 1.0 / f32(over_r + over_p + over_q);
-    let depth = turned.p.depth
-        + (f32(over_q) * (turned.q.depth - turned.p.depth) + f32(over_r) * (turned.r.depth - turned.p.depth)) * share;
-    return Coverage(is_covered, depth);
+    return Coverage(is_covered, depth_of(turned, f32(over_q), f32(over_r), f32(over_r + over_p + over_q)));
 }
 
 // Twice the area between `edge` and `to`, and its sign, exact for differences of 24 bits: in parts of 12 bits.
@@ -106,10 +100,7 @@ fn long_coverage(turned: Turned, place: vec2<i32>) -> Coverage {
     let over_q = long_cross(rp, place - turned.r.place);
     let is_covered = over_r.sign + edge_bias(pq) >= 0 && over_p.sign + edge_bias(qr) >= 0
         && over_q.sign + edge_bias(rp) >= 0;
-    let share = 1.0 / long_cross(pq, -rp).value;
-    let depth = turned.p.depth
-        + (over_q.value * (turned.q.depth - turned.p.depth) + over_r.value * (turned.r.depth - turned.p.depth)) * share;
-    return Coverage(is_covered, depth);
+    return Coverage(is_covered, depth_of(turned, over_q.value, over_r.value, long_cross(pq, -rp).value));
 }
 
 // Draws a SMALL quad, whose first triangle is number `triangle`, in those of its samples that it covers.

@@ -73,7 +73,7 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
             let off = to - way * share;
             if dot(off, off) < reach * reach {
                 let depth = clamp(mix(depths.x, depths.y, share), 0.0, DEEPEST);
-                offer(key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3)), ~bitcast<u32>(abs(depth)), ~number);
+                offer_at(x, row, depth, number);
             }
         }
     }

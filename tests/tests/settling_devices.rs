@@ -238,6 +238,30 @@ fn broken_settlers_are_caught() {
     }
 }
 
+/// Yarns that lie in one another are refused before their pairs fill the memory, on every device alike.
+#[test]
+fn yarns_too_thick_on_one_another_are_refused() {
+    let mut yarns = Yarns::builder();
+    for yarn in 0..600 {
+        let y = yarn as f32 * 1e-4;
+        yarns.yarn(Yarn::default(), &[0.0, 0.5, 1.0].map(|x| ControlPoint::new(x, y, 0.0, 0.1)));
+    }
+    let yarns = yarns.build().expect("yarns");
+    let plan = Arc::new(SettlingPlan::new(&Settling::new(&yarns)).expect("a plan"));
+    let chords = plan.counts().chords;
+    let cpus: [Arc<dyn Backend>; 2] =
+        [Arc::new(SerialBackend::new()), Arc::new(ParallelBackend::open().expect("the CPU"))];
+    for backend in cpus.iter().chain(near_devices()) {
+        let mut settler = backend.settler(Arc::clone(&plan)).expect("a settler");
+        let mut places = vec![Place::default(); plan.counts().points as usize];
+        plan.unpad(plan.places(), &mut places);
+        settler.upload(&places).expect("places");
+        let refused = settler.list(1.0).expect_err("too many pairs");
+        let BackendError::Crowded { chords: own, limit } = refused else { panic!("{refused}") };
+        assert_eq!((own, limit), (chords, (1 << 20) + 32 * chords), "{}", backend.info().name);
+    }
+}
+
 /// A device with little memory, in each buffer or in all, settles the same or says what is too large.
 #[test]
 fn small_memories_settle_the_same_or_are_refused_by_name() {

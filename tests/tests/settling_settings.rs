@@ -113,9 +113,20 @@ fn yarns_that_can_t_be_cut_into_intervals_or_chords_are_refused() {
     long.yarn(Yarn::default(), &[0.0, 100.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.01)));
     let long = long.build().expect("yarns");
     let refused = SettlingPlan::new(&Settling::new(&long)).err();
-    let Some(SettlingError::TooMany { what: "chords of one interval", count, limit: 4096 }) = refused else {
+    let Some(SettlingError::LongInterval { yarn: 0, chords, limit: 4096 }) = refused else {
         panic!("{refused:?}")
     };
     // 100 mm in chords of 0.6 times 0.02 mm.
-    assert!((8_330..8_340).contains(&count), "{count}");
+    assert!((8_330..8_340).contains(&chords), "{chords}");
+    // 40 mm from point to point are few enough, but not of so many points.
+    let mut slack = Yarns::builder();
+    let points: Vec<_> =
+        (0..40).map(|point| ControlPoint::new(40.0 * point as f32, 0.0, 0.0, 0.01)).collect();
+    slack.yarn(Yarn::default(), &points);
+    let slack = slack.build().expect("yarns");
+    let refused = SettlingPlan::new(&Settling::new(&slack)).err();
+    let limit = (1 << 16) + 256 * 40;
+    assert!(
+        matches!(refused, Some(SettlingError::LongYarns { points: 40, limit: most, .. }) if most == limit)
+    );
 }

@@ -20,7 +20,7 @@ pub(crate) struct Fail {
 }
 
 /// A device, a file or memory failed.
-const WORLD: u8 = 1;
+pub(crate) const WORLD: u8 = 1;
 
 /// The command line is wrong, or the variable `TEXERE_SIMD`; clap uses the same code.
 pub(crate) const USAGE: u8 = 2;
@@ -126,6 +126,7 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         // Where there are others, the name is wrong; where there are none, the machine lacks them.
         BackendError::NoDevice { found, .. } if !found.is_empty() => USAGE,
         BackendError::NoInstructionSet { .. } | BackendError::NoFeature { .. } => USAGE,
+        BackendError::Crowded { .. } => DESIGN,
         _ => WORLD,
     });
     let write = error.downcast_ref().map(|error| match error {

@@ -58,16 +58,25 @@ fn main() -> ExitCode {
     signals::give_way();
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
-        Err(fail) => {
-            // When standard error is closed too, there is nowhere left to say so.
-            let _ = writeln!(std::io::stderr(), "{fail}");
-            fail.exit_code()
-        }
+        Err(fail) => failed(&fail),
     }
+}
+
+fn failed(fail: &fail::Fail) -> ExitCode {
+    // When standard error is closed too, there is nowhere left to say so.
+    let _ = writeln!(std::io::stderr(), "{fail}");
+    fail.exit_code()
 }
 
 /// Says what is wrong with the command line, or what was asked of the program itself.
 fn misused(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        // Help, or the version.
+        return match error.print().and_then(|()| std::io::stdout().flush()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(refused) => failed(&fail::Fail::output(refused)),
+        };
+    }
     let is_harmless = |arg: OsString| {
         let arg = arg.to_string_lossy();
         terminal::line(&arg) == arg

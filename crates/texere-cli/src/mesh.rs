@@ -14,12 +14,13 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     if let Some(section) = &args.settings.section {
         design.structure.set_section(section.clone())?;
     }
+    let output = Output::to(&args.output).sparing(design.files());
+    output.check()?;
     let settings = args.settings.settings();
     let device = drivers::quietly(|| texere::open(&args.device))?;
     let (yarns, settling) = settling::yarns(&mut design, &args.settling, settings.tension, || Ok(&*device))?;
     let bar = progress::bar(std::io::stderr().is_terminal());
     let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::reporter(&bar));
-    let output = Output::to(&args.output).sparing(design.files());
     let written = texere::stream(pipeline, &*device, output)?;
     bar.finish_and_clear();
     for warning in settling::warnings(&design, settling.as_ref()) {

@@ -1,11 +1,21 @@
 //! Signals that end the program: what is not finished goes first.
 
-use std::sync::{Mutex, PoisonError, mpsc};
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::{fs, thread};
 
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{
+    SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
+};
+use signal_hook::flag::register_conditional_shutdown;
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
+
+use crate::fail::WORLD;
+
+/// Signals that end a program which does not hear them, but for those of its own faults.
+const ENDS: [i32; 10] =
+    [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
 
 /// Held from the signal that ends the program until the program has ended.
 static ENDING: Mutex<()> = Mutex::new(());
@@ -14,6 +24,9 @@ static ENDING: Mutex<()> = Mutex::new(());
 /// very signal, so that a shell knows why. A signal that was ignored when the program started stays ignored, as
 /// `nohup` does with SIGHUP.
 pub(crate) fn listen() {
+    // Where memory is refused that nobody asks for by name, the standard library says how many bytes and aborts.
+    let always = Arc::new(AtomicBool::new(true));
+    let _ = register_conditional_shutdown(SIGABRT, WORLD.into(), always);
     let (hand_over, wait) = mpsc::channel::<Signals>();
     let listener = thread::Builder::new().spawn(move || {
         let Some(signal) = wait.recv().ok().and_then(|mut signals| signals.forever().next()) else { return };
@@ -24,7 +37,7 @@ pub(crate) fn listen() {
     // Where no thread can be had, signals end the program as they always do; the next write removes what is left then.
     if listener.is_ok() {
         let ignored = ignored();
-        let heard = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
+        let heard = ENDS.into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
         if let Ok(signals) = Signals::new(heard) {
             let _ = hand_over.send(signals);
         }

@@ -417,6 +417,16 @@ pub enum BackendError {
         /// How many bytes.
         bytes: u64,
     },
+    /// Yarns that lie so thick over one another that a settling would have to look at too many pairs of them.
+    #[error(
+        "more than {limit} pairs of neighbours among {chords} chords: too many yarns lie in one place to settle"
+    )]
+    Crowded {
+        /// Chords of all yarns.
+        chords: u64,
+        /// Pairs that are listed at most for so many.
+        limit: u64,
+    },
     /// The device is lost, and the session with it. A new session on a healthy device works.
     #[error("device {device} is lost")]
     DeviceLost {

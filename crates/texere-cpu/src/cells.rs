@@ -3,18 +3,7 @@
 use std::ops::Range;
 
 use glam::IVec3;
-use texere_core::BackendError;
 use texere_core::settling::SettlingPlan;
-
-/// Whether so many neighbours can be numbered.
-///
-/// **Errors**: [`BackendError::OutOfMemory`] with the bytes of their list where they can't.
-pub(crate) const fn countable(neighbours: u64) -> Result<(), BackendError> {
-    if neighbours > u32::MAX as u64 {
-        return Err(BackendError::OutOfMemory { what: "neighbours of chords", bytes: 4 * neighbours });
-    }
-    Ok(())
-}
 
 /// The place of each chord's interval.
 pub(crate) fn owners(plan: &SettlingPlan) -> Vec<u32> {

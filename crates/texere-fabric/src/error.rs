@@ -3,6 +3,7 @@
 use texere_core::{BoundaryError, Origin, PlanError, SectionError, YarnError};
 use thiserror::Error;
 
+use crate::warp::Lap;
 use crate::weft::Needle;
 
 /// A structure that can't be taken. Threads are counted from 1, as weavers do.
@@ -379,11 +380,29 @@ pub enum FabricError {
         /// What is wrong.
         what: &'static str,
     },
+    /// Copies of a small repeat of a knit that have to settle together, for their number has no divisor up to 16.
+    #[error(
+        "copies of a small repeat whose number has no divisor up to 16 settle as one, of {loops} loops; {limit} are taken at most: take multiples of 4"
+    )]
+    Copies {
+        /// Loops, or laps of all bars, of the repeats that settle together.
+        loops: u64,
+        /// Most taken.
+        limit: u64,
+    },
     /// A knit of more control points than are taken.
     #[error("a knit of {points} control points or more; {limit} are taken at most")]
     KnitPoints {
         /// Control points of all yarns, at least.
         points: u64,
+        /// Most taken.
+        limit: u64,
+    },
+    /// A warp knit of more laps, before it is copied, than are taken.
+    #[error("wales, courses and guide bars make {laps} laps; {limit} are taken at most")]
+    Laps {
+        /// Wales times courses times bars.
+        laps: u64,
         /// Most taken.
         limit: u64,
     },
@@ -436,6 +455,21 @@ pub enum FabricError {
         courses: usize,
         /// Courses of the chain.
         chain: usize,
+    },
+    /// A colour of a Jacquard that makes a lap go round more needles than any does.
+    #[error(
+        "a colour of guide bar {bar}'s Jacquard makes its lap {lap} at course {course}: {} needles; a lap goes round {limit} at most",
+        .lap.overlap().unsigned_abs()
+    )]
+    JacquardLap {
+        /// The bar, from 1.
+        bar: usize,
+        /// The course of its chain, from 1.
+        course: usize,
+        /// The lap, displaced.
+        lap: Lap,
+        /// Most needles taken.
+        limit: i32,
     },
     /// Wales or courses of a warp knit that its bars don't repeat in.
     #[error("{size} {what}, but bars begin again after {multiple}: take a multiple of that")]

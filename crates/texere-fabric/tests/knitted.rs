@@ -220,7 +220,7 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
     for (what, operations) in [("floats", floats), ("rises", rises), ("held", held)] {
         assert!(matches!(made(operations), Err(FabricError::KnitRuns { .. })), "{what}");
     }
-    assert!(matches!(knit(chart("k"), [9973, 9973]), Err(FabricError::Stitches { .. })));
+    assert!(matches!(knit(chart("k"), [9973, 9973]), Err(FabricError::Copies { .. })));
     assert!(knit(chart("k"), [10_000, 10_000]).is_ok());
 }
 

@@ -248,6 +248,15 @@ fn what_is_no_cloth_is_refused() {
     let other = Bar { jacquard, ..bar() };
     let courses = FabricError::JacquardCourses { bar: 1, courses: 1, chain: 2 };
     assert_eq!(refused(vec![other], four, one), courses);
+    // What is displaced goes round three needles: 2-0 by 1-0 is 3-0.
+    let wide = Displacements::new([1, 1], vec![vec![[1, 0], [0, 0]]], |_, _| 0);
+    let wide = Bar { jacquard: wide, ..Bar::new(chain("2-0/1-2//")) };
+    let lap = FabricError::JacquardLap { bar: 2, course: 1, lap: Lap { from: 3, to: 0 }, limit: 2 };
+    assert_eq!(refused(vec![bar(), wide], four, one), lap);
+    // To the other side it goes round one.
+    let narrow = Displacements::new([1, 1], vec![vec![[0, 1], [0, 0]]], |_, _| 0);
+    let narrow = Bar { jacquard: narrow, ..Bar::new(chain("2-0/1-2//")) };
+    knit(vec![narrow], four, one).unwrap().yarns().unwrap();
     let odd = FabricError::WarpRepeat { what: "courses", size: 3, multiple: 2 };
     assert_eq!(refused(vec![bar()], [4, 3], one), odd);
     assert!(matches!(refused(vec![bar()], [0, 2], one), FabricError::WarpRepeat { .. }));

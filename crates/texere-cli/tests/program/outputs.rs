@@ -64,6 +64,18 @@ fn endings_are_looked_at_before_any_work() {
     assert!(names(folder.path()).is_empty());
 }
 
+/// A folder that is not there is said before yarns settle, which these can't.
+#[test]
+fn folders_are_looked_at_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let cloth = folder.path().join("crowded.toml");
+    fs::write(&cloth, crate::bounds::UNDERLAPS).unwrap();
+    let nowhere = folder.path().join("no-such/cloth.glb");
+    let output = texere(&["mesh", cloth.to_str().unwrap(), "-o", nowhere.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("can't create"), "{}", stderr(&output));
+}
+
 #[cfg(unix)]
 mod unix {
     use std::os::unix::fs::{PermissionsExt, symlink};
@@ -86,7 +98,7 @@ mod unix {
     /// The program, making a mesh that takes it seconds.
     fn meshing(folder: &Path, shell: &str) -> Child {
         // Whoever started the tests may have had signals ignored, as a shell has that of what it runs in the background.
-        let heard = cfg!(target_os = "linux").then_some(["--default-signal=INT,TERM,HUP"]);
+        let heard = cfg!(target_os = "linux").then_some(["--default-signal=INT,TERM,HUP,USR1,XFSZ"]);
         let program = Command::new("env")
             .args(heard.into_iter().flatten())
             .args(["sh", "-c", &format!("{shell} exec \"$@\""), "sh", env!("CARGO_BIN_EXE_texere")])
@@ -106,7 +118,8 @@ mod unix {
 
     #[test]
     fn a_signal_leaves_nothing_and_is_what_the_program_dies_of() {
-        for (signal, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+        let signals = [("INT", 2), ("TERM", 15), ("HUP", 1), ("USR1", 10), ("XFSZ", 25)];
+        for (signal, number) in signals {
             let folder = tempfile::tempdir().unwrap();
             fs::write(folder.path().join("cloth.ply"), "old").unwrap();
             let mut program = meshing(folder.path(), "");

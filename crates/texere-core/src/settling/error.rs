@@ -43,6 +43,31 @@ pub enum SettlingError {
         /// The thinnest yarn's diameter, mm.
         diameter: f32,
     },
+    /// A yarn so much longer than it is thick, from one control point to the next, that it takes too many chords.
+    #[error(
+        "yarn {}: from one of its control points to the next {chords} chords are needed, more than {limit}: it is too long for its thickness",
+        .yarn + 1
+    )]
+    LongInterval {
+        /// The yarn's number, from 0.
+        yarn: usize,
+        /// Chords that are needed.
+        chords: u64,
+        /// How many are taken at most.
+        limit: u64,
+    },
+    /// Yarns that in all are so much longer than they are thick that they take too many chords for their control points.
+    #[error(
+        "yarns of {points} control points need {chords} chords, more than {limit}: they are too long for their thickness"
+    )]
+    LongYarns {
+        /// Control points.
+        points: u64,
+        /// Chords that are needed.
+        chords: u64,
+        /// How many are taken at most for so many points.
+        limit: u64,
+    },
     /// More than can be counted.
     #[error("{count} {what} are more than {limit}")]
     TooMany {

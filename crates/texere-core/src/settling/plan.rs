@@ -6,7 +6,7 @@ use super::check::{check, limited, mean_diameter, room, scale, thickest};
 use super::pass::FREE_MOST;
 use super::strand::{BEYOND, Strand, tag};
 use super::{Interval, Length, MARGIN, Place, Scale, Settling, SettlingError};
-use crate::Ends;
+use crate::{BackendError, Ends};
 
 /// Intervals have at least so many chords.
 const CHORDS_MIN: u32 = 2;
@@ -16,6 +16,16 @@ const CHORD_MOST: f32 = 0.6;
 
 /// An interval has no more chords than that.
 const CHORDS_MAX: f32 = 4096.0;
+
+/// Yarns have so many chords at most, and so many more for each control point. Those of usual cloth have 3 to 10 a point, cables of
+/// 12 over 12 loops 34. Loops of a metre of yarn as thin as 0.1 mm have 1,390: a settling of 16 of them took a minute.
+const CHORDS_FREE: u64 = 1 << 16;
+const CHORDS_A_POINT: u64 = 256;
+
+/// So many neighbours are listed at most, and so many more for each chord. Usual cloth has 1 to 6 a chord, cables of 12 over 12 loops
+/// 32, and of 20 over 20, which find no rest, 60. Underlaps over 511 needles of a cloth of four wales have 1,457.
+const NEIGHBOURS_FREE: u64 = 1 << 20;
+const NEIGHBOURS_A_CHORD: u64 = 32;
 
 /// How much further apart than they touch at two chords may be and still be listed as neighbours, in mean diameters.
 pub const SKIN: f32 = 0.2;
@@ -128,6 +138,15 @@ impl SettlingPlan {
     #[must_use]
     pub const fn counts(&self) -> SettlingCounts {
         self.counts
+    }
+
+    /// Whether so many neighbours of all chords may be listed: as many as chords of usual cloth have, many times over.
+    ///
+    /// **Errors**: [`BackendError::Crowded`].
+    pub fn allow_neighbours(&self, neighbours: u64) -> Result<(), BackendError> {
+        let chords = self.counts.chords;
+        let limit = (NEIGHBOURS_FREE + NEIGHBOURS_A_CHORD * chords).min(u64::from(u32::MAX));
+        if neighbours > limit { Err(BackendError::Crowded { chords, limit }) } else { Ok(()) }
     }
 
     /// What a unit of places is.
@@ -319,13 +338,18 @@ impl SettlingPlan {
                 let thickness = ends.map(|halves| 2.0 * halves.width().min(halves.height()));
                 let pieces = (arc * most / (CHORD_MOST * thickness[0].min(thickness[1]))).ceil();
                 if pieces > CHORDS_MAX {
-                    let (what, count) = ("chords of one interval", pieces as u64);
-                    return Err(SettlingError::TooMany { what, count, limit: CHORDS_MAX as u64 });
+                    let (yarn, chords) = (self.yarns[place] as usize, pieces as u64);
+                    return Err(SettlingError::LongInterval { yarn, chords, limit: CHORDS_MAX as u64 });
                 }
                 chords += u64::from((pieces as u32).max(CHORDS_MIN));
-                limited("chords", chords, u64::from(u32::MAX >> 1))?;
             }
         }
+        let points = self.counts.points;
+        let limit = CHORDS_FREE + CHORDS_A_POINT * points;
+        if chords > limit {
+            return Err(SettlingError::LongYarns { points, chords, limit });
+        }
+        limited("chords", chords, u64::from(u32::MAX >> 1))?;
         self.chords[self.places.len()] = chords as u32;
         self.counts.chords = chords;
         let own = |strand: &Strand| strand.first as usize..(strand.first + strand.intervals()) as usize;

@@ -9,7 +9,7 @@ use texere_core::settling::{
     tag,
 };
 
-use crate::cells::{Extent, Grid, countable, owners};
+use crate::cells::{Extent, Grid, owners};
 
 /// The reference.
 #[derive(Debug)]
@@ -131,7 +131,7 @@ impl Settler for SerialSettler {
                 *other != chord && plan.are_neighbours(self.listed(chord), self.listed(*other), growth)
             };
             neighbours.extend(beside.iter().copied().filter(near));
-            countable(neighbours.len() as u64)?;
+            plan.allow_neighbours(neighbours.len() as u64)?;
             starts.push(neighbours.len() as u32);
         }
         (self.starts, self.neighbours) = (starts, neighbours);

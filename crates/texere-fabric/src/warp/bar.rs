@@ -43,6 +43,15 @@ impl Bar {
         let at = guide as i32 + self.offset;
         Lap { from: at + lap.from + from, to: at + lap.to + to }
     }
+
+    /// The laps that its Jacquard's colours make of its chain's, with their courses.
+    pub(super) fn displaced(&self) -> impl Iterator<Item = (usize, Lap)> + '_ {
+        let colours = self.jacquard.iter().flat_map(|jacquard| &jacquard.palette);
+        colours.flat_map(|shifts| shifts.iter().enumerate()).map(|(course, shifts)| {
+            let (lap, [from, to]) = (self.chain.lap(course), shifts.map(i32::from));
+            (course, Lap { from: lap.from + from, to: lap.to + to })
+        })
+    }
 }
 
 /// Which guides of a bar hold which yarn, over and over again from guide 0.

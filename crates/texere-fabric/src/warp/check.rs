@@ -3,7 +3,9 @@
 use texere_core::Origin;
 
 use super::laps::laps;
-use super::{Bar, LapKind};
+use super::{Bar, LapKind, NEEDLES_MOST};
+use crate::settling::settled_together;
+use crate::weft::check::{passed_max, tiled};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
 
 /// The most guide bars.
@@ -39,6 +41,9 @@ pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), FabricError> {
         let (courses, chain) = (each.jacquard.as_ref().map(|image| image.courses()), each.chain.courses());
         if let Some(courses) = courses.filter(|courses| *courses != chain) {
             return Err(FabricError::JacquardCourses { bar, courses, chain });
+        }
+        if let Some((course, lap)) = each.displaced().find(|(_, lap)| lap.overlap().abs() > NEEDLES_MOST) {
+            return Err(FabricError::JacquardLap { bar, course: course + 1, lap, limit: NEEDLES_MOST });
         }
     }
     Ok(())
@@ -83,18 +88,36 @@ pub(super) fn size(
     piece: [u32; 2],
     copies: [u32; 2],
 ) -> Result<(), FabricError> {
-    let count = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);
-    let laid = count(piece).saturating_mul(bars.len() as u64);
-    let points = laid.saturating_mul(LAP_POINTS).saturating_mul(count(copies));
+    let area = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);
+    let laid = area(piece).saturating_mul(bars.len() as u64);
+    let points = laid.saturating_mul(LAP_POINTS).saturating_mul(area(copies));
     let far = (0..2).any(|axis| u64::from(piece[axis]) * u64::from(copies[axis]) > SIDE_MAX);
-    if points > POINTS_MAX || laid > LAID_MAX || far {
+    if laid > LAID_MAX {
+        return Err(FabricError::Laps { laps: laid, limit: LAID_MAX });
+    }
+    if points > POINTS_MAX {
         return Err(FabricError::KnitPoints { points, limit: POINTS_MAX });
+    }
+    if far {
+        return Err(FabricError::Stitches { what: "too many wales or courses" });
     }
     if copies.contains(&0) {
         return Err(FabricError::Stitches { what: "no copy of the repeat" });
     }
-    if !laps(bars, repeat[0], repeat[1]).any(|laid| laid.kind() != LapKind::Inlay) {
+    let (mut loops, mut passed, mut count) = (false, 0_u64, 0_u64);
+    for laid in laps(bars, repeat[0], repeat[1]) {
+        loops |= laid.kind() != LapKind::Inlay;
+        passed += u64::from(laid.underlap.unsigned_abs());
+        count += 1;
+    }
+    if !loops {
         return Err(FabricError::NoLoops);
     }
-    Ok(())
+    let limit = passed_max(count);
+    if passed > limit {
+        return Err(FabricError::KnitRuns { passed, loops: count, limit });
+    }
+    let whole = [0, 1].map(|axis| piece[axis] * copies[axis] / repeat[axis]);
+    let tiles = settled_together(repeat, whole);
+    tiled(tiles, u64::from(repeat[0]) * u64::from(repeat[1]) * bars.len() as u64)
 }

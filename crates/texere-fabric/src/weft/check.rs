@@ -13,17 +13,17 @@ const WALES_MAX: f32 = 1e6;
 const SIDE_MAX: u32 = 1 << 30;
 
 /// How many wales a loop is moved at most.
-const MOVED_MAX: f32 = 256.0;
+pub(super) const MOVED_MAX: f32 = 256.0;
 
 /// The most loops of several repeats that settle together.
-const TILED_MAX: u64 = 1 << 22;
+const TILED_MAX: u64 = 1 << 16;
 
 /// Control points of a loop at least, and of a needle or a course that its yarn passes.
 const LOOP_POINTS: u64 = 10;
 const PASSED_POINTS: u64 = 3;
 
 /// The most needles and courses that yarns pass: so many, and so many more for each loop. All of them take memory.
-const PASSED_MAX: u64 = 1 << 22;
+const PASSED_MAX: u64 = 1 << 16;
 const PASSED_BESIDE_A_LOOP: u64 = 64;
 
 pub(crate) fn gauge(gauge: &Gauge) -> Result<(), FabricError> {
@@ -110,7 +110,7 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     let held: u64 = held.sum();
     let passed: u64 = stitches.strands.iter().map(|strand| passed(stitches, strand)).sum();
     let (passed, loops) = (passed.saturating_add(held.saturating_mul(2)), stitches.loops.len() as u64);
-    let limit = PASSED_MAX + PASSED_BESIDE_A_LOOP * loops;
+    let limit = passed_max(loops);
     if passed > limit {
         return Err(FabricError::KnitRuns { passed, loops, limit });
     }
@@ -127,12 +127,16 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     if points > POINTS_MAX { Err(FabricError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
 }
 
-/// Whether the repeats that settle together are not too many.
-pub(super) fn tiles(stitches: &Stitches, tiles: [u32; 2]) -> Result<(), FabricError> {
+/// How many needles and courses yarns may pass between so many loops or laps.
+pub(crate) const fn passed_max(loops: u64) -> u64 {
+    PASSED_MAX + PASSED_BESIDE_A_LOOP * loops
+}
+
+/// Whether the repeats of so many loops or laps that settle together are not too many.
+pub(crate) fn tiled(tiles: [u32; 2], loops: u64) -> Result<(), FabricError> {
     let count = u64::from(tiles[0]) * u64::from(tiles[1]);
-    if count > 1 && count.saturating_mul(stitches.loops.len() as u64) > TILED_MAX {
-        let what = "copies of a small repeat whose number has no divisor up to 16: take multiples of 4";
-        return Err(FabricError::Stitches { what });
+    if count > 1 && count.saturating_mul(loops) > TILED_MAX {
+        return Err(FabricError::Copies { loops: count.saturating_mul(loops), limit: TILED_MAX });
     }
     Ok(())
 }

@@ -76,7 +76,8 @@ impl Knitted {
         check::yarns(&yarns, |number| Origin::Carrier(number + 1), &materials, &sections)?;
         check::stitches(&stitches, yarns.len())?;
         check::size(&stitches, copies)?;
-        check::tiles(&stitches, stitches.repeat.map_or([1, 1], |size| settled_together(size, copies)))?;
+        let tiles = stitches.repeat.map_or([1, 1], |size| settled_together(size, copies));
+        check::tiled(tiles, stitches.loops.len() as u64)?;
         let shape = Shape::new(&gauge, thickest(used(&stitches, &yarns), &sections));
         Ok(Self { stitches, gauge, yarns, materials, sections, copies, cells: Cells::Round, shape })
     }
@@ -194,7 +195,7 @@ impl Knitted {
     }
 
     fn piece_of(&self, stitches: &Stitches) -> Result<Piece, FabricError> {
-        let layers = Layers::new(stitches);
+        let layers = Layers::new(stitches)?;
         let left = if stitches.repeat.is_some() { 0.0 } else { extent(stitches).0 };
         let cloth = Cloth { stitches, layers: &layers, shape: &self.shape, left, kind: self.cells };
         let laid: Vec<Laid> = (0..stitches.strands.len())

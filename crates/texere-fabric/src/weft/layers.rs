@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use super::stitches::HALVES;
 use super::{Bed, Fate, Head, Step, Stitch, Stitches, Visit};
+use crate::FabricError;
+use crate::memory::{filled, room_for};
 
 /// Loops further apart than so many wales have needles between them that are passed.
 pub(super) const STEP: f32 = 1.6;
@@ -75,20 +77,21 @@ pub(super) enum Behind {
 }
 
 impl Layers {
-    pub(super) fn new(stitches: &Stitches) -> Self {
+    /// **Errors**: [`FabricError::OutOfMemory`].
+    pub(super) fn new(stitches: &Stitches) -> Result<Self, FabricError> {
         let mut layers = Self {
             hanging: HashMap::new(),
             repeat: stitches.repeat,
-            crossed: crossed(stitches),
-            ranks: ranks(stitches),
+            crossed: crossed(stitches)?,
+            ranks: ranks(stitches)?,
             floats: stitches
                 .strands
                 .iter()
                 .flat_map(|strand| &strand.steps)
                 .any(|step| matches!(step, Step::Float { .. })),
         };
-        layers.hang(stitches);
-        layers
+        layers.hang(stitches)?;
+        Ok(layers)
     }
 
     /// Of a loop whose legs cross those of others on the way to its needle: how many of these lie between its own and the side
@@ -141,17 +144,26 @@ impl Layers {
     }
 
     /// Notes each loop in every course in which it hangs on a needle.
-    fn hang(&mut self, stitches: &Stitches) {
+    fn hang(&mut self, stitches: &Stitches) -> Result<(), FabricError> {
         for stitch in &stitches.loops {
             let bed = |bed| usize::from(bed == Bed::Back);
-            let own = self.hanging.entry(self.place(i64::from(stitch.course), stitch.at)).or_default();
+            let own = self.at(self.place(i64::from(stitch.course), stitch.at))?;
             own[bed(stitch.bed)] = Hanging { any: true, made: true };
             let until = held_until(stitches, stitch.fate).unwrap_or(i64::from(stitch.course));
             for course in i64::from(stitch.course) + 1..until {
                 let Head { at, bed: side, .. } = stitch.head;
-                self.hanging.entry(self.place(course, at)).or_default()[bed(side)].any = true;
+                self.at(self.place(course, at))?[bed(side)].any = true;
             }
         }
+        Ok(())
+    }
+
+    /// What is noted of a place, nothing so far if it is new.
+    fn at(&mut self, place: Place) -> Result<&mut [Hanging; 2], FabricError> {
+        let bytes = (self.hanging.len() as u64 + 1) * size_of::<(Place, [Hanging; 2])>() as u64;
+        let refused = |_| FabricError::OutOfMemory { what: "needles that hold loops", bytes };
+        self.hanging.try_reserve(1).map_err(refused)?;
+        Ok(self.hanging.entry(place).or_default())
     }
 }
 
@@ -164,18 +176,20 @@ pub(super) fn held_until(stitches: &Stitches, fate: Fate) -> Option<i64> {
 }
 
 /// For each loop that crosses others of its course on their way to other needles, how many legs lie over its own.
-fn crossed(stitches: &Stitches) -> Vec<Option<u16>> {
+fn crossed(stitches: &Stitches) -> Result<Vec<Option<u16>>, FabricError> {
     let loops = &stitches.loops;
-    let mut levels = vec![None; loops.len()];
+    let mut levels = filled("loops", loops.len(), None)?;
     let leans = loops.iter().map(|stitch| (stitch.head.at - stitch.at).abs());
     let furthest = leans.fold(0.0, f32::max);
     if furthest == 0.0 {
-        return levels;
+        return Ok(levels);
     }
-    let mut order: Vec<_> = (0..loops.len()).collect();
-    order.sort_by(|&one, &other| {
-        let [one, other] = [one, other].map(|number| &loops[number]);
-        one.course.cmp(&other.course).then(one.at.total_cmp(&other.at))
+    let mut order: Vec<usize> = Vec::new();
+    room_for(&mut order, loops.len(), "loops")?;
+    order.extend(0..loops.len());
+    order.sort_unstable_by(|&first, &second| {
+        let [one, other] = [first, second].map(|number| &loops[number]);
+        one.course.cmp(&other.course).then(one.at.total_cmp(&other.at)).then(first.cmp(&second))
     });
     for course in order.chunk_by(|&one, &other| loops[one].course == loops[other].course) {
         let mut moved = course.to_vec();
@@ -193,7 +207,7 @@ fn crossed(stitches: &Stitches) -> Vec<Option<u16>> {
                 Some(over.filter_map(|&other| levels[other]).map(|over| over + 1).max().unwrap_or(0));
         }
     }
-    levels
+    Ok(levels)
 }
 
 /// Whether the legs of two loops of a course cross.
@@ -205,12 +219,15 @@ fn cross(one: &Stitch, other: &Stitch) -> bool {
 ///
 /// Yarns cross where one goes from its loops to floating behind those of another, or from bed to bed: there the one that is laid
 /// later lies above. Yarns that only knit side by side on one bed don't cross.
-fn ranks(stitches: &Stitches) -> Vec<Vec<Rank>> {
+fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, FabricError> {
     let strands = &stitches.strands;
-    let mut all: Vec<_> = strands.iter().map(|strand| vec![Rank::default(); strand.steps.len()]).collect();
-    let mut passes: Vec<_> =
-        (0..stitches.strands.len()).flat_map(|strand| passes_of(stitches, strand)).collect();
-    passes.sort_by_key(|pass| (pass.course, pass.time, pass.plate));
+    let (mut all, mut passes) = (Vec::new(), Vec::new());
+    room_for(&mut all, strands.len(), "yarns of a knit")?;
+    for (number, strand) in strands.iter().enumerate() {
+        all.push(filled("stitches of a yarn", strand.steps.len(), Rank::default())?);
+        passes_of(stitches, number, &mut passes)?;
+    }
+    passes.sort_unstable_by_key(|pass| (pass.course, pass.time, pass.plate, pass.strand, pass.first));
     for course in passes.chunk_by(|one, other| one.course == other.course) {
         let crosses = course.iter().any(|pass| pass.mixed);
         // All plates of a stitch go the same way.
@@ -223,20 +240,23 @@ fn ranks(stitches: &Stitches) -> Vec<Vec<Rank>> {
             all[pass.strand][pass.first..=pass.last].fill(rank);
         }
     }
-    all
+    Ok(all)
 }
 
-/// The passes of a strand, in order.
-fn passes_of(stitches: &Stitches, strand: usize) -> Vec<Pass> {
-    let steps: Vec<_> = stitches.strands[strand].steps.iter().map(|step| stitches.visit(step)).collect();
+/// Adds the passes of a strand, in order.
+fn passes_of(stitches: &Stitches, strand: usize, passes: &mut Vec<Pass>) -> Result<(), FabricError> {
+    let mut steps = Vec::new();
+    room_for(&mut steps, stitches.strands[strand].steps.len(), "stitches of a yarn")?;
+    steps.extend(stitches.strands[strand].steps.iter().map(|step| stitches.visit(step)));
     let across = stitches.repeat.filter(|_| stitches.strands[strand].onward.is_some());
-    let (mut passes, mut first, mut time) = (Vec::new(), 0, 0);
+    let (mut first, mut time) = (0, 0);
     for run in steps.chunk_by(|one, other| (one.course, one.direction) == (other.course, other.direction)) {
         let made = run.iter().find_map(|step| step.number);
         time = made.unwrap_or(time);
         let span = run.last().map_or(0.0, |last| (last.at - run[0].at).abs());
         let seam = across.map_or(0.0, |[wales, _]| wales as f32 - span);
         let mixed = |pair: &[Visit]| pair[0].bed != pair[1].bed || (pair[0].at - pair[1].at).abs() > STEP;
+        room_for(passes, 1, "passes of carriers")?;
         passes.push(Pass {
             strand,
             first,
@@ -248,5 +268,5 @@ fn passes_of(stitches: &Stitches, strand: usize) -> Vec<Pass> {
         });
         first += run.len();
     }
-    passes
+    Ok(())
 }

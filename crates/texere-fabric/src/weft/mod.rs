@@ -25,7 +25,9 @@ mod shape;
 mod stitches;
 mod tile;
 
-pub use chart::{Backing, Beds, CHART_CELLS_MAX, CHART_SIDE_MAX, Cell, Chart, ChartError};
+pub use chart::{
+    Backing, Beds, CHART_CELLS_MAX, CHART_MOVED_MAX, CHART_SIDE_MAX, CHART_YARNS_MAX, Cell, Chart, ChartError,
+};
 pub use gauge::Gauge;
 pub use knitted::{Cells, KnitYarn, Knitted};
 pub use machine::{FAULTS_LISTED, Fault, FaultKind, Knit, LOOPS_MAX, Machine, NEEDLE_MAX, STACK_MAX};

@@ -74,6 +74,7 @@ impl ListKernels {
     pub(super) fn neighbours(
         &mut self,
         opened: &Opened,
+        plan: &SettlingPlan,
         params: &SettlingParams,
         memory: &mut Memory,
     ) -> Result<u32, BackendError> {
@@ -89,6 +90,7 @@ impl ListKernels {
         self.scan.run(opened, starts, params.chords + 1, sums)?;
         let mut total = [0];
         starts.read_now(opened, 4 * u64::from(params.chords), &mut total)?;
+        plan.allow_neighbours(total[0].into())?;
         memory.reserve_neighbours(opened, total[0])?;
         let Memory { chords, chord_rows, place_rows, strands, cells, sorted, starts, neighbours, .. } =
             memory;

@@ -97,7 +97,7 @@ impl Settler for OpenClSettler {
         let listed = pass
             .chords(opened, &params, memory)
             .and_then(|()| list.cells(opened, plan, &params, memory))
-            .and_then(|params| list.neighbours(opened, &params, memory));
+            .and_then(|params| list.neighbours(opened, plan, &params, memory));
         if listed.is_err() {
             // Of a list that has starts alone none is left; an error of this adds nothing.
             let _ = memory.starts.clear(opened);

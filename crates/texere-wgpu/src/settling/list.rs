@@ -41,6 +41,7 @@ impl WgpuSettler {
             scan(gpu, kernels, encoder, (&memory.starts, chords + 1), &memory.sums);
         })?;
         let total = total.first().copied().unwrap_or(0);
+        self.plan.allow_neighbours(total.into())?;
         memory.reserve_neighbours(gpu, total)?;
         submit(gpu, |encoder| record(gpu, memory, encoder, &[(&kernels.fill, groups)]))?;
         Ok(total)

@@ -3,6 +3,8 @@
 //! Chords are sorted by cells, so that those of cells side by side lie side by side in memory, too. Most of them are refused by
 //! the distance of their middles. The others are looked at as the core does.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use glam::IVec3;
 use rayon::prelude::*;
 use texere_core::BackendError;
@@ -10,7 +12,7 @@ use texere_core::settling::{MARGIN, SKIN, SettlingPlan};
 
 use super::chords::{Chords, Images, Nearest};
 use super::tables::{ChordRow, Fixed};
-use crate::cells::{Extent, Grid, countable};
+use crate::cells::{Extent, Grid};
 use crate::parallel::instruction_set::InstructionSet;
 use crate::parallel::simd::{
     Floats, Job, LANES_MAX, Mask, Simd, between, bit_cast, dot, first, least, scale, to_floats,
@@ -74,9 +76,26 @@ impl Lists {
         let Self { starts, middles, sorted, columns, cells, tasks, .. } = self;
         let sorted = Sorted { grid: &grid, middles, sorted, columns, cells };
         let all = starts[1..].par_chunks_mut(TASK).zip(tasks).enumerate();
-        all.for_each(|(task, (ends, room))| {
-            set.run(ListJob { basis, sorted, first: task * TASK, ends, room });
+        let found = AtomicU64::new(0);
+        let listed = all.map(|(task, (ends, room))| {
+            let mut listed = Ok(());
+            set.run(ListJob {
+                basis,
+                sorted,
+                first: task * TASK,
+                ends,
+                room,
+                found: &found,
+                listed: &mut listed,
+            });
+            listed
         });
+        let listed: Result<(), BackendError> = listed.collect();
+        if listed.is_err() {
+            // What was found until then is as much as was allowed.
+            self.tasks.clear();
+        }
+        listed?;
         self.gather()
     }
 
@@ -108,7 +127,6 @@ impl Lists {
     /// Puts what tasks have found into one list.
     fn gather(&mut self) -> Result<u64, BackendError> {
         let count = self.tasks.iter().map(|task| task.neighbours.len() as u64).sum();
-        countable(count)?;
         self.neighbours.resize(count as usize + LANES_MAX, 0);
         let (mut left, mut start) = (self.neighbours.as_mut_slice(), 0);
         let parts: Vec<_> = self
@@ -225,13 +243,16 @@ struct ListJob<'a> {
     /// Where each chord's neighbours end, counted from the task's first one.
     ends: &'a mut [u32],
     room: &'a mut Task,
+    /// How many neighbours all tasks have found so far, and whether that is allowed.
+    found: &'a AtomicU64,
+    listed: &'a mut Result<(), BackendError>,
 }
 
 impl Job for ListJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
-        let Self { basis: Basis { plan, fixed, chords, growth, .. }, sorted, first: start, ends, room } =
-            self;
+        let Self { basis, sorted, first: start, ends, room, found: all, listed } = self;
+        let Basis { plan, fixed, chords, growth, .. } = basis;
         let Task { neighbours, near } = room;
         let images = Images::new(simd, plan);
         let (grown, skin) = (simd.splat(MARGIN * growth), simd.splat(SKIN * plan.spans().diameter));
@@ -274,6 +295,11 @@ impl Job for ListJob<'_> {
             }
             neighbours[before..].sort_unstable();
             *end = neighbours.len() as u32;
+            let own = (neighbours.len() - before) as u64;
+            *listed = plan.allow_neighbours(all.fetch_add(own, Ordering::Relaxed) + own);
+            if listed.is_err() {
+                return;
+            }
         }
     }
 }

@@ -84,6 +84,28 @@ pub enum ChartError {
         /// What it needs.
         needs: &'static str,
     },
+    /// A loop that is moved over more needles than a chart's are.
+    #[error(
+        "row {row}, column {column} of the chart: this loop moves by {by} needles; {limit} are taken at most"
+    )]
+    Moved {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// Needles that it moves by.
+        by: u32,
+        /// Most taken, either way.
+        limit: u32,
+    },
+    /// A yarn of a number that no machine has carriers for.
+    #[error("the chart's yarn {yarn}, counted from 0, is none of {limit}")]
+    Yarn {
+        /// The yarn.
+        yarn: u32,
+        /// How many yarns are taken at most.
+        limit: u32,
+    },
     /// A needle that gets loops and never knits them off, or a chart without any stitch that knits.
     #[error("wale {wale} of the chart: its needle gets loops but never knits")]
     NeverKnits {
@@ -102,6 +124,7 @@ impl ChartError {
         if let Self::Ragged { row, .. }
         | Self::Symbol { row, .. }
         | Self::HalfCable { row, .. }
+        | Self::Moved { row, .. }
         | Self::Beds { row, .. } = &mut self
         {
             *row = (rows + 1).saturating_sub(*row);

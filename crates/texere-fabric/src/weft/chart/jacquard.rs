@@ -1,6 +1,6 @@
 //! Jacquard: a picture whose colours are yarns.
 
-use super::{Beds, CHART_CELLS_MAX, Cell, Chart, ChartError, Course, sized};
+use super::{Beds, CHART_CELLS_MAX, Cell, Chart, ChartError, Course, known, sized};
 use crate::memory::room_for;
 
 /// Which back needles knit where a Jacquard picture is knitted on two beds.
@@ -39,6 +39,7 @@ impl Chart {
             let mut yarns: Vec<u32> = (0..wales).map(|column| yarn(column, row)).collect();
             yarns.sort_unstable();
             yarns.dedup();
+            yarns.last().map_or(Ok(()), |yarn| known(*yarn))?;
             let count = cells.len() + yarns.len() * wales;
             if count > CHART_CELLS_MAX {
                 return Err(ChartError::Cells { cells: count, limit: CHART_CELLS_MAX });

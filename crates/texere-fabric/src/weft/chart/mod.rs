@@ -10,13 +10,21 @@ mod tests;
 pub use error::ChartError;
 pub use jacquard::Backing;
 
-use crate::memory::room_for;
+use super::check::MOVED_MAX;
+use super::machine::CARRIERS_MAX;
+use crate::memory::{filled, room_for};
 
 /// The most wales or rows of a chart.
 pub const CHART_SIDE_MAX: usize = 1 << 16;
 
 /// The most cells of all courses of a chart.
 pub const CHART_CELLS_MAX: usize = 1 << 24;
+
+/// The most yarns of a chart: each has a carrier of its own.
+pub const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;
+
+/// The most needles that a loop of a chart moves by.
+pub const CHART_MOVED_MAX: u32 = MOVED_MAX as u32;
 
 /// What is made in a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +44,7 @@ pub enum Cell {
     /// The front needle knits, and its loop then goes to another needle: `<` and `>` to the next one, for lace; `RRrr` and `llLL`
     /// to the places of others, for cables.
     Moved {
-        /// So many needles to the right.
+        /// So many needles to the right, [`CHART_MOVED_MAX`] at most either way.
         by: i32,
         /// Behind those that go in front: a cable's lower half.
         behind: bool,
@@ -148,7 +156,8 @@ impl Chart {
     /// The chart with these yarns for its courses, over and over from the first course on. Where they end in the middle of the
     /// chart, it is repeated upwards until both end.
     ///
-    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where that is too large.
+    /// **Errors**: [`ChartError::Cells`] and [`ChartError::Size`] where that is too large, [`ChartError::Yarn`] for a yarn beyond
+    /// [`CHART_YARNS_MAX`].
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Chart};
@@ -161,6 +170,7 @@ impl Chart {
         if yarns.is_empty() {
             return Ok(self);
         }
+        yarns.iter().try_for_each(|yarn| known(*yarn))?;
         let repeats = yarns.len() / greatest_common_divisor(own, yarns.len());
         let courses = own.saturating_mul(repeats);
         sized(self.wales, courses, courses.saturating_mul(self.wales))?;
@@ -222,8 +232,8 @@ impl Chart {
         let on_two = self.beds == Beds::Two;
         let rows = self.courses.last().map_or(0, |course| course.row as usize + 1);
         // Of the front and of the back needle of each wale: whether it gets loops, and whether it knits.
-        let mut gets = vec![[false; 2]; self.wales];
-        let mut knits = vec![[false; 2]; self.wales];
+        let mut gets = filled("wales of a chart", self.wales, [false; 2])?;
+        let mut knits = filled("wales of a chart", self.wales, [false; 2])?;
         for (number, &cell) in self.cells.iter().enumerate() {
             let (course, wale) = (number / self.wales, number % self.wales);
             let place = || (rows - self.courses[course].row as usize, wale + 1);
@@ -242,6 +252,10 @@ impl Chart {
                 }
                 Cell::Both => knits[wale] = [true; 2],
                 Cell::BackTuck => gets[wale][1] = true,
+                Cell::Moved { by, .. } if by.unsigned_abs() > CHART_MOVED_MAX => {
+                    let ((row, column), by) = (place(), by.unsigned_abs());
+                    return Err(ChartError::Moved { row, column, by, limit: CHART_MOVED_MAX });
+                }
                 Cell::Moved { by, .. } => {
                     knits[wale][0] = true;
                     let target = (wale as i64 + i64::from(by)).rem_euclid(self.wales as i64) as usize;
@@ -270,6 +284,11 @@ fn sized(wales: usize, rows: usize, cells: usize) -> Result<(), ChartError> {
         return Err(ChartError::Cells { cells, limit: CHART_CELLS_MAX });
     }
     Ok(())
+}
+
+fn known(yarn: u32) -> Result<(), ChartError> {
+    let limit = CHART_YARNS_MAX;
+    if yarn < limit { Ok(()) } else { Err(ChartError::Yarn { yarn, limit }) }
 }
 
 fn greatest_common_divisor(a: usize, b: usize) -> usize {

@@ -1,7 +1,7 @@
 //! From a chart to what a machine is told.
 
 use super::{Beds, Cell, Chart, ChartError};
-use crate::memory::room_for;
+use crate::memory::{filled, room_for};
 use crate::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 
 /// How far back needles lie to the right of front ones where both knit.
@@ -17,8 +17,8 @@ impl Chart {
         let carriers = self.courses.iter().map(|course| course.yarn).max().map_or(0, |most| most + 1);
         let mut knitter = Knitter {
             chart: self,
-            beds: vec![Bed::Front; self.wales],
-            goes: vec![Direction::Left; carriers as usize],
+            beds: filled("wales of a chart", self.wales, Bed::Front)?,
+            goes: filled("carriers", carriers as usize, Direction::Left)?,
             operations: Vec::new(),
         };
         // At its end each wale hangs on the bed of its last stitch: there the next round, and so this one, begins.

@@ -1,7 +1,7 @@
 //! Charts and the programs that knit them, written out as knitout writes operations.
 
-use super::{Backing, Beds, Chart, ChartError};
-use crate::weft::{Bed, CarrierSet, Instruction, Program};
+use super::{Backing, Beds, CHART_MOVED_MAX, CHART_YARNS_MAX, Cell, Chart, ChartError};
+use crate::weft::{Bed, CarrierSet, Instruction, Machine, Program};
 
 /// Operations as knitout writes them, with numbers of yarns from 1.
 fn text(program: &Program) -> String {
@@ -103,6 +103,28 @@ fn faults_name_row_and_column() {
     assert!(matches!(Chart::from_symbols(65_537, 1, Beds::One, |_, _| 'k'), Err(ChartError::Size { .. })));
     assert!(matches!(Chart::from_symbols(5000, 5000, Beds::One, |_, _| 'k'), Err(ChartError::Cells { .. })));
     assert!(Chart::parse("km", Beds::One).is_ok());
+}
+
+#[test]
+fn numbers_of_yarns_and_needles_have_limits() {
+    let plain = || Chart::parse("kk\nkk", Beds::One).unwrap();
+    for yarn in [CHART_YARNS_MAX, u32::MAX] {
+        let refused = ChartError::Yarn { yarn, limit: CHART_YARNS_MAX };
+        assert_eq!(plain().with_yarns(&[0, yarn]).unwrap_err(), refused);
+        assert_eq!(Chart::jacquard(2, 2, None, |_, row| yarn * row as u32).unwrap_err(), refused);
+    }
+    let last = plain().with_yarns(&[CHART_YARNS_MAX - 1, 0]).unwrap().program().unwrap();
+    assert!(Machine::default().knit(&last).is_ok());
+    let most = CHART_MOVED_MAX as i32;
+    for by in [i32::MIN, -most - 1, most + 1, i32::MAX] {
+        let cells = vec![Cell::Knit, Cell::Moved { by, behind: false }];
+        let refused = ChartError::Moved { row: 1, column: 2, by: by.unsigned_abs(), limit: CHART_MOVED_MAX };
+        assert_eq!(Chart::new(2, Beds::One, cells.clone()).unwrap_err(), refused);
+        let mut chart = Chart::parse("kk", Beds::One).unwrap();
+        assert_eq!(chart.set(1, 0, cells[1]).unwrap_err(), refused);
+    }
+    let cells = vec![Cell::Moved { by: most, behind: true }, Cell::Moved { by: -most, behind: false }];
+    Chart::new(2, Beds::One, cells).unwrap().program().unwrap();
 }
 
 #[test]

@@ -30,7 +30,7 @@ pub const FAULTS_LISTED: usize = 1000;
 const PARENTS_MAX: usize = 1 << 28;
 
 /// The most carriers and sets of carriers.
-const CARRIERS_MAX: usize = 1 << 16;
+pub(super) const CARRIERS_MAX: usize = 1 << 16;
 
 /// How often a repeat is knitted until what hangs on needles at its end is the same each time. Most take two rounds: loops
 /// that go on being transferred without being knitted take longer.

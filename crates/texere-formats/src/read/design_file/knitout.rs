@@ -1,5 +1,7 @@
 //! A `[knit]` table that names a knitout file.
 
+use std::ffi::OsStr;
+
 use toml::Spanned;
 
 use super::knit::{LOOP_MM, Reader};
@@ -34,6 +36,12 @@ impl Reader<'_> {
             }
         }
         let path = source.beside(knitout);
+        let is_program =
+            |ending: &OsStr| ["k", "knitout"].iter().any(|known| ending.eq_ignore_ascii_case(known));
+        if !path.extension().is_some_and(is_program) {
+            // An error of what it names may show a word of it: it is not to be any file.
+            return Err(source.bad("knit.knitout", knitout, "the path of a .k or .knitout file"));
+        }
         let mut read = knitout::read(&path, &lengths)
             .map_err(|error| error.named(source.place("knit.knitout", knitout.span())))?;
         if !read.unused_sizes.is_empty() {

@@ -134,7 +134,8 @@ impl Grid {
 
     fn place(&self, at: f32, course: u32, left: i64) -> usize {
         let wale = (at.floor() as i64 - left).rem_euclid(self.size[0] as i64);
-        course as usize * self.size[0] + wale as usize
+        // In a repeat, a yarn may float on into the next one.
+        course as usize % self.size[1] * self.size[0] + wale as usize
     }
 
     /// Notes which moved loops cross others, and which of them go behind.

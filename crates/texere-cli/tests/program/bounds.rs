@@ -1,0 +1,111 @@
+//! Small designs that ask for more than any cloth has: refused by name, in little memory.
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::process::{Command, Output};
+
+use crate::{stderr, texere};
+
+/// Underlaps over 511 needles of a cloth of four wales: 128 yarns of a course behind each needle.
+pub(crate) const UNDERLAPS: &str = "[warp_knit]\nwales = 4\ncourses = 4\nwales_per_cm = 10\ncourses_per_cm = 13\n\
+                                    [[warp_knit.bars]]\nlapping = \"0-1/511-512//\"\n[yarns.a]\ndiameter_mm = 0.1\n";
+
+/// What the program says of a design with so many kB of memory.
+fn within(kilobytes: u32, command: &str, design: &str) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("design.toml");
+    fs::write(&path, design).unwrap();
+    // Threads have stacks of their own.
+    Command::new("sh")
+        .args(["-c", &format!("ulimit -v {kilobytes}; exec \"$0\" {command} \"$1\"")])
+        .args([env!("CARGO_BIN_EXE_texere"), path.to_str().unwrap()])
+        .env("RAYON_NUM_THREADS", "1")
+        .output()
+        .unwrap()
+}
+
+/// A cable of so many loops over as many.
+fn cable(half: usize) -> String {
+    let (plain, right, left) = ("k".repeat(2 * half), "R".repeat(half), "r".repeat(half));
+    format!(
+        "[knit]\nchart = \"\"\"\n{plain}\n{right}{left}\n\"\"\"\nwales_per_cm = 8\ncourses_per_cm = 10\n[yarns.a]\n\
+         diameter_mm = 0.1\n"
+    )
+}
+
+#[test]
+fn what_is_out_of_proportion_is_refused_in_little_memory() {
+    let long =
+        "[knit]\nchart = \"k\"\nrepeat = [20, 20]\nloop_length_mm = 1000\n[yarns.a]\ndiameter_mm = 0.1\n";
+    let many =
+        "[knit]\nchart = \"k\"\nrepeat = [499, 499]\nloop_length_mm = 3\n[yarns.a]\ndiameter_mm = 0.1\n";
+    let bars = "[[warp_knit.bars]]\nlapping = \"tricot\"\n".repeat(2);
+    let laps = format!(
+        "[warp_knit]\nwales = 16384\ncourses = 32768\nwales_per_cm = 10\ncourses_per_cm = 13\n{bars}[yarns.a]\n\
+         diameter_mm = 0.1\n"
+    );
+    let across = "[warp_knit]\nwales = 2000\ncourses = 2000\nwales_per_cm = 10\ncourses_per_cm = 13\n\
+                  [[warp_knit.bars]]\nlapping = \"0-1/511-512//\"\nthreading = [\"2000 a\"]\n[yarns.a]\ndiameter_mm = 0.1\n";
+    for (design, said) in [
+        (cable(200), "too many yarns lie in one place"),
+        (cable(300), "moves by 300 needles; 256 are taken at most"),
+        (UNDERLAPS.into(), "too many yarns lie in one place"),
+        (long.into(), "too long for their thickness"),
+        (many.into(), "65536 are taken at most: take multiples of 4"),
+        (laps, "make 1073741824 laps; 67108864 are taken at most"),
+        (across.into(), "yarns pass"),
+    ] {
+        let output = within(1_000_000, "inspect", &design);
+        let error = stderr(&output);
+        assert_eq!(output.status.code(), Some(3), "{said}: {error}");
+        assert!(error.contains(said), "{said}: {error}");
+    }
+}
+
+/// A chart of one wale and 65,536 rows, by steps of memory: it is read, or the program says that memory is out.
+#[test]
+fn memory_that_is_refused_is_a_failure_of_the_machine() {
+    let rows = "k\np\n".repeat(32_768);
+    let tall = format!(
+        "[knit]\nchart = \"\"\"\n{rows}\"\"\"\nwales_per_cm = 8\ncourses_per_cm = 10\n[yarns.a]\ndiameter_mm = 0.1\n"
+    );
+    let mut refused = 0;
+    for kilobytes in (60_000..300_000).step_by(12_000) {
+        let output = within(kilobytes, "inspect --counts", &tall);
+        let error = stderr(&output);
+        match output.status.code() {
+            Some(0) => {}
+            Some(1) => {
+                refused += 1;
+                assert!(error.contains("memory"), "{kilobytes}: {error}");
+            }
+            code => panic!("{kilobytes}: {code:?}, {error}"),
+        }
+    }
+    assert!(refused > 0);
+}
+
+#[test]
+fn help_that_can_t_be_written_is_a_failure() {
+    for args in ["help", "--version", "mesh --help"] {
+        let run = format!("exec \"$0\" {args} > /dev/full");
+        let output = Command::new("sh").args(["-c", &run, env!("CARGO_BIN_EXE_texere")]).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{args}: {}", stderr(&output));
+        assert!(texere(&args.split(' ').collect::<Vec<_>>()).status.success());
+    }
+}
+
+/// A word of a file that is no knitting program may be a secret.
+#[test]
+fn a_file_that_is_no_program_is_not_quoted() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("notes.txt"), "hunter2 is mine\n").unwrap();
+    let path = folder.path().join("design.toml");
+    let knit = "[knit]\nknitout = \"notes.txt\"\nwales_per_cm = 8\ncourses_per_cm = 10\n[yarns.a]\ndiameter_mm = 0.1\n";
+    fs::write(&path, knit).unwrap();
+    let output = texere(&["inspect", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(3));
+    let error = stderr(&output);
+    assert!(error.contains("line 2: knit.knitout") && error.contains(".k or .knitout"), "{error}");
+    assert!(!error.contains("hunter2"), "{error}");
+}

@@ -207,7 +207,7 @@ impl WarpKnitted {
 
     fn piece_of(&self, size: [u32; 2]) -> Result<Piece, FabricError> {
         let cloth = Cloth::new(&self.bars, self.gauge, self.thickest(), size, self.cells)?;
-        let threads = cloth.lay();
+        let threads = cloth.lay()?;
         let total = threads.iter().map(|thread| thread.points.len()).sum();
         let (mut table, mut offsets, mut points, mut sources) = (Vec::new(), vec![0], Vec::new(), Vec::new());
         room_for(&mut points, total, "control points")?;

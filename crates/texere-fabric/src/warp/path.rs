@@ -111,49 +111,58 @@ impl<'a> Cloth<'a> {
         let mut cloth = Self { bars, gauge, cells, size, diameter, loops, heights: vec![HEIGHT; bars.len()] };
         for (number, bar) in bars.iter().enumerate() {
             if let Some(run_in_mm) = bar.run_in_mm {
-                cloth.reach(number, run_in_mm / RACK * f64::from(size[1]));
+                cloth.reach(number, run_in_mm / RACK * f64::from(size[1]))?;
             }
         }
         Ok(cloth)
     }
 
     /// Gives a bar's loops the height at which its yarns are of that length in the mean, mm, or the nearest height to it.
-    fn reach(&mut self, bar: usize, length_mm: f64) {
+    fn reach(&mut self, bar: usize, length_mm: f64) -> Result<(), FabricError> {
         let [mut low, mut high] = HEIGHTS;
         for _ in 0..HEIGHT_STEPS {
             self.heights[bar] = (low + high) / 2.0;
-            let longer = self.mean_length_mm(bar).is_some_and(|mean| mean > length_mm);
+            let longer = self.mean_length_mm(bar)?.is_some_and(|mean| mean > length_mm);
             *(if longer { &mut high } else { &mut low }) = self.heights[bar];
         }
+        Ok(())
     }
 
     /// Mean length of the yarns of a bar, mm; `None` of a bar without yarns.
-    fn mean_length_mm(&self, bar: usize) -> Option<f64> {
+    fn mean_length_mm(&self, bar: usize) -> Result<Option<f64>, FabricError> {
         let height = f64::from(self.size[1]) * self.gauge.course_mm;
         let own = (0..self.loops.laid.len()).step_by(self.size[1] as usize);
         let own: Vec<_> = own.filter(|lap| self.loops.laid[*lap].bar as usize == bar).collect();
         let length = |lap: &usize| {
             let point = |at: DVec3| ControlPoint::new(at.x as f32, at.y as f32, at.z as f32, 1.0);
-            let points: Vec<_> = self.thread(*lap).points.into_iter().map(point).collect();
-            round_length_mm(&points, [0.0, height], 0.0)
+            let thread = self.thread(*lap)?.points;
+            let mut points = Vec::new();
+            room_for(&mut points, thread.len(), "points of a yarn")?;
+            points.extend(thread.into_iter().map(point));
+            Ok::<_, FabricError>(round_length_mm(&points, [0.0, height], 0.0))
         };
-        let lengths: Vec<_> = own.par_iter().map(length).collect();
-        (!own.is_empty()).then(|| lengths.iter().sum::<f64>() / own.len() as f64)
+        let lengths = own.par_iter().map(length).collect::<Result<Vec<_>, _>>()?;
+        Ok((!own.is_empty()).then(|| lengths.iter().sum::<f64>() / own.len() as f64))
     }
 
     /// The yarns of all guides that are threaded.
-    pub(super) fn lay(&self) -> Vec<Thread> {
+    ///
+    /// **Errors**: [`FabricError::OutOfMemory`].
+    pub(super) fn lay(&self) -> Result<Vec<Thread>, FabricError> {
         let courses = self.size[1] as usize;
         (0..self.loops.laid.len() / courses).into_par_iter().map(|yarn| self.thread(yarn * courses)).collect()
     }
 
     /// The yarn whose first lap has that number.
-    fn thread(&self, first: usize) -> Thread {
+    fn thread(&self, first: usize) -> Result<Thread, FabricError> {
         let laps = first..first + self.size[1] as usize;
-        let laid: Vec<Vec<DVec3>> = laps.clone().map(|lap| self.lap(lap)).collect();
+        let mut laid: Vec<Vec<DVec3>> = Vec::new();
+        room_for(&mut laid, laps.len(), "laps of a yarn")?;
+        laid.extend(laps.map(|lap| self.lap(lap)));
         let on = DVec3::Y * f64::from(self.size[1]) * self.gauge.course_mm;
         let (mut points, mut courses) = (Vec::new(), Vec::new());
         for (course, own) in (0..).zip(&laid) {
+            room_for(&mut points, own.len(), "points of a yarn")?;
             points.extend(own);
             let next = laid.get(course as usize + 1).map_or_else(|| laid[0][0] + on, |next| next[0]);
             let behind = match self.loops.laid[first + course as usize].kind() {
@@ -161,16 +170,20 @@ impl<'a> Cloth<'a> {
                 LapKind::Overlap | LapKind::TwoNeedle => UNDERLAP * self.diameter,
             };
             if let Some(last) = own.last() {
-                points.extend(self.between(*last, next, behind));
+                let between = self.between(*last, next, behind);
+                room_for(&mut points, between.len(), "points of a yarn")?;
+                points.extend(between);
             }
+            let more = points.len() - courses.len();
+            room_for(&mut courses, more, "courses of a yarn's points")?;
             courses.resize(points.len(), course);
         }
-        Thread { first: self.loops.laid[first], points, courses }
+        Ok(Thread { first: self.loops.laid[first], points, courses })
     }
 
     /// Points of an underlap, so that none of its pieces is much longer than those of a loop: a spline turns sharply where a long piece
     /// follows a short one. They lie `behind` the feet, which other yarns of the same bar have between them.
-    fn between(&self, from: DVec3, to: DVec3, behind: f64) -> impl Iterator<Item = DVec3> + use<> {
+    fn between(&self, from: DVec3, to: DVec3, behind: f64) -> impl ExactSizeIterator<Item = DVec3> + use<> {
         let parts = match self.cells {
             Cells::Round => (from.distance(to) / (PIECE * self.gauge.wale_mm)).round().max(1.0),
             Cells::Even => 1.0,

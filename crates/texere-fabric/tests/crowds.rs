@@ -251,17 +251,13 @@ proptest! {
     fn what_is_swept_is_what_is_compared_pair_by_pair(
         ends in prop::collection::vec([[0.0..10.0f32, 0.0..10.0f32, 0.0..10.0f32], [0.0..10.0f32, 0.0..10.0f32, 0.0..10.0f32]], 300..400),
     ) {
-        // Thin straight yarns all through one another: their contacts are those of their middle lines.
-        let found = bounded(&yarns(ends.iter().map(|ends| {
-            (false, ends.iter().map(|[x, y, z]| [*x, *y, *z, 0.02]).collect::<Vec<_>>())
-        })));
+        let found = bounded(&straight(&ends));
         prop_assert_eq!(found.crowd, None);
-        let near = |one: &[[f32; 3]; 2], other: &[[f32; 3]; 2]| segments_apart(one, other) / 0.04;
         let mut contacts = 0;
         let mut least = f64::INFINITY;
         for (number, one) in ends.iter().enumerate() {
             for other in &ends[..number] {
-                let ratio = near(one, other);
+                let ratio = segments_apart(one, other) / touching();
                 prop_assume!((ratio - 1.1).abs() > 1e-4);
                 contacts += u64::from(ratio < 1.1);
                 least = least.min(ratio);
@@ -270,6 +266,33 @@ proptest! {
         prop_assert_eq!(found.contacts, contacts);
         prop_assert!((found.min - least).abs() < 1e-4 || least > 1.1, "{} but {least}", found.min);
     }
+}
+
+/// Two lines 1.10019 times 0.04 mm apart, and 1.09995 times what two radii of 0.02 mm come to as half floats.
+#[test]
+fn a_radius_counts_as_the_points_hold_it() {
+    let pair = [
+        [[7.736433, 1.4837996, 3.1835973], [8.196987, 7.347082, 5.476392]],
+        [[6.670672, 0.5881269, 4.740809], [9.216752, 5.974591, 2.9803324]],
+    ];
+    let apart = segments_apart(&pair[0], &pair[1]);
+    assert!(apart > 1.1 * 0.04 && apart < 1.1 * touching(), "{apart}");
+    let found = bounded(&straight(&pair));
+    assert_eq!(found.contacts, 1);
+    assert!((found.min - apart / touching()).abs() < 1e-5, "{}", found.min);
+}
+
+/// Thin straight yarns: their contacts are those of their middle lines.
+fn straight(ends: &[[[f32; 3]; 2]]) -> Yarns {
+    yarns(ends.iter().map(|ends| (false, ends.iter().map(|[x, y, z]| [*x, *y, *z, THIN]).collect())))
+}
+
+/// The radius of [`straight`] yarns, mm, before points round it to a half float, by 2 parts in 10,000.
+const THIN: f32 = 0.02;
+
+/// How far apart the middle lines of two [`straight`] yarns are that touch, mm: the points' own radii count.
+fn touching() -> f64 {
+    2.0 * f64::from(ControlPoint::new(0.0, 0.0, 0.0, THIN).half_width())
 }
 
 /// Distance of two straight lines between their ends, by halving the way on the one: it is convex along it.

@@ -145,7 +145,7 @@ fn two_carriers_make_a_loop_each() {
 #[test]
 fn needles_at_half_pitch_lie_between_those_of_the_other_bed() {
     for (rack, at) in [("0.25", 3.5), ("0.5", 3.5), ("-0.75", 2.5), ("1", 4.0), ("-0.5", 2.5)] {
-        let text = format!("in 1\nrack {rack}\nknit + f3 1\nknit + b3 1\nmiss + f9 1");
+        let text = format!("in 1\nrack {rack}\nknit + f3 1\nknit + b3 1\nmiss + f9 1\nknit + f10 1");
         let Knit { stitches, .. } = knit(&program(&text));
         assert_eq!(stitches.loops[1].at, at, "{rack}");
         assert_eq!(stitches.loops[1].opposite, rack != "1", "{rack}");
@@ -181,7 +181,11 @@ fn faults_are_named() {
         ("knit + f1 1\nknit + f1", 5, FaultKind::Dropped(1)),
         ("knit + f1 1\nknit + f2 1", 4, FaultKind::LeftOnNeedles(2)),
         ("knit + f1 1\nknit + f9 1", 5, FaultKind::LongFloat { needles: 7, limit: 6 }),
-        ("knit + f1 1\nmiss + f9 1\nknit - f1 1", 6, FaultKind::LongFloat { needles: 7, limit: 6 }),
+        (
+            "knit + f1 1\nmiss + f9 1\nknit + f0 2\nknit + f10 2\nknit - f1 1",
+            8,
+            FaultKind::LongFloat { needles: 7, limit: 6 },
+        ),
         (
             "tuck + f1 1\ntuck + f1 1\ntuck + f1 1\ntuck + f1 1\ntuck + f1 1",
             8,

@@ -49,6 +49,8 @@ pub enum FaultKind {
         /// The most.
         limit: u32,
     },
+    /// A carrier is brought in and laid past needles, but no loop holds its yarn. It is left out of the cloth.
+    Loose,
     /// More loops hang on a needle than it should hold.
     Piled {
         /// How many.
@@ -70,6 +72,7 @@ impl FaultKind {
             Self::Dropped(_)
                 | Self::LeftOnNeedles(_)
                 | Self::LongFloat { .. }
+                | Self::Loose
                 | Self::Piled { .. }
                 | Self::Tangled(_)
         )
@@ -127,6 +130,9 @@ impl fmt::Display for Fault {
                     f,
                     "carrier {carrier} floats past {needles} needles; more than {limit} are a long float"
                 )
+            }
+            FaultKind::Loose => {
+                write!(f, "no loop holds the yarn of carrier {carrier}, which is left out of the cloth")
             }
             FaultKind::Piled { loops, limit } => {
                 write!(f, "needle{needle} holds {loops} loops; more than {limit} may not knit well")

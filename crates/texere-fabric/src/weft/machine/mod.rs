@@ -3,6 +3,7 @@
 mod beds;
 mod carriers;
 mod courses;
+mod drawn;
 mod fault;
 mod floats;
 mod run;
@@ -200,7 +201,8 @@ fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, 
             *course = courses[*course as usize];
         }
     }
-    // Carriers that are brought in and out without a stitch lay no yarn.
+    drawn::back(&mut run, width)?;
+    // Carriers that hold no loop lay no yarn.
     run.carriers.strands.retain(|strand| !strand.steps.is_empty());
     floats::long(&mut run, width, float_max);
     let repeat = width.zip(height).map(|(width, height)| [width.unsigned_abs(), height]);

@@ -79,6 +79,7 @@ impl Run<'_> {
         let pass = self.carriers.pass(set, carriers, spot, None);
         let (at, bed) = (spot.at as f32 / HALVES as f32, needle.bed);
         let float = Step::Float { at, bed, course: pass, direction, source: self.source };
+        self.carriers.set_off(carriers);
         for &carrier in carriers {
             self.lay(carrier, [set, pass], spot, float, needle);
         }
@@ -146,6 +147,7 @@ impl Run<'_> {
         let parents = start as u32..self.parents.len() as u32;
         let at = spot.at as f32 / HALVES as f32;
         let opposite = self.beds.opposite(needle);
+        self.carriers.set_off(carriers);
         for (plate, &carrier) in carriers.iter().enumerate() {
             let number = self.loops.len() as u32;
             self.passes[number as usize] = pass;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::{Direction, Step, Strand};
+use super::super::{Direction, Needle, Step, Strand};
 
 /// A run of stitches of the same carriers in one direction.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +36,9 @@ struct Carrier {
     run: Option<Run>,
     /// Its pass, and the set of carriers that makes it.
     pass: Option<(u32, u32)>,
+    /// How many loops it has made since it came in, and the last one's needle if that was empty.
+    loops: u64,
+    cast_on: Option<(Direction, Needle)>,
     /// Where it waits, in half wales, and the carrier that has laid its yarn on both sides of it.
     waits: Option<i64>,
     caught_by: Option<u32>,
@@ -83,6 +86,28 @@ impl Carriers {
         own.strand = Some(self.strands.len());
         self.strands.push(Strand { carrier, steps: Vec::new(), onward: None });
         true
+    }
+
+    /// How many loops a carrier has made since it came in.
+    pub(super) fn loops(&self, carrier: u32) -> u64 {
+        self.carriers[carrier as usize].loops
+    }
+
+    /// Counts a loop on a needle that may be empty. Answers with the needle next to it, where that was empty as well and took the yarn
+    /// just before, on the same way.
+    pub(super) fn cast_on(
+        &mut self,
+        carrier: u32,
+        direction: Direction,
+        needle: Needle,
+        is_empty: bool,
+    ) -> Option<Needle> {
+        let own = &mut self.carriers[carrier as usize];
+        own.loops += 1;
+        let (_, other) = std::mem::replace(&mut own.cast_on, is_empty.then_some((direction, needle)))
+            .filter(|&(way, _)| way == direction)?;
+        let next = other.number + if direction == Direction::Right { 1 } else { -1 };
+        (is_empty && Needle { number: next, ..other } == needle).then_some(other)
     }
 
     /// Takes a carrier out; false if it is not in.

@@ -207,6 +207,7 @@ fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, 
     floats::long(&mut run, width, float_max);
     let repeat = width.zip(height).map(|(width, height)| [width.unsigned_abs(), height]);
     let strands = std::mem::take(&mut run.carriers.strands);
+    run.faults.extend(run.cast_on.take().into_iter().chain(run.only_loop.take()));
     run.faults.sort_by_key(|fault| fault.source);
     let stitches = Stitches { loops: run.loops, parents: run.parents, strands, repeat };
     Ok(Knit { stitches, faults: run.faults, unlisted: run.unlisted })

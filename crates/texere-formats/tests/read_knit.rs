@@ -140,12 +140,13 @@ fn a_knitout_file_alone_or_named_by_a_design() {
         let yarns = design.yarns().unwrap();
         assert_eq!((yarns.layout().yarns().len(), yarns.materials()[2].name.as_str()), (1, "3: 2-30 red"));
         assert_eq!(design.files().len(), 1);
-        // Loops that are dropped at the end are warned of, with their lines.
+        // A risky cast-on and loops that are dropped at the end are warned of, with their lines.
         let warnings = design.warnings();
         assert!(
-            warnings.len() == 2 && warnings[0].contains("line 13: a loop falls off needle f1"),
+            warnings.len() == 3 && warnings[1].contains("line 13: a loop falls off needle f1"),
             "{warnings:?}"
         );
+        assert!(warnings[0].contains("line 7: needles f2 and f1 hold nothing"), "{warnings:?}");
         assert!(design.faults().iter().all(|fault| !fault.is_error));
         let told = design.told(10).unwrap();
         assert!(told.place.ends_with(", line 10") && told.instructions == ["knit + f1 3"], "{told:?}");

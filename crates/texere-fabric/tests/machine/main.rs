@@ -6,4 +6,5 @@ mod known;
 mod laws;
 mod limits;
 mod naive;
+mod parked;
 mod program;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::{Direction, Step, Strand};
+use super::super::{Direction, Needle, Step, Strand};
 
 /// A run of stitches of the same carriers in one direction.
 #[derive(Debug, Clone, Copy)]
@@ -12,6 +12,8 @@ struct Run {
     at: i64,
     /// The slots of its stitches there, a bit for each row of needles.
     rows: u8,
+    /// Where its last loop is, in half wales.
+    looped: Option<i64>,
 }
 
 impl Run {
@@ -34,6 +36,9 @@ struct Carrier {
     run: Option<Run>,
     /// Its pass, and the set of carriers that makes it.
     pass: Option<(u32, u32)>,
+    /// How many loops it has made since it came in, and the last one's needle if that was empty.
+    loops: u64,
+    cast_on: Option<(Direction, Needle)>,
     /// Where it waits, in half wales, and the carrier that has laid its yarn on both sides of it.
     waits: Option<i64>,
     caught_by: Option<u32>,
@@ -51,6 +56,8 @@ pub(super) struct Carriers {
     pub(super) before: Vec<Option<u32>>,
     /// The yarns. Courses of floats are still numbers of passes.
     pub(super) strands: Vec<Strand>,
+    /// Where yarns were caught before they went on: the strand, and which of its steps.
+    pub(super) caught: Vec<[usize; 2]>,
     repeats: bool,
 }
 
@@ -79,6 +86,28 @@ impl Carriers {
         own.strand = Some(self.strands.len());
         self.strands.push(Strand { carrier, steps: Vec::new(), onward: None });
         true
+    }
+
+    /// How many loops a carrier has made since it came in.
+    pub(super) fn loops(&self, carrier: u32) -> u64 {
+        self.carriers[carrier as usize].loops
+    }
+
+    /// Counts a loop on a needle that may be empty. Answers with the needle next to it, where that was empty as well and took the yarn
+    /// just before, on the same way.
+    pub(super) fn cast_on(
+        &mut self,
+        carrier: u32,
+        direction: Direction,
+        needle: Needle,
+        is_empty: bool,
+    ) -> Option<Needle> {
+        let own = &mut self.carriers[carrier as usize];
+        own.loops += 1;
+        let (_, other) = std::mem::replace(&mut own.cast_on, is_empty.then_some((direction, needle)))
+            .filter(|&(way, _)| way == direction)?;
+        let next = other.number + if direction == Direction::Right { 1 } else { -1 };
+        (is_empty && Needle { number: next, ..other } == needle).then_some(other)
     }
 
     /// Takes a carrier out; false if it is not in.
@@ -128,7 +157,16 @@ impl Carriers {
         }
     }
 
-    /// Moves a carrier to a stitch, which it adds to its yarn. Answers with the carrier that its yarn is caught behind.
+    /// Carriers of a set move at once: none of them waits while another one goes past.
+    pub(super) fn set_off(&mut self, carriers: &[u32]) {
+        for &carrier in carriers {
+            if let Some(at) = self.carriers[carrier as usize].waits.take() {
+                self.waiting.remove(&(at, carrier));
+            }
+        }
+    }
+
+    /// Moves a carrier that has set off to a stitch, which it adds to its yarn. Answers with the carrier that its yarn is caught behind.
     pub(super) fn lay(&mut self, carrier: u32, [set, pass]: [u32; 2], spot: Spot, step: Step) -> Option<u32> {
         let Spot { direction, at, row } = spot;
         let own = &mut self.carriers[carrier as usize];
@@ -138,37 +176,38 @@ impl Carriers {
             let onward = Some([if direction == Direction::Right { 1 } else { -1 }, 0]);
             self.strands.push(Strand { carrier, steps: Vec::new(), onward });
         }
+        let caught = own.caught_by.take();
         if let Some(strand) = own.strand {
-            self.strands[strand].steps.push(step);
+            let steps = &mut self.strands[strand].steps;
+            if caught.is_some() {
+                self.caught.push([strand, steps.len().saturating_sub(1)]);
+            }
+            steps.push(step);
         }
         let rows = goes_on.filter(|run| run.at == at).map_or(row, |run| run.rows | row);
-        let from = goes_on.map(|run| run.at);
-        own.run = Some(Run { direction, at, rows });
+        let before = goes_on.and_then(|run| run.looped);
+        let looped = if matches!(step, Step::Loop { .. }) { Some(at) } else { before };
+        own.run = Some(Run { direction, at, rows, looped });
         own.pass = Some((pass, set));
-        let caught = own.caught_by.take();
         if !self.repeats {
-            self.wait(carrier, from, spot);
+            if let (Some(from), Some(to)) = (before, looped) {
+                self.catch(carrier, [from.min(to), from.max(to)]);
+            }
+            let beside = if direction == Direction::Right { at + 1 } else { at - 1 };
+            self.carriers[carrier as usize].waits = Some(beside);
+            self.waiting.insert((beside, carrier));
         }
         caught
     }
 
-    /// Lets a carrier wait beside its stitch, and notes which others wait between that and the one before it.
-    fn wait(&mut self, carrier: u32, from: Option<i64>, Spot { direction, at, .. }: Spot) {
-        let beside = if direction == Direction::Right { at + 1 } else { at - 1 };
-        if let Some(before) = self.carriers[carrier as usize].waits.replace(beside) {
-            self.waiting.remove(&(before, carrier));
+    /// Notes which carriers wait between two loops that `by` has made one after the other. Yarn that is carried on from a loop, but
+    /// makes none there, is drawn back and catches nothing.
+    fn catch(&mut self, by: u32, [left, right]: [i64; 2]) {
+        while let Some(&(place, other)) = self.waiting.range((left + 1, 0)..(right.max(left + 1), 0)).next() {
+            self.waiting.remove(&(place, other));
+            let other = &mut self.carriers[other as usize];
+            other.waits = None;
+            other.caught_by = Some(by);
         }
-        if let Some(from) = from {
-            let (left, right) = (from.min(at), from.max(at));
-            while let Some(&(place, other)) =
-                self.waiting.range((left + 1, 0)..(right.max(left + 1), 0)).next()
-            {
-                self.waiting.remove(&(place, other));
-                let other = &mut self.carriers[other as usize];
-                other.waits = None;
-                other.caught_by = Some(carrier);
-            }
-        }
-        self.waiting.insert((beside, carrier));
     }
 }

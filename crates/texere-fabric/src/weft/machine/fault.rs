@@ -49,6 +49,21 @@ pub enum FaultKind {
         /// The most.
         limit: u32,
     },
+    /// A carrier is brought in and laid past needles, but no loop holds its yarn. It is left out of the cloth.
+    Loose,
+    /// Two needles that hold nothing, next to each other, take a yarn one after the other: until the next course it goes straight through
+    /// their hooks, and may slip off. It is told once for a program, of the first such pair.
+    CastOn {
+        /// The needle that takes it first.
+        beside: Needle,
+        /// How many more such pairs there are.
+        others: u32,
+    },
+    /// A carrier is taken out after a single loop, from which its yarn may slip. It is told once for a program, of the first such carrier.
+    OnlyLoop {
+        /// How often it happens again.
+        others: u32,
+    },
     /// More loops hang on a needle than it should hold.
     Piled {
         /// How many.
@@ -70,6 +85,9 @@ impl FaultKind {
             Self::Dropped(_)
                 | Self::LeftOnNeedles(_)
                 | Self::LongFloat { .. }
+                | Self::Loose
+                | Self::CastOn { .. }
+                | Self::OnlyLoop { .. }
                 | Self::Piled { .. }
                 | Self::Tangled(_)
         )
@@ -128,6 +146,25 @@ impl fmt::Display for Fault {
                     "carrier {carrier} floats past {needles} needles; more than {limit} are a long float"
                 )
             }
+            FaultKind::Loose => {
+                write!(f, "no loop holds the yarn of carrier {carrier}, which is left out of the cloth")
+            }
+            FaultKind::CastOn { beside, others } => {
+                write!(
+                    f,
+                    "needles {beside} and{needle} hold nothing and take the yarn of carrier {carrier} one after the other, \
+                     straight through their hooks: it may slip off; every other needle first, and the rest on the way \
+                     back, hold it{}",
+                    more(*others, "pair like that", "pairs like that")
+                )
+            }
+            FaultKind::OnlyLoop { others } => {
+                write!(
+                    f,
+                    "carrier {carrier} is taken out after a single loop, from which its yarn may slip{}",
+                    more(*others, "carrier like that", "carriers like that")
+                )
+            }
             FaultKind::Piled { loops, limit } => {
                 write!(f, "needle{needle} holds {loops} loops; more than {limit} may not knit well")
             }
@@ -135,5 +172,14 @@ impl fmt::Display for Fault {
                 write!(f, "the yarn of carrier {carrier} is caught behind that of carrier {other}")
             }
         }
+    }
+}
+
+/// How many more of a kind there are.
+fn more(others: u32, one: &str, several: &str) -> String {
+    match others {
+        0 => String::new(),
+        1 => format!(" (1 more {one})"),
+        _ => format!(" ({others} more {several})"),
     }
 }

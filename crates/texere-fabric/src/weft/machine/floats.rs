@@ -6,7 +6,7 @@ use super::run::Run;
 
 /// Notes floats past more needles than they should. A repeat is `width` needles wide.
 ///
-/// A yarn that a miss takes further than its next loop floats past all needles as far as that.
+/// A yarn that was caught further out than its next loop floats past all needles as far as that.
 pub(super) fn long(run: &mut Run<'_>, width: Option<i32>, limit: u32) {
     let mut found = Vec::new();
     for strand in &run.carriers.strands {

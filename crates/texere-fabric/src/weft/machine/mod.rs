@@ -3,6 +3,7 @@
 mod beds;
 mod carriers;
 mod courses;
+mod drawn;
 mod fault;
 mod floats;
 mod run;
@@ -200,11 +201,13 @@ fn finish(mut run: Run<'_>, width: Option<i32>, float_max: u32) -> Result<Knit, 
             *course = courses[*course as usize];
         }
     }
-    // Carriers that are brought in and out without a stitch lay no yarn.
+    drawn::back(&mut run, width)?;
+    // Carriers that hold no loop lay no yarn.
     run.carriers.strands.retain(|strand| !strand.steps.is_empty());
     floats::long(&mut run, width, float_max);
     let repeat = width.zip(height).map(|(width, height)| [width.unsigned_abs(), height]);
     let strands = std::mem::take(&mut run.carriers.strands);
+    run.faults.extend(run.cast_on.take().into_iter().chain(run.only_loop.take()));
     run.faults.sort_by_key(|fault| fault.source);
     let stitches = Stitches { loops: run.loops, parents: run.parents, strands, repeat };
     Ok(Knit { stitches, faults: run.faults, unlisted: run.unlisted })

@@ -5,7 +5,7 @@ use super::super::super::{Bed, Direction, Fate, Head, LoopKind, LoopRef, Needle,
 use super::super::beds::{Held, Slot};
 use super::super::carriers::Spot;
 use super::super::courses::Above;
-use super::super::{FaultKind, PARENTS_MAX};
+use super::super::{Fault, FaultKind, PARENTS_MAX};
 use super::Run;
 use crate::FabricError;
 use crate::memory::room_for;
@@ -79,6 +79,7 @@ impl Run<'_> {
         let pass = self.carriers.pass(set, carriers, spot, None);
         let (at, bed) = (spot.at as f32 / HALVES as f32, needle.bed);
         let float = Step::Float { at, bed, course: pass, direction, source: self.source };
+        self.carriers.set_off(carriers);
         for &carrier in carriers {
             self.lay(carrier, [set, pass], spot, float, needle);
         }
@@ -146,6 +147,8 @@ impl Run<'_> {
         let parents = start as u32..self.parents.len() as u32;
         let at = spot.at as f32 / HALVES as f32;
         let opposite = self.beds.opposite(needle);
+        self.carriers.set_off(carriers);
+        self.cast_on(carriers, direction, needle, held.is_empty());
         for (plate, &carrier) in carriers.iter().enumerate() {
             let number = self.loops.len() as u32;
             self.passes[number as usize] = pass;
@@ -166,6 +169,26 @@ impl Run<'_> {
             self.lay(carrier, [set, pass], spot, Step::Loop { number, direction }, needle);
         }
         Ok(first)
+    }
+
+    /// Notes needles that are cast on next to each other. In a repeat nothing is cast on.
+    fn cast_on(&mut self, carriers: &[u32], direction: Direction, needle: Needle, is_empty: bool) {
+        let mut found = None;
+        for &carrier in carriers {
+            let beside = self.carriers.cast_on(carrier, direction, needle, is_empty);
+            found = found.or(beside.map(|beside| (carrier, beside)));
+        }
+        let Some((carrier, beside)) = found.filter(|_| self.program.repeat.is_none()) else { return };
+        match &mut self.cast_on {
+            Some(Fault { kind: FaultKind::CastOn { others, .. }, .. }) => *others += 1,
+            first => {
+                let (kind, carrier) = (
+                    FaultKind::CastOn { beside, others: 0 },
+                    Some(self.program.carriers[carrier as usize].clone()),
+                );
+                *first = Some(Fault { kind, source: self.source, needle: Some(needle), carrier });
+            }
+        }
     }
 
     /// Brings in carriers that make a stitch and are not in, which is a fault.

@@ -40,6 +40,9 @@ pub(super) struct Run<'a> {
     aboves: Vec<Above>,
     pub(super) faults: Vec<Fault>,
     pub(super) unlisted: u64,
+    /// Of what is told once, the first time, with how often it came again.
+    pub(super) cast_on: Option<Fault>,
+    pub(super) only_loop: Option<Fault>,
     /// The operation that is done.
     source: u32,
     operation: u64,
@@ -68,6 +71,8 @@ impl<'a> Run<'a> {
             aboves: Vec::new(),
             faults: Vec::new(),
             unlisted: 0,
+            cast_on: None,
+            only_loop: None,
             source: 0,
             operation: 0,
         };
@@ -84,6 +89,7 @@ impl<'a> Run<'a> {
         let loops = self.passes.len();
         self.carriers = Carriers::new(self.program.carriers.len(), self.program.repeat.is_some());
         (self.moved, self.unlisted) = (0, 0);
+        (self.cast_on, self.only_loop) = (None, None);
         self.loops.clear();
         self.parents.clear();
         self.aboves.clear();
@@ -150,6 +156,9 @@ impl<'a> Run<'a> {
                     self.free_hook(carriers);
                 }
                 for &carrier in carriers {
+                    if self.carriers.loops(carrier) == 1 {
+                        self.only_loop(carrier);
+                    }
                     if !self.carriers.take_out(carrier) {
                         self.fault(FaultKind::OutWithoutIn, None, Some(carrier));
                     }
@@ -175,6 +184,20 @@ impl<'a> Run<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Notes a carrier that is taken out after its only loop.
+    fn only_loop(&mut self, carrier: u32) {
+        match &mut self.only_loop {
+            Some(Fault { kind: FaultKind::OnlyLoop { others }, .. }) => *others += 1,
+            first => {
+                let (kind, carrier) = (
+                    FaultKind::OnlyLoop { others: 0 },
+                    Some(self.program.carriers[carrier as usize].clone()),
+                );
+                *first = Some(Fault { kind, source: self.source, needle: None, carrier });
+            }
+        }
     }
 
     /// A fault if the hook is to take carriers while it holds another.

@@ -26,7 +26,7 @@
 //!
 //! [warp]
 //! yarns = ["3 indigo", "ecru"]    # repeated over all ends
-//! per_cm = 12.0                   # or per_inch, or spacing_mm, one number or a list: [0.9, 0.3] for doubled ends
+//! per_cm = 12.0                   # or per_inch, or spacing_mm, one number or a list: [2.0, 1.0] for thick and thin ends
 //!
 //! [weft]
 //! yarns = ["ecru"]

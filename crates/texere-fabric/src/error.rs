@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use crate::warp::Lap;
 use crate::weft::Needle;
+use crate::woven::{TOLD, irregular_satin};
 
 /// A structure that can't be taken. Threads are counted from 1, as weavers do.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -124,6 +125,29 @@ pub enum FabricError {
         /// What should have stood there.
         expected: &'static str,
     },
+    /// A word that is the name of no weave.
+    #[error(
+        "weave \"{text}\", character {position}: no weave has this name{}; there are {TOLD}",
+        .near.map(|near| format!(" (did you mean {near}?)")).unwrap_or_default()
+    )]
+    NoWeave {
+        /// The text, cut short where it is long.
+        text: String,
+        /// Which character, from 1.
+        position: usize,
+        /// A name that is spelt nearly so.
+        near: Option<&'static str>,
+    },
+    /// A sign in a weave's notation that looks like a hyphen and is none.
+    #[error("weave \"{text}\", character {position}: this is {sign}, not a hyphen (-)")]
+    Hyphen {
+        /// The text, cut short where it is long.
+        text: String,
+        /// Which character, from 1.
+        position: usize,
+        /// What it is: `an en dash (U+2013)`.
+        sign: &'static str,
+    },
     /// A satin's move that would show a twill line or leave ends without a binding point.
     #[error(
         "weave \"{text}\", character {position}: a satin of {ends} ends can't have move {step}; \
@@ -140,7 +164,10 @@ pub enum FabricError {
         ends: usize,
     },
     /// There is no regular satin on so many ends: none on fewer than 5, and none on 6.
-    #[error("weave \"{text}\", character {position}: no satin has {ends} ends; it takes 5, or 7 and more")]
+    #[error(
+        "weave \"{text}\", character {position}: no regular satin has {ends} ends, for that takes 5, or 7 and more{}",
+        irregular_satin(*.ends)
+    )]
     NoSatin {
         /// The text, cut short where it is long.
         text: String,

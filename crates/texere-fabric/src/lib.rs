@@ -36,6 +36,7 @@ mod clearance;
 mod diagnosis;
 mod error;
 mod grid;
+mod hyphen;
 mod length;
 mod linking;
 mod measures;
@@ -61,6 +62,7 @@ pub use diagnosis::{
     ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
 };
 pub use error::FabricError;
+pub use hyphen::look_alike as hyphen_look_alike;
 pub use length::{length_mm, lengths_mm};
 pub use linking::{
     LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,

@@ -84,16 +84,33 @@ fn threads_of_all_sizes_and_spacings_stay_clear() {
 
 #[test]
 fn doubled_ends_and_picks_just_touch() {
-    // Pairs in one shed, a diameter apart.
-    let (first, second) = (Thread::new(0.5, 0.1), Thread::new(0.2, 0.1));
-    let set: Vec<_> = [first, second].into_iter().cycle().take(10).collect();
+    // Two pairs in one shed each, a diameter from thread to thread.
+    let set: Vec<_> = [0.02, 0.38, 0.38, 0.02].map(|spacing| Thread::new(spacing, 0.1)).into();
+    let drawdown = texere_fabric::Weave::parse("2/2(2+2)").unwrap().drawdown(4, 4).unwrap();
     let mut cloth =
-        Woven::new(weave("2/2(2+2)"), set.clone(), set, vec![Material::default()], vec![Section::Circle])
-            .unwrap();
+        Woven::new(drawdown, set.clone(), set, vec![Material::default()], vec![Section::Circle]).unwrap();
     cloth.set_shape(Shape::Round);
     assert_eq!(cloth.warnings(), []);
     let clearance = round_clearance(&cloth.yarns().unwrap(), SAMPLES);
     assert!((0.995..=1.0 + 1e-6).contains(&clearance), "{clearance}");
+}
+
+#[test]
+fn threads_that_are_cut_off_close_to_their_last_crossing_stay_clear() {
+    // Thin threads in narrow columns at all four edges, thick ones in wide columns between them.
+    for (thin, thick) in [(0.04, 0.1), (0.1, 0.1), (0.05, 0.3)] {
+        let wide = vec![Thread::new(7.0 * thick, thick as f32); 6];
+        let narrow = vec![Thread::new(1.5 * thin, thin as f32)];
+        let set = [narrow.clone(), wide, narrow].concat();
+        for name in ["plain", "3/1", "1/3", "2/2(2+2)"] {
+            let drawdown = texere_fabric::Weave::parse(name).unwrap().drawdown(8, 8).unwrap();
+            let sections = vec![Section::Circle];
+            let cloth =
+                Woven::new(drawdown, set.clone(), set.clone(), vec![Material::default()], sections).unwrap();
+            let clearance = round_clearance(&cloth.yarns().unwrap(), SAMPLES);
+            assert!(clearance >= 0.985, "{name} {thin} {thick}: {clearance}");
+        }
+    }
 }
 
 #[test]

@@ -16,9 +16,9 @@ use texere_fabric::{
     WovenDesign, YarnPlace, clearance, settle,
 };
 
-/// A plain weave of 8 ends and picks of 0.3 mm, every other one `pitch` diameters from the one before, the rest 2.6.
+/// A plain weave of 8 ends and picks of 0.3 mm, of every three two `pitch` diameters apart. The third is 2.6 from both.
 fn plain(pitch: f64) -> Structure {
-    let spacing = |number| 0.3 * if number % 2 == 1 { pitch } else { 2.6 };
+    let spacing = |number| 0.3 * if number % 3 == 2 { 2.0 * 2.6 - pitch } else { pitch };
     let threads: Vec<_> = (0..8).map(|number| Thread::new(spacing(number), 0.15)).collect();
     let drawdown = Weave::parse("plain").unwrap().drawdown(8, 8).unwrap();
     let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);

@@ -45,10 +45,9 @@ fn the_least_pitch_is_peirces() {
 
 #[test]
 fn nothing_between_two_threads_jams_nothing() {
-    // Doubled ends touch: no pick passes between them.
-    let drawdown = Weave::parse("2/2(2+2)").unwrap().drawdown(8, 8).unwrap();
-    let set: Vec<_> =
-        [0.5, 0.2].map(|spacing| Thread::new(spacing, 0.1)).into_iter().cycle().take(8).collect();
+    // Two pairs, 0.35 mm apart. Doubled ends touch: no pick passes between them.
+    let drawdown = Weave::parse("2/2(2+2)").unwrap().drawdown(4, 4).unwrap();
+    let set: Vec<_> = [0.05, 0.35, 0.35, 0.05].map(|spacing| Thread::new(spacing, 0.1)).into();
     let mut cloth =
         Woven::new(drawdown, set.clone(), set, vec![Material::default()], vec![Section::Circle]).unwrap();
     assert_eq!(cloth.relieve(Relief::Report).unwrap().before.map(|set| set.jammed), [0, 0]);

@@ -31,11 +31,11 @@ fn cloths() -> impl Strategy<Value = Woven> {
     })
 }
 
-/// Where the threads lie, by the definition: half the first spacing in, then spacing after spacing.
+/// Where the threads lie, by the definition: in the middle of their columns, which lie side by side.
 fn places(threads: &[Thread]) -> Vec<f64> {
     (0..threads.len())
-        .map(|last| {
-            threads[..=last].iter().map(|thread| thread.spacing_mm).sum::<f64>() - threads[0].spacing_mm / 2.0
+        .map(|own| {
+            threads[..own].iter().map(|thread| thread.spacing_mm).sum::<f64>() + threads[own].spacing_mm / 2.0
         })
         .collect()
 }
@@ -120,14 +120,14 @@ proptest! {
 
 #[test]
 fn a_long_float_beside_a_close_pitch_is_stepped_through() {
-    // A dent left empty: 10 mm after ends 0.4 mm apart. The spline's time is uniform: each of its intervals is at most
+    // Room left empty beside an end: 5.2 mm to both its neighbours, after ends 0.4 mm apart. The spline's time is uniform: each of its intervals is at most
     // five times as long as the one before or after it, or the thread would turn back on itself.
     let (close, far) = (Thread::new(0.4, 0.1), Thread::new(10.0, 0.1));
-    let warp = vec![close, close, far, close];
-    let up = [true, false, false, true];
-    let cloth = woven(Drawdown::from_fn(4, 1, |end, _| up[end]).unwrap(), warp, vec![close]);
+    let warp = vec![close, close, far, close, close];
+    let up = [true, false, false, true, true];
+    let cloth = woven(Drawdown::from_fn(5, 1, |end, _| up[end]).unwrap(), warp, vec![close]);
     let yarns = cloth.yarns().unwrap();
-    let points = yarns.yarn_points(4).unwrap();
+    let points = yarns.yarn_points(5).unwrap();
     let steps: Vec<f32> = points.windows(2).map(|pair| pair[1].x - pair[0].x).collect();
     assert!(
         steps.windows(2).all(|pair| pair[0] > 0.0 && pair[0] < 5.0 * pair[1] && pair[1] < 5.0 * pair[0]),

@@ -36,11 +36,11 @@ fn cloths() -> impl Strategy<Value = Woven> {
     })
 }
 
-/// Where the threads lie, by the definition: half the first spacing in, then spacing after spacing.
+/// Where the threads lie, by the definition: in the middle of their columns, which lie side by side.
 fn places(threads: &[Thread]) -> Vec<f64> {
     (0..threads.len())
-        .map(|last| {
-            threads[..=last].iter().map(|thread| thread.spacing_mm).sum::<f64>() - threads[0].spacing_mm / 2.0
+        .map(|own| {
+            threads[..own].iter().map(|thread| thread.spacing_mm).sum::<f64>() + threads[own].spacing_mm / 2.0
         })
         .collect()
 }
@@ -120,6 +120,43 @@ proptest! {
             prop_assert_eq!(open, [0, sources.len() - 1]);
         }
     }
+}
+
+proptest! {
+    #[test]
+    fn cloth_that_is_turned_over_left_to_right_is_its_mirror_image(cloth in cloths()) {
+        let [ends, picks] = [cloth.warp().len(), cloth.weft().len()];
+        let mirrored = Drawdown::from_fn(ends, picks, |end, pick| cloth.drawdown().up(ends - 1 - end, pick));
+        let warp: Vec<_> = cloth.warp().iter().rev().copied().collect();
+        let mut mirrored = woven(mirrored.unwrap(), warp, cloth.weft().to_vec()).unwrap();
+        mirrored.set_shape(cloth.shape());
+        prop_assert!((mirrored.size_mm()[0] - cloth.size_mm()[0]).abs() < 1e-9);
+        let width = cloth.size_mm()[0] as f32;
+        let (one, other) = (cloth.yarns().unwrap(), mirrored.yarns().unwrap());
+        for end in 0..ends {
+            for (a, b) in one.yarn_points(end).unwrap().iter().zip(other.yarn_points(ends - 1 - end).unwrap()) {
+                prop_assert!((a.x + b.x - width).abs() < 1e-5 && a.y == b.y, "end {}: {:?} {:?}", end, a, b);
+            }
+        }
+        let [gaps, mut back] = [&cloth, &mirrored].map(|cloth| cloth.pitches()[0].clone());
+        back.reverse();
+        for (gap, back) in gaps.iter().zip(&back) {
+            prop_assert!((gap.pitch_mm - back.pitch_mm).abs() < 1e-12 && gap.beside_mm == back.beside_mm);
+        }
+    }
+}
+
+/// Six columns of 1 mm and six of 2 mm: 18 mm, and all ends 1.5 mm apart.
+#[test]
+fn thick_and_thin_ends_lie_in_the_middle_of_their_columns() {
+    let warp: Vec<_> = [Thread::new(1.0, 0.25), Thread::new(2.0, 0.6)].into_iter().cycle().take(12).collect();
+    let cloth = woven(plain(12, 2), warp, vec![Thread::new(3.0, 0.15); 2]).unwrap();
+    assert_eq!(cloth.size_mm(), [18.0, 6.0]);
+    let middles: Vec<_> = (0..12).map(|end| 0.5 + 1.5 * f64::from(end)).collect();
+    assert_eq!(cloth.middles_mm()[0], middles);
+    assert!(cloth.pitches()[0].iter().all(|gap| gap.pitch_mm == 1.5));
+    // Side by side the two need half their diameters together, 0.85 mm, and room for the weft between them.
+    assert_eq!(cloth.warnings(), []);
 }
 
 fn plain(ends: usize, picks: usize) -> Drawdown {

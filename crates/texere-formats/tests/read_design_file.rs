@@ -295,7 +295,7 @@ fn another_section_is_relieved_anew() {
 }
 
 #[test]
-fn doubled_ends_have_two_spacings() {
+fn a_list_of_spacings_is_repeated() {
     let woven = cloth(&DENIM.replace("per_cm = 12.5", "spacing_mm = [0.9, 0.3, 0.4]"));
     let spacings: Vec<_> = woven.warp().iter().map(|end| end.spacing_mm).collect();
     assert_eq!(spacings, [0.9, 0.3, 0.4, 0.9, 0.3, 0.4, 0.9]);

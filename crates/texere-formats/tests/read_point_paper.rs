@@ -231,7 +231,11 @@ fn a_pixel_that_is_not_opaque_has_no_weave() {
     let folder = tempfile::tempdir().unwrap();
     let glass = RgbaImage::from_fn(2, 2, |column, _| Rgba([0, 0, 0, if column == 0 { 255 } else { 128 }]));
     glass.save(folder.path().join("motif.png")).unwrap();
-    refused(folder.path(), "[weave.colors]\n\"#000000\" = \"3/1\"\n", &["column 2, row 1", "#00000080"]);
+    refused(
+        folder.path(),
+        "[weave.colors]\n\"#000000\" = \"3/1\"\n",
+        &["column 2, row 1", "#000000, partly transparent (alpha 128 of 255)"],
+    );
 }
 
 #[test]

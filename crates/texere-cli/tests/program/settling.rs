@@ -15,13 +15,14 @@ fn folder(name: &str, text: &str) -> TempDir {
     folder
 }
 
-/// Doubled threads of 0.3 mm that lie `near` mm from the one before: too near for those that cross them.
+/// Threads of 0.3 mm, of every three two `near` mm apart: too near for those that cross them. The third is 0.78 mm from both.
 fn doubled(near: f64, finish: &str) -> TempDir {
+    let far = 1.56 - near;
     folder(
         "doubled.toml",
         &format!(
             "[weave]\nnotation = \"plain\"\nends = 6\npicks = 6\n[finish]\n{finish}\n[yarns.a]\ndiameter_mm = 0.3\n\
-             [warp]\nyarns = [\"a\"]\nspacing_mm = [0.78, {near}]\n[weft]\nyarns = [\"a\"]\nspacing_mm = [0.78, {near}]\n"
+             [warp]\nyarns = [\"a\"]\nspacing_mm = [{near}, {near}, {far}]\n[weft]\nyarns = [\"a\"]\nspacing_mm = [{near}, {near}, {far}]\n"
         ),
     )
 }
@@ -91,7 +92,7 @@ fn what_has_no_room_says_so_and_is_still_checked() {
     // Threads three times as thick as they lie apart.
     let folder = doubled(0.1, "");
     let cloth = at(&folder, "doubled.toml");
-    let text = fs::read_to_string(&cloth).unwrap().replace("0.78", "0.1");
+    let text = fs::read_to_string(&cloth).unwrap().replace("1.46", "0.1");
     fs::write(&cloth, text).unwrap();
     let (code, report) = json(&["check", &cloth]);
     assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)), "{report}");
@@ -102,7 +103,7 @@ fn what_has_no_room_says_so_and_is_still_checked() {
     let spacing = &report["cures"][0];
     assert_eq!(spacing["key"], "warp.spacing_mm, weft.spacing_mm", "{report}");
     let (wider, _) = spacing["value"].as_str().unwrap().split_once(", ").unwrap();
-    let text = fs::read_to_string(&cloth).unwrap().replace("[0.1, 0.1]", wider);
+    let text = fs::read_to_string(&cloth).unwrap().replace("[0.1, 0.1, 0.1]", wider);
     fs::write(&cloth, text).unwrap();
     assert_eq!(json(&["check", &cloth]).0, 0);
 }

@@ -80,7 +80,7 @@ pub struct ThreadCrowd {
     pub place: ThreadPlace,
     /// Twice that thread's radius, mm.
     pub thickness_mm: f64,
-    /// Its distance to the thread before, mm.
+    /// Its distance to the thread before, mm; of the first thread to the next.
     pub pitch_mm: Option<f64>,
     /// Control intervals that lie there.
     pub intervals: usize,
@@ -197,15 +197,10 @@ impl Names<'_> {
 
     fn crowd(&self, crowd: &Crowd) -> ThreadCrowd {
         let place = self.place(&crowd.place);
-        let thread = self.cloth.and_then(|cloth| match place.thread {
-            Origin::End(number) => cloth.warp().get((number as usize).wrapping_sub(1)),
-            Origin::Pick(number) => cloth.weft().get((number as usize).wrapping_sub(1)),
-            _ => None,
-        });
         ThreadCrowd {
             place,
             thickness_mm: crowd.thickness_mm,
-            pitch_mm: thread.map(|thread| thread.spacing_mm),
+            pitch_mm: self.cloth.and_then(|cloth| cloth.pitch_mm(place.thread)),
             intervals: crowd.intervals,
             fill: crowd.fill,
         }

@@ -86,8 +86,7 @@ impl Bend<'_> {
         let near = (SHOULDER * across).min(SHOULDER_MOST * pitch);
         let aside = near.max(pitch / STRIDE);
         let slid = (0.5 * pitch - aside) / (0.5 * pitch - near);
-        let circle = 1.0 - (1.0 - (near / across).powi(2)).sqrt();
-        let fall = FALL.min(FALL_OF_CIRCLE * circle) * room;
+        let fall = FALL.min(FALL_OF_CIRCLE * circle(near, across)) * room;
         (aside, (depth - fall).max(0.5 * depth) * slid)
     }
 
@@ -99,7 +98,13 @@ impl Bend<'_> {
     /// short float a shoulder falls less.
     pub(super) fn shoulder_z(&self, number: usize, one: usize, other: Option<usize>, both: bool) -> f32 {
         let (aside, z) = self.shoulder(number, self.pitch(number, one));
-        let Some(other) = other else { return z.max(0.0) };
+        let Some(other) = other else {
+            let edge = if number < one { 0.0 } else { self.crossed.extent };
+            let out = (edge - self.crossed.at[number]).abs();
+            // An edge further away than the shoulder leaves the thread level at the crossing.
+            let level = if out < aside { self.lowest_out(number, out) - TILT * (aside + out) } else { 0.0 };
+            return z.max(level).max(0.0);
+        };
         let pitch = self.pitch(number, other);
         if both {
             return z.max(self.shoulder(number, pitch).1);
@@ -108,17 +113,30 @@ impl Bend<'_> {
         z.max(self.depth(number) - TILT * (step + aside))
     }
 
-    /// Height of a thread where it leaves the cloth next to crossing `number`, mm: about that of the shoulder on the
-    /// other side, so that it is level at the crossing, or that of the float there.
-    pub(super) fn leaving_z(&self, number: usize, above: impl Fn(usize) -> bool) -> f32 {
+    /// Height of a thread where it leaves the cloth `aside` of crossing `number`, mm: about that of the shoulder on the
+    /// other side, so that it is level at the crossing, or that of the float there. Where the edge is near, it falls no
+    /// further than a shoulder so near may.
+    pub(super) fn leaving_z(&self, number: usize, aside: f32, above: impl Fn(usize) -> bool) -> f32 {
         let depth = self.depth(number);
         let beyond = if number == 0 { 1 } else { number - 1 };
         let changes = beyond < self.crossed.at.len() && above(beyond) != above(number);
         let z = if self.shape == Shape::Round && changes {
-            self.shoulder_z(number, beyond, None, false).max(depth - FALL_OUT * self.room(number))
+            self.shoulder_z(number, beyond, None, false).max(self.lowest_out(number, aside))
         } else {
             depth
         };
         if above(number) { z } else { -z }
     }
+
+    /// How low a thread may lie at most where it leaves the cloth `aside` of crossing `number`, mm.
+    fn lowest_out(&self, number: usize, aside: f32) -> f32 {
+        let across = self.crossed.half_width[number] + self.half_height;
+        let fall = FALL_OUT.min(FALL_OF_CIRCLE * circle(aside.min(across), across));
+        self.depth(number) - fall * self.room(number)
+    }
+}
+
+/// How far a circle of radius `across` has fallen `aside` of its top, of its radius.
+fn circle(aside: f32, across: f32) -> f32 {
+    1.0 - (1.0 - (aside / across).powi(2)).sqrt()
 }

@@ -3,7 +3,7 @@
 use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, Yarn};
 
 use super::thread::{
-    FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread,
+    FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread, middles,
 };
 use super::{Crimp, Drawdown, Shape};
 use crate::{FabricError, yarn_check};
@@ -223,15 +223,10 @@ impl Woven {
         Ok(())
     }
 
-    /// Width (along the weft) and height (along the warp) of the cloth, mm: the sums of its threads' spacings, but that
-    /// half of the last thread's spacing counts at its outer side.
+    /// Width (along the weft) and height (along the warp) of the cloth, mm: the sums of its threads' spacings.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
-        [&self.warp, &self.weft].map(|threads| {
-            let half = |thread: Option<&Thread>| thread.map_or(0.0, |thread| thread.spacing_mm / 2.0);
-            threads.iter().map(|thread| thread.spacing_mm).sum::<f64>() - half(threads.first())
-                + half(threads.last())
-        })
+        [&self.warp, &self.weft].map(|threads| threads.iter().map(|thread| thread.spacing_mm).sum())
     }
 
     /// How many control points threads get, and where.
@@ -277,17 +272,22 @@ impl Woven {
         self.selvedge = selvedge;
     }
 
-    /// Where the middles of ends (x) and picks (y) lie, mm from the cloth's left and lower edges: the first thread half its
-    /// spacing in, each further one its own spacing from the one before.
+    /// Where the middles of ends (x) and picks (y) lie, mm from the cloth's left and lower edges: each in the middle of a
+    /// column as wide as its own spacing.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{Thread, Weave, Woven};
+    /// let (thin, thick) = (Thread::new(1.0, 0.2), Thread::new(2.0, 0.4));
+    /// let plain = Weave::parse("plain")?.drawdown(3, 1)?;
+    /// let (warp, weft) = (vec![thin, thick, thin], vec![thin]);
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// assert_eq!(cloth.middles_mm(), [vec![0.5, 2.0, 3.5], vec![0.5]]);
+    /// assert_eq!(cloth.size_mm(), [4.0, 1.0]);
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
     #[must_use]
     pub fn middles_mm(&self) -> [Vec<f64>; 2] {
-        [&self.warp, &self.weft].map(|threads| {
-            let mut at = -threads.first().map_or(0.0, |first| first.spacing_mm / 2.0);
-            let middle = |thread: &Thread| {
-                at += thread.spacing_mm;
-                at
-            };
-            threads.iter().map(middle).collect()
-        })
+        [&self.warp, &self.weft].map(|threads| middles(threads).collect())
     }
 }

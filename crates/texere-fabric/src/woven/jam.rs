@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use texere_core::Origin;
 
 use super::shape::Set;
+use super::thread::pitches;
 use super::{Shape, Woven, crossing};
 use crate::FabricWarning;
 
@@ -54,11 +55,11 @@ impl Gap {
 /// on different sides of `thread` and the next one.
 pub(super) fn gaps(
     set: &Set,
-    spacings: impl Iterator<Item = f64>,
+    pitches: impl Iterator<Item = f64>,
     crossing: &Set,
     apart: impl Fn(usize, usize) -> bool + Sync,
 ) -> Vec<Gap> {
-    let pitches: Vec<f64> = spacings.skip(1).collect();
+    let pitches: Vec<f64> = pitches.collect();
     // From the thickest on, so that the first one that changes sides is the one looked for.
     let mut crossing: Vec<(usize, f32)> = crossing.half_height.iter().copied().enumerate().collect();
     crossing.sort_by(|(_, one), (_, other)| other.total_cmp(one));
@@ -83,11 +84,10 @@ impl Woven {
     pub(super) fn gaps(&self) -> [Vec<Gap>; 2] {
         let (warp, weft) = (Set::new(self.warp(), self.sections()), Set::new(self.weft(), self.sections()));
         let up = |end, pick| self.drawdown().up(end, pick);
-        let spacings = [self.warp(), self.weft()].map(|set| set.iter().map(|thread| thread.spacing_mm));
-        let [warp_spacings, weft_spacings] = spacings;
+        let [ends, picks] = [self.warp(), self.weft()].map(pitches);
         [
-            gaps(&warp, warp_spacings, &weft, |end, pick| up(end, pick) != up(end + 1, pick)),
-            gaps(&weft, weft_spacings, &warp, |pick, end| up(end, pick) != up(end, pick + 1)),
+            gaps(&warp, ends, &weft, |end, pick| up(end, pick) != up(end + 1, pick)),
+            gaps(&weft, picks, &warp, |pick, end| up(end, pick) != up(end, pick + 1)),
         ]
     }
 

@@ -31,6 +31,7 @@ pub use draft::{Draft, Shedding};
 pub use drawdown::{CROSSINGS_MAX, Drawdown, THREADS_MAX};
 pub use loom::Loom;
 pub use notation::REPEAT_MAX;
+pub(crate) use notation::{TOLD, irregular_satin};
 pub use pitch::Pitch;
 pub use relief::{JamReport, Relief, Tightness};
 pub use rest::{Stretch, WovenRest};

@@ -2,6 +2,7 @@
 
 use super::library::{CREPE, HONEYCOMB, Reversal, drawn};
 use crate::FabricError;
+use crate::hyphen;
 
 /// The most ends, and the most picks, in the repeat of a weave.
 ///
@@ -17,6 +18,8 @@ pub(super) enum Notation {
     Matt { base: Vec<bool>, left: usize, right: usize },
     /// A twill of move 1 whose line goes one way for `way` ends and back again.
     Reversed { base: Vec<bool>, reversal: Reversal, way: usize },
+    /// Each pick binds one end, from 0: that end alone is down, or up where the weave is not `warp_faced`.
+    Bound { order: Vec<usize>, warp_faced: bool },
     /// A drawing, the last pick on top.
     Drawn(&'static [&'static str; 8]),
 }
@@ -28,6 +31,7 @@ impl Notation {
             Self::Shifted { base, picks, .. } => (base.len(), *picks),
             Self::Matt { base, left, right } => (*left + *right, base.len()),
             Self::Reversed { base, reversal, way } => (reversal.ends(*way), base.len()),
+            Self::Bound { order, .. } => (order.len(), order.len()),
             Self::Drawn(drawing) => (drawing.len(), drawing.len()),
         }
     }
@@ -41,6 +45,7 @@ impl Notation {
                 let repeat = base.len();
                 base[(reversal.origin(end, *way, repeat) + repeat - pick) % repeat]
             }
+            Self::Bound { order, warp_faced } => (order[pick] == end) != *warp_faced,
             Self::Drawn(drawing) => drawn(*drawing, end, pick),
         }
     }
@@ -56,6 +61,27 @@ const _: () = assert!(REPEAT_MAX == 4096);
 
 /// What is expected where a weave may start.
 const WEAVE: &str = "the name of a weave or a number from 1 to 4096";
+
+/// What is expected where the picks of a satin name the ends that they bind.
+const ORDER: &str = "each end of the satin once, in the order in which picks bind them: satin 6(1 3 5 2 6 4)";
+
+/// The names of weaves, and how each may be called otherwise.
+const NAMES: [(&str, &[&str]); 11] = [
+    ("plain", &["tabby"]),
+    ("twill", &[]),
+    ("satin", &[]),
+    ("sateen", &[]),
+    ("matt", &[]),
+    ("hopsack", &["panama"]),
+    ("basket", &[]),
+    ("herringbone", &[]),
+    ("pointed", &["point"]),
+    ("honeycomb", &["waffle"]),
+    ("crepe", &["crape", "oatmeal"]),
+];
+
+/// The names that a person may want to hear of.
+pub(crate) const TOLD: &str = "plain (tabby), twill, satin, sateen, matt (hopsack, basket), herringbone, pointed, honeycomb (waffle), crepe, or floats such as 2/2";
 
 /// Cloths that no drawdown says, by name, and what is expected instead.
 const NOT_DRAWN: [(&[&str], &str); 2] = [
@@ -73,34 +99,32 @@ pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
     if let Some((_, expected)) = NOT_DRAWN.iter().find(named) {
         return Err(cursor.fail(expected));
     }
-    let notation = if cursor.word("plain") {
-        Notation::Shifted { base: vec![true, false], step: 1, picks: 2 }
-    } else if cursor.word("satin") {
-        satin(&mut cursor, true)?
-    } else if cursor.word("sateen") {
-        satin(&mut cursor, false)?
-    } else if cursor.word("matt") || cursor.word("hopsack") || cursor.word("basket") {
-        matt(&mut cursor)?
-    } else if cursor.word("herringbone") {
-        reversed(&mut cursor, Reversal::Cut, "a number of at least half the ends of the twill's repeat")?
-    } else if cursor.word("pointed") {
-        reversed(&mut cursor, Reversal::Point, "a number of at least the ends of the twill's repeat")?
-    } else if cursor.word("honeycomb") {
-        Notation::Drawn(&HONEYCOMB)
-    } else if cursor.word("crepe") {
-        Notation::Drawn(&CREPE)
-    } else if cursor.word("twill") {
-        floats(&mut cursor, NUMBER)?
-    } else {
-        floats(&mut cursor, WEAVE)?
+    let notation = match cursor.name()? {
+        Some("plain") => Notation::Shifted { base: vec![true, false], step: 1, picks: 2 },
+        Some("satin") => satin(&mut cursor, true)?,
+        Some("sateen") => satin(&mut cursor, false)?,
+        Some("matt" | "hopsack" | "basket") => matt(&mut cursor)?,
+        Some("herringbone") => {
+            reversed(&mut cursor, Reversal::Cut, "a number of at least half the ends of the twill's repeat")?
+        }
+        Some("pointed") => {
+            reversed(&mut cursor, Reversal::Point, "a number of at least the ends of the twill's repeat")?
+        }
+        Some("honeycomb") => Notation::Drawn(&HONEYCOMB),
+        Some("crepe") => Notation::Drawn(&CREPE),
+        Some(_) => floats(&mut cursor, NUMBER)?,
+        None => floats(&mut cursor, WEAVE)?,
     };
     if cursor.rest.trim_start().is_empty() { Ok(notation) } else { Err(cursor.fail("the end")) }
 }
 
-/// A satin's number and move, after its name.
+/// A satin's number and move, or the order of its binding points, after its name.
 fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, FabricError> {
     let position = cursor.position();
     let ends = cursor.number(NUMBER)?;
+    if let Some(order) = order(cursor, ends)? {
+        return Ok(Notation::Bound { order, warp_faced });
+    }
     let legal =
         |step: usize| (2..ends.saturating_sub(1)).contains(&step) && greatest_divisor(step, ends) == 1;
     let Some(smallest) = (2..ends).find(|&step| legal(step)) else {
@@ -121,6 +145,32 @@ fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, FabricEr
     // Warp-faced: all up but the last; weft-faced: all down but the first.
     let base = (0..ends).map(|end| if warp_faced { end + 1 < ends } else { end == 0 }).collect();
     Ok(Notation::Shifted { base, step, picks: ends })
+}
+
+/// The ends that the picks of a satin bind, from 0; `None` where there is a move or nothing.
+fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, FabricError> {
+    let before = cursor.rest;
+    let (mut order, mut bound) = (Vec::new(), vec![false; ends]);
+    if cursor.sign('(') && cursor.rest.trim_start().starts_with(|c: char| c.is_ascii_digit()) {
+        while !cursor.sign(')') {
+            let here = cursor.rest;
+            let end = cursor.number(ORDER)?;
+            let is_new = bound.get_mut(end - 1).is_some_and(|bound| !std::mem::replace(bound, true));
+            // A single number is a move, which may be beyond the ends.
+            let is_move = order.is_empty() && cursor.rest.trim_start().starts_with(')');
+            if !is_new && !is_move {
+                cursor.rest = here;
+                return Err(cursor.fail(ORDER));
+            }
+            order.push(end - 1);
+            cursor.sign(',');
+        }
+        if order.len() > 1 {
+            return if order.len() == ends { Ok(Some(order)) } else { Err(cursor.fail(ORDER)) };
+        }
+    }
+    cursor.rest = before;
+    Ok(None)
 }
 
 /// A matt weave by its name: as many ends together as picks.
@@ -152,21 +202,30 @@ fn reversed(
     Ok(Notation::Reversed { base, reversal, way })
 }
 
-/// A twill or a matt weave.
+/// A twill or a matt weave. Which hand a twill has may be said before its floats or behind them.
 fn floats(cursor: &mut Cursor<'_>, expected: &'static str) -> Result<Notation, FabricError> {
-    let base = row(cursor, expected)?;
-    if !cursor.sign('(') {
-        return twill(cursor, cursor.position(), base, 1);
-    }
-    let position = cursor.position();
-    let written = cursor.step()?;
-    if written > 0 && cursor.sign('+') {
-        let (left, right) = (written as usize, cursor.number(NUMBER)?);
+    let before = cursor.hand();
+    cursor.word("twill");
+    let base = row(cursor, if before.is_some() { NUMBER } else { expected })?;
+    let (mut position, mut written) = (cursor.position(), 1);
+    let has_move = cursor.sign('(');
+    if has_move {
+        position = cursor.position();
+        written = cursor.step()?;
+        if before.is_none() && written > 0 && cursor.sign('+') {
+            let (left, right) = (written as usize, cursor.number(NUMBER)?);
+            cursor.close()?;
+            return Ok(Notation::Matt { base, left, right });
+        }
         cursor.close()?;
-        return Ok(Notation::Matt { base, left, right });
     }
-    cursor.close()?;
-    twill(cursor, position, base, written)
+    let behind = cursor.rest;
+    let hand = if before.is_some() { before } else { cursor.hand() };
+    if hand == Some(1) && written < 0 {
+        cursor.rest = behind;
+        return Err(cursor.fail("a left-hand twill: its move is negative"));
+    }
+    twill(cursor, position, base, hand.map_or(written, |hand| hand * written.abs()))
 }
 
 /// Floats up and down in turn, thread by thread.
@@ -215,6 +274,25 @@ fn twill(
     Ok(Notation::Shifted { base, step, picks: ends / apart })
 }
 
+/// The name of a weave nearest to a word that is none, if any is near: no further than a third of its letters and one.
+fn nearest(word: &str) -> Option<&'static str> {
+    let word: String = word.chars().take(20).flat_map(char::to_lowercase).collect();
+    let names = NAMES.iter().flat_map(|(name, others)| others.iter().chain([name]));
+    let far = names.map(|name| (strsim::damerau_levenshtein(&word, name), *name));
+    far.filter(|(far, name)| *far <= name.len() / 3 + 1 && *far < word.chars().count())
+        .min()
+        .map(|(_, name)| name)
+}
+
+/// An irregular satin of so many ends as textbooks have it, where there is no regular one.
+pub(crate) const fn irregular_satin(ends: usize) -> &'static str {
+    match ends {
+        6 => "; an irregular one names the end that each pick binds: satin 6(1 3 5 2 6 4)",
+        4 => "; an irregular one names the end that each pick binds: satin 4(1 2 4 3)",
+        _ => "",
+    }
+}
+
 /// The greatest common divisor; that of 0 and `b` is `b`.
 fn greatest_divisor(mut a: usize, mut b: usize) -> usize {
     while a != 0 {
@@ -230,15 +308,38 @@ struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
-    /// Takes `word`, in any case.
+    /// Takes `word`, in any case, where it is a word of its own.
     fn word(&mut self, word: &str) -> bool {
         self.rest = self.rest.trim_start();
         let Some((head, rest)) = self.rest.split_at_checked(word.len()) else { return false };
-        let found = head.eq_ignore_ascii_case(word);
+        let found = head.eq_ignore_ascii_case(word) && !rest.starts_with(char::is_alphabetic);
         if found {
             self.rest = rest;
         }
         found
+    }
+
+    /// Takes the name of a weave and gives the one that it is known by; `None` where none stands, as before floats.
+    fn name(&mut self) -> Result<Option<&'static str>, FabricError> {
+        let before = self.rest;
+        if self.hand().is_some() {
+            self.rest = before;
+            return Ok(None);
+        }
+        let known = NAMES
+            .iter()
+            .find(|(name, others)| self.word(name) || others.iter().any(|other| self.word(other)));
+        if known.is_some() || !self.rest.starts_with(char::is_alphabetic) {
+            return Ok(known.map(|(name, _)| *name));
+        }
+        let written = self.rest.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
+        Err(FabricError::NoWeave { text: self.shown(), position: self.position(), near: nearest(written) })
+    }
+
+    /// Takes the hand of a twill: 1 for a right-hand (Z) one, -1 for a left-hand (S) one.
+    fn hand(&mut self) -> Option<i64> {
+        let hands = [("left-hand", -1), ("left", -1), ("s", -1), ("right-hand", 1), ("right", 1), ("z", 1)];
+        hands.into_iter().find(|(word, _)| self.word(word)).map(|(_, hand)| hand)
     }
 
     /// Takes one character.
@@ -293,6 +394,9 @@ impl Cursor<'_> {
     }
 
     fn fail(&self, expected: &'static str) -> FabricError {
+        if let Some(sign) = self.rest.trim_start().chars().next().and_then(hyphen::look_alike) {
+            return FabricError::Hyphen { text: self.shown(), position: self.position(), sign };
+        }
         FabricError::Notation { text: self.shown(), position: self.position(), expected }
     }
 }

@@ -76,9 +76,12 @@ impl<'a> ThreadPath<'a> {
 
         let mut side = above(first.number);
         let mut next_side = self.stations.get(1).map_or(side, |next| above(next.number));
-        let end = |along, number| Stop { along, z: self.bend.leaving_z(number, &above), crossing: None };
+        let end = |along: f32, here: &Station| {
+            let z = self.bend.leaving_z(here.number, (along - here.at).abs(), &above);
+            Stop { along, z, crossing: None }
+        };
         if cut[0] {
-            stop(end(self.edges[0], first.number));
+            stop(end(self.edges[0], first));
             let after = (side != next_side).then_some(first.aside[AFTER]);
             Float { from: self.edges[0], to: first.at, beside: [None, after] }
                 .walk([(first, side); 2], &mut stop);
@@ -112,7 +115,7 @@ impl<'a> ThreadPath<'a> {
             let before = changed.then_some(last.aside[BEFORE]);
             Float { from: last.at, to: self.edges[1], beside: [before, None] }
                 .walk([(last, side); 2], &mut stop);
-            stop(end(self.edges[1], last.number));
+            stop(end(self.edges[1], last));
         }
     }
 }

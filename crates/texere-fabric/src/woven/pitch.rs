@@ -4,6 +4,7 @@ use texere_core::Origin;
 
 use super::Woven;
 use super::jam::{Gap, ROUNDING};
+use super::thread::pitches;
 
 /// How far a thread lies from the one before it, and how far it should.
 ///
@@ -65,5 +66,15 @@ impl Woven {
             gaps.iter().map(pitch).collect()
         };
         [all(&warp, 1.0 - share, Origin::End), all(&weft, share, Origin::Pick)]
+    }
+
+    /// The distance of an end or a pick to the thread before, mm; of the first one to the next.
+    pub(crate) fn pitch_mm(&self, thread: Origin) -> Option<f64> {
+        let (set, number) = match thread {
+            Origin::End(number) => (self.warp(), number),
+            Origin::Pick(number) => (self.weft(), number),
+            _ => return None,
+        };
+        pitches(set).nth((number as usize).saturating_sub(2))
     }
 }

@@ -2,7 +2,7 @@
 
 use texere_core::Section;
 
-use super::thread::Thread;
+use super::thread::{Thread, middles, pitches};
 use crate::reach::Reach;
 
 /// How many control points a thread gets, and where.
@@ -51,29 +51,21 @@ pub(super) struct Set {
 impl Set {
     pub(super) fn new(threads: &[Thread], sections: &[Section]) -> Self {
         let reaches: Vec<Reach> = sections.iter().map(Reach::new).collect();
-        // The first thread lies half its spacing inside the cloth, the last half its own.
-        let mut edge = -threads.first().map_or(0.0, |thread| thread.spacing_mm) / 2.0;
-        let at = threads.iter().map(|thread| {
-            edge += thread.spacing_mm;
-            edge as f32
-        });
-        let at = at.collect();
-        let last = threads.last().map_or(0.0, |thread| thread.spacing_mm);
-        let after = threads.iter().skip(1).map(|thread| thread.spacing_mm).chain([last]);
+        let [first, last] =
+            [threads.first(), threads.last()].map(|thread| thread.map_or(0.0, |thread| thread.spacing_mm));
+        // Edge threads have neighbours like themselves beyond the edge.
+        let before = [first].into_iter().chain(pitches(threads));
+        let after = pitches(threads).chain([last]);
         let room = |half: usize| {
             let room = |thread: &Thread| reaches[thread.section as usize].room(thread.twist)[half];
             threads.iter().map(|thread| thread.halves_mm()[half] * room(thread)).collect()
         };
         Self {
-            at,
+            at: middles(threads).map(|at| at as f32).collect(),
             half_width: room(0),
             half_height: room(1),
-            pitch: threads
-                .iter()
-                .zip(after)
-                .map(|(own, after)| ((own.spacing_mm + after) / 2.0) as f32)
-                .collect(),
-            extent: (edge + last / 2.0) as f32,
+            pitch: before.zip(after).map(|(before, after)| ((before + after) / 2.0) as f32).collect(),
+            extent: (middles(threads).last().unwrap_or(0.0) + last / 2.0) as f32,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Threads of a cloth, as they are given.
+//! Threads of a cloth, as they are given, and where their spacings put them.
 
 use texere_core::Halves;
 
@@ -20,7 +20,7 @@ pub const STIFFNESS_MIN: f32 = 0.01;
 /// The most stiffness of a thread, likewise.
 pub const STIFFNESS_MAX: f32 = 100.0;
 
-/// One end or one pick: what it is like, and how far it lies from the one before.
+/// One end or one pick: what it is like, and how wide a column of the cloth it has.
 ///
 /// ```
 /// use texere_fabric::Thread;
@@ -29,7 +29,7 @@ pub const STIFFNESS_MAX: f32 = 100.0;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thread {
-    /// Distance to the thread before, mm; half of it lies outside the first thread.
+    /// Width of its column of the cloth, mm; the thread lies in the middle. So two neighbours are half of each spacing apart.
     pub spacing_mm: f64,
     /// Radius of the yarn where it is round, mm.
     pub radius_mm: f32,
@@ -65,4 +65,21 @@ impl Thread {
         let [width, height] = self.halves_mm();
         Halves::new(width, height)
     }
+}
+
+/// Where the threads of a set lie, mm from the cloth's edge: each in the middle of a column as wide as its own spacing.
+///
+/// **Source**: WIF 1.1 (Nielsen 1997) calls a thread's spacing the room that it takes in the cloth.
+pub(super) fn middles(threads: &[Thread]) -> impl Iterator<Item = f64> {
+    let (mut at, mut before) = (0.0, 0.0);
+    threads.iter().map(move |thread| {
+        at += (before + thread.spacing_mm) / 2.0;
+        before = thread.spacing_mm;
+        at
+    })
+}
+
+/// From each thread of a set to the next one, mm.
+pub(crate) fn pitches(threads: &[Thread]) -> impl Iterator<Item = f64> {
+    threads.iter().zip(threads.iter().skip(1)).map(|(one, next)| (one.spacing_mm + next.spacing_mm) / 2.0)
 }

@@ -272,7 +272,7 @@ impl<'a> Laying<'a> {
         let x = warp.at[end] + outwards * touching.max(apart / 4.0);
         let [from, to] = [pick - 1, pick].map(|pick| {
             let bend = self.bend(Pass::Pick(pick, [true; 2]));
-            let z = bend.leaving_z(end, |end| !self.cloth.drawdown().up(end, pick));
+            let z = bend.leaving_z(end, (x - warp.at[end]).abs(), |end| !self.cloth.drawdown().up(end, pick));
             ControlPoint { x, y: weft.at[pick], z, halves: self.cloth.weft()[pick].halves() }
         });
         selvedge::turn(x, outwards, &from, &to)

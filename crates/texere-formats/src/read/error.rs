@@ -335,7 +335,7 @@ pub enum ReadError {
         column: usize,
         /// Its row, from 1 at the top.
         row: usize,
-        /// Its colour: #rrggbb, and two digits more where it is not opaque.
+        /// Its colour: #rrggbb, and how far it is transparent where it is not opaque.
         color: String,
         /// What would do.
         expected: String,

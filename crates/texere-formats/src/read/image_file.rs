@@ -9,8 +9,8 @@ use texere_fabric::THREADS_MAX;
 
 use super::error::said;
 use super::memory::{filled, room};
-use super::point_paper::Image;
-use super::{ReadError, file};
+use super::point_paper::{Image, Orientation};
+use super::{ReadError, file, tiff_file};
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
 const PIXELS_MAX: u64 = 1 << 28;
@@ -20,7 +20,7 @@ const MEMORY_MAX: u64 = 4 * PIXELS_MAX;
 
 /// The most memory for what a decoder needs beside the pixels, bytes: a line or a tile of them, and what the file says of
 /// its picture. A colour profile has no more than a few MiB; compressed, one of a gigabyte fits a small file.
-const ASIDE_MAX: u64 = 1 << 25;
+pub(super) const ASIDE_MAX: u64 = 1 << 25;
 
 /// The largest image file that is read: one that is not compressed.
 const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
@@ -31,9 +31,7 @@ const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 pub(super) fn decode(path: &Path) -> Result<Image, ReadError> {
     let io = |source| ReadError::Io { file: path.into(), source };
-    // Decoders say much, and what a file says, too.
-    let undecodable =
-        |error: ImageError| ReadError::Image { file: path.into(), source: said(&error.to_string()).into() };
+    let failed = |error: ImageError| undecodable(path, &error.to_string());
     let file = file::open(path, FILE_LIMIT)?;
     let file_bytes = file.metadata().map_err(io)?.len();
     let file = BufReader::new(file);
@@ -43,38 +41,64 @@ pub(super) fn decode(path: &Path) -> Result<Image, ReadError> {
         let mut file = reader.into_inner();
         if let Some(bytes) = broken_palette(&mut file).map_err(io)? {
             let source = format!("it has a palette of {bytes} bytes, not three for each of 1 to 256 colours");
-            return Err(ReadError::Image { file: path.into(), source: source.into() });
+            return Err(undecodable(path, &source));
         }
         file.rewind().map_err(io)?;
         reader = ImageReader::with_format(file, ImageFormat::Png);
+    }
+    if format == Some(ImageFormat::Tiff) {
+        let mut file = reader.into_inner();
+        if let Some(header) = tiff_file::header(path, &mut file)? {
+            return tiff_file::decode(path, file, &header);
+        }
+        file.rewind().map_err(io)?;
+        reader = ImageReader::with_format(file, ImageFormat::Tiff);
     }
     // These are for what stands before the pixels; a PNG's text and colour profile are not asked for their own.
     let mut limits = Limits::default();
     limits.max_alloc = Some(ASIDE_MAX);
     reader.limits(limits.clone());
-    let mut decoder = reader.into_decoder().map_err(undecodable)?;
+    let mut decoder = reader.into_decoder().map_err(failed)?;
     let (width, height) = decoder.dimensions();
+    check_size(path, width, height)?;
+    let is_png = format == Some(ImageFormat::Png);
+    if is_png && u64::from(width) * u64::from(height) > PIXELS_PER_BYTE * file_bytes {
+        let source = format!("its {file_bytes} bytes are too few for {width} × {height} pixels");
+        return Err(undecodable(path, &source));
+    }
+    let orientation = Orientation(decoder.orientation().map_err(failed)?.to_exif().into());
+    let (channels, size) = (decoder.color_type().channel_count(), decoder.total_bytes());
+    limits.max_alloc = Some(MEMORY_MAX);
+    limits.reserve(size).map_err(failed)?;
+    limits.max_alloc = Some(2 * size + ASIDE_MAX);
+    decoder.set_limits(limits).map_err(failed)?;
+
+    let mut bytes = filled("an image", size as usize, 0)?;
+    // Decoders take up to as much again and do not ask whether it is there.
+    drop(room::<u8>("decoding an image", (size + ASIDE_MAX) as usize)?);
+    decoder.read_image(&mut bytes).map_err(failed)?;
+    Ok(Image {
+        width: width as usize,
+        height: height as usize,
+        channels: channels.into(),
+        bytes,
+        orientation,
+    })
+}
+
+/// The refusal of an image. Decoders say much, and what a file says, too.
+pub(super) fn undecodable(path: &Path, why: &str) -> ReadError {
+    ReadError::Image { file: path.into(), source: said(why).into() }
+}
+
+/// Refuses an image that no cloth may be as large as.
+pub(super) fn check_size(path: &Path, width: u32, height: u32) -> Result<(), ReadError> {
     let side_limit = THREADS_MAX as u32;
     if width.max(height) > side_limit || u64::from(width) * u64::from(height) > PIXELS_MAX {
         let file = path.into();
         return Err(ReadError::ImageTooLarge { file, width, height, side_limit, limit: PIXELS_MAX });
     }
-    let is_png = format == Some(ImageFormat::Png);
-    if is_png && u64::from(width) * u64::from(height) > PIXELS_PER_BYTE * file_bytes {
-        let source = format!("its {file_bytes} bytes are too few for {width} × {height} pixels");
-        return Err(ReadError::Image { file: path.into(), source: source.into() });
-    }
-    let (channels, size) = (decoder.color_type().channel_count(), decoder.total_bytes());
-    limits.max_alloc = Some(MEMORY_MAX);
-    limits.reserve(size).map_err(undecodable)?;
-    limits.max_alloc = Some(2 * size + ASIDE_MAX);
-    decoder.set_limits(limits).map_err(undecodable)?;
-
-    let mut bytes = filled("an image", size as usize, 0)?;
-    // Decoders take up to as much again and do not ask whether it is there.
-    drop(room::<u8>("decoding an image", (size + ASIDE_MAX) as usize)?);
-    decoder.read_image(&mut bytes).map_err(undecodable)?;
-    Ok(Image { width: width as usize, height: height as usize, channels: channels.into(), bytes })
+    Ok(())
 }
 
 /// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder takes that for granted.

@@ -14,6 +14,8 @@ mod memory;
 #[cfg(feature = "toml")]
 mod point_paper;
 mod threads;
+#[cfg(all(feature = "images", feature = "toml"))]
+mod tiff_file;
 #[cfg(feature = "wif")]
 mod wif;
 

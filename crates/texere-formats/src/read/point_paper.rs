@@ -9,6 +9,9 @@ use super::{ReadError, image_file};
 /// The most colours of a point paper: as many as a byte can number, and far more than a weaver uses.
 const COLORS_MAX: usize = 256;
 
+/// A pixel that is wholly transparent.
+const NOTHING: [u8; 4] = [0; 4];
+
 /// Which pick the first (top) row of an image is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum RowOrder {
@@ -42,16 +45,22 @@ pub(super) struct PaperColor {
 impl PointPaper {
     pub(super) fn read(path: &Path, rows: RowOrder) -> Result<Self, ReadError> {
         let image = image_file::decode(path)?;
-        let (ends, picks) = (image.width, image.height);
+        let [ends, picks] = image.size();
         let mut numbers: HashMap<[u8; 4], u8> = HashMap::new();
         let mut colors = Vec::new();
         let mut pixels = room("the pixels of an image", ends * picks)?;
         for (place, rgba) in image.pixels().enumerate() {
+            // What is wholly transparent looks alike, whatever colour hides there.
+            let rgba = if rgba[3] == 0 { NOTHING } else { rgba };
             if let Some(&number) = numbers.get(&rgba) {
                 pixels.push(number);
                 continue;
             }
             let color = PaperColor { rgba, column: place % ends + 1, row: place / ends + 1 };
+            if ![0, u8::MAX].contains(&rgba[3]) {
+                let expected = "an opaque pixel, or a wholly transparent one; what is half transparent looks otherwise on each ground";
+                return Err(color.refused(path, expected.into()));
+            }
             if colors.len() == COLORS_MAX {
                 let expected = format!("one of the {COLORS_MAX} colours before it; it is one too many");
                 return Err(color.refused(path, expected));
@@ -97,7 +106,11 @@ impl PaperColor {
     /// The refusal of its first pixel.
     pub(super) fn refused(&self, file: &Path, expected: String) -> ReadError {
         let [red, green, blue, alpha] = self.rgba;
-        let opacity = if alpha == u8::MAX { String::new() } else { format!("{alpha:02x}") };
+        let opacity = match alpha {
+            u8::MAX => "",
+            0 => ", wholly transparent (alpha 0)",
+            _ => &format!(", partly transparent (alpha {alpha} of 255)"),
+        };
         ReadError::Pixel {
             file: file.into(),
             column: self.column,
@@ -107,14 +120,17 @@ impl PaperColor {
         }
     }
 
-    /// How light it looks, by the weights of ITU-R BT.601, in thousandths.
+    /// How light it looks, by the weights of ITU-R BT.601, in thousandths. Where nothing is, it is lighter than anything.
     fn luma(&self) -> u32 {
+        if self.rgba == NOTHING {
+            return u32::MAX;
+        }
         let [red, green, blue, _] = self.rgba.map(u32::from);
         299 * red + 587 * green + 114 * blue
     }
 }
 
-/// An image that is not too large, as its decoder gives it.
+/// An image that is not too large, as its decoder gives it, and how it is turned.
 pub(super) struct Image {
     pub(super) width: usize,
     pub(super) height: usize,
@@ -122,14 +138,48 @@ pub(super) struct Image {
     pub(super) channels: usize,
     /// Row by row from the top, each channel in the machine's order of bytes.
     pub(super) bytes: Vec<u8>,
+    pub(super) orientation: Orientation,
+}
+
+/// How an image is turned before it is shown, as TIFF and Exif count it: 1 not at all, from 2 on mirrored left to right,
+/// turned by half, mirrored top to bottom, at the falling diagonal, turned a quarter clockwise, mirrored at the rising
+/// diagonal, turned a quarter back. What is none of these turns nothing.
+///
+/// **Source**: TIFF revision 6.0, Adobe 1992, page 36.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Orientation(pub(super) u16);
+
+impl Orientation {
+    /// Whether rows are shown as columns.
+    fn swaps(self) -> bool {
+        (5..=8).contains(&self.0)
+    }
+
+    /// Column and row of a stored image of this size that are shown at `column` and `row`.
+    fn stored(self, [width, height]: [usize; 2], [column, row]: [usize; 2]) -> [usize; 2] {
+        let [across, down] = if self.swaps() { [row, column] } else { [column, row] };
+        let across = if [2, 3, 7, 8].contains(&self.0) { width - 1 - across } else { across };
+        let down = if [3, 4, 6, 7].contains(&self.0) { height - 1 - down } else { down };
+        [across, down]
+    }
 }
 
 impl Image {
-    /// Red, green, blue and opacity of each pixel, row by row from the top.
+    /// Width and height as it is shown.
+    fn size(&self) -> [usize; 2] {
+        let size = [self.width, self.height];
+        if self.orientation.swaps() { [size[1], size[0]] } else { size }
+    }
+
+    /// Red, green, blue and opacity of each pixel as it is shown, row by row from the top.
     fn pixels(&self) -> impl Iterator<Item = [u8; 4]> {
         let channels = self.channels;
         let width = self.bytes.len() / (self.width * self.height * channels);
-        self.bytes.chunks_exact(width * channels).map(move |pixel| {
+        let shown = self.size();
+        (0..self.width * self.height).map(move |place| {
+            let place = [place % shown[0], place / shown[0]];
+            let [column, row] = self.orientation.stored([self.width, self.height], place);
+            let pixel = &self.bytes[(row * self.width + column) * width * channels..];
             let channel = |number: usize| match pixel[number * width..][..width] {
                 [byte] => byte,
                 // Of 65,535, rounded.

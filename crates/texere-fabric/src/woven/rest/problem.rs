@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use texere_core::crossings::{self, Crossings};
 
+use super::super::thread::pitches;
 use crate::reach::Reach;
 use crate::{Drawdown, Thread, Woven};
 
@@ -82,17 +83,16 @@ impl Woven {
 pub(super) fn gaps(threads: &[Thread]) -> Vec<f64> {
     let ends = [threads.first(), threads.last()].into_iter().flatten();
     let seam = ends.map(|thread| thread.spacing_mm / 2.0).sum();
-    threads.iter().skip(1).map(|thread| thread.spacing_mm).chain([seam]).collect()
+    pitches(threads).chain([seam]).collect()
 }
 
 /// Numbers for threads that are alike, and that cross alike.
 fn kinds(threads: &[Thread], rooms: &[[f32; 2]], sides: impl Fn(usize) -> Vec<u64>) -> Vec<usize> {
     let mut known = HashMap::new();
-    let gaps = gaps(threads);
     let kind = |number: usize| {
-        let Thread { radius_mm, stiffness, .. } = threads[number];
+        let Thread { spacing_mm, radius_mm, stiffness, .. } = threads[number];
         let sizes = [radius_mm, stiffness, rooms[number][0], rooms[number][1]].map(f32::to_bits);
-        (sizes, (gaps[number] as f32).to_bits(), sides(number))
+        (sizes, (spacing_mm as f32).to_bits(), sides(number))
     };
     (0..threads.len())
         .map(|number| {

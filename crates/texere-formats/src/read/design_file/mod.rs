@@ -26,7 +26,7 @@
 //!
 //! [warp]
 //! yarns = ["3 indigo", "ecru"]    # repeated over all ends
-//! per_cm = 12.0                   # or per_inch, or spacing_mm, one number or a list: [0.9, 0.3] for doubled ends
+//! per_cm = 12.0                   # or per_inch, or spacing_mm, one number or a list: [2.0, 1.0] for thick and thin ends
 //!
 //! [weft]
 //! yarns = ["ecru"]
@@ -48,8 +48,8 @@
 //!
 //! Weaves of an image run through from the cloth's first end and first pick, so that areas of one weave join up, whatever
 //! lies between them and also from one repeat of the image to the next. Each colour of the image has to be in
-//! `[weave.colors]`; without that table it has two colours, and the darker one is warp up. Pixels are opaque; what a
-//! picture says of its colour space is not looked at. Palettes are fine in PNG and BMP; in TIFF they are not read.
+//! `[weave.colors]`; without that table it has two colours, and the darker one is warp up. Pixels are opaque, or
+//! wholly transparent: that is one colour, lighter than any. What a picture says of its colour space is not looked at.
 //!
 //! The picks of a Jacquard cloth take the yarns of `[weft]` in turn, `["2 red", "white"]` two picks red and one white.
 //!

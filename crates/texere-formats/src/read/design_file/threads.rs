@@ -241,7 +241,7 @@ impl YarnTable {
 
 /// One spacing for all threads, or a list of them.
 fn spacings(source: &Source<'_>, field: &str, value: &Spanned<Any>) -> Result<Vec<f64>, ReadError> {
-    let expected = "a number of mm, or a list of them such as [0.9, 0.3]";
+    let expected = "a number of mm, or a list of them such as [2.0, 1.0]";
     let [low, high] = LENGTH_MM;
     let Some(list) = value.as_ref().list() else {
         return Ok(vec![source.number(field, &source.float(field, value, expected)?, low, high)?]);

@@ -109,6 +109,10 @@ fn range(
     if let Some(entry) = ini.get("color palette", "range") {
         return match few(ini, "color palette", "range", entry)?[..] {
             [low, high] if low < high => Ok((low, high)),
+            [high] if high > 0 => {
+                warnings.push(format!("[COLOR PALETTE] Range is {high} alone; 0 to {high} is taken"));
+                Ok((0, high))
+            }
             _ => Err(bad(ini, "color palette", "range", entry, "two numbers, the lower one first")),
         };
     }

@@ -12,7 +12,7 @@ use std::path::Path;
 pub(super) struct Entry<'a> {
     /// The line, from 1.
     pub(super) line: usize,
-    /// As written, without the space around it; may be empty.
+    /// As written, without comment and the space around it; may be empty.
     pub(super) value: &'a str,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Ini<'a> {
 /// The sections that a cloth is made of, and who wrote them. Others may be as large as they like: nothing of them is kept.
 const READ: [&str; 17] = [
     "wif",
-    "text",
+    TEXT,
     "weaving",
     "warp",
     "weft",
@@ -47,18 +47,21 @@ const READ: [&str; 17] = [
     "weft thickness",
 ];
 
+/// The section of titles and authors, where a semicolon within a value is text.
+const TEXT: &str = "text";
+
 impl<'a> Ini<'a> {
     /// Reads all sections. Where a section or a key comes twice, the later value of each key stands.
     pub(super) fn parse(file: &'a Path, text: &'a str) -> Self {
         let mut sections: HashMap<Cow<'a, str>, Section<'a>> = HashMap::new();
-        let mut section = None;
+        let (mut section, mut is_text) = (None, false);
         for (line, text) in lines(text).enumerate() {
             let text = text.trim();
-            if text.starts_with(';') {
-                continue;
-            }
+            let comment = if is_text && !text.starts_with([';', '[']) { None } else { text.find(';') };
+            let text = comment.map_or(text, |from| &text[..from]);
             if let Some(name) = text.strip_prefix('[').and_then(|rest| rest.split(']').next()) {
                 let name = lower_case(name.trim());
+                is_text = name == TEXT;
                 section = READ.contains(&name.as_ref()).then(|| sections.entry(name).or_default());
             } else if let (Some(section), Some((key, value))) = (&mut section, text.split_once('=')) {
                 section.insert(lower_case(key.trim()), Entry { line: line + 1, value: value.trim() });
@@ -125,6 +128,20 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_semicolon_begins_a_comment_but_in_titles() {
+        let text = "[Warp] ;the ends\nThreads=8;eight\nSpacing= ; as the weft\n;Color=1\n[TEXT]\nTitle=Bird's eye; red\n\
+                    ;Author=none\n[Weft];\nThreads=4 ; = 4\n; Units=cm\nUnits;no=in\n";
+        let ini = Ini::parse(Path::new("a.wif"), text);
+        let value = |section, key| ini.get(section, key).map(|entry| entry.value);
+        assert_eq!(
+            (value("warp", "threads"), value("warp", "spacing"), value("warp", "color")),
+            (Some("8"), None, None)
+        );
+        assert_eq!((value("text", "title"), value("text", "author")), (Some("Bird's eye; red"), None));
+        assert_eq!((value("weft", "threads"), value("weft", "units")), (Some("4"), None));
+    }
 
     #[test]
     fn reads_what_programs_really_write() {

@@ -16,6 +16,7 @@ mod ini;
 mod numbers;
 mod threads;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use texere_core::Section;
@@ -104,11 +105,16 @@ fn draft(
     }
     let threading = lists(ini, "threading", ends, LOOM_LIMIT, warnings)?;
     let highest = threading.iter().flatten().max().copied().unwrap_or(0);
+    counted_from_1(ini, &threading, highest)?;
     let shafts = on_loom(ini, "Shafts", highest, "THREADING", warnings)?.unwrap_or(LOOM_LIMIT);
     let rising_shed = rising_shed(ini)?;
-    let treadled = treadled(ini, picks, shafts, warnings)?;
     let lift_plan =
         ini.has("liftplan").then(|| lists(ini, "liftplan", picks, shafts, warnings)).transpose()?;
+    let treadled = if lift_plan.is_some() && has_no_treadles(ini, warnings)? {
+        None
+    } else {
+        treadled(ini, picks, shafts, warnings)?
+    };
     let (shedding, other) = match (treadled, lift_plan) {
         (Some(treadled), Some(lift_plan)) => (treadled, Some(Shedding::LiftPlan(lift_plan))),
         (Some(shedding), None) => (shedding, None),
@@ -134,6 +140,45 @@ fn draft(
         draft.shedding = stands;
     }
     Ok((draft, drawdown))
+}
+
+/// Refuses a draft that counts shafts from 0: some ends are on shaft 0, others on every further one but the last; some lifts
+/// name shaft 0, and none the last. A draft of ours counts from 1.
+fn counted_from_1(ini: &Ini<'_>, threading: &[Vec<u32>], highest: u32) -> Result<(), ReadError> {
+    let declared = integer(ini, "weaving", "shafts", 0, LOOM_LIMIT)?;
+    let used: BTreeSet<_> = threading.iter().flatten().collect();
+    let lifts = ["tieup", "liftplan"].into_iter().flat_map(|section| {
+        ini.entries(section).flat_map(move |(key, entry)| numbers::list(ini, section, key, entry).flatten())
+    });
+    let lifts: BTreeSet<_> = lifts.collect();
+    let is_last_lifted = lifts.last().is_some_and(|shaft| *shaft > i64::from(highest));
+    if highest == 0
+        || declared != Some(highest + 1)
+        || used.len() != highest as usize
+        || !lifts.contains(&0)
+        || is_last_lifted
+        || threads::is_ours(ini)
+    {
+        return Ok(());
+    }
+    let first = (1..).zip(threading).find_map(|(end, shafts)| {
+        let (key, empty) = (u32::to_string(&end), shafts.is_empty());
+        let entry = ini.get("threading", &key).filter(|_| empty)?;
+        Some((key, entry))
+    });
+    first.map_or(Ok(()), |(key, entry)| {
+        let expected = "a shaft from 1: shafts are counted from 1 in WIF, in this file from 0";
+        Err(numbers::bad(ini, "threading", &key, entry, expected))
+    })
+}
+
+/// Whether the file says that the loom has no treadles. What it says of treadles then counts for nothing.
+fn has_no_treadles(ini: &Ini<'_>, warnings: &mut Vec<String>) -> Result<bool, ReadError> {
+    let none = integer(ini, "weaving", "treadles", 0, LOOM_LIMIT)? == Some(0);
+    if none && (ini.has("tieup") || ini.has("treadling")) {
+        warnings.push("[WEAVING] Treadles is 0; the lift plan is taken, without TIEUP and TREADLING".into());
+    }
+    Ok(none)
 }
 
 /// Tie-up and treadling, where both are there.
@@ -163,7 +208,7 @@ fn on_loom(
     section: &str,
     warnings: &mut Vec<String>,
 ) -> Result<Option<u32>, ReadError> {
-    let Some(declared) = integer(ini, "weaving", &key.to_lowercase(), 1, LOOM_LIMIT)? else {
+    let Some(declared) = integer(ini, "weaving", &key.to_lowercase(), 0, LOOM_LIMIT)? else {
         return Ok(None);
     };
     if highest > declared {

@@ -45,8 +45,7 @@ pub(super) fn list(
     key: &str,
     entry: &Entry<'_>,
 ) -> impl Iterator<Item = Result<i64, ReadError>> {
-    let value = entry.value.split(';').next().unwrap_or_default();
-    let items = value.split(',').map(str::trim).filter(|item| !item.is_empty());
+    let items = entry.value.split(',').map(str::trim).filter(|item| !item.is_empty());
     items.map(move |item| {
         item.parse().map_err(|_| bad(ini, section, key, entry, "whole numbers separated by commas"))
     })
@@ -64,7 +63,7 @@ pub(super) fn lists(
     let mut lists = filled("a draft", count as usize, Vec::new())?;
     // The line that last had each number.
     let mut had = vec![0; LOOM_LIMIT as usize + 1];
-    for (number, entry) in numbered(ini, section, count, warnings) {
+    for (number, entry) in numbered(ini, section, count, warnings)? {
         let key = number.to_string();
         for value in list(ini, section, &key, &entry) {
             let value = value?;
@@ -81,13 +80,14 @@ pub(super) fn lists(
     Ok(lists)
 }
 
-/// The lines of a section whose key is a number from 1 to `count`, in order; a warning counts the others.
+/// The lines of a section whose key is a number from 1 to `count`, in order; a warning counts the others. A section that
+/// begins at 0 and has no line `count` is refused: all of its lines would stand for the wrong thread.
 pub(super) fn numbered<'a>(
     ini: &Ini<'a>,
     section: &str,
     count: u32,
     warnings: &mut Vec<String>,
-) -> Vec<(u32, Entry<'a>)> {
+) -> Result<Vec<(u32, Entry<'a>)>, ReadError> {
     let (mut lines, mut others) = (Vec::new(), 0);
     for (key, entry) in ini.entries(section) {
         match key.parse::<u32>() {
@@ -95,14 +95,25 @@ pub(super) fn numbered<'a>(
             _ => others += 1,
         }
     }
+    lines.sort_by_key(|&(number, _)| number);
+    if let Some(first) = ini.get(section, "0")
+        && lines.last().is_none_or(|&(number, _)| number < count)
+    {
+        return Err(bad(
+            ini,
+            section,
+            "0",
+            first,
+            "lines numbered from 1, as in WIF; this section counts from 0",
+        ));
+    }
     if others > 0 {
         let section = section.to_uppercase();
         warnings.push(format!(
             "[{section}] has {others} lines that are not numbered 1 to {count}; they are left out"
         ));
     }
-    lines.sort_by_key(|&(number, _)| number);
-    lines
+    Ok(lines)
 }
 
 /// A length in the file's unit within `low` and `high`, or `None` for 0.

@@ -21,7 +21,7 @@ pub(crate) const UNITS_MM: [(&str, f64); 3] =
     [("Centimeters", 10.0), ("Inches", 25.4), ("Decipoints", 25.4 / 720.0)];
 
 /// How much room threads get to cross where the file leaves it to us, in least pitches: what half the spacing is in a cloth
-/// of threads alike, and what keeps them clear beside gaps of up to twelve times their pitch, tested.
+/// of threads alike, and what keeps them clear beside gaps of up to twelve times their pitch and beside threads of a twelfth of their diameter, tested.
 const ROOM: f64 = 1.154_700_538_379_251_5;
 const ROOM_UNEVEN: f64 = 1.85;
 
@@ -59,8 +59,7 @@ pub(super) fn read(
         }
     }
     let diameter = warp_pitch.unwrap_or(fallback).min(weft_pitch.unwrap_or(fallback)) / 2.0;
-    let ours = ini.get("wif", "source program").is_some_and(|program| program.value == PROGRAM);
-    let drawn = [&warp, &weft].map(|set| !ours && set.is_drawn());
+    let drawn = [&warp, &weft].map(|set| !is_ours(ini) && set.is_drawn());
     let missing = [&warp, &weft].map(|set| mean(&set.thickness_mm).is_none());
     let threads = [
         warp.threads("WARP", drawn[0], fallback, diameter, warnings)?,
@@ -69,13 +68,18 @@ pub(super) fn read(
     Ok((threads, drawn == [false; 2] && missing != [true; 2]))
 }
 
+/// Whether texere has written the draft.
+pub(super) fn is_ours(ini: &Ini<'_>) -> bool {
+    ini.get("wif", "source program").is_some_and(|program| program.value == PROGRAM)
+}
+
 /// A cloth of `threads`, all of them thinned by one factor where some need it to cross: for a file that does not say
 /// how thick they are.
 ///
 /// Many programs write as a thread's thickness what they draw it with, the whole of its spacing. Nothing can be woven of
 /// such threads, as those that cross have to pass between them. So a `Thickness` that is the set's `Spacing`, or threads
-/// that together are as wide as the set, say nothing of the yarn: as where a file states no thickness, half the mean
-/// spacing is taken, of the set that lies closer. That is 2/√3 of the least pitch (Peirce's, [`texere_fabric::Pitch`])
+/// that together are as wide as the set, say only how thick threads are beside one another: their mean is taken as where a
+/// file states no thickness, half the mean spacing, of the set that lies closer. That is 2/√3 of the least pitch (Peirce's, [`texere_fabric::Pitch`])
 /// where threads are alike and evenly spaced; where they are not, some may have less.
 pub(super) fn roomy(
     drawdown: Drawdown,
@@ -86,10 +90,10 @@ pub(super) fn roomy(
 ) -> Result<Woven, FabricError> {
     let woven = Woven::new(drawdown, warp, weft, materials, sections)?;
     let sets = woven.pitches();
-    let even = sets.iter().all(|set| {
-        let pitches = || set.iter().map(|pitch| pitch.pitch_mm);
-        pitches().fold(0.0, f64::max) <= (1.0 + ALIKE) * pitches().fold(f64::INFINITY, f64::min)
-    });
+    let even = sets.iter().all(|set| are_alike(set.iter().map(|pitch| pitch.pitch_mm)))
+        && [woven.warp(), woven.weft()]
+            .iter()
+            .all(|set| are_alike(set.iter().map(|thread| thread.radius_mm.into())));
     let room = if even { ROOM } else { ROOM_UNEVEN };
     let needed =
         sets.iter().flatten().map(|pitch| (room * pitch.passing_mm).max(pitch.beside_mm) / pitch.pitch_mm);
@@ -106,6 +110,11 @@ pub(super) fn roomy(
     };
     let (warp, weft) = (thinner(woven.warp()), thinner(woven.weft()));
     Woven::new(woven.drawdown().clone(), warp, weft, woven.materials().to_vec(), woven.sections().to_vec())
+}
+
+/// Whether the greatest of some lengths is the least, but for rounding.
+fn are_alike(lengths: impl Iterator<Item = f64> + Clone) -> bool {
+    lengths.clone().fold(0.0, f64::max) <= (1.0 + ALIKE) * lengths.fold(f64::INFINITY, f64::min)
 }
 
 /// The mean of those that are known.
@@ -131,7 +140,7 @@ impl Set {
             let common = common.flatten().map(|value| value * unit);
             let mut values = filled("lengths of threads", count as usize, common)?;
             let single = format!("{section} {what}");
-            for (number, entry) in numbered(ini, &single, count, warnings) {
+            for (number, entry) in numbered(ini, &single, count, warnings)? {
                 if entry.value.is_empty() {
                     continue;
                 }
@@ -148,7 +157,7 @@ impl Set {
             common.map(|entry| palette.material(ini, section, "color", entry)).transpose()?.flatten();
         let mut material = filled("colours of threads", count as usize, common)?;
         let single = format!("{section} colors");
-        for (number, entry) in numbered(ini, &single, count, warnings) {
+        for (number, entry) in numbered(ini, &single, count, warnings)? {
             if let Some(own) = palette.material(ini, &single, &number.to_string(), &entry)? {
                 material[number as usize - 1] = Some(own);
             }
@@ -166,7 +175,8 @@ impl Set {
                 .is_some_and(|ratio| ratio >= 1.0 - ALIKE)
     }
 
-    /// The threads, with `spacing` and `diameter` where the file gives none. Where thicknesses are `drawn`, they say nothing.
+    /// The threads, with `spacing` and `diameter` where the file gives none. Where thicknesses are `drawn`, their mean
+    /// is `diameter`.
     fn threads(
         self,
         name: &str,
@@ -176,14 +186,14 @@ impl Set {
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Thread>, ReadError> {
         let count = self.material.len();
-        let thickness_mm =
-            if drawn { filled("thicknesses of threads", count, None)? } else { self.thickness_mm };
-        let thin = thickness_mm.iter().filter(|thickness| thickness.is_none()).count();
+        // Drawn thicknesses still say how many times as thick as others a thread is.
+        let scale = mean(&self.thickness_mm).filter(|_| drawn).map_or(1.0, |drawn| diameter / drawn);
+        let thin = self.thickness_mm.iter().filter(|thickness| thickness.is_none()).count();
         let plain = self.material.iter().filter(|material| material.is_none()).count();
         if drawn {
             warnings.push(format!(
                 "[{name}] has threads as thick as they are spaced, which leaves those that cross no room; {diameter:.4} mm \
-                 is taken, half the mean spacing"
+                 is taken, half the mean spacing, for their mean"
             ));
         } else if thin > 0 {
             warnings.push(format!(
@@ -196,10 +206,10 @@ impl Set {
         // A thread without spacing among others that have one is set like their mean.
         let spacing = mean(&self.spacing_mm).unwrap_or(spacing);
         let mut threads = room("threads", count)?;
-        let each = self.spacing_mm.into_iter().zip(thickness_mm).zip(self.material);
+        let each = self.spacing_mm.into_iter().zip(self.thickness_mm).zip(self.material);
         threads.extend(each.map(|((own_spacing, thickness), material)| Thread {
             spacing_mm: own_spacing.unwrap_or(spacing),
-            radius_mm: (thickness.unwrap_or(diameter) / 2.0) as f32,
+            radius_mm: (thickness.map_or(diameter, |thickness| scale * thickness) / 2.0) as f32,
             flatness: 1.0,
             stiffness: 1.0,
             material: material.unwrap_or(NO_COLOR),
@@ -210,14 +220,17 @@ impl Set {
     }
 }
 
-/// The unit of a section's lengths in mm.
+/// The unit of a section's lengths in mm; that of the other set where it names none.
 fn unit_mm(ini: &Ini<'_>, section: &str, warnings: &mut Vec<String>) -> Result<f64, ReadError> {
-    let Some(entry) = ini.get(section, "units") else {
-        if ini.get(section, "spacing").is_some() || ini.get(section, "thickness").is_some() {
-            warnings.push(format!("[{}] has no Units; centimeters are taken", section.to_uppercase()));
-        }
-        return Ok(10.0);
-    };
+    let other = if section == "warp" { "weft" } else { "warp" };
+    let units = [section, other].into_iter().find_map(|of| Some((of, ini.get(of, "units")?)));
+    if units.is_none_or(|(of, _)| of != section) && has_lengths(ini, section) {
+        let taken = units.map_or("centimeters", |(_, entry)| entry.value);
+        let from =
+            if units.is_some() { format!(", as in [{}],", other.to_uppercase()) } else { String::new() };
+        warnings.push(format!("[{}] has no Units; {taken}{from} are taken", section.to_uppercase()));
+    }
+    let Some((section, entry)) = units else { return Ok(10.0) };
     let [(_, centimeters), (_, inches), (_, decipoints)] = UNITS_MM;
     match entry.value.to_lowercase().as_str() {
         "centimeters" | "centimetres" | "centimeter" | "cm" => Ok(centimeters),
@@ -226,4 +239,11 @@ fn unit_mm(ini: &Ini<'_>, section: &str, warnings: &mut Vec<String>) -> Result<f
         "millimeters" | "millimetres" | "millimeter" | "mm" => Ok(1.0),
         _ => Err(bad(ini, section, "units", entry, "Decipoints, Inches or Centimeters")),
     }
+}
+
+/// Whether a set says of any thread how thick it is or how it is spaced.
+fn has_lengths(ini: &Ini<'_>, section: &str) -> bool {
+    ["spacing", "thickness"]
+        .iter()
+        .any(|what| ini.get(section, what).is_some() || ini.has(&format!("{section} {what}")))
 }

@@ -1,0 +1,25 @@
+//! Signs that look like a hyphen and are none, as word processors put them in its place.
+
+/// What a sign is called, with its number in Unicode, if it looks like a hyphen and is none.
+///
+/// ```
+/// assert_eq!(texere_fabric::hyphen_look_alike('\u{2013}'), Some("an en dash (U+2013)"));
+/// assert_eq!(texere_fabric::hyphen_look_alike('-'), None);
+/// ```
+#[must_use]
+pub const fn look_alike(sign: char) -> Option<&'static str> {
+    Some(match sign {
+        '\u{ad}' => "a soft hyphen (U+00AD)",
+        '\u{2010}' => "a typographic hyphen (U+2010)",
+        '\u{2011}' => "a non-breaking hyphen (U+2011)",
+        '\u{2012}' => "a figure dash (U+2012)",
+        '\u{2013}' => "an en dash (U+2013)",
+        '\u{2014}' => "an em dash (U+2014)",
+        '\u{2015}' => "a horizontal bar (U+2015)",
+        '\u{2212}' => "a minus sign (U+2212)",
+        '\u{fe58}' => "a small em dash (U+FE58)",
+        '\u{fe63}' => "a small hyphen (U+FE63)",
+        '\u{ff0d}' => "a wide hyphen (U+FF0D)",
+        _ => return None,
+    })
+}

@@ -1,0 +1,280 @@
+//! TIFF images of one channel, grey or numbers of a palette: these are read sample by sample, since the decoder of all
+//! images takes few of them. It is told that they are grey.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use tiff::TiffError;
+use tiff::decoder::{Decoder, Limits};
+use tiff::tags::{ByteOrder, Tag};
+
+use super::ReadError;
+use super::image_file::{ASIDE_MAX, check_size, undecodable};
+use super::memory::filled;
+use super::point_paper::{Image, Orientation};
+
+/// Values of PhotometricInterpretation, TIFF 6.0, pages 37, 69.
+const WHITE_IS_ZERO: u16 = 0;
+const BLACK_IS_ZERO: u16 = 1;
+const PALETTE: u16 = 3;
+const CMYK: u16 = 5;
+
+/// Bits of NewSubfileType that say that a page is a small copy of another, or its mask.
+const BESIDE: u32 = 0b101;
+
+/// What is told of a TIFF before its pixels are read.
+pub(super) struct Header {
+    photometric: u16,
+    /// Where the file says so, bytes from its start.
+    photometric_at: u64,
+    order: ByteOrder,
+}
+
+/// Looks at a TIFF's first page. `None` for one that the decoder of all images reads as it looks.
+///
+/// **Source**: TIFF revision 6.0, Adobe 1992.
+pub(super) fn header(path: &Path, file: &mut BufReader<File>) -> Result<Option<Header>, ReadError> {
+    let refuse = |why: &str| Err(undecodable(path, why));
+    match look(file) {
+        Ok(Page { photometric: CMYK, .. }) => {
+            refuse("its colours are amounts of ink (CMYK), which no two devices show alike; save it as RGB")
+        }
+        Ok(Page { fill_order: 2, .. }) => {
+            refuse("its FillOrder is 2, the bits of each byte turned round; save it with FillOrder 1")
+        }
+        Ok(Page { others: true, .. }) => refuse("it has several pages; save the one that is meant alone"),
+        Ok(Page { header, .. }) => Ok(header),
+        Err(error) => refuse(&error.to_string()),
+    }
+}
+
+/// What the first page says of itself.
+struct Page {
+    photometric: u16,
+    fill_order: u16,
+    /// Whether other pages follow.
+    others: bool,
+    header: Option<Header>,
+}
+
+fn look(file: &mut BufReader<File>) -> Result<Page, TiffError> {
+    let mut decoder = Decoder::new(&mut *file)?.with_limits(limits(0));
+    let photometric: u16 = decoder.get_tag_unsigned(Tag::PhotometricInterpretation)?;
+    let fill_order = decoder.find_tag_unsigned(Tag::FillOrder)?.unwrap_or(1);
+    let (order, at) = (decoder.byte_order(), decoder.ifd_pointer());
+    let mut others = false;
+    while !others && decoder.more_images() && decoder.next_image().is_ok() {
+        others = decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType)?.unwrap_or(0) & BESIDE == 0;
+    }
+    let mut header = None;
+    if [WHITE_IS_ZERO, BLACK_IS_ZERO, PALETTE].contains(&photometric)
+        && let Some(at) = at
+    {
+        let photometric_at = entry_at(file, order, at.0, Tag::PhotometricInterpretation.to_u16())?;
+        header = photometric_at.map(|photometric_at| Header { photometric, photometric_at, order });
+    }
+    Ok(Page { photometric, fill_order, others, header })
+}
+
+/// Where the value of a tag stands in the directory at `at`, as a SHORT; `None` where it is none.
+fn entry_at(file: &mut BufReader<File>, order: ByteOrder, at: u64, tag: u16) -> io::Result<Option<u64>> {
+    let number = |bytes: &[u8]| {
+        let digits = |number, byte: &u8| number << 8 | u64::from(*byte);
+        match order {
+            ByteOrder::LittleEndian => bytes.iter().rev().fold(0, digits),
+            ByteOrder::BigEndian => bytes.iter().fold(0, digits),
+        }
+    };
+    let mut head = [0; 4];
+    file.rewind()?;
+    file.read_exact(&mut head)?;
+    // Of a BigTIFF counts and offsets are twice as long, and the number of entries four times.
+    let (count_bytes, entry_bytes, value) = if number(&head[2..]) == 43 { (8, 20, 12) } else { (2, 12, 8) };
+    file.seek(SeekFrom::Start(at))?;
+    let mut entry = [0; 20];
+    file.read_exact(&mut entry[..count_bytes])?;
+    for place in 0..number(&entry[..count_bytes]) {
+        file.read_exact(&mut entry[..entry_bytes])?;
+        if number(&entry[..2]) == u64::from(tag) {
+            let is_short = number(&entry[2..4]) == 3;
+            return Ok(is_short.then(|| at + (count_bytes + value) as u64 + place * entry_bytes as u64));
+        }
+    }
+    Ok(None)
+}
+
+/// How many bytes the decoder may take at a time: for pixels, beside them, and for what the file says of its picture.
+fn limits(pixels: usize) -> Limits {
+    let bytes = pixels + ASIDE_MAX as usize;
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = bytes;
+    limits.intermediate_buffer_size = bytes;
+    limits.ifd_value_size = bytes;
+    limits
+}
+
+/// Reads the pixels of the first page, of which `header` has been told, as red, green, blue and opacity.
+pub(super) fn decode(path: &Path, file: BufReader<File>, header: &Header) -> Result<Image, ReadError> {
+    let failed = |error: TiffError| undecodable(path, &error.to_string());
+    let mut decoder = Grey::new(file, header)
+        .map_err(TiffError::from)
+        .and_then(Decoder::new)
+        .map_err(failed)?
+        .with_limits(limits(0));
+    let (width, height) = decoder.dimensions().map_err(failed)?;
+    check_size(path, width, height)?;
+    let (width, height) = (width as usize, height as usize);
+    let samples = Samples::read(&mut decoder, header).map_err(failed)?;
+    samples.check().map_err(|why| undecodable(path, &why))?;
+
+    let layout = decoder.image_buffer_layout().map_err(failed)?;
+    let mut raw = filled("an image", layout.complete_len, 0)?;
+    decoder = decoder.with_limits(limits(raw.len()));
+    decoder.read_image_bytes(&mut raw).map_err(failed)?;
+    let strides = [layout.row_stride, layout.plane_stride].map(|stride| stride.map_or(0, usize::from));
+    let is_planar = layout.planes > 1;
+    let mut bytes = filled("an image", 4 * width * height, u8::MAX)?;
+    for (place, pixel) in bytes.chunks_exact_mut(4).enumerate() {
+        let sample = |of: usize| {
+            let (plane, number) =
+                if is_planar { (of, place % width) } else { (0, place % width * samples.count + of) };
+            samples.sample(&raw, place / width * strides[0] + plane * strides[1], number)
+        };
+        let number = sample(0);
+        let Some(rgb) = samples.rgb(number) else {
+            let why =
+                format!("a pixel has number {number} of a palette of {} colours", samples.map.len() / 3);
+            return Err(undecodable(path, &why));
+        };
+        pixel[..3].copy_from_slice(&rgb);
+        if let Some(alpha) = samples.alpha {
+            pixel[3] = samples.of_255(sample(alpha));
+        }
+    }
+    Ok(Image { width, height, channels: 4, bytes, orientation: samples.orientation })
+}
+
+/// What the samples of a pixel are.
+struct Samples {
+    photometric: u16,
+    count: usize,
+    bits: usize,
+    are_numbers: bool,
+    /// Which of them is opacity, if any.
+    alpha: Option<usize>,
+    /// Red of all colours of the palette, then green, then blue, of 65,535.
+    map: Vec<u16>,
+    /// How far colours of the palette are shifted to be of 255.
+    shift: u32,
+    orientation: Orientation,
+}
+
+impl Samples {
+    fn read(decoder: &mut Decoder<Grey>, header: &Header) -> Result<Self, TiffError> {
+        let mut all = |tag| decoder.find_tag_unsigned_vec::<u16>(tag).map(Option::unwrap_or_default);
+        let first = |values: Vec<u16>| values.first().copied();
+        let count = first(all(Tag::SamplesPerPixel)?).unwrap_or(1).into();
+        let extra = all(Tag::ExtraSamples)?;
+        // 1 and 2 are opacities, by which colours are multiplied or not. Where a pixel is wholly opaque that is the same.
+        let alpha = extra.iter().position(|of| [1, 2].contains(of));
+        let map = all(Tag::ColorMap)?;
+        Ok(Self {
+            photometric: header.photometric,
+            count,
+            bits: first(all(Tag::BitsPerSample)?).unwrap_or(1).into(),
+            are_numbers: all(Tag::SampleFormat)?.iter().all(|format| *format == 1),
+            alpha: alpha.and_then(|place| (count + place).checked_sub(extra.len())),
+            // Some programs write of 255; libtiff takes a palette as such where nothing is more.
+            shift: if map.iter().all(|value| *value < 256) { 0 } else { 8 },
+            map,
+            orientation: Orientation(first(all(Tag::Orientation)?).unwrap_or(1)),
+        })
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if ![1, 2, 4, 8, 16].contains(&self.bits) || !self.are_numbers {
+            return Err(format!(
+                "its {} bits a sample are not 1, 2, 4, 8 or 16 of a whole number",
+                self.bits
+            ));
+        }
+        if self.photometric == PALETTE && self.map.len() < 3 {
+            return Err("it has a palette, but no ColorMap".into());
+        }
+        Ok(())
+    }
+
+    /// Sample number `number` of the row that starts at byte `row`.
+    fn sample(&self, raw: &[u8], row: usize, number: usize) -> usize {
+        let byte = |at: usize| raw.get(row + at).copied().unwrap_or(0);
+        let (at, before) = (number * self.bits / 8, number * self.bits % 8);
+        if self.bits == 16 {
+            return u16::from_ne_bytes([byte(at), byte(at + 1)]).into();
+        }
+        usize::from(byte(at)) >> (8 - self.bits - before) & ((1 << self.bits) - 1)
+    }
+
+    /// A sample, of 255.
+    fn of_255(&self, sample: usize) -> u8 {
+        let most = (1 << self.bits) - 1;
+        ((sample * 255 + most / 2) / most) as u8
+    }
+
+    /// The colour of a pixel; `None` where the palette has none of its number.
+    fn rgb(&self, sample: usize) -> Option<[u8; 3]> {
+        let count = self.map.len() / 3;
+        match self.photometric {
+            PALETTE if sample >= count => None,
+            PALETTE => {
+                Some([0, 1, 2].map(|channel| (self.map[channel * count + sample] >> self.shift) as u8))
+            }
+            WHITE_IS_ZERO => Some([u8::MAX - self.of_255(sample); 3]),
+            _ => Some([self.of_255(sample); 3]),
+        }
+    }
+}
+
+/// A TIFF that says of its samples that they are grey from black on, whatever they are: what the decoder gives is then
+/// what the file holds.
+struct Grey {
+    file: BufReader<File>,
+    /// Where in the file the next byte is.
+    at: u64,
+    told: [(u64, u8); 2],
+}
+
+impl Grey {
+    fn new(mut file: BufReader<File>, header: &Header) -> io::Result<Self> {
+        file.rewind()?;
+        let [first, second] = match header.order {
+            ByteOrder::LittleEndian => BLACK_IS_ZERO.to_le_bytes(),
+            ByteOrder::BigEndian => BLACK_IS_ZERO.to_be_bytes(),
+        };
+        let at = header.photometric_at;
+        Ok(Self { file, at: 0, told: [(at, first), (at + 1, second)] })
+    }
+}
+
+impl Read for Grey {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.file.read(buffer)?;
+        for (at, told) in self.told {
+            let place = at
+                .checked_sub(self.at)
+                .and_then(|place| buffer[..read].get_mut(usize::try_from(place).ok()?));
+            if let Some(byte) = place {
+                *byte = told;
+            }
+        }
+        self.at += read as u64;
+        Ok(read)
+    }
+}
+
+impl Seek for Grey {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.at = self.file.seek(to)?;
+        Ok(self.at)
+    }
+}

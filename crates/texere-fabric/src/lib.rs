@@ -57,8 +57,8 @@ pub use clearance::{
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
 pub use diagnosis::{
-    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Remedy, StitchPlace,
-    ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
+    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
+    StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
 };
 pub use error::FabricError;
 pub use length::{length_mm, lengths_mm};

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Cure, Design, Diagnosis, FabricError, Faults, Settings, Structure};
+use texere::{Cure, Design, Diagnosis, FabricError, Faults, Pieces, Settings, Structure};
 
 use crate::args::CheckArgs;
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, place};
@@ -29,9 +29,29 @@ struct Report {
     /// Of a knit: what is wrong with its program.
     #[serde(skip_serializing_if = "Option::is_none")]
     machine: Option<MachineReport>,
+    /// Of a knit: how many needles never have a loop.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    empty_needles: Option<EmptyNeedles>,
     #[serde(skip_serializing_if = "Option::is_none")]
     settling: Option<SettlingReport>,
     cures: Vec<CureReport>,
+}
+
+/// Needles that never have a loop.
+#[derive(Debug, Serialize)]
+struct EmptyNeedles {
+    count: u64,
+    /// The first of them, from 0 at the left.
+    first: Vec<u64>,
+    #[serde(skip)]
+    said: String,
+}
+
+impl EmptyNeedles {
+    fn new(pieces: &Pieces) -> Option<Self> {
+        let said = pieces.empty()?;
+        Some(Self { count: pieces.empty_needles, first: pieces.empty_listed.clone(), said })
+    }
 }
 
 /// What is wrong with a cloth; nothing where all are none.
@@ -41,6 +61,18 @@ struct FaultsReport {
     pierces: Option<Pierces>,
     folds: Option<CurvatureReport>,
     jams: Option<Jams>,
+    apart: Option<Apart>,
+}
+
+/// A cloth that does not hang together.
+#[derive(Debug, Serialize)]
+struct Apart {
+    /// Layers of woven cloth; yarns of a knit whose loops are drawn through one another.
+    pieces: u64,
+    /// How many yarns nothing holds, and the first of them.
+    loose: u64,
+    loose_yarns: Vec<String>,
+    said: String,
 }
 
 /// What a knitting machine could not do, and what it can but a knitter may not mean.
@@ -98,7 +130,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     // Whether threads that settled have found room shows in their clearance, not in the pitches at which they started.
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let jams = if settled { None } else { design.structure.jams() };
-    let diagnosis = Diagnosis::new(1.0 - args.accuracy, clearance, jams);
+    let pieces = design.structure.pieces();
+    let empty_needles = EmptyNeedles::new(&pieces);
+    let diagnosis = Diagnosis::new(1.0 - args.accuracy, clearance, jams, pieces);
     let machine = MachineReport::new(&design);
     let pierced = phrase(&diagnosis.faults.kinds());
     let unknittable = machine.as_ref().is_some_and(|machine| !machine.errors.is_empty());
@@ -115,6 +149,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         faults: FaultsReport::from(&diagnosis.faults),
         setts: design.structure.woven().map(|woven| setts(woven.cloth())),
         machine,
+        empty_needles,
         settling,
         cures,
     };
@@ -165,11 +200,18 @@ impl From<&Faults> for FaultsReport {
             pierces: worst.first().map(|contact| contact.ratio).map(|min| Pierces { min, worst }),
             folds: faults.folds.as_ref().map(CurvatureReport::from),
             jams,
+            apart: faults.apart.as_ref().map(|pieces| Apart {
+                pieces: pieces.count,
+                loose: pieces.loose,
+                loose_yarns: pieces.loose_listed.iter().map(ToString::to_string).collect(),
+                said: pieces.to_string(),
+            }),
         }
     }
 }
 
 impl FaultsReport {
+    /// Whether there is none that other spacings or yarns could cure.
     fn is_none(&self) -> bool {
         self.crowded.is_none() && self.pierces.is_none() && self.folds.is_none() && self.jams.is_none()
     }
@@ -221,6 +263,12 @@ impl Report {
                 );
             }
         }
+        if let Some(apart) = &self.faults.apart {
+            line("apart", apart.said.clone());
+        }
+        if let Some(empty) = &self.empty_needles {
+            line("warning", empty.said.clone());
+        }
         for (what, faults) in self
             .machine
             .iter()
@@ -232,7 +280,7 @@ impl Report {
             let jam = if self.has_settled() { "" } else { ", no jam" };
             line("clean", format!("nothing nearer than {} of touching, no fold{jam}", self.touching));
         } else if self.faults.is_none() {
-            // No change of the cloth makes a program one that a machine can knit.
+            // No other spacing or yarn makes a program one that a machine can knit, or binds cloth that falls apart.
         } else if self.has_settled() && self.setts.is_none() {
             line(
                 "cure",

@@ -58,8 +58,8 @@ pub use clearance::{
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
 pub use diagnosis::{
-    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Remedy, StitchPlace,
-    ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
+    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
+    StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
 };
 pub use error::FabricError;
 pub use hyphen::look_alike as hyphen_look_alike;

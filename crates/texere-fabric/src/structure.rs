@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use texere_core::{Backend, Section, Settings, Yarns};
 
-use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, ThreadPlace};
+use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, Pieces, ThreadPlace};
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
@@ -269,6 +269,17 @@ impl Structure {
         }
     }
 
+    /// Into how many pieces the fabric falls, which of its yarns nothing holds, and which needles of a knit never have a loop. Woven cloth may
+    /// fall into layers ([`Drawdown::layers`](crate::Drawdown::layers)), knits into yarns whose loops are not drawn through one another.
+    #[must_use]
+    pub fn pieces(&self) -> Pieces {
+        match self {
+            Self::Woven(design) => design.cloth().pieces(),
+            Self::Weft(knit) => knit.pieces(),
+            Self::Warp(knit) => knit.pieces(),
+        }
+    }
+
     /// What is wrong with the fabric before it settles: see [`Woven::diagnose`](crate::Woven::diagnose).
     ///
     /// **Errors**: those of [`Structure::yarns`] and of [`Structure::clearance`].
@@ -281,7 +292,7 @@ impl Structure {
             Self::Woven(design) => design.cloth().diagnose(touching, progress),
             Self::Weft(_) | Self::Warp(_) => {
                 let clearance = self.clearance(&self.yarns()?, &Settings::default(), progress)?;
-                Ok(Diagnosis::new(touching, clearance, None))
+                Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
             }
         }
     }

@@ -78,6 +78,9 @@ impl<T: FnMut(&Event)> Window<T> {
         if let Some(said) = self.said.as_deref().filter(|said| !said.is_empty()) {
             ui.label(said);
         }
+        cloth.apart.iter().for_each(|said| {
+            ui.label(said);
+        });
     }
 
     fn lifts(&mut self, ui: &mut Ui, cloth: &Cloth) {

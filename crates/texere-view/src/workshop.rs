@@ -52,6 +52,8 @@ pub(crate) struct Cloth {
     pub(crate) is_settled: bool,
     /// Whether lifts can be taken back.
     pub(crate) is_edited: bool,
+    /// That it does not hang together, if so.
+    pub(crate) apart: Vec<String>,
 }
 
 /// What the window is told.
@@ -317,6 +319,7 @@ impl Workshop {
                     scene,
                     is_settled: *is_settled,
                     is_edited: !self.lifts.is_empty(),
+                    apart: self.design.structure.pieces().said(),
                 })));
             }
             Err(error) => self.fail(said(&error)),

@@ -204,3 +204,27 @@ fn faults_of_the_design_are_not_the_cloths() {
     assert!(stderr(&output).contains("line 8: cloth.jam is \"squeeze\""), "{}", stderr(&output));
     assert_eq!(texere(&["check", "no-such-file.toml"]).status.code(), Some(1));
 }
+
+#[test]
+fn knits_that_fall_apart_are_named_as_woven_cloth_is() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("apart.toml");
+    let table = "[warp_knit]\nwales = 8\ncourses = 6\nwales_per_cm = 10\ncourses_per_cm = 14\n[yarns.w]\ndiameter_mm = 0.12\n";
+    for (bar, said, empty) in [
+        ("lapping = \"pillar\"", "there are 8 pieces", 0),
+        ("lapping = \"tricot\"\nthreading = [\"2 w\", \"2 out\"]", "there are 2 pieces", 2),
+    ] {
+        std::fs::write(&path, format!("{table}[[warp_knit.bars]]\n{bar}\n")).unwrap();
+        let (code, report) = check(&path, &[]);
+        assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)));
+        let words = report["apart"]["said"].as_str().unwrap();
+        assert!(
+            words.contains("nothing binds all threads into one cloth") && words.contains(said),
+            "{words}"
+        );
+        assert_eq!(report["empty_needles"]["count"].as_u64().unwrap_or(0), empty);
+        let output = texere(&["inspect", path.to_str().unwrap()]);
+        assert!(stdout(&output).contains(words), "{}", stdout(&output));
+        assert!(stderr(&texere(&["check", path.to_str().unwrap()])).contains("falls apart"));
+    }
+}

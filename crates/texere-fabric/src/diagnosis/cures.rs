@@ -268,7 +268,7 @@ impl Trial<'_> {
 
     /// What `changed` comes to, if one kind of fault is gone at least: jams everywhere, the others at the worst places.
     fn better(&self, changed: &Woven) -> Option<Outcome> {
-        let mut left = Faults { jams: changed.jams(), ..Faults::default() };
+        let mut left = Faults { jams: changed.jams(), apart: self.faults.apart.clone(), ..Faults::default() };
         let (mut clearance, mut curvature) = (f64::INFINITY, f64::INFINITY);
         for sample in &self.samples {
             let piece = piece(changed, sample).ok()?;

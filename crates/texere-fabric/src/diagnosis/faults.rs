@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use texere_core::Settings;
 
+use super::pieces::Pieces;
 use super::places::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd};
 use crate::{FabricError, Pitch, Woven};
 
@@ -33,6 +34,8 @@ pub struct Faults {
     pub folds: Option<ThreadBend>,
     /// Threads too close together, if there are any.
     pub jams: Option<Jams>,
+    /// The pieces that the cloth falls into, if it does not hang together.
+    pub apart: Option<Pieces>,
 }
 
 /// A kind of fault. Its text says what the cloth does: "folds".
@@ -47,6 +50,8 @@ pub enum FaultKind {
     Folds,
     /// Threads lie closer together than those that cross them can pass.
     Jams,
+    /// Nothing binds all threads into one cloth.
+    FallsApart,
 }
 
 impl fmt::Display for FaultKind {
@@ -56,6 +61,7 @@ impl fmt::Display for FaultKind {
             Self::Pierces => "pierces itself",
             Self::Folds => "folds",
             Self::Jams => "jams",
+            Self::FallsApart => "falls apart",
         })
     }
 }
@@ -72,14 +78,16 @@ pub struct Jams {
 }
 
 impl Diagnosis {
-    /// What is wrong with a cloth whose yarns have this clearance, and these jams. Contacts of a ratio below `touching` pierce.
+    /// What is wrong with a cloth whose yarns have this clearance, and these jams, and that hangs together so. Contacts of a ratio below
+    /// `touching` pierce.
     #[must_use]
-    pub fn new(touching: f64, clearance: ClothClearance, jams: Option<Jams>) -> Self {
+    pub fn new(touching: f64, clearance: ClothClearance, jams: Option<Jams>, pieces: Pieces) -> Self {
         let faults = Faults {
             crowded: clearance.crowd,
             pierces: clearance.worst.iter().take_while(|contact| contact.ratio < touching).copied().collect(),
             folds: Some(clearance.bend).filter(|bend| bend.radii < 1.0),
             jams,
+            apart: Some(pieces).filter(Pieces::falls_apart),
         };
         Self { touching, clearance, faults }
     }
@@ -99,6 +107,7 @@ impl Faults {
             self.pierces.first().map(|_| FaultKind::Pierces),
             self.folds.map(|_| FaultKind::Folds),
             self.jams.as_ref().map(|_| FaultKind::Jams),
+            self.apart.as_ref().map(|_| FaultKind::FallsApart),
         ];
         kinds.into_iter().flatten().collect()
     }
@@ -130,7 +139,13 @@ impl Woven {
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Diagnosis, FabricError> {
         let clearance = self.clearance(&self.yarns()?, &Settings::default(), progress)?;
-        Ok(Diagnosis::new(touching, clearance, self.jams()))
+        Ok(Diagnosis::new(touching, clearance, self.jams(), self.pieces()))
+    }
+
+    /// Into how many layers the cloth falls, and which threads lie loose: see [`Drawdown::layers`](crate::Drawdown::layers).
+    #[must_use]
+    pub fn pieces(&self) -> Pieces {
+        Pieces::of_woven(self.drawdown())
     }
 
     /// The jammed threads, if there are any.

@@ -2,10 +2,14 @@
 
 mod cures;
 mod faults;
+mod joined;
+mod pieces;
 mod places;
 
 pub use cures::{Cure, Remedy};
 pub use faults::{Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams};
+pub(crate) use joined::Joined;
+pub use pieces::Pieces;
 pub use places::{
     ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
 };

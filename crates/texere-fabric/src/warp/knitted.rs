@@ -127,6 +127,11 @@ impl WarpKnitted {
         self.laid
     }
 
+    /// Wales and courses after which all bars begin again.
+    pub(super) const fn repeat_size(&self) -> [u32; 2] {
+        self.repeat
+    }
+
     /// Wales and courses of the whole cloth.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {

@@ -18,6 +18,7 @@ mod library;
 mod loops;
 mod notation;
 mod path;
+mod pieces;
 mod settle;
 
 pub use bar::{Bar, Displacements, Threading};

@@ -260,6 +260,6 @@ pub(super) fn extent(stitches: &Stitches) -> (f32, f32) {
     places.fold((f32::INFINITY, f32::NEG_INFINITY), |(left, right), at| (left.min(at), right.max(at)))
 }
 
-fn first_course(stitches: &Stitches, strand: &Strand) -> u32 {
+pub(super) fn first_course(stitches: &Stitches, strand: &Strand) -> u32 {
     strand.steps.first().map_or(0, |step| stitches.visit(step).course)
 }

@@ -19,6 +19,7 @@ mod locate;
 mod machine;
 mod path;
 mod pen;
+mod pieces;
 mod program;
 mod settle;
 mod shape;

@@ -2,6 +2,8 @@
 
 use std::cmp::Reverse;
 
+use texere_core::Origin;
+
 use super::Drawdown;
 
 impl Drawdown {
@@ -65,5 +67,27 @@ impl Drawdown {
             }
         }
         layers
+    }
+    /// The threads of those of the cloth's `layers` that have threads of one set alone: ends first.
+    pub(crate) fn loose(&self, layers: &[[usize; 2]]) -> Vec<Origin> {
+        let orders = [self.ups_of_ends(), self.downs_of_picks()].map(|counts| {
+            let mut order: Vec<usize> = (0..counts.len()).collect();
+            order.sort_by_key(|thread| Reverse(counts[*thread]));
+            order
+        });
+        let origin = [Origin::End, Origin::Pick];
+        let of = |set: usize| {
+            let mut first = 0;
+            let mut loose = Vec::new();
+            for layer in layers {
+                if layer[1 - set] == 0 {
+                    loose.extend_from_slice(&orders[set][first..first + layer[set]]);
+                }
+                first += layer[set];
+            }
+            loose.sort_unstable();
+            loose.into_iter().map(move |thread| origin[set](thread as u32 + 1))
+        };
+        of(0).chain(of(1)).collect()
     }
 }

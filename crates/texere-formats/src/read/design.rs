@@ -78,9 +78,6 @@ impl fmt::Display for NamedPlace {
     }
 }
 
-/// Layers of a cloth that are listed.
-const LAYERS_LISTED: usize = 4;
-
 impl Design {
     /// A design of a program's own, whose yarns settle.
     ///
@@ -103,7 +100,7 @@ impl Design {
 
     /// A design whose yarns settle.
     pub(super) fn new(name: String, structure: Structure, mut remarks: Vec<String>) -> Self {
-        remarks.extend(layers(&structure));
+        remarks.extend(structure.pieces().said());
         Self {
             name,
             structure,
@@ -219,30 +216,4 @@ impl Design {
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         self.structure.yarns()
     }
-}
-
-/// That a cloth falls apart into layers, if it does.
-fn layers(structure: &Structure) -> Option<String> {
-    let Structure::Woven(design) = structure else { return None };
-    let layers = design.cloth().drawdown().layers();
-    let size = |[ends, picks]: &[usize; 2]| match [*ends, *picks] {
-        [1, 0] => "a loose end".to_owned(),
-        [0, 1] => "a loose pick".to_owned(),
-        [ends, 0] => format!("{ends} loose ends"),
-        [0, picks] => format!("{picks} loose picks"),
-        [ends, picks] => format!("{ends} ends with {picks} picks"),
-    };
-    let sizes: Vec<String> = layers.iter().take(LAYERS_LISTED).map(size).collect();
-    (layers.len() > 1).then(|| {
-        let more = if layers.len() > LAYERS_LISTED {
-            format!(", and {} more", layers.len() - LAYERS_LISTED)
-        } else {
-            String::new()
-        };
-        let listed = sizes.join(", ");
-        format!(
-            "nothing binds all threads into one cloth: from the face there are {} layers ({listed}{more})",
-            layers.len()
-        )
-    })
 }

@@ -1,0 +1,158 @@
+//! Into how many pieces a cloth falls, and which of its yarns nothing holds.
+
+use std::fmt;
+
+use texere_core::Origin;
+
+use super::joined::Joined;
+use crate::Drawdown;
+
+/// Pieces, loose yarns and needles that are listed one by one.
+const LISTED: usize = 4;
+
+/// How a cloth hangs together, in the whole cloth: see [`Structure::pieces`](crate::Structure::pieces).
+///
+/// Of woven cloth a piece is a layer that nothing binds to the next one. Of a knit it is yarns whose loops are drawn through one another,
+/// and what is laid in between these.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Pieces {
+    /// How many pieces there are: 1 of a cloth that hangs together. A loose yarn of a knit is a piece of its own.
+    pub count: u64,
+    /// What some of them are, in words.
+    pub listed: Vec<String>,
+    /// How many yarns nothing holds: neither others nor a loop of their own.
+    pub loose: u64,
+    /// The first of them.
+    pub loose_listed: Vec<Origin>,
+    /// How many needles of a knit never have a loop, in all wales.
+    pub empty_needles: u64,
+    /// The first of them, from 0 at the left.
+    pub empty_listed: Vec<u64>,
+    /// Whether the pieces lie on one another, the one on the face first.
+    layers: bool,
+}
+
+impl Pieces {
+    /// Whether there is more than one piece, or a yarn that nothing holds.
+    #[must_use]
+    pub const fn falls_apart(&self) -> bool {
+        self.count > 1 || self.loose > 0
+    }
+
+    /// What a designer should know of it: nothing of cloth that hangs together and has loops on all needles.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::warp::{Bar, Chain, WarpKnitted};
+    /// use texere_fabric::weft::{Gauge, KnitYarn};
+    /// // A pillar bar alone: four chains that nothing joins.
+    /// let pillar = vec![Bar::new(Chain::parse("1-0/0-1//", 1)?)];
+    /// let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    /// let yarns = vec![KnitYarn::new(0.05)];
+    /// let cloth = WarpKnitted::new(pillar, Gauge::new(1.0, 0.75), 4, 2, yarns, materials, sections, [1, 1])?;
+    /// let pieces = cloth.pieces();
+    /// assert_eq!((pieces.count, pieces.loose), (4, 0));
+    /// assert!(pieces.said()[0].starts_with("nothing binds all threads into one cloth: there are 4 pieces"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn said(&self) -> Vec<String> {
+        let apart = self.falls_apart().then(|| self.to_string());
+        apart.into_iter().chain(self.empty()).collect()
+    }
+
+    /// Which needles never have a loop, in words, if there are any.
+    #[must_use]
+    pub fn empty(&self) -> Option<String> {
+        let numbers = joined(self.empty_listed.iter().map(u64::to_string), self.empty_needles, ", ");
+        (self.empty_needles > 0).then(|| format!("needles that never have a loop, counted from 0: {numbers}"))
+    }
+
+    /// The layers of woven cloth, and its threads that lie loose.
+    pub(crate) fn of_woven(drawdown: &Drawdown) -> Self {
+        let layers = drawdown.layers();
+        let size = |[ends, picks]: &[usize; 2]| match [*ends, *picks] {
+            [1, 0] => "a loose end".to_owned(),
+            [0, 1] => "a loose pick".to_owned(),
+            [ends, 0] => format!("{ends} loose ends"),
+            [0, picks] => format!("{picks} loose picks"),
+            [ends, picks] => format!("{ends} ends with {picks} picks"),
+        };
+        // A cloth of one set alone has no crossings.
+        let loose = if layers.len() > 1 { drawdown.loose(&layers) } else { Vec::new() };
+        Self {
+            count: layers.len() as u64,
+            listed: layers.iter().take(LISTED).map(size).collect(),
+            loose: loose.len() as u64,
+            loose_listed: loose.into_iter().take(LISTED).collect(),
+            layers: true,
+            ..Self::default()
+        }
+    }
+
+    /// The pieces of a knit that is so many copies of one repeat, whose yarns are `joined`. `origin` names a yarn of the repeat in the copy
+    /// that is so many further along x; `empty` are the needles of the repeat that never have a loop, and `wales` how many it has.
+    pub(crate) fn of_knit(
+        joined: &mut Joined,
+        copies: [u32; 2],
+        origin: impl Fn(usize, u32) -> Origin,
+        empty: &[u64],
+        wales: u32,
+    ) -> Self {
+        let mut pieces = Self { empty_needles: empty.len() as u64 * u64::from(copies[0]), ..Self::default() };
+        let needles = (0..u64::from(copies[0])).flat_map(|copy| empty.iter().map(move |own| (copy, own)));
+        pieces.empty_listed = needles.map(|(copy, own)| copy * u64::from(wales) + own).take(LISTED).collect();
+        for part in joined.parts() {
+            let count = part.count(copies);
+            pieces.count += count;
+            let [first, ..] = part.yarns[..] else { continue };
+            let loose = !joined.is_held(first);
+            if loose {
+                pieces.loose += count;
+            }
+            for copy in 0..u32::try_from(count.min(u64::from(copies[0]))).unwrap_or(u32::MAX) {
+                if pieces.listed.len() < LISTED {
+                    let more = if part.yarns.len() > 1 {
+                        format!(" and {} more", part.yarns.len() - 1)
+                    } else {
+                        String::new()
+                    };
+                    let name = origin(first, copy);
+                    pieces.listed.push(format!("{}{name}{more}", if loose { "loose: " } else { "" }));
+                }
+                if loose && pieces.loose_listed.len() < LISTED {
+                    pieces.loose_listed.push(origin(first, copy));
+                } else if pieces.listed.len() == LISTED {
+                    break;
+                }
+            }
+        }
+        pieces
+    }
+}
+
+/// Some of `count` words.
+fn joined(listed: impl Iterator<Item = String>, count: u64, between: &str) -> String {
+    let listed: Vec<_> = listed.collect();
+    let more = count.saturating_sub(listed.len() as u64);
+    let more = if more > 0 { format!("{between}and {more} more") } else { String::new() };
+    listed.join(between) + &more
+}
+
+impl fmt::Display for Pieces {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let between = if self.layers { ", " } else { "; " };
+        let listed = joined(self.listed.iter().cloned(), self.count, between);
+        match (self.count, self.layers) {
+            (0 | 1, _) if self.loose > 0 => write!(f, "nothing holds {listed}"),
+            (0 | 1, _) => write!(f, "one piece"),
+            (count, true) => write!(
+                f,
+                "nothing binds all threads into one cloth: from the face there are {count} layers ({listed})"
+            ),
+            (count, false) => {
+                write!(f, "nothing binds all threads into one cloth: there are {count} pieces ({listed})")
+            }
+        }
+    }
+}

@@ -7,7 +7,8 @@ use texere_core::{Chunk, Material, Plan, Vertex};
 
 #[cfg(feature = "glb")]
 use super::glb::GlbWriter;
-use super::mesh_writer::{MeshWriter, yarn_runs};
+use super::mesh_writer::{MeshWriter, Run, yarn_runs};
+use super::places::Places;
 #[cfg(feature = "ply")]
 use super::ply::PlyWriter;
 use super::target::Target;
@@ -25,7 +26,7 @@ fn writer<'a, W: Write + Seek + 'a>(
         #[cfg(feature = "glb")]
         Format::Glb => Ok(Box::new(GlbWriter::start(target, plan, chunks, materials)?)),
         #[cfg(feature = "ply")]
-        Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, chunks, materials)?)),
+        Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, materials)?)),
         #[cfg(not(all(feature = "glb", feature = "ply")))]
         format => Err(WriteError::Feature { format: format.extension(), feature: format.extension() }),
     }
@@ -34,13 +35,14 @@ fn writer<'a, W: Write + Seek + 'a>(
 /// A file under way, and how many of its vertices have come.
 pub(super) struct Feed<'a, W: Write + Seek> {
     writer: Box<dyn MeshWriter<W> + 'a>,
+    places: Places,
     sides: u32,
     given: u64,
     planned: u64,
 }
 
 impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
-    /// Starts a file for the mesh of `plan`, which is of shared topology, cut into `chunks`.
+    /// Starts a file for the mesh of `plan`, cut into `chunks`.
     pub(super) fn open(
         format: Format,
         target: Target<W>,
@@ -58,12 +60,14 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
             return Err(WriteError::Empty);
         }
         let mut planned = 0;
-        let chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
-        let writer = writer(format, target, plan, chunks, materials)?;
+        let mut chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
+        let writer = writer(format, target, plan, &mut chunks, materials)?;
+        // Those that the format has not asked for count as well.
+        chunks.for_each(drop);
         if planned < plan.counts().vertices {
             return Err(WriteError::VertexCount { given: planned, planned: plan.counts().vertices });
         }
-        Ok(Self { writer, sides: plan.settings().sides, given: 0, planned })
+        Ok(Self { writer, places: Places::new(plan), sides: plan.settings().sides, given: 0, planned })
     }
 
     /// Passes a chunk's vertices from number `first` on to the writer.
@@ -86,8 +90,27 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
             let yarn = runs.find(|(_, run)| run.contains(&place)).map_or(0, |(yarn, _)| yarn);
             return Err(WriteError::NotFinite { vertex: self.given + place as u64, yarn });
         }
-        self.writer.vertices(chunk, first, vertices)?;
         self.given += vertices.len() as u64;
+        let end = first + vertices.len() as u32;
+        // A ring that is repeated comes with the next chunk.
+        let [tubes, rings] =
+            [u32::from(chunk.repeats_ring()), 0].map(|left| (chunk.rings() - left) * self.sides);
+        for own in [0..tubes, rings..chunk.vertices()] {
+            let (from, to) = (own.start.max(first), own.end.min(end));
+            if from < to {
+                let vertices = &vertices[(from - first) as usize..(to - first) as usize];
+                self.writer.vertices(Run {
+                    chunk,
+                    first: from,
+                    place: self.places.of(chunk, from),
+                    vertices,
+                })?;
+            }
+        }
+        if end == chunk.vertices() {
+            self.writer.triangles(chunk, &self.places)?;
+            self.places.pass(chunk);
+        }
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 use std::io::{Seek, Write};
 use std::ops::ControlFlow;
 
-use texere_core::{Backend, Mesh, MeshPiece, Pipeline, PipelineError, Plan, Settings, Topology};
+use texere_core::{Backend, Mesh, MeshPiece, Pipeline, PipelineError, Topology};
 
 use super::feed::Feed;
 use super::target::Target;
@@ -14,7 +14,7 @@ use super::{Format, Output, WriteError};
 pub struct Written {
     /// Bytes of the file.
     pub bytes: u64,
-    /// Vertices in it; a ring that chunks repeat counts twice.
+    /// Vertices in it; a ring that chunks repeat counts once.
     pub vertices: u64,
     /// Triangles in it.
     pub triangles: u64,
@@ -75,9 +75,7 @@ fn whole<W: Write + Seek>(
     format: Format,
     start: impl FnOnce() -> Result<Target<W>, WriteError>,
 ) -> Result<Target<W>, WriteError> {
-    let shared = Settings { topology: Topology::Shared, ..*mesh.plan.settings() };
-    let plan = Plan::new(mesh.plan.layout().clone(), shared).map_err(PipelineError::from)?;
-    let mut feed = Feed::open(format, start()?, &plan, &mesh.chunks, &mesh.materials)?;
+    let mut feed = Feed::open(format, start()?, &mesh.plan, &mesh.chunks, &mesh.materials)?;
     let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
     if given != planned {
         return Err(WriteError::VertexCount { given, planned });
@@ -172,7 +170,7 @@ fn streamed<W: Write + Seek>(
     if let ControlFlow::Break(error) = answer {
         return Err(error);
     }
-    let vertices = feed.planned();
-    let written = Written { bytes: 0, vertices, triangles: plan.counts().triangles };
+    let counts = plan.counts();
+    let written = Written { bytes: 0, vertices: counts.vertices, triangles: counts.triangles };
     Ok((feed.finish()?, written))
 }

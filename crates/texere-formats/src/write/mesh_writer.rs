@@ -6,14 +6,28 @@ use std::ops::Range;
 use texere_core::{Cap, Chunk, Part, Vertex};
 
 use super::WriteError;
+use super::places::Places;
 use super::target::Target;
+
+/// Vertices that follow one another in a chunk and in the file.
+pub(super) struct Run<'a> {
+    pub(super) chunk: &'a Chunk,
+    /// Number of the first in its chunk.
+    pub(super) first: u32,
+    /// Number of the first in the file.
+    pub(super) place: u64,
+    pub(super) vertices: &'a [Vertex],
+}
 
 /// A format's way to write.
 pub(super) trait MeshWriter<W: Write + Seek> {
-    /// Takes a chunk's vertices from number `first` on. All vertices of all chunks come in order.
-    fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError>;
+    /// Takes vertices. Each of the file comes once: those of rings in order, and those of caps in order.
+    fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError>;
 
-    /// Completes the file once all vertices have come.
+    /// Takes the triangles of `chunk`, whose vertices have come but for a ring that is repeated.
+    fn triangles(&mut self, chunk: &Chunk, places: &Places) -> Result<(), WriteError>;
+
+    /// Completes the file once everything has come.
     fn finish(self: Box<Self>) -> Result<Target<W>, WriteError>;
 }
 

@@ -8,8 +8,11 @@
 //! Beside meshes there are [drafts](fn@draft) and [pictures](fn@picture), in PNG, and designs that are read again, as [WIF](fn@wif) or
 //! as texere's own [design file](fn@toml).
 //!
-//! What a file holds does not depend on the mesh's [`Topology`](texere_core::Topology): a plan knows its triangles, so that no index has to
-//! come from a device, and GLB keeps the index pattern that all yarns share once, which halves it.
+//! What a file holds does not depend on the mesh's [`Topology`](texere_core::Topology), nor on where its chunks are cut: a plan knows its
+//! triangles, so that no index has to come from a device, and a ring that chunks repeat is written once. So the triangles of a yarn share
+//! vertices from its first ring to its last: it is one piece for a reader that joins nothing of itself. Only caps have vertices of their
+//! own, since their normals differ from those of the rings that they close; their places are equal to the bit. GLB keeps the index pattern that all yarns
+//! share once, which halves it.
 //!
 //! A file is written beside its target and renamed when it is complete. After an error, a cancellation or a panic nothing
 //! new is left, and an older file of that name is as it was. A program that a signal ends calls [`abandon`] first; files
@@ -33,6 +36,7 @@ mod mesh_writer;
 mod output;
 #[cfg(feature = "pictures")]
 mod picture;
+mod places;
 #[cfg(feature = "ply")]
 mod ply;
 mod target;

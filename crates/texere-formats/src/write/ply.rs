@@ -2,13 +2,13 @@
 //!
 //! Source: Greg Turk, "The PLY Polygon File Format", 1994. Colours are the yarns' sRGB values, as readers expect them.
 
-use std::borrow::Borrow;
 use std::io::{Seek, Write};
 
-use texere_core::{Chunk, Material, Plan, Vertex};
+use texere_core::{Chunk, Material, Plan, index_pattern};
 
 use super::WriteError;
-use super::mesh_writer::{MeshWriter, yarn_runs};
+use super::mesh_writer::{MeshWriter, Run, yarn_runs};
+use super::places::Places;
 use super::target::Target;
 
 /// Six floats and three colour bytes.
@@ -22,68 +22,68 @@ const VERTICES_MAX: u64 = u32::MAX as u64;
 
 /// A PLY file under way.
 ///
-/// In the file all vertices come before all faces, but the mesh comes chunk by chunk. So the file grows in two places. To
-/// write all faces at the end would be half of the work, without progress and without a chance to cancel.
+/// In the file all vertices come before all faces, and tubes before caps, but the mesh comes chunk by chunk. So the file grows in
+/// four places. To write all faces at the end would be half of the work, without progress and without a chance to cancel.
 #[derive(Debug)]
 pub(super) struct PlyWriter<'a, W: Write + Seek> {
     target: Target<W>,
     plan: &'a Plan,
     materials: &'a [Material],
-    pattern: Vec<u32>,
+    /// The quads between a ring and the next.
+    quads: Vec<u32>,
     vertices_at: u64,
-    next_face_at: u64,
+    next_tube_face_at: u64,
+    next_cap_face_at: u64,
 }
 
 impl<'a, W: Write + Seek> PlyWriter<'a, W> {
     pub(super) fn start(
         mut target: Target<W>,
         plan: &'a Plan,
-        chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &'a [Material],
     ) -> Result<Self, WriteError> {
-        // First, since there may be millions of chunks to go through.
-        check(plan.counts().vertices)?;
-        let vertices = chunks.map(|chunk| u64::from(chunk.borrow().vertices())).sum();
-        check(vertices)?;
-        let header = header(vertices, plan.counts().triangles);
+        let (counts, sides) = (plan.counts(), plan.settings().sides);
+        if counts.vertices > VERTICES_MAX {
+            return Err(WriteError::TooManyVertices { vertices: counts.vertices, limit: VERTICES_MAX });
+        }
+        let header = header(counts.vertices, counts.triangles);
         target.write(header.as_bytes())?;
         let vertices_at = header.len() as u64;
+        let faces_at = vertices_at + counts.vertices * VERTEX_BYTES as u64;
+        let caps = counts.vertices / u64::from(sides) - counts.rings;
+        let tube_faces = counts.triangles - caps * u64::from(sides - 2);
         Ok(Self {
             target,
             plan,
             materials,
-            pattern: plan.shared_indices(),
+            quads: index_pattern(sides),
             vertices_at,
-            next_face_at: vertices_at + vertices * VERTEX_BYTES as u64,
+            next_tube_face_at: faces_at,
+            next_cap_face_at: faces_at + tube_faces * FACE_BYTES as u64,
         })
     }
 
-    fn faces(&mut self, chunk: &Chunk) -> Result<(), WriteError> {
-        self.target.go_to(self.next_face_at)?;
-        for draw in self.plan.draws(chunk) {
-            let range = draw.indices.start as usize..draw.indices.end as usize;
-            for corners in self.pattern[range].chunks_exact(3) {
-                let mut face = [3; FACE_BYTES];
-                for (bytes, corner) in face[1..].chunks_exact_mut(4).zip(corners) {
-                    // Fits: all vertices together were checked to.
-                    let vertex = (draw.base_vertex + u64::from(*corner)) as u32;
-                    bytes.copy_from_slice(&vertex.to_le_bytes());
-                }
-                self.target.write(&face)?;
-                self.next_face_at += FACE_BYTES as u64;
+    /// Writes the triangles of `corners`, which count from vertex `base`.
+    fn faces(&mut self, base: u64, corners: &[u32]) -> Result<(), WriteError> {
+        for corners in corners.chunks_exact(3) {
+            let mut face = [3; FACE_BYTES];
+            for (bytes, corner) in face[1..].chunks_exact_mut(4).zip(corners) {
+                // Fits: all vertices together were checked to.
+                bytes.copy_from_slice(&((base + u64::from(*corner)) as u32).to_le_bytes());
             }
+            self.target.write(&face)?;
         }
         Ok(())
     }
 }
 
 impl<W: Write + Seek> MeshWriter<W> for PlyWriter<'_, W> {
-    fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError> {
-        let number = chunk.first_vertex() + u64::from(first);
-        self.target.go_to(self.vertices_at + number * VERTEX_BYTES as u64)?;
-        for (yarn, run) in yarn_runs(chunk, self.plan.settings().sides, first, vertices.len()) {
+    fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError> {
+        self.target.go_to(self.vertices_at + run.place * VERTEX_BYTES as u64)?;
+        let sides = self.plan.settings().sides;
+        for (yarn, own) in yarn_runs(run.chunk, sides, run.first, run.vertices.len()) {
             let colour = self.materials[self.plan.yarn(yarn as usize).material as usize].srgb;
-            for vertex in &vertices[run] {
+            for vertex in &run.vertices[own] {
                 let mut bytes = [0; VERTEX_BYTES];
                 let floats: [f32; 6] = bytemuck::cast(*vertex);
                 for (place, float) in bytes.chunks_exact_mut(4).zip(floats) {
@@ -93,22 +93,33 @@ impl<W: Write + Seek> MeshWriter<W> for PlyWriter<'_, W> {
                 self.target.write(&bytes)?;
             }
         }
-        if first as usize + vertices.len() == chunk.vertices() as usize {
-            self.faces(chunk)?;
+        Ok(())
+    }
+
+    fn triangles(&mut self, chunk: &Chunk, places: &Places) -> Result<(), WriteError> {
+        let quads = std::mem::take(&mut self.quads);
+        self.target.go_to(self.next_tube_face_at)?;
+        for part in chunk.parts() {
+            let first = places.of(chunk, part.first_vertex);
+            for gap in 0..u64::from(part.rings) - 1 {
+                self.faces(first + gap * u64::from(self.plan.settings().sides), &quads)?;
+            }
         }
+        self.quads = quads;
+        self.next_tube_face_at = self.target.position();
+        self.target.go_to(self.next_cap_face_at)?;
+        for cap in chunk.caps() {
+            let section = self.plan.yarn(cap.yarn as usize).section as usize;
+            let corners: Vec<_> = self.plan.cap_indices(section, cap.end).collect();
+            self.faces(places.of(chunk, cap.first_vertex), &corners)?;
+        }
+        self.next_cap_face_at = self.target.position();
         Ok(())
     }
 
     fn finish(self: Box<Self>) -> Result<Target<W>, WriteError> {
         Ok(self.target)
     }
-}
-
-fn check(vertices: u64) -> Result<(), WriteError> {
-    if vertices > VERTICES_MAX {
-        return Err(WriteError::TooManyVertices { vertices, limit: VERTICES_MAX });
-    }
-    Ok(())
 }
 
 fn header(vertices: u64, faces: u64) -> String {

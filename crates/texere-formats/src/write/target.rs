@@ -84,6 +84,11 @@ impl<W: Write + Seek> Target<W> {
         Ok(Self::over(out, start, None))
     }
 
+    /// The byte of the file that the next call writes.
+    pub(super) fn position(&self) -> u64 {
+        self.position
+    }
+
     /// Goes to byte `position` of the file, where the next call writes.
     pub(super) fn go_to(&mut self, position: u64) -> Result<(), WriteError> {
         if position != self.position {

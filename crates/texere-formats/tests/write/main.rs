@@ -8,6 +8,7 @@ mod files;
 mod glb;
 mod knit_draft;
 mod outputs;
+mod pieces;
 mod ply;
 mod random_designs;
 mod writers;

@@ -2,15 +2,19 @@
 
 use std::borrow::Borrow;
 use std::collections::HashMap;
+use std::io::Write;
 use std::ops::Range;
 
-use texere_core::{Chunk, Draw, Material, Origin, Plan, Vertex};
+use texere_core::{Chunk, End, Material, Origin, Plan, Vertex, index_pattern};
 
 use super::json::Json;
 use super::schema::{
     self, ARRAY_BUFFER, Accessor, Asset, Attributes, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Gltf,
     MetallicRoughness, Node, Primitive, Scene, UNSIGNED_INT,
 };
+use crate::write::WriteError;
+use crate::write::places::Places;
+use crate::write::target::Target;
 
 /// The two views of the buffer: the index pattern, and every vertex.
 const PATTERN: usize = 0;
@@ -27,17 +31,73 @@ const ROUGHNESS: f32 = 0.9;
 
 /// A document whose bounds are filled in as vertices pass.
 ///
-/// Each draw of the plan is a primitive with two accessors of its own, for positions and for normals; that of its
-/// indices it shares with all draws of the same length.
+/// A tube is one primitive from its yarn's first ring to its last, and a cap is one. Each has two accessors of its own, for positions
+/// and for normals; that of its indices it shares with all of the same length.
 #[derive(Debug)]
 pub(super) struct Document {
     gltf: Gltf,
-    /// The vertices of each draw, in order. The accessor of its positions is number 2 i.
-    draws: Vec<Range<u64>>,
+    /// In the order of their vertices. The accessor of the positions of number i is number 2 i.
+    shapes: Vec<Shape>,
+    /// Gaps between rings of the longest tube, for which the pattern has indices.
+    gaps: u64,
+}
+
+/// A tube or a cap.
+#[derive(Debug)]
+struct Shape {
+    yarn: u32,
+    /// Its vertices in the file.
+    vertices: Range<u64>,
+    /// Its indices in the pattern.
+    indices: Range<u64>,
+}
+
+/// The tubes of `chunks`, each from its first ring to its last, though it lie in several, then their caps; and the gaps of the longest tube.
+fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec<Shape>, u64) {
+    let sides = u64::from(plan.settings().sides);
+    let (mut tubes, mut caps) = (Vec::<Shape>::new(), Vec::new());
+    let mut places = Places::new(plan);
+    for chunk in chunks {
+        let chunk = chunk.borrow();
+        for part in chunk.parts() {
+            let first = places.of(chunk, part.first_vertex);
+            let vertices = first..first + u64::from(part.rings) * sides;
+            match tubes.last_mut() {
+                // The last ring of the chunk before is the first of this part.
+                Some(tube) if tube.yarn == part.yarn && tube.vertices.end == first + sides => {
+                    tube.vertices.end = vertices.end;
+                }
+                _ => tubes.push(Shape { yarn: part.yarn, vertices, indices: 0..0 }),
+            }
+        }
+        caps.extend(chunk.caps().iter().map(|cap| {
+            let first = places.of(chunk, cap.first_vertex);
+            let section = u64::from(plan.yarn(cap.yarn as usize).section);
+            let number = section * 2 + u64::from(cap.end == End::Finish);
+            let each = (sides - 2) * 3;
+            let indices = number * each..(number + 1) * each;
+            Shape { yarn: cap.yarn, vertices: first..first + sides, indices }
+        }));
+        places.pass(chunk);
+    }
+    // A box may cut a lone ring out of a yarn, and glTF has nothing without triangles.
+    tubes.retain(|tube| tube.vertices.end - tube.vertices.start > sides);
+    let mut most = 0;
+    for tube in &mut tubes {
+        let gaps = (tube.vertices.end - tube.vertices.start) / sides - 1;
+        tube.indices = 0..gaps * sides * 6;
+        most = most.max(gaps);
+    }
+    for cap in &mut caps {
+        (cap.indices.start, cap.indices.end) =
+            (cap.indices.start + most * sides * 6, cap.indices.end + most * sides * 6);
+    }
+    tubes.extend(caps);
+    (tubes, most)
 }
 
 impl Document {
-    /// Describes the mesh of `plan`, which is of shared topology, cut into `chunks`.
+    /// Describes the mesh of `plan`, cut into `chunks`.
     pub(super) fn new(
         plan: &Plan,
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
@@ -47,27 +107,26 @@ impl Document {
         let mut meshes: Vec<_> = (yarns.iter().enumerate())
             .map(|(number, yarn)| schema::Mesh { name: name(number, yarn.origin), primitives: Vec::new() })
             .collect();
-        let (mut all_draws, mut vertices) = (Vec::new(), 0);
-        for chunk in chunks {
-            vertices += u64::from(chunk.borrow().vertices());
-            all_draws.extend(plan.draws(chunk.borrow()));
-        }
-        let mut accessors: Vec<_> = all_draws.iter().flat_map(vertex_accessors).collect();
+        let (shapes, gaps) = shapes(plan, chunks);
+        let mut accessors: Vec<_> = shapes.iter().flat_map(vertex_accessors).collect();
         let mut patterns = HashMap::new();
-        for (number, draw) in all_draws.iter().enumerate() {
-            let indices = *patterns.entry(draw.indices.clone()).or_insert_with(|| {
-                accessors.push(index_accessor(draw));
+        for (number, shape) in shapes.iter().enumerate() {
+            let indices = *patterns.entry(shape.indices.clone()).or_insert_with(|| {
+                accessors.push(index_accessor(shape));
                 accessors.len() - 1
             });
-            meshes[draw.yarn as usize].primitives.push(Primitive {
+            meshes[shape.yarn as usize].primitives.push(Primitive {
                 attributes: Attributes { position: 2 * number, normal: 2 * number + 1 },
                 indices,
-                material: yarns[draw.yarn as usize].material,
+                material: yarns[shape.yarn as usize].material,
             });
         }
         // A region may have nothing of a yarn, and glTF has no mesh without triangles.
         meshes.retain(|mesh| !mesh.primitives.is_empty());
-        let views = buffer_views(plan.counts().indices * INDEX_BYTES, vertices * VERTEX_BYTES);
+        let sides = u64::from(plan.settings().sides);
+        let ends = if plan.settings().caps { 2 * plan.layout().sections().len() as u64 } else { 0 };
+        let pattern = gaps * sides * 6 + ends * (sides - 2) * 3;
+        let views = buffer_views(pattern * INDEX_BYTES, plan.counts().vertices * VERTEX_BYTES);
         let gltf = Gltf {
             asset: Asset { version: "2.0", generator: concat!("texere ", env!("CARGO_PKG_VERSION")) },
             scene: 0,
@@ -79,8 +138,29 @@ impl Document {
             buffers: [Buffer { byte_length: views.iter().map(|view| view.byte_length).sum() }],
             buffer_views: views,
         };
-        let draws = all_draws.iter().map(|draw| draw.base_vertex..draw.base_vertex + draw.vertices).collect();
-        Self { gltf, draws }
+        Self { gltf, shapes, gaps }
+    }
+
+    /// Writes the pattern: the quads of the longest tube, gap after gap, then, with caps, for each section the triangles of its start cap and
+    /// of its finish cap. All count from the first vertex of what they draw.
+    pub(super) fn write_pattern<W: Write>(
+        &self,
+        plan: &Plan,
+        target: &mut Target<W>,
+    ) -> Result<(), WriteError> {
+        let sides = plan.settings().sides;
+        let mut quads = index_pattern(sides);
+        for _ in 0..self.gaps {
+            target.write_words(&quads)?;
+            quads.iter_mut().for_each(|corner| *corner += sides);
+        }
+        let sections = if plan.settings().caps { plan.layout().sections().len() } else { 0 };
+        for (section, end) in
+            (0..sections).flat_map(|section| [End::Start, End::Finish].map(|end| (section, end)))
+        {
+            target.write_words(&plan.cap_indices(section, end).collect::<Vec<_>>())?;
+        }
+        Ok(())
     }
 
     /// Bytes of the buffer.
@@ -88,15 +168,16 @@ impl Document {
         self.gltf.buffers[0].byte_length
     }
 
-    /// Widens the bounds of the draws that `vertices`, from number `first` on, belong to.
+    /// Widens the bounds of what `vertices`, from number `first` of the file on, belong to.
     pub(super) fn include(&mut self, first: u64, vertices: &[Vertex]) {
         let end = first + vertices.len() as u64;
-        let start = self.draws.partition_point(|draw| draw.end <= first);
-        for (number, draw) in self.draws.iter().enumerate().skip(start) {
-            if draw.start >= end {
+        let start = self.shapes.partition_point(|shape| shape.vertices.end <= first);
+        for (number, shape) in self.shapes.iter().enumerate().skip(start) {
+            if shape.vertices.start >= end {
                 break;
             }
-            let own = (draw.start.max(first) - first) as usize..(draw.end.min(end) - first) as usize;
+            let own = (shape.vertices.start.max(first) - first) as usize
+                ..(shape.vertices.end.min(end) - first) as usize;
             if let Accessor { min: Some(min), max: Some(max), .. } = &mut self.gltf.accessors[2 * number] {
                 for vertex in &vertices[own] {
                     for (axis, &value) in vertex.position.iter().enumerate() {
@@ -155,13 +236,13 @@ fn surface(material: &Material) -> schema::Material {
     }
 }
 
-/// Positions and normals of a draw. Bounds start inside out, so that the first vertex sets them.
-fn vertex_accessors(draw: &Draw) -> [Accessor; 2] {
+/// Positions and normals of a shape. Bounds start inside out, so that the first vertex sets them.
+fn vertex_accessors(shape: &Shape) -> [Accessor; 2] {
     let of = |offset, [min, max]: [Option<[f32; 3]>; 2]| Accessor {
         buffer_view: VERTICES,
-        byte_offset: draw.base_vertex * VERTEX_BYTES + offset,
+        byte_offset: shape.vertices.start * VERTEX_BYTES + offset,
         component_type: FLOAT,
-        count: draw.vertices,
+        count: shape.vertices.end - shape.vertices.start,
         shape: "VEC3",
         min,
         max,
@@ -170,12 +251,12 @@ fn vertex_accessors(draw: &Draw) -> [Accessor; 2] {
     [of(0, inside_out), of(std::mem::offset_of!(Vertex, normal) as u64, [None; 2])]
 }
 
-fn index_accessor(draw: &Draw) -> Accessor {
+fn index_accessor(shape: &Shape) -> Accessor {
     Accessor {
         buffer_view: PATTERN,
-        byte_offset: draw.indices.start * INDEX_BYTES,
+        byte_offset: shape.indices.start * INDEX_BYTES,
         component_type: UNSIGNED_INT,
-        count: draw.indices.end - draw.indices.start,
+        count: shape.indices.end - shape.indices.start,
         shape: "SCALAR",
         min: None,
         max: None,

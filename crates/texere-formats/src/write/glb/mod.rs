@@ -13,7 +13,8 @@ use document::Document;
 use texere_core::{Chunk, Material, Plan, Vertex};
 
 use super::WriteError;
-use super::mesh_writer::MeshWriter;
+use super::mesh_writer::{MeshWriter, Run};
+use super::places::Places;
 use super::target::Target;
 
 /// The header holds the file's length in a `u32`.
@@ -33,6 +34,8 @@ const CHUNK_HEADER_BYTES: u64 = 8;
 pub(super) struct GlbWriter<W: Write + Seek> {
     target: Target<W>,
     document: Document,
+    /// Where the vertices begin.
+    vertices_at: u64,
 }
 
 impl<W: Write + Seek> GlbWriter<W> {
@@ -43,7 +46,7 @@ impl<W: Write + Seek> GlbWriter<W> {
         materials: &[Material],
     ) -> Result<Self, WriteError> {
         // First, since there may be millions of chunks to go through.
-        check(plan.counts().bytes())?;
+        check(plan.counts().vertices * size_of::<Vertex>() as u64)?;
         let document = Document::new(plan, chunks, materials);
         check(document.buffer_bytes())?;
         let json = document.to_json();
@@ -55,15 +58,22 @@ impl<W: Write + Seek> GlbWriter<W> {
         target.write(json.as_bytes())?;
         target.write_words(&[document.buffer_bytes() as u32])?;
         target.write(b"BIN\0")?;
-        target.write_words(&plan.shared_indices())?;
-        Ok(Self { target, document })
+        document.write_pattern(plan, &mut target)?;
+        let vertices_at = target.position();
+        Ok(Self { target, document, vertices_at })
     }
 }
 
 impl<W: Write + Seek> MeshWriter<W> for GlbWriter<W> {
-    fn vertices(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) -> Result<(), WriteError> {
-        self.document.include(chunk.first_vertex() + u64::from(first), vertices);
-        self.target.write_words(bytemuck::cast_slice(vertices))
+    fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError> {
+        self.document.include(run.place, run.vertices);
+        self.target.go_to(self.vertices_at + run.place * size_of::<Vertex>() as u64)?;
+        self.target.write_words(bytemuck::cast_slice(run.vertices))
+    }
+
+    /// All triangles are in the pattern, which is written first.
+    fn triangles(&mut self, _: &Chunk, _: &Places) -> Result<(), WriteError> {
+        Ok(())
     }
 
     fn finish(mut self: Box<Self>) -> Result<Target<W>, WriteError> {

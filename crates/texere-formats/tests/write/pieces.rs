@@ -1,0 +1,179 @@
+//! A yarn is one piece for a reader that joins nothing of itself: triangles hang together where they share a vertex's number.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use gltf::Gltf;
+use texere_core::{ControlPoint, Limits, Pipeline, Topology, Yarn, Yarns};
+use texere_cpu::SerialBackend;
+use texere_formats::write::{self, Format};
+
+use crate::fabric::{fabric, long_yarn, pipeline, region, ways, whole};
+
+/// Sets that are joined when two of their members are.
+struct Pieces {
+    parents: Vec<usize>,
+}
+
+impl Pieces {
+    fn of(vertices: usize, triangles: impl IntoIterator<Item = [usize; 3]>) -> Self {
+        let mut pieces = Self { parents: (0..vertices).collect() };
+        for [a, b, c] in triangles {
+            pieces.join(a, b);
+            pieces.join(b, c);
+        }
+        pieces
+    }
+
+    fn find(&mut self, mut member: usize) -> usize {
+        while self.parents[member] != member {
+            self.parents[member] = self.parents[self.parents[member]];
+            member = self.parents[member];
+        }
+        member
+    }
+
+    fn join(&mut self, one: usize, other: usize) {
+        let (one, other) = (self.find(one), self.find(other));
+        self.parents[one] = other;
+    }
+
+    fn count(&mut self) -> usize {
+        (0..self.parents.len()).map(|member| self.find(member)).collect::<BTreeSet<_>>().len()
+    }
+}
+
+/// Vertices of a PLY file, and the corners of its triangles.
+fn ply_triangles(bytes: &[u8]) -> (usize, impl Iterator<Item = [usize; 3]>) {
+    let header = "end_header\n";
+    let end = bytes.windows(header.len()).position(|at| at == header.as_bytes()).unwrap() + header.len();
+    let text = std::str::from_utf8(&bytes[..end]).unwrap();
+    let number = |element: &str| text.split(element).nth(1).unwrap().lines().next().unwrap().parse().unwrap();
+    let (vertices, triangles): (usize, usize) = (number("element vertex "), number("element face "));
+    // Six floats and three bytes a vertex; a byte and three numbers a triangle.
+    let faces = bytes[end + vertices * 27..].chunks_exact(13);
+    assert_eq!((faces.len(), faces.remainder().len()), (triangles, 0));
+    let corner =
+        |face: &[u8], k: usize| u32::from_le_bytes(face[1 + 4 * k..][..4].try_into().unwrap()) as usize;
+    (vertices, faces.map(move |face| [0, 1, 2].map(|k| corner(face, k))))
+}
+
+/// Pieces of a PLY file.
+fn of_ply(bytes: &[u8]) -> usize {
+    let (vertices, triangles) = ply_triangles(bytes);
+    Pieces::of(vertices, triangles).count()
+}
+
+/// Pieces of a GLB file: a primitive has vertices of its own, so what two of them have in common is not joined.
+fn of_glb(bytes: &[u8]) -> usize {
+    let gltf = Gltf::from_slice(bytes).unwrap();
+    let blob = gltf.blob.as_deref().unwrap();
+    let primitives = gltf.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
+    let pieces = primitives.map(|primitive| {
+        let reader = primitive.reader(|_| Some(blob));
+        let indices: Vec<_> = reader.read_indices().unwrap().into_u32().map(|index| index as usize).collect();
+        let vertices = reader.read_positions().unwrap().len();
+        Pieces::of(vertices, indices.chunks_exact(3).map(|corners| [0, 1, 2].map(|k| corners[k]))).count()
+    });
+    pieces.sum()
+}
+
+/// Writes `mesh`'s and `stream`'s files of each format.
+fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, Vec<u8>)) {
+    let folder = tempfile::tempdir().unwrap();
+    for format in Format::ALL {
+        let path = folder.path().join("fabric").with_extension(format.extension());
+        write::stream(make(), &SerialBackend::new(), &path).unwrap();
+        check(format, std::fs::read(&path).unwrap());
+        write::mesh(&make().mesh(&SerialBackend::new()).unwrap(), &path).unwrap();
+        check(format, std::fs::read(&path).unwrap());
+    }
+}
+
+fn pieces(format: Format, bytes: &[u8]) -> usize {
+    match format {
+        Format::Glb => of_glb(bytes),
+        Format::Ply => of_ply(bytes),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn leaked(yarns: Yarns) -> &'static Yarns {
+    Box::leak(Box::new(yarns))
+}
+
+/// Caps have normals of their own, so they can't share vertices with the tube: each is a piece of its own.
+#[test]
+fn a_yarn_is_one_piece_however_it_is_cut() {
+    for (yarns, open) in [(leaked(fabric()), 4), (leaked(long_yarn()), 1)] {
+        for (caps, way) in
+            [false, true].into_iter().flat_map(|caps| ways().into_iter().map(move |way| (caps, way)))
+        {
+            let expected = yarns.layout().yarns().len() + if caps { 2 * open } else { 0 };
+            each_file(
+                || pipeline(yarns, caps, way),
+                |format, bytes| {
+                    assert_eq!(pieces(format, &bytes), expected, "{format:?}, caps {caps}, {way:?}")
+                },
+            );
+        }
+    }
+}
+
+/// The limits of each count and of each device may cut anywhere; the file does not show where.
+#[test]
+fn a_file_has_the_same_bytes_however_its_mesh_is_cut() {
+    for yarns in [leaked(fabric()), leaked(long_yarn())] {
+        for caps in [false, true] {
+            let first = std::cell::RefCell::new(BTreeMap::new());
+            for way in ways() {
+                each_file(
+                    || pipeline(yarns, caps, way),
+                    |format, bytes| {
+                        let mut first = first.borrow_mut();
+                        let first = first.entry(format.extension()).or_insert_with(|| bytes.clone());
+                        assert!(*first == bytes, "{format:?}, caps {caps}, {way:?}");
+                    },
+                );
+            }
+            // Neither is a vertex twice: as many as the uncut mesh has.
+            let mesh = whole(yarns, caps);
+            let bytes = &first.borrow()["ply"];
+            assert_eq!(ply_triangles(bytes).0, mesh.vertices.len());
+        }
+    }
+}
+
+/// What a box cuts out of a yarn in one row of rings is one piece.
+#[test]
+fn a_region_has_a_piece_for_each_run_of_rings() {
+    let yarns = leaked(fabric());
+    let part = |limits| pipeline(yarns, false, (Topology::Indexed, limits)).within(region());
+    let uncut = part(Limits::NONE).mesh(&SerialBackend::new()).unwrap();
+    let runs = uncut.chunks[0].parts().iter().filter(|part| part.rings > 1).count();
+    assert!(runs > 1);
+    for (_, limits) in ways() {
+        each_file(|| part(limits), |format, bytes| assert_eq!(pieces(format, &bytes), runs, "{format:?}"));
+    }
+}
+
+/// Sixteen sides and six subdivisions of many ends and picks: the cut that the default limits make lies inside a yarn.
+#[test]
+fn the_default_limits_cut_no_yarn_in_two() {
+    let mut yarns = Yarns::builder();
+    for end in 0..70 {
+        let points: Vec<_> = (0..400)
+            .map(|pick| ControlPoint::new(end as f32, pick as f32, (pick % 2) as f32 * 0.3, 0.2))
+            .collect();
+        yarns.yarn(Yarn::default(), &points);
+    }
+    let yarns = leaked(yarns.build().unwrap());
+    let make = || Pipeline::new(yarns).sides(16).subdivisions(6);
+    let plan = make().plan().unwrap();
+    assert!(
+        plan.chunks(&Limits::default()).unwrap().any(|chunk| chunk.repeats_ring()),
+        "it would show nothing"
+    );
+    let mut ply = std::io::Cursor::new(Vec::new());
+    write::stream_to(make(), &texere_cpu::ParallelBackend::open().unwrap(), Format::Ply, &mut ply).unwrap();
+    assert_eq!(of_ply(&ply.into_inner()), 70);
+}

@@ -6,7 +6,7 @@ use serde::Serialize;
 use texere::{Cure, Design, Diagnosis, FabricError, Faults, Settings, Structure};
 
 use crate::args::CheckArgs;
-use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, place};
+use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, DrawnReport, place};
 use crate::cures::{CureReport, gives_room, phrase};
 use crate::fail::Fail;
 use crate::measures::Sets;
@@ -23,6 +23,7 @@ struct Report {
     touching: f64,
     #[serde(flatten)]
     faults: FaultsReport,
+    drawn: DrawnReport,
     /// Of woven cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     setts: Option<Sets<SettReport>>,
@@ -41,6 +42,8 @@ struct FaultsReport {
     pierces: Option<Pierces>,
     folds: Option<CurvatureReport>,
     jams: Option<Jams>,
+    wrung: Option<DrawnReport>,
+    inside_out: Option<DrawnReport>,
 }
 
 /// What a knitting machine could not do, and what it can but a knitter may not mean.
@@ -104,15 +107,20 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let unknittable = machine.as_ref().is_some_and(|machine| !machine.errors.is_empty());
     let said: Vec<_> = pierced.into_iter().chain(unknittable.then(|| "can't be knitted".into())).collect();
     let faulty = (!said.is_empty()).then(|| said.join(", "));
-    let cures = match &faulty {
+    let mut cures = match &faulty {
         Some(_) => cures(&design.structure, &diagnosis, settled)?,
         None => Vec::new(),
     };
+    if diagnosis.faults.wrung.is_some() || diagnosis.faults.inside_out.is_some() {
+        let finer = texere::finer(&yarns, &settings)?;
+        cures.extend(finer.map(|(subdivisions, _)| CureReport::finer(subdivisions, &diagnosis)));
+    }
     let report = Report {
         name: design.name,
         clean: faulty.is_none(),
         touching: diagnosis.touching,
         faults: FaultsReport::from(&diagnosis.faults),
+        drawn: DrawnReport::from(&diagnosis.clearance.drawn),
         setts: design.structure.woven().map(|woven| setts(woven.cloth())),
         machine,
         settling,
@@ -165,13 +173,17 @@ impl From<&Faults> for FaultsReport {
             pierces: worst.first().map(|contact| contact.ratio).map(|min| Pierces { min, worst }),
             folds: faults.folds.as_ref().map(CurvatureReport::from),
             jams,
+            wrung: faults.wrung.as_ref().map(DrawnReport::from),
+            inside_out: faults.inside_out.as_ref().map(DrawnReport::from),
         }
     }
 }
 
 impl FaultsReport {
     fn is_none(&self) -> bool {
-        self.crowded.is_none() && self.pierces.is_none() && self.folds.is_none() && self.jams.is_none()
+        let Self { crowded, pierces, folds, jams, wrung, inside_out } = self;
+        let drawn = wrung.is_none() && inside_out.is_none();
+        crowded.is_none() && pierces.is_none() && folds.is_none() && jams.is_none() && drawn
     }
 }
 
@@ -191,6 +203,7 @@ impl Report {
         }
         line("clearance", clearance.to_string());
         line("bends", curvature.to_string());
+        line("drawn", self.drawn.narrowest());
         if let Some(crowded) = &self.faults.crowded {
             line("crowded", crowded.to_string());
         }
@@ -205,6 +218,12 @@ impl Report {
         }
         if let Some(folds) = &self.faults.folds {
             line("folds", format!("a bend of {:.3} yarn radii is tighter than the tube is thick", folds.min));
+        }
+        if let Some(wrung) = &self.faults.wrung {
+            line("wrung", format!("neighbouring rings turn against one another: {}", wrung.narrowest()));
+        }
+        if let Some(turned) = &self.faults.inside_out {
+            line("inside out", turned.turned());
         }
         for (sett, said) in self.setts.iter().flat_map(Sets::lines) {
             line(sett, said);
@@ -230,7 +249,10 @@ impl Report {
         }
         if self.clean {
             let jam = if self.has_settled() { "" } else { ", no jam" };
-            line("clean", format!("nothing nearer than {} of touching, no fold{jam}", self.touching));
+            line(
+                "clean",
+                format!("nothing nearer than {} of touching, no fold{jam}, nothing wrung", self.touching),
+            );
         } else if self.faults.is_none() {
             // No change of the cloth makes a program one that a machine can knit.
         } else if self.has_settled() && self.setts.is_none() {

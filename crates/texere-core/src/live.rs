@@ -5,6 +5,7 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
+use crate::steep::is_steep;
 use crate::yarns::check_points;
 use crate::{
     Backend, BackendError, Chunk, ControlPoint, Limits, Part, Plan, SessionError, Topology, Traffic, Vertex,
@@ -177,7 +178,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
             return Err(SessionError::NoYarn { yarn, yarns });
         }
         check_points(yarn, points)?;
-        let plan = self.plan.edited(yarn, what, points.len() as u64)?;
+        let steep = points.len() as u64 >= what.points_least() && is_steep(points, what.closed);
+        let plan = self.plan.edited_to(yarn, what, points.len() as u64, steep)?;
         if *plan.layout() != *self.plan.layout() {
             let plan = Arc::new(plan);
             self.engine.replan(plan.clone(), yarn..yarn + 1)?;

@@ -34,6 +34,7 @@
 
 mod clearance;
 mod diagnosis;
+mod drawn;
 mod error;
 mod grid;
 mod length;
@@ -58,8 +59,9 @@ pub use clearance::{
 };
 pub use diagnosis::{
     ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Remedy, StitchPlace,
-    ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
+    ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };
+pub use drawn::{Drawn, WRUNG, drawn, finer};
 pub use error::FabricError;
 pub use length::{length_mm, lengths_mm};
 pub use linking::{

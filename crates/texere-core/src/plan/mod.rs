@@ -155,7 +155,7 @@ impl Plan {
         let mut plan = Self {
             id: PlanId::next(),
             runs: std::iter::once(0..blocks).collect(),
-            needs_scan: layout.yarns().iter().any(|yarn| !settings.frame.is_level(yarn.twist)),
+            needs_scan: false,
             layout,
             settings,
             sampling,
@@ -167,6 +167,7 @@ impl Plan {
         plan.cap_triangles =
             (0..plan.layout.sections().len()).map(|section| triangulate(plan.outline(section))).collect();
         plan.counts = plan.count();
+        plan.needs_scan = (0..plan.layout.yarns().len()).any(|yarn| plan.turns(yarn));
         Ok(plan)
     }
 
@@ -179,6 +180,17 @@ impl Plan {
     ///
     /// **Panics** past the last yarn.
     pub fn edited(&self, yarn: usize, what: Yarn, points: u64) -> Result<Self, PlanError> {
+        self.edited_to(yarn, what, points, self.layout.is_steep(yarn))
+    }
+
+    /// The same for a yarn that is [steep](Layout::is_steep) or not.
+    pub(crate) fn edited_to(
+        &self,
+        yarn: usize,
+        what: Yarn,
+        points: u64,
+        steep: bool,
+    ) -> Result<Self, PlanError> {
         let before = self.yarn(yarn);
         let room = self.offsets.room(yarn, before.closed);
         if points > room {
@@ -187,19 +199,19 @@ impl Plan {
         if points < what.points_least() {
             return Err(PlanError::TooFewPoints { yarn, points, least: what.points_least() });
         }
-        let turns = !self.settings.frame.is_level(what.twist);
+        let turns = !self.settings.frame.of(steep).is_level(what.twist);
         for (holds, what) in [
             (what.closed == before.closed, "closed or opened"),
             ((what.section as usize) < self.layout.sections().len(), "of a section that the plan lacks"),
             ((-TWIST_LIMIT..=TWIST_LIMIT).contains(&what.twist), "so twisted"),
-            (self.needs_scan || !turns, "twisted, where no other yarn is"),
+            (self.needs_scan || !turns, "twisted or steep, where no other yarn is"),
         ] {
             if !holds {
                 return Err(PlanError::OtherPlan { yarn, what });
             }
         }
         let mut plan = self.clone();
-        plan.layout = Arc::new(self.layout.edited(yarn, what, points));
+        plan.layout = Arc::new(self.layout.edited(yarn, what, points, steep));
         plan.counts = plan.count();
         Ok(plan)
     }
@@ -305,6 +317,22 @@ impl Plan {
     #[must_use]
     pub fn turns_per_mm(&self, yarn: usize) -> f32 {
         (f64::from(self.yarn(yarn).twist) / std::f64::consts::TAU) as f32
+    }
+
+    /// How the sections of `yarn` are oriented: as the settings say, but where the yarn is [steep](Layout::is_steep).
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn frame(&self, yarn: usize) -> Frame {
+        self.settings.frame.of(self.layout.is_steep(yarn))
+    }
+
+    /// Whether any roll of `yarn` may be other than zero, so that its rolls are scanned.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn turns(&self, yarn: usize) -> bool {
+        !self.frame(yarn).is_level(self.yarn(yarn).twist)
     }
 
     /// All outlines, section after section, `sides` points each.

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use texere_core::Settings;
 
-use super::places::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd};
-use crate::{FabricError, Pitch, Woven};
+use super::places::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn};
+use crate::{FabricError, Pitch, WRUNG, Woven};
 
 /// The most jammed threads that are listed one by one.
 pub const JAMS_LISTED: usize = 100;
@@ -33,6 +33,10 @@ pub struct Faults {
     pub folds: Option<ThreadBend>,
     /// Threads too close together, if there are any.
     pub jams: Option<Jams>,
+    /// Where a mesh is [wrung](WRUNG) between two rings.
+    pub wrung: Option<ThreadDrawn>,
+    /// Where triangles of a mesh face inwards.
+    pub inside_out: Option<ThreadDrawn>,
 }
 
 /// A kind of fault. Its text says what the cloth does: "folds".
@@ -47,6 +51,10 @@ pub enum FaultKind {
     Folds,
     /// Threads lie closer together than those that cross them can pass.
     Jams,
+    /// A mesh with these settings is wrung between two rings.
+    Wrung,
+    /// Triangles of a mesh with these settings face inwards.
+    InsideOut,
 }
 
 impl fmt::Display for FaultKind {
@@ -56,6 +64,8 @@ impl fmt::Display for FaultKind {
             Self::Pierces => "pierces itself",
             Self::Folds => "folds",
             Self::Jams => "jams",
+            Self::Wrung => "is wrung",
+            Self::InsideOut => "is inside out",
         })
     }
 }
@@ -80,6 +90,8 @@ impl Diagnosis {
             pierces: clearance.worst.iter().take_while(|contact| contact.ratio < touching).copied().collect(),
             folds: Some(clearance.bend).filter(|bend| bend.radii < 1.0),
             jams,
+            wrung: Some(clearance.drawn).filter(|drawn| drawn.width < WRUNG),
+            inside_out: Some(clearance.drawn).filter(|drawn| drawn.inwards > 0),
         };
         Self { touching, clearance, faults }
     }
@@ -99,6 +111,8 @@ impl Faults {
             self.pierces.first().map(|_| FaultKind::Pierces),
             self.folds.map(|_| FaultKind::Folds),
             self.jams.as_ref().map(|_| FaultKind::Jams),
+            self.wrung.map(|_| FaultKind::Wrung),
+            self.inside_out.map(|_| FaultKind::InsideOut),
         ];
         kinds.into_iter().flatten().collect()
     }

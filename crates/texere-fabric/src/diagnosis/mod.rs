@@ -7,5 +7,5 @@ mod places;
 pub use cures::{Cure, Remedy};
 pub use faults::{Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams};
 pub use places::{
-    ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
+    ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };

@@ -199,12 +199,12 @@ impl Plan {
         if points < what.points_least() {
             return Err(PlanError::TooFewPoints { yarn, points, least: what.points_least() });
         }
-        let turns = !self.settings.frame.of(steep).is_level(what.twist);
+        let turns = !self.settings.frame.is_level(what.twist);
         for (holds, what) in [
             (what.closed == before.closed, "closed or opened"),
             ((what.section as usize) < self.layout.sections().len(), "of a section that the plan lacks"),
             ((-TWIST_LIMIT..=TWIST_LIMIT).contains(&what.twist), "so twisted"),
-            (self.needs_scan || !turns, "twisted or steep, where no other yarn is"),
+            (self.needs_scan || !turns, "twisted, where no other yarn is"),
         ] {
             if !holds {
                 return Err(PlanError::OtherPlan { yarn, what });
@@ -213,6 +213,8 @@ impl Plan {
         let mut plan = self.clone();
         plan.layout = Arc::new(self.layout.edited(yarn, what, points, steep));
         plan.counts = plan.count();
+        // A yarn that has become steep turns where none did.
+        plan.needs_scan |= steep;
         Ok(plan)
     }
 
@@ -358,7 +360,7 @@ impl Plan {
         &self.cap_triangles[section]
     }
 
-    /// Whether any yarn needs its rolls scanned; of an [edited](Plan::edited) plan, whether any of the first one's did.
+    /// Whether any yarn needs its rolls scanned; of an [edited](Plan::edited) plan, whether any of the first one's or any since did.
     #[must_use]
     pub const fn needs_scan(&self) -> bool {
         self.needs_scan

@@ -19,13 +19,14 @@ typedef struct {
     uint first_index;
 } Block;
 
-// Rust: texere_gpu::YarnRow, 20 bytes.
+// Rust: texere_gpu::YarnRow, 24 bytes.
 typedef struct {
     uint rings;
     uint first_block;
     uint section;
     uint closed;
     float twist;
+    uint frame;
 } YarnRow;
 
 // Rust: texere_gpu::CapRow, 32 bytes.
@@ -48,7 +49,7 @@ typedef struct {
     uint yarns;
     uint sides;
     uint subdivisions;
-    uint frame;
+    uint padding;
     uint indexed;
     uint rolled;
     float s;

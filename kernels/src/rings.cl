@@ -37,7 +37,7 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
         uint turn = 0u;
         if (lane + 1u < block->rings) {
             float3 chord = chord_to(&here, rings->side[lane + 1u].xyz);
-            turn = frame_step(params->frame, here.sample.tangent, rings->tangent[lane + 1u].xyz, chord, yarn->twist);
+            turn = frame_step(yarn->frame, here.sample.tangent, rings->tangent[lane + 1u].xyz, chord, yarn->twist);
         }
         if (lane < BLOCK_RINGS) {
             rings->roll[lane] = turn;

@@ -38,7 +38,7 @@ void block_turns(const Params params, const ulong window, __global const float4 
             next_tangent = next.sample.tangent;
             next_offset = next.sample.offset;
         }
-        turn = frame_step(params.frame, here.sample.tangent, next_tangent, chord_to(&here, next_offset), yarn.twist);
+        turn = frame_step(yarn.frame, here.sample.tangent, next_tangent, chord_to(&here, next_offset), yarn.twist);
     }
     sums[lane] = turn;
     barrier(CLK_LOCAL_MEM_FENCE);

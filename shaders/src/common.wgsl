@@ -17,13 +17,14 @@ struct Block {
     first_index: u32,
 }
 
-// Rust: texere_gpu::YarnRow, 20 bytes.
+// Rust: texere_gpu::YarnRow, 24 bytes.
 struct YarnRow {
     rings: u32,
     first_block: u32,
     section: u32,
     closed: u32,
     twist: f32,
+    frame: u32,
 }
 
 // Rust: texere_gpu::CapRow, 32 bytes.
@@ -46,7 +47,7 @@ struct Params {
     yarns: u32,
     sides: u32,
     subdivisions: u32,
-    frame: u32,
+    padding: u32,
     indexed: u32,
     rolled: u32,
     s: f32,

@@ -50,7 +50,7 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
         var turn = 0u;
         if lane + 1u < rings {
             let chord = chord_to(here, standing.side[lane + 1u].xyz);
-            turn = frame_step(params.frame, here.sample.tangent, standing.tangent[lane + 1u].xyz, chord, yarn.twist);
+            turn = frame_step(yarn.frame, here.sample.tangent, standing.tangent[lane + 1u].xyz, chord, yarn.twist);
         }
         if lane < RINGS_HELD {
             standing.roll[lane] = turn;

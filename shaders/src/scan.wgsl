@@ -44,7 +44,7 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
             next_tangent = next.sample.tangent;
             next_offset = next.sample.offset;
         }
-        turn = frame_step(params.frame, here.sample.tangent, next_tangent, chord_to(here, next_offset), yarn.twist);
+        turn = frame_step(yarn.frame, here.sample.tangent, next_tangent, chord_to(here, next_offset), yarn.twist);
     }
     turn_sums[lane] = turn;
     workgroupBarrier();

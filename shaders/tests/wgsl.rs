@@ -113,7 +113,7 @@ fn tables_lie_as_in_rust() {
             &module,
             Block { yarn, first_ring, rings, quads, first_point, chunk_ring, first_vertex, first_index }
         );
-        same_layout!(&module, YarnRow { rings, first_block, section, closed, twist });
+        same_layout!(&module, YarnRow { rings, first_block, section, closed, twist, frame });
         same_layout!(
             &module,
             CapRow { yarn, end, first_point, ring_vertex, first_vertex, first_index, first_corner, padding }
@@ -127,7 +127,7 @@ fn tables_lie_as_in_rust() {
                 yarns,
                 sides,
                 subdivisions,
-                frame,
+                padding,
                 indexed,
                 rolled,
                 s,

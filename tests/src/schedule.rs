@@ -14,7 +14,8 @@ pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
     device.schedule == Schedule::PerYarn
         && (settings.frame != Frame::Upright
             || settings.caps
-            || yarns.layout().yarns().iter().any(|yarn| yarn.closed || yarn.twist != 0.0))
+            || yarns.layout().yarns().iter().any(|yarn| yarn.closed || yarn.twist != 0.0)
+            || (0..yarns.layout().yarns().len()).any(|yarn| yarns.layout().is_steep(yarn)))
 }
 
 /// All devices of [`REGISTRY`] on this machine that must do `yarns` under `settings`.

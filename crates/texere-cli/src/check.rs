@@ -6,7 +6,7 @@ use serde::Serialize;
 use texere::{Cure, Design, Diagnosis, FabricError, Faults, Pieces, Settings, Structure};
 
 use crate::args::CheckArgs;
-use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, place};
+use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, DrawnReport, place};
 use crate::cures::{CureReport, gives_room, phrase};
 use crate::fail::Fail;
 use crate::measures::Sets;
@@ -23,6 +23,7 @@ struct Report {
     touching: f64,
     #[serde(flatten)]
     faults: FaultsReport,
+    drawn: DrawnReport,
     /// Of woven cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     setts: Option<Sets<SettReport>>,
@@ -62,6 +63,8 @@ struct FaultsReport {
     folds: Option<CurvatureReport>,
     jams: Option<Jams>,
     apart: Option<Apart>,
+    wrung: Option<DrawnReport>,
+    inside_out: Option<DrawnReport>,
 }
 
 /// A cloth that does not hang together.
@@ -138,15 +141,20 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let unknittable = machine.as_ref().is_some_and(|machine| !machine.errors.is_empty());
     let said: Vec<_> = pierced.into_iter().chain(unknittable.then(|| "can't be knitted".into())).collect();
     let faulty = (!said.is_empty()).then(|| said.join(", "));
-    let cures = match &faulty {
+    let mut cures = match &faulty {
         Some(_) => cures(&design.structure, &diagnosis, settled)?,
         None => Vec::new(),
     };
+    if diagnosis.faults.wrung.is_some() || diagnosis.faults.inside_out.is_some() {
+        let finer = texere::finer(&yarns, &settings)?;
+        cures.extend(finer.map(|(subdivisions, _)| CureReport::finer(subdivisions, &diagnosis)));
+    }
     let report = Report {
         name: design.name,
         clean: faulty.is_none(),
         touching: diagnosis.touching,
         faults: FaultsReport::from(&diagnosis.faults),
+        drawn: DrawnReport::from(&diagnosis.clearance.drawn),
         setts: design.structure.woven().map(|woven| setts(woven.cloth())),
         machine,
         empty_needles,
@@ -206,6 +214,8 @@ impl From<&Faults> for FaultsReport {
                 loose_yarns: pieces.loose_listed.iter().map(ToString::to_string).collect(),
                 said: pieces.to_string(),
             }),
+            wrung: faults.wrung.as_ref().map(DrawnReport::from),
+            inside_out: faults.inside_out.as_ref().map(DrawnReport::from),
         }
     }
 }
@@ -213,7 +223,9 @@ impl From<&Faults> for FaultsReport {
 impl FaultsReport {
     /// Whether there is none that other spacings or yarns could cure.
     fn is_none(&self) -> bool {
-        self.crowded.is_none() && self.pierces.is_none() && self.folds.is_none() && self.jams.is_none()
+        let Self { crowded, pierces, folds, jams, apart: _, wrung, inside_out } = self;
+        let drawn = wrung.is_none() && inside_out.is_none();
+        crowded.is_none() && pierces.is_none() && folds.is_none() && jams.is_none() && drawn
     }
 }
 
@@ -233,6 +245,7 @@ impl Report {
         }
         line("clearance", clearance.to_string());
         line("bends", curvature.to_string());
+        line("drawn", self.drawn.narrowest());
         if let Some(crowded) = &self.faults.crowded {
             line("crowded", crowded.to_string());
         }
@@ -247,6 +260,12 @@ impl Report {
         }
         if let Some(folds) = &self.faults.folds {
             line("folds", format!("a bend of {:.3} yarn radii is tighter than the tube is thick", folds.min));
+        }
+        if let Some(wrung) = &self.faults.wrung {
+            line("wrung", format!("neighbouring rings turn against one another: {}", wrung.narrowest()));
+        }
+        if let Some(turned) = &self.faults.inside_out {
+            line("inside out", turned.turned());
         }
         for (sett, said) in self.setts.iter().flat_map(Sets::lines) {
             line(sett, said);
@@ -278,7 +297,10 @@ impl Report {
         }
         if self.clean {
             let jam = if self.has_settled() { "" } else { ", no jam" };
-            line("clean", format!("nothing nearer than {} of touching, no fold{jam}", self.touching));
+            line(
+                "clean",
+                format!("nothing nearer than {} of touching, no fold{jam}, nothing wrung", self.touching),
+            );
         } else if self.faults.is_none() {
             // No other spacing or yarn makes a program one that a machine can knit, or binds cloth that falls apart.
         } else if self.has_settled() && self.setts.is_none() {

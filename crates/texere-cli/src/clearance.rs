@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 use texere::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, ClothClearance, ThreadBend, ThreadContact,
-    ThreadCrowd, ThreadPlace,
+    ThreadCrowd, ThreadDrawn, ThreadPlace,
 };
 
 /// How near yarns come to one another.
@@ -19,6 +19,26 @@ pub(crate) struct ClearanceReport {
     pub(crate) worst: Vec<ContactReport>,
     histogram: Histogram,
     pub(crate) crowd: Option<CrowdReport>,
+    pub(crate) drawn: DrawnReport,
+}
+
+/// How the usual mesh comes out between neighbouring rings.
+#[derive(Debug, Serialize)]
+pub(crate) struct DrawnReport {
+    /// The least width of a tube half way between two rings, in radii.
+    pub(crate) width: f64,
+    width_at: Option<DrawnPlace>,
+    /// Triangles that face inwards.
+    pub(crate) inwards: u64,
+    inwards_at: Option<DrawnPlace>,
+}
+
+/// Where that is.
+#[derive(Debug, Serialize)]
+struct DrawnPlace {
+    yarn: String,
+    place_mm: [f64; 3],
+    crossing: Option<Crossing>,
 }
 
 /// Yarns that lie in one another many times over, or too many of them together: they are not measured pair by pair.
@@ -87,7 +107,22 @@ impl From<&ClothClearance> for ClearanceReport {
             worst: found.worst.iter().map(ContactReport::from).collect(),
             histogram: Histogram { bin: CLEARANCE_BIN, counts: found.histogram.clone() },
             crowd: found.crowd.as_ref().map(CrowdReport::from),
+            drawn: DrawnReport::from(&found.drawn),
         }
+    }
+}
+
+impl From<&ThreadDrawn> for DrawnReport {
+    fn from(drawn: &ThreadDrawn) -> Self {
+        let at = |place: Option<ThreadPlace>| {
+            place.map(|place| DrawnPlace {
+                yarn: place.thread.to_string(),
+                place_mm: place.position_mm,
+                crossing: Crossing::of(&place),
+            })
+        };
+        let ThreadDrawn { width, inwards, .. } = *drawn;
+        Self { width, width_at: at(drawn.width_at), inwards, inwards_at: at(drawn.inwards_at) }
     }
 }
 
@@ -158,6 +193,26 @@ impl fmt::Display for CrowdReport {
             write!(f, " and {pitch:.4} mm from the one before")?;
         }
         write!(f, ", at {}", place(self.place_mm))
+    }
+}
+
+impl DrawnReport {
+    /// Where it is narrowest: `0.149 yarn radii half way between two rings: course 3 at x 3.250, y 1.000, z -0.125 mm`.
+    pub(crate) fn narrowest(&self) -> String {
+        let width = format!("{:.3} yarn radii half way between two rings", self.width);
+        self.width_at.as_ref().map_or(width.clone(), |at| format!("{width}: {at}"))
+    }
+
+    /// How many triangles face inwards, and where the first is.
+    pub(crate) fn turned(&self) -> String {
+        let count = format!("{} triangles face inwards", self.inwards);
+        self.inwards_at.as_ref().map_or(count.clone(), |at| format!("{count}, the first on {at}"))
+    }
+}
+
+impl fmt::Display for DrawnPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} at {}", self.yarn, place(self.place_mm))
     }
 }
 

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use serde::Serialize;
-use texere::{Cure, FaultKind, JamReport, Relief, Remedy, Shape};
+use texere::{Cure, Diagnosis, FaultKind, JamReport, Relief, Remedy, Shape};
 
 /// Spacings and diameters that a design file may have, mm.
 const LENGTHS_MM: RangeInclusive<f64> = 0.001..=1000.0;
@@ -37,6 +37,23 @@ impl CureReport {
             curvature: cure.curvature,
             leaves: phrase(&cure.leaves),
         })
+    }
+}
+
+impl CureReport {
+    /// More rings, for a mesh that is wrung or inside out: an option of the commands that draw, and no key of a design file.
+    pub(crate) fn finer(subdivisions: u32, diagnosis: &Diagnosis) -> Self {
+        let drawn = [FaultKind::Wrung, FaultKind::InsideOut];
+        let mut leaves = diagnosis.faults.kinds();
+        leaves.retain(|kind| !drawn.contains(kind));
+        Self {
+            key: "--subdivisions",
+            value: subdivisions.to_string(),
+            effect: "rings closer together in meshes and pictures".into(),
+            clearance: diagnosis.clearance.min,
+            curvature: diagnosis.clearance.bend.radii,
+            leaves: phrase(&leaves),
+        }
     }
 }
 

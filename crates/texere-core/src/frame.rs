@@ -8,7 +8,8 @@ use crate::{NO_LENGTH, Turn, atan2_turns};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Frame {
     /// The section's side lies level (at right angles to z), its up points out of the fabric: right for flat yarns in
-    /// cloth. It is the paper's equation 7 turned by half a turn. It flips where a yarn passes through the vertical.
+    /// cloth. It is the paper's equation 7 turned by half a turn. It would flip where a yarn passes through the vertical, so a yarn that is
+    /// [steep](crate::Layout::is_steep) anywhere is carried along instead.
     #[default]
     Upright,
     /// The section is carried along without turning about the yarn: no twist of its own, no flip where the tangent
@@ -81,6 +82,14 @@ impl Frame {
             Self::RotationMinimizing => transport_turns(tangent, next_tangent, chord),
         };
         Turn::from_turns(turns + turns_per_mm * chord.length_squared().sqrt())
+    }
+
+    /// The frame of a yarn that is [steep](crate::Layout::is_steep), or that is not: where upright frames would wring it, it is carried
+    /// along instead.
+    #[must_use]
+    #[inline]
+    pub const fn of(self, steep: bool) -> Self {
+        if steep { Self::RotationMinimizing } else { self }
     }
 
     /// Whether every roll of a yarn of that twist, in whatever unit, is zero, so that there is nothing to scan.

@@ -41,6 +41,7 @@ mod section;
 mod session;
 pub mod settling;
 mod spline;
+mod steep;
 mod topology;
 mod turn;
 mod vertex;
@@ -81,6 +82,7 @@ pub use spline::{
     ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment,
     ZERO_VELOCITY,
 };
+pub use steep::UPRIGHT_TURN;
 pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};
 pub use vertex::Vertex;

@@ -4,11 +4,14 @@ use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
+use crate::steep::is_steep;
 use crate::yarns::check_points;
 use crate::{
-    Backend, BackendError, Chunk, ControlPoint, Limits, Part, Plan, SessionError, Topology, Traffic, Vertex,
-    Yarn,
+    Backend, BackendError, Chunk, ControlPoint, Limits, PaddedPoints, Part, Plan, SessionError, Topology,
+    Traffic, Vertex, Yarn,
 };
 
 /// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and made again.
@@ -42,6 +45,8 @@ use crate::{
 pub struct LiveMesh<E: Engine + ?Sized = dyn Engine> {
     plan: Arc<Plan>,
     chunks: Vec<Chunk>,
+    /// All control points, for whether a yarn is steep depends on those beside the ones that are sent.
+    points: PaddedPoints,
     /// Rings that are to be made again, yarn by yarn.
     stale: BTreeMap<usize, Range<u32>>,
     /// Whether attributes are made, too.
@@ -96,6 +101,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         let all = (0..plan.layout().yarns().len()).map(|yarn| (yarn, 0..plan.rings(yarn)));
         Ok(Self {
             stale: all.collect(),
+            points: PaddedPoints::new(&plan)?,
             plan,
             chunks,
             attributes: false,
@@ -159,6 +165,17 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
             let [_, sent] = self.plan.layout().points_of(yarn, &(first..end));
             check_points(yarn, &points[sent])?;
         }
+        self.points.upload(&self.plan, first, points);
+        let (plan, padded) = (&self.plan, &self.points);
+        let steep: Vec<_> =
+            yarns.clone().into_par_iter().map(|yarn| runs_steeply(plan, padded, yarn)).collect();
+        for (yarn, steep) in yarns.clone().zip(steep) {
+            if steep != self.plan.layout().is_steep(yarn) {
+                let own = &self.plan.layout().offsets()[yarn..yarn + 2];
+                self.replan(yarn, self.plan.edited_to(yarn, *self.plan.yarn(yarn), own[1] - own[0], steep)?)?;
+                self.note(yarn, 0..self.plan.rings(yarn));
+            }
+        }
         for yarn in yarns {
             let [own, _] = self.plan.layout().points_of(yarn, &(first..end));
             self.note(yarn, self.rings_of(yarn, &own));
@@ -177,17 +194,26 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
             return Err(SessionError::NoYarn { yarn, yarns });
         }
         check_points(yarn, points)?;
-        let plan = self.plan.edited(yarn, what, points.len() as u64)?;
+        let steep = points.len() as u64 >= what.points_least() && is_steep(points, what.closed);
+        let plan = self.plan.edited_to(yarn, what, points.len() as u64, steep)?;
         if *plan.layout() != *self.plan.layout() {
-            let plan = Arc::new(plan);
-            self.engine.replan(plan.clone(), yarn..yarn + 1)?;
-            self.plan = plan;
-            for number in self.chunks_of(yarn) {
-                self.chunks[number] = self.plan.recut(&self.chunks[number]);
-            }
+            self.replan(yarn, plan)?;
         }
         self.note(yarn, 0..self.plan.rings(yarn));
-        self.traffic.uploaded += self.engine.upload(self.plan.layout().offsets()[yarn], points)?;
+        let first = self.plan.layout().offsets()[yarn];
+        self.points.upload(&self.plan, first, points);
+        self.traffic.uploaded += self.engine.upload(first, points)?;
+        Ok(())
+    }
+
+    /// Takes a plan that differs from the present one in `yarn`.
+    fn replan(&mut self, yarn: usize, plan: Plan) -> Result<(), SessionError> {
+        let plan = Arc::new(plan);
+        self.engine.replan(plan.clone(), yarn..yarn + 1)?;
+        self.plan = plan;
+        for number in self.chunks_of(yarn) {
+            self.chunks[number] = self.plan.recut(&self.chunks[number]);
+        }
         Ok(())
     }
 
@@ -376,6 +402,13 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
             caps: before(first.yarn)..before(last.yarn + 1),
         }
     }
+}
+
+/// Whether `yarn` is steep with the control points that it has now.
+fn runs_steeply(plan: &Plan, points: &PaddedPoints, yarn: usize) -> bool {
+    let offsets = plan.layout().offsets();
+    let count = (offsets[yarn + 1] - offsets[yarn]) as usize;
+    is_steep(&points.yarn(plan, yarn)[1..=count], plan.yarn(yarn).closed)
 }
 
 const _: () = {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use crate::steep::is_steep;
 use crate::{
     COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section, YarnError,
 };
@@ -78,6 +79,8 @@ pub struct Layout {
     offsets: Vec<u64>,
     yarns: Vec<Yarn>,
     sections: Vec<Section>,
+    /// Which yarns run too steeply for upright frames.
+    steep: Vec<bool>,
 }
 
 impl Layout {
@@ -119,13 +122,15 @@ impl Layout {
                 return Err(YarnError::Twist { yarn: index, twist: yarn.twist, limit: TWIST_LIMIT });
             }
         }
-        Ok(Self { offsets, yarns, sections })
+        let steep = vec![false; yarns.len()];
+        Ok(Self { offsets, yarns, sections, steep })
     }
 
-    /// The same but that yarn number `yarn` is `what`, of `points` control points.
-    pub(crate) fn edited(&self, yarn: usize, what: Yarn, points: u64) -> Self {
+    /// The same but that yarn number `yarn` is `what`, of `points` control points, and whether it is steep.
+    pub(crate) fn edited(&self, yarn: usize, what: Yarn, points: u64, steep: bool) -> Self {
         let mut layout = self.clone();
         layout.yarns[yarn] = what;
+        layout.steep[yarn] = steep;
         let before = self.offsets[yarn + 1] - self.offsets[yarn];
         for offset in &mut layout.offsets[yarn + 1..] {
             *offset = *offset - before + points;
@@ -173,6 +178,15 @@ impl Layout {
         &self.sections
     }
 
+    /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more than [`UPRIGHT_TURN`](crate::UPRIGHT_TURN)
+    /// within a control interval. [`Yarns::new`] finds it out; a layout without control points has no steep yarns.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn is_steep(&self, yarn: usize) -> bool {
+        self.steep[yarn]
+    }
+
     /// Control points of all yarns together.
     #[must_use]
     pub fn point_count(&self) -> u64 {
@@ -213,7 +227,7 @@ impl Yarns {
     /// **Errors**: [`YarnError`] for a wrong number of points or materials, a hairiness outside \[0, [`HAIRINESS_LIMIT`]\], and for the first control point that is not
     /// finite, lies beyond [`COORDINATE_LIMIT`], or whose half width or half height is outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\].
     pub fn new(
-        layout: Layout,
+        mut layout: Layout,
         materials: Vec<Material>,
         points: Vec<ControlPoint>,
     ) -> Result<Self, YarnError> {
@@ -221,12 +235,14 @@ impl Yarns {
             return Err(YarnError::PointCount { points: points.len() as u64, planned: layout.point_count() });
         }
         check_materials(&layout, &materials)?;
-        let unsound = layout.offsets.par_windows(2).enumerate().find_map_first(|(yarn, bounds)| {
-            check_points(yarn, &points[bounds[0] as usize..bounds[1] as usize]).err()
+        let yarns = layout.offsets.par_windows(2).zip(&layout.yarns).enumerate();
+        let steep = yarns.map(|(number, (bounds, yarn))| {
+            let own = &points[bounds[0] as usize..bounds[1] as usize];
+            check_points(number, own).map(|()| is_steep(own, yarn.closed))
         });
-        if let Some(unsound) = unsound {
-            return Err(unsound);
-        }
+        // Of several errors the first counts.
+        let steep: Vec<_> = steep.collect();
+        layout.steep = steep.into_iter().collect::<Result<_, _>>()?;
         Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, sources: None })
     }
 
@@ -289,6 +305,10 @@ impl Yarns {
             return Err(YarnError::PointCount { points: points.len() as u64, planned: range.len() as u64 });
         }
         check_points(yarn, points)?;
+        let steep = is_steep(points, self.layout.yarns[yarn].closed);
+        if steep != self.layout.steep[yarn] {
+            Arc::make_mut(&mut self.layout).steep[yarn] = steep;
+        }
         self.points[range].copy_from_slice(points);
         Ok(())
     }

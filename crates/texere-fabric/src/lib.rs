@@ -34,6 +34,7 @@
 
 mod clearance;
 mod diagnosis;
+mod drawn;
 mod error;
 mod grid;
 mod hyphen;
@@ -59,8 +60,9 @@ pub use clearance::{
 };
 pub use diagnosis::{
     ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
-    StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
+    StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };
+pub use drawn::{Drawn, WRUNG, drawn, finer};
 pub use error::FabricError;
 pub use hyphen::look_alike as hyphen_look_alike;
 pub use length::{length_mm, lengths_mm};

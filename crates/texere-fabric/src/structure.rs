@@ -9,7 +9,7 @@ use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
     FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, Stretch, WovenDesign,
-    YarnPlace, clearance_with_progress,
+    YarnPlace,
 };
 
 /// How the yarns of a fabric interlace. There are methods for what can be asked of any kind.
@@ -244,7 +244,7 @@ impl Structure {
     /// How near yarns come to one another and how tightly they bend, at places that a designer can find: see
     /// [`Woven::clearance`](crate::Woven::clearance).
     ///
-    /// **Errors**: those of [`clearance_with_progress`].
+    /// **Errors**: those of [`clearance_with_progress`](crate::clearance_with_progress).
     pub fn clearance(
         &self,
         yarns: &Yarns,
@@ -253,10 +253,7 @@ impl Structure {
     ) -> Result<ClothClearance, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().clearance(yarns, settings, progress),
-            Self::Weft(_) | Self::Warp(_) => {
-                let found = clearance_with_progress(yarns, settings, progress)?;
-                Ok(ClothClearance::named(found, yarns))
-            }
+            Self::Weft(_) | Self::Warp(_) => ClothClearance::of(yarns, settings, progress),
         }
     }
 

@@ -60,6 +60,7 @@ fn left_out_per_yarn(plan: &Plan) -> Option<String> {
         return Some("caps".into());
     }
     plan.layout().yarns().iter().enumerate().find_map(|(number, yarn)| match yarn {
+        _ if plan.layout().is_steep(number) => Some(format!("steep yarns, such as yarn {number}")),
         _ if yarn.closed => Some(format!("closed yarns, such as yarn {number}")),
         _ if yarn.twist != 0.0 => Some(format!("twist, such as that of yarn {number}")),
         _ => None,

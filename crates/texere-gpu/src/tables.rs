@@ -8,7 +8,7 @@ use texere_core::{BLOCK_RINGS, Block, Cap, Chunk, End, Plan, RINGS_MAX, Topology
 
 /// A yarn as kernels see it.
 ///
-/// **Shape**: five 4-byte values, 20 bytes, 20-byte stride.
+/// **Shape**: six 4-byte values, 24 bytes, 24-byte stride.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct YarnRow {
@@ -22,9 +22,11 @@ pub struct YarnRow {
     pub closed: u32,
     /// Its twist, turns per mm.
     pub twist: f32,
+    /// 0 upright, 1 rotation minimising.
+    pub frame: u32,
 }
 
-const _: () = assert!(size_of::<YarnRow>() == 20 && std::mem::offset_of!(YarnRow, twist) == 16);
+const _: () = assert!(size_of::<YarnRow>() == 24 && std::mem::offset_of!(YarnRow, twist) == 16);
 
 /// A cap as kernels see it.
 ///
@@ -70,8 +72,8 @@ pub struct Params {
     pub sides: u32,
     /// Points inserted between two control points.
     pub subdivisions: u32,
-    /// 0 upright, 1 rotation minimising.
-    pub frame: u32,
+    /// Unused, 0: keeps the row a multiple of 16 bytes.
+    pub padding: u32,
     /// 1 where indices are written, else 0.
     pub indexed: u32,
     /// 1 where rolls have been scanned, else 0: every roll is zero then.
@@ -104,6 +106,7 @@ impl YarnRow {
             section: plan.yarn(yarn).section,
             closed: plan.yarn(yarn).closed.into(),
             twist: plan.turns_per_mm(yarn),
+            frame: plan.frame(yarn) as u32,
         };
         yarns.map(row).collect()
     }
@@ -152,7 +155,7 @@ impl Params {
             yarns: plan.layout().yarns().len() as u32,
             sides: settings.sides,
             subdivisions: settings.subdivisions,
-            frame: settings.frame as u32,
+            padding: 0,
             indexed: (settings.topology == Topology::Indexed).into(),
             rolled: plan.needs_scan().into(),
             s: plan.sampling().s(),

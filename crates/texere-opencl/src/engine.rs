@@ -237,6 +237,7 @@ impl Engine for OpenClEngine {
         // In the queue of the kernels, so that those before still read the rows before.
         let rows = YarnRow::of(&plan, yarns);
         self.tables.yarns.write(&self.opened, &self.opened.queue, first as u64, &rows, None)?;
+        self.tables.reserve_rolls(&self.opened, &plan)?;
         self.plan = plan;
         Ok(())
     }

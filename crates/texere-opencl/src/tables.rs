@@ -30,18 +30,28 @@ impl Tables {
         if bytes > limits.binding_bytes || points > u64::from(u32::MAX) {
             return Err(BackendError::OutOfMemory { what, bytes });
         }
-        let (blocks, yarns) =
-            if plan.needs_scan() { (plan.block_count(), plan.counts().yarns) } else { (0, 0) };
-        Ok(Self {
+        let mut tables = Self {
             // Zeros, as on every backend, until they are uploaded.
             points: Buffer::zeroed(opened, what, bytes)?,
             yarns: Buffer::holding(opened, "the yarn table", &YarnRow::all(plan))?,
             outlines: Buffer::holding(opened, "outlines", plan.outlines())?,
             pattern: Buffer::holding(opened, "the index pattern", &index_pattern(plan.settings().sides))?,
             cap_pattern: Buffer::holding(opened, "the caps' index pattern", &cap_pattern(plan))?,
-            rolls: Buffer::new(opened, "rolls", blocks * size_of::<Turn>() as u64)?,
-            yarn_turns: Buffer::new(opened, "whole turns", yarns * size_of::<Turn>() as u64)?,
-        })
+            rolls: Buffer::default(),
+            yarn_turns: Buffer::default(),
+        };
+        tables.reserve_rolls(opened, plan)?;
+        Ok(tables)
+    }
+
+    /// Makes room for rolls where any yarn turns.
+    pub(crate) fn reserve_rolls(&mut self, opened: &Opened, plan: &Plan) -> Result<(), BackendError> {
+        if plan.needs_scan() {
+            let turns = |count: u64| count * size_of::<Turn>() as u64;
+            self.rolls.reserve(opened, "rolls", turns(plan.block_count()))?;
+            self.yarn_turns.reserve(opened, "whole turns", turns(plan.counts().yarns))?;
+        }
+        Ok(())
     }
 
     /// Bytes of all of it.

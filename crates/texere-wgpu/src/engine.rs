@@ -309,6 +309,7 @@ impl Engine for WgpuEngine {
         let first = yarns.start * size_of::<YarnRow>();
         let rows = YarnRow::of(&plan, yarns);
         self.opened.gpu.write(self.tables.yarns.buffer(), first as u64, bytemuck::cast_slice(&rows))?;
+        self.tables.reserve_rolls(&self.opened.gpu, &plan)?;
         self.plan = plan;
         Ok(())
     }

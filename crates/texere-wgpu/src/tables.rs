@@ -34,21 +34,27 @@ impl Tables {
             table.write(gpu, bytes)?;
             Ok::<_, BackendError>(table)
         };
-        let mut rolls = Buffer::new(gpu, "rolls", BufferUsages::STORAGE)?;
-        if plan.needs_scan() {
-            rolls.reserve(gpu, 4 * (plan.layout().yarns().len() as u64 + plan.block_count()))?;
-        }
-        Ok(Self {
+        let mut tables = Self {
             // Read where a part of settled points is edited.
             points: gpu.buffer("control points", plan.resident_bytes(), input | BufferUsages::COPY_SRC)?,
             yarns: table("yarns", bytemuck::cast_slice(&YarnRow::all(plan)))?,
-            rolls,
+            rolls: Buffer::new(gpu, "rolls", BufferUsages::STORAGE)?,
             lengths: Buffer::new(gpu, "lengths along yarns", BufferUsages::STORAGE)?,
             outlines: table("outlines", bytemuck::cast_slice(plan.outlines()))?,
             pattern: table("the index pattern", bytemuck::cast_slice(&index_pattern(plan.settings().sides)))?,
             cap_pattern: table("the cap pattern", bytemuck::cast_slice(&cap_pattern(plan)))?,
             of_yarns: Buffer::new(gpu, "parameters", BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
-        })
+        };
+        tables.reserve_rolls(gpu, plan)?;
+        Ok(tables)
+    }
+
+    /// Makes room for rolls where any yarn turns.
+    pub(crate) fn reserve_rolls(&mut self, gpu: &Gpu, plan: &Plan) -> Result<(), BackendError> {
+        if plan.needs_scan() {
+            self.rolls.reserve(gpu, 4 * (plan.layout().yarns().len() as u64 + plan.block_count()))?;
+        }
+        Ok(())
     }
 
     /// Makes room for the lengths along yarns.

@@ -31,17 +31,30 @@ pub fn design(path: impl AsRef<Path>) -> Design {
     read(folder().join(path)).unwrap()
 }
 
-/// Every design with caps in both frames, and as the paper has it: upright and without caps.
-pub(super) fn each_design() -> Vec<Case> {
+/// The yarns of every design, cut to a few threads, each with the design's name.
+pub fn small_designs() -> impl Iterator<Item = (String, Yarns)> {
+    paths().into_iter().map(|path| (name_of(&path), small(&design(path))))
+}
+
+/// All designs, by their paths in `designs/`.
+fn paths() -> Vec<PathBuf> {
     let mut paths = Vec::new();
     gather(&folder(), Path::new(""), &mut paths);
     paths.sort();
     // Where no design is found the suite must fail: a case for a missing design does.
-    let paths = if paths.is_empty() { vec!["missing.toml".into()] } else { paths };
-    paths
+    if paths.is_empty() { vec!["missing.toml".into()] } else { paths }
+}
+
+fn name_of(path: &Path) -> String {
+    path.with_extension("").to_string_lossy().replace(['/', '\\'], "-")
+}
+
+/// Every design with caps in both frames, and as the paper has it: upright and without caps.
+pub(super) fn each_design() -> Vec<Case> {
+    paths()
         .into_iter()
         .flat_map(|path: PathBuf| {
-            let name = path.with_extension("").to_string_lossy().replace(['/', '\\'], "-");
+            let name = name_of(&path);
             let (capped, bare) = (path.clone(), path);
             let mut cases =
                 Case::framed(format!("design-{name}"), USUAL, move || small(&design(&capped))).to_vec();

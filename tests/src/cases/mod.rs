@@ -6,7 +6,7 @@ mod fabrics;
 mod factors;
 mod shapes;
 
-pub use designs::design;
+pub use designs::{design, small_designs};
 pub use factors::{pairwise, product};
 
 use std::fmt;

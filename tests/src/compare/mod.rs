@@ -142,7 +142,7 @@ fn compare(oracle: &Oracle, expected: &impl Expected, output: &Assembled, report
             let place = RingPlace { yarn: yarn as u64, ring: number as u64, point: None };
             let ring = expected.ring(yarn, number);
             let allowed = Allowance::new(&ring, number);
-            compare_ring(oracle, &ring, &output.rings[at], &allowed, place, report);
+            compare_ring(oracle.yarns[yarn].frame, &ring, &output.rings[at], &allowed, place, report);
             for (point, vertex) in output.vertices[at * sides..(at + 1) * sides].iter().enumerate() {
                 let (place, vertex_expected) =
                     (RingPlace { point: Some(point as u64), ..place }, expected.vertex(yarn, number, point));
@@ -166,7 +166,7 @@ fn is_finite(values: &[f32], place: RingPlace, report: &mut Report) -> bool {
 }
 
 fn compare_ring(
-    oracle: &Oracle,
+    frame: Frame,
     expected: &OracleRing,
     actual: &Ring,
     allowed: &Allowance,
@@ -204,7 +204,7 @@ fn compare_ring(
     // Between two rings near the vertical the upright frame may turn either way round, and so may a roll against it. The
     // direction that the two make together is defined, so that is compared. An upright yarn's roll is compared by itself.
     let roll = turns(actual);
-    let turn = match oracle.settings.frame {
+    let turn = match frame {
         Frame::Upright => (roll - expected.roll) * TAU,
         Frame::RotationMinimizing if allowed.framed => {
             let side = side(tangent, roll);

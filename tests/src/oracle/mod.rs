@@ -78,6 +78,8 @@ pub struct OracleYarn {
     pub section: usize,
     /// Whether its ends join.
     pub closed: bool,
+    /// How its sections are oriented.
+    pub frame: Frame,
     /// A closed yarn's whole turn less the nearest whole number of turns, in \[-1/2, 1/2): near either end, rounding
     /// decides which way round it is spread.
     pub excess: f64,
@@ -131,7 +133,10 @@ impl Oracle {
                 .yarns()
                 .iter()
                 .zip(all_points)
-                .map(|(yarn, points)| follow(yarn, points, settings))
+                .enumerate()
+                .map(|(number, (yarn, points))| {
+                    follow(yarn, points, settings, settings.frame.of(layout.is_steep(number)))
+                })
                 .collect(),
             outlines: layout.sections().iter().map(|section| outline(section, settings.sides)).collect(),
             settings: *settings,
@@ -182,14 +187,14 @@ impl Oracle {
 }
 
 /// All rings of a yarn.
-fn follow(yarn: &Yarn, points: &[ControlPoint], settings: &Settings) -> OracleYarn {
+fn follow(yarn: &Yarn, points: &[ControlPoint], settings: &Settings, frame: Frame) -> OracleYarn {
     let curve = Curve::new(points, yarn.closed, settings);
     let places: Vec<_> = (0..curve.ring_count()).map(|ring| curve.at(ring)).collect();
     let (mut carried, mut turned, mut twisted) = (upright(places[0].tangent).0, 0.0, 0.0);
     let mut rings = Vec::with_capacity(places.len());
     for (number, place) in places.iter().enumerate() {
         let (side, up) = upright(place.tangent);
-        let own = match settings.frame {
+        let own = match frame {
             Frame::Upright => 0.0,
             Frame::RotationMinimizing => carried.dot(up).atan2(carried.dot(side)) / std::f64::consts::TAU,
         };
@@ -220,7 +225,7 @@ fn follow(yarn: &Yarn, points: &[ControlPoint], settings: &Settings) -> OracleYa
         let (sin, cos) = (ring.roll * std::f64::consts::TAU).sin_cos();
         (ring.side, ring.up) = (ring.side * cos + ring.up * sin, ring.up * cos - ring.side * sin);
     }
-    OracleYarn { rings, section: yarn.section as usize, closed: yarn.closed, excess }
+    OracleYarn { rings, section: yarn.section as usize, closed: yarn.closed, frame, excess }
 }
 
 /// Notes the twist of each control interval, from its first ring to the next one's, at all of its rings.

@@ -72,7 +72,7 @@ impl Engine for HostEngine {
             for ring in 1..=last {
                 let next = self.sample(yarn, ring as u32);
                 let (from, to, chord) = (here.sample.tangent, next.sample.tangent, here.chord_to(&next));
-                rolls[ring] = rolls[ring - 1] + plan.settings().frame.step(from, to, chord, twist);
+                rolls[ring] = rolls[ring - 1] + plan.frame(yarn).step(from, to, chord, twist);
                 here = next;
             }
             let whole = if plan.yarn(yarn).closed { std::mem::take(&mut rolls[last]) } else { Turn::ZERO };

@@ -18,7 +18,8 @@ pub(crate) struct SettingsArgs {
     /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT, power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
-    /// Which way round sections stand along the yarn
+    /// Which way round sections stand along the yarn: upright, or carried along without turning; yarns too steep to stand upright, as
+    /// those of knits are, are carried along in either case
     #[arg(long, value_enum, default_value_t = FrameArg::Upright)]
     frame: FrameArg,
     /// How triangles are encoded in memory, which decides the bytes that `inspect` states; files hold the same triangles

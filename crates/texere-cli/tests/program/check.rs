@@ -228,3 +228,55 @@ fn knits_that_fall_apart_are_named_as_woven_cloth_is() {
         assert!(stderr(&texere(&["check", path.to_str().unwrap()])).contains("falls apart"));
     }
 }
+
+/// A hard twist turns rings so far that the tube between them is wrung; with more rings it is not. 2,000 turns a metre are four
+/// turns from pick to pick, and the usual mesh has ten rings there.
+#[test]
+fn a_mesh_that_twist_wrings_is_told_with_the_subdivisions_that_cure_it() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("crepe.toml");
+    let cloth = |twist: f64| {
+        format!(
+            "[weave]\nnotation = \"plain\"\nends = 6\npicks = 6\n[finish]\nsettle = false\n[yarns.a]\ndiameter_mm = 0.2\n\
+             twist_per_m = {twist}\n[warp]\nyarns = [\"a\"]\nspacing_mm = 2.0\n[weft]\nyarns = [\"a\"]\nspacing_mm = 2.0\n"
+        )
+    };
+    std::fs::write(&path, cloth(0.0)).unwrap();
+    let (code, report) = check(&path, &[]);
+    assert_eq!((code, &report["wrung"], &report["inside_out"]), (0, &Value::Null, &Value::Null));
+    assert!(report["drawn"]["width"].as_f64().unwrap() > 0.999);
+
+    std::fs::write(&path, cloth(2000.0)).unwrap();
+    let (code, report) = check(&path, &[]);
+    assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)));
+    assert!(report["wrung"]["width"].as_f64().unwrap() < 0.5);
+    assert_eq!(report["wrung"]["width_at"]["place_mm"].as_array().map(Vec::len), Some(3));
+    let finer = cure(&report, "--subdivisions").expect("a cure");
+    let subdivisions: f64 = finer["value"].as_str().unwrap().parse().unwrap();
+    assert!((3.0..=31.0).contains(&subdivisions), "{finer}");
+    let said = texere(&["check", path.to_str().unwrap()]);
+    assert!(stdout(&said).contains("wrung") && stderr(&said).contains("is wrung"), "{}", stderr(&said));
+}
+
+/// Knits have tubes that are as wide between rings as on them, as they are drawn where nothing is said, and in either frame.
+#[test]
+fn steep_yarns_are_not_wrung_and_equal_in_either_frame() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("tricot.toml");
+    let tricot = "[warp_knit]\nwales = 4\ncourses = 4\nwales_per_cm = 10.0\ncourses_per_cm = 13.333\n\
+                  [[warp_knit.bars]]\nlapping = \"1-0/1-2//\"\n[yarns.white]\ndiameter_mm = 0.1\n";
+    std::fs::write(&path, tricot).unwrap();
+    let (_, report) = check(&path, &[]);
+    assert_eq!((&report["wrung"], &report["inside_out"]), (&Value::Null, &Value::Null), "{report}");
+    assert!(report["drawn"]["width"].as_f64().unwrap() > 0.97, "{report}");
+    let mesh = |frame: &[&str], name: &str| {
+        let out = folder.path().join(name);
+        let own = ["mesh", path.to_str().unwrap(), "-o", out.to_str().unwrap(), "--device", "cpu"];
+        let made = texere(&[&own, frame].concat());
+        assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+        std::fs::read(out).unwrap()
+    };
+    let usual = mesh(&[], "usual.ply");
+    assert!(usual == mesh(&["--frame", "upright"], "upright.ply"));
+    assert!(usual == mesh(&["--frame", "rotation-minimizing"], "minimizing.ply"));
+}

@@ -141,7 +141,7 @@ impl Plan {
             outline.iter().map(|point| reach(point.x, point.y)).fold(0.0f32, f32::max)
         };
         let any = most(f32::hypot);
-        let turns = !self.settings().frame.is_level(self.yarn(yarn).twist);
+        let turns = self.turns(yarn);
         [any, if turns { any } else { most(|_, y| y.abs()) }]
     }
 

@@ -155,7 +155,7 @@ impl Plan {
         let mut plan = Self {
             id: PlanId::next(),
             runs: std::iter::once(0..blocks).collect(),
-            needs_scan: layout.yarns().iter().any(|yarn| !settings.frame.is_level(yarn.twist)),
+            needs_scan: false,
             layout,
             settings,
             sampling,
@@ -167,6 +167,7 @@ impl Plan {
         plan.cap_triangles =
             (0..plan.layout.sections().len()).map(|section| triangulate(plan.outline(section))).collect();
         plan.counts = plan.count();
+        plan.needs_scan = (0..plan.layout.yarns().len()).any(|yarn| plan.turns(yarn));
         Ok(plan)
     }
 
@@ -179,6 +180,17 @@ impl Plan {
     ///
     /// **Panics** past the last yarn.
     pub fn edited(&self, yarn: usize, what: Yarn, points: u64) -> Result<Self, PlanError> {
+        self.edited_to(yarn, what, points, self.layout.is_steep(yarn))
+    }
+
+    /// The same for a yarn that is [steep](Layout::is_steep) or not.
+    pub(crate) fn edited_to(
+        &self,
+        yarn: usize,
+        what: Yarn,
+        points: u64,
+        steep: bool,
+    ) -> Result<Self, PlanError> {
         let before = self.yarn(yarn);
         let room = self.offsets.room(yarn, before.closed);
         if points > room {
@@ -199,8 +211,10 @@ impl Plan {
             }
         }
         let mut plan = self.clone();
-        plan.layout = Arc::new(self.layout.edited(yarn, what, points));
+        plan.layout = Arc::new(self.layout.edited(yarn, what, points, steep));
         plan.counts = plan.count();
+        // A yarn that has become steep turns where none did.
+        plan.needs_scan |= steep;
         Ok(plan)
     }
 
@@ -307,6 +321,22 @@ impl Plan {
         (f64::from(self.yarn(yarn).twist) / std::f64::consts::TAU) as f32
     }
 
+    /// How the sections of `yarn` are oriented: as the settings say, but where the yarn is [steep](Layout::is_steep).
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn frame(&self, yarn: usize) -> Frame {
+        self.settings.frame.of(self.layout.is_steep(yarn))
+    }
+
+    /// Whether any roll of `yarn` may be other than zero, so that its rolls are scanned.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn turns(&self, yarn: usize) -> bool {
+        !self.frame(yarn).is_level(self.yarn(yarn).twist)
+    }
+
     /// All outlines, section after section, `sides` points each.
     #[must_use]
     pub fn outlines(&self) -> &[SectionPoint] {
@@ -330,7 +360,7 @@ impl Plan {
         &self.cap_triangles[section]
     }
 
-    /// Whether any yarn needs its rolls scanned; of an [edited](Plan::edited) plan, whether any of the first one's did.
+    /// Whether any yarn needs its rolls scanned; of an [edited](Plan::edited) plan, whether any of the first one's or any since did.
     #[must_use]
     pub const fn needs_scan(&self) -> bool {
         self.needs_scan

@@ -153,7 +153,7 @@ impl<'a> Maker<'a> {
     fn rings<S: Simd, const FLATTENED: bool>(&self, simd: S, blocks: &[Block], sink: &mut impl Sink) {
         let (Work { plan, rolls, .. }, stretch) = (self.work, Stretch::of(blocks));
         let mut walk = Walk::<S, FLATTENED>::new(simd, self.source(), stretch);
-        let rolled = !plan.settings().frame.is_level(plan.turns_per_mm(stretch.yarn));
+        let rolled = plan.turns(stretch.yarn);
         let number = block_number(plan, &blocks[0]);
         while let count @ 1.. = walk.left() {
             let (done, mut rings, mut roll) = (walk.done, walk.next(), simd.splat_integer(0));

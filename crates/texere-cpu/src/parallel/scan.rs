@@ -95,7 +95,7 @@ impl Job for ScanRun<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Self { source, run: Run { yarn, first_ring, mut blocks, mut rings } } = self;
         let of_yarn = source.plan.rings(yarn);
-        let (frame, twist) = (source.plan.settings().frame, source.plan.turns_per_mm(yarn));
+        let (frame, twist) = (source.plan.frame(yarn), source.plan.turns_per_mm(yarn));
         // Of so many rings from there on: one more than the blocks' own, unless the yarn ends, since the step to that one is
         // the last block's.
         let stretch =

@@ -32,7 +32,7 @@ impl<S: Simd> Steps<S> {
         let twist = source.plan.turns_per_mm(yarn);
         Self {
             simd,
-            minimizing: source.plan.settings().frame == Frame::RotationMinimizing,
+            minimizing: source.plan.frame(yarn) == Frame::RotationMinimizing,
             twist: (twist != 0.0).then(|| simd.splat(twist)),
             before: None,
         }

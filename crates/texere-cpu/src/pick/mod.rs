@@ -208,9 +208,12 @@ impl Picker {
             return Err(PickError::PointCount { points: points.len() as u64, planned });
         }
         check_points(yarn, points)?;
+        let scans_already = self.plan().needs_scan();
         let Work { points: padded, rolls, .. } = &mut self.work;
         padded.upload(&plan, first, points);
-        if plan.needs_scan() {
+        if plan.needs_scan() && !scans_already {
+            *rolls = scanned(&plan, padded)?;
+        } else if plan.needs_scan() {
             let at_block = &mut rolls.at_block[plan.block_offsets()[yarn] as usize..];
             rolls.whole[yarn] = scan_yarn(&plan, padded, yarn, at_block);
         }

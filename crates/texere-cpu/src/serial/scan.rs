@@ -25,7 +25,7 @@ pub(super) fn scan(
 /// The whole turn of `yarn`; its rolls at block starts go into `at_block`.
 pub(crate) fn scan_yarn(plan: &Plan, points: &PaddedPoints, yarn: usize, at_block: &mut [Turn]) -> Turn {
     let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
-    let twist = plan.turns_per_mm(yarn);
+    let (frame, twist) = (plan.frame(yarn), plan.turns_per_mm(yarn));
     let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
 
     let mut roll = Turn::ZERO;
@@ -37,7 +37,7 @@ pub(crate) fn scan_yarn(plan: &Plan, points: &PaddedPoints, yarn: usize, at_bloc
         if ring + 1 < rings {
             let next = at(ring + 1);
             let chord = here.chord_to(&next);
-            roll = roll + plan.settings().frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
+            roll = roll + frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
             here = next;
         }
     }

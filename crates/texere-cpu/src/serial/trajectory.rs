@@ -17,7 +17,7 @@ pub(crate) fn rings(work: &Work, yarn: usize, first_ring: u32, out: &mut [Ring])
     let (padded, rings, closed) = (work.points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
     let twist = plan.turns_per_mm(yarn);
     let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
-    let level = plan.settings().frame.is_level(twist);
+    let (frame, level) = (plan.frame(yarn), !plan.turns(yarn));
 
     let mut roll = work.rolls.at_block(plan.block_offsets()[yarn] + u64::from(first_ring / BLOCK_RINGS));
     let mut here = at(first_ring);
@@ -29,8 +29,7 @@ pub(crate) fn rings(work: &Work, yarn: usize, first_ring: u32, out: &mut [Ring])
             let next = at(ring + 1);
             if !level {
                 let chord = here.chord_to(&next);
-                roll =
-                    roll + plan.settings().frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
+                roll = roll + frame.step(here.sample.tangent, next.sample.tangent, chord, twist);
             }
             here = next;
         }

@@ -17,9 +17,8 @@ use crate::watch::Watch;
 #[derive(Debug)]
 pub(super) struct Rolls {
     sampling: Sampling,
-    frame: Frame,
-    /// Turns per mm of each yarn whose roll matters.
-    twists: Vec<Option<f32>>,
+    /// The frame of each yarn whose roll matters, and its twist, turns per mm.
+    twists: Vec<Option<(Frame, f32)>>,
     /// The roll where each interval begins; empty where no roll matters.
     starts: Vec<Turn>,
     /// What each ring of a closed yarn gives back of the yarn's whole turn, turns.
@@ -45,14 +44,15 @@ impl Rolls {
         watch: &Watch<'_>,
     ) -> Result<Self, FabricError> {
         let layout = yarns.layout();
-        let twist = |yarn: &Yarn| {
+        let twist = |(number, yarn): (usize, &Yarn)| {
             let turns = (f64::from(yarn.twist) / TAU) as f32;
             let turns_round = layout.sections()[yarn.section as usize] == Section::Circle;
-            (!turns_round && !frame.is_level(turns)).then_some(turns)
+            let frame = frame.of(layout.is_steep(number));
+            (!turns_round && !frame.is_level(turns)).then_some((frame, turns))
         };
-        let twists: Vec<_> = layout.yarns().iter().map(twist).collect();
+        let twists: Vec<_> = layout.yarns().iter().enumerate().map(twist).collect();
         let given_back = vec![0.0; twists.len()];
-        let mut rolls = Self { sampling, frame, twists, starts: Vec::new(), given_back };
+        let mut rolls = Self { sampling, twists, starts: Vec::new(), given_back };
         if rolls.twists.iter().all(Option::is_none) {
             return Ok(rolls);
         }
@@ -103,7 +103,12 @@ impl Rolls {
 
     /// By how much each ring of an interval is turned against the one before, and the first one of the interval that `next` steers;
     /// without that the yarn ends there.
-    fn steps(&self, window: [ControlPoint; 4], next: Option<[ControlPoint; 4]>, twist: f32) -> Vec<Turn> {
+    fn steps(
+        &self,
+        window: [ControlPoint; 4],
+        next: Option<[ControlPoint; 4]>,
+        (frame, twist): (Frame, f32),
+    ) -> Vec<Turn> {
         let segment = Segment::new(&window, self.sampling.s());
         let count = self.sampling.subdivisions() + 1;
         let at = |ring: u32| match next {
@@ -117,7 +122,7 @@ impl Rolls {
             .map(|ring| {
                 let next = at(ring);
                 let chord = if ring == count { segment.span() } else { next.offset } - here.offset;
-                let step = self.frame.step(here.tangent, next.tangent, chord, twist);
+                let step = frame.step(here.tangent, next.tangent, chord, twist);
                 here = next;
                 step
             })
@@ -141,7 +146,8 @@ impl Rolls {
             roll += f64::from(step.turns()) - given_back;
             at_rings.push(roll);
         }
-        let minimizing = (self.frame == Frame::RotationMinimizing).then_some((twist, given_back));
+        let (frame, twist) = twist;
+        let minimizing = (frame == Frame::RotationMinimizing).then_some((twist, given_back));
         IntervalRolls { at_rings, minimizing }
     }
 }

@@ -135,7 +135,10 @@ fn worst_crossings(faults: &Faults) -> Vec<Crossing> {
         Origin::Pick(pick) => Some(Crossing { end: 1, pick }),
         _ => None,
     });
-    let mut places: Vec<_> = [crowded, pierced, folded, jammed].into_iter().flatten().collect();
+    let wrung = faults.wrung.and_then(|drawn| drawn.width_at?.crossing);
+    let turned = faults.inside_out.and_then(|drawn| drawn.inwards_at?.crossing);
+    let mut places: Vec<_> =
+        [crowded, pierced, folded, jammed, wrung, turned].into_iter().flatten().collect();
     if places.is_empty() {
         // In a turn of the weft: they are all alike.
         places.push(Crossing { end: 1, pick: 1 });
@@ -276,6 +279,8 @@ impl Trial<'_> {
             left.crowded = left.crowded.or(found.faults.crowded);
             left.pierces.extend(found.faults.pierces);
             left.folds = left.folds.or(found.faults.folds);
+            left.wrung = left.wrung.or(found.faults.wrung);
+            left.inside_out = left.inside_out.or(found.faults.inside_out);
             clearance = clearance.min(found.clearance.min);
             curvature = curvature.min(found.clearance.bend.radii);
         }

@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 use texere_core::Settings;
 
 use super::pieces::Pieces;
-use super::places::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd};
-use crate::{FabricError, Pitch, Woven};
+use super::places::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn};
+use crate::{FabricError, Pitch, WRUNG, Woven};
 
 /// The most jammed threads that are listed one by one.
 pub const JAMS_LISTED: usize = 100;
@@ -36,6 +36,10 @@ pub struct Faults {
     pub jams: Option<Jams>,
     /// The pieces that the cloth falls into, if it does not hang together.
     pub apart: Option<Pieces>,
+    /// Where a mesh is [wrung](WRUNG) between two rings.
+    pub wrung: Option<ThreadDrawn>,
+    /// Where triangles of a mesh face inwards.
+    pub inside_out: Option<ThreadDrawn>,
 }
 
 /// A kind of fault. Its text says what the cloth does: "folds".
@@ -52,6 +56,10 @@ pub enum FaultKind {
     Jams,
     /// Nothing binds all threads into one cloth.
     FallsApart,
+    /// A mesh with these settings is wrung between two rings.
+    Wrung,
+    /// Triangles of a mesh with these settings face inwards.
+    InsideOut,
 }
 
 impl fmt::Display for FaultKind {
@@ -62,6 +70,8 @@ impl fmt::Display for FaultKind {
             Self::Folds => "folds",
             Self::Jams => "jams",
             Self::FallsApart => "falls apart",
+            Self::Wrung => "is wrung",
+            Self::InsideOut => "is inside out",
         })
     }
 }
@@ -88,6 +98,8 @@ impl Diagnosis {
             folds: Some(clearance.bend).filter(|bend| bend.radii < 1.0),
             jams,
             apart: Some(pieces).filter(Pieces::falls_apart),
+            wrung: Some(clearance.drawn).filter(|drawn| drawn.width < WRUNG),
+            inside_out: Some(clearance.drawn).filter(|drawn| drawn.inwards > 0),
         };
         Self { touching, clearance, faults }
     }
@@ -108,6 +120,8 @@ impl Faults {
             self.folds.map(|_| FaultKind::Folds),
             self.jams.as_ref().map(|_| FaultKind::Jams),
             self.apart.as_ref().map(|_| FaultKind::FallsApart),
+            self.wrung.map(|_| FaultKind::Wrung),
+            self.inside_out.map(|_| FaultKind::InsideOut),
         ];
         kinds.into_iter().flatten().collect()
     }

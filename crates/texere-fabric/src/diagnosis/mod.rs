@@ -11,5 +11,5 @@ pub use faults::{Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams};
 pub(crate) use joined::Joined;
 pub use pieces::Pieces;
 pub use places::{
-    ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,
+    ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };

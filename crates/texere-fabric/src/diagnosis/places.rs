@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use texere_core::{Origin, Settings, Yarns};
 
-use crate::{Clearance, Contact, Crowd, FabricError, NO_CROSSING, Woven, YarnPlace, clearance_with_progress};
+use crate::{Contact, Crowd, FabricError, NO_CROSSING, Woven, YarnPlace, clearance_with_progress, drawn};
 
 /// A crossing of a woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -91,30 +91,45 @@ pub struct ThreadCrowd {
 /// The tightest bend of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadBend {
-    /// Radius of curvature over how far the section reaches into the bend: see [`Clearance::curvature_min`]. Infinite where
+    /// Radius of curvature over how far the section reaches into the bend: see [`Clearance::curvature_min`](crate::Clearance::curvature_min). Infinite where
     /// all threads are straight.
     pub radii: f64,
     /// Where that is. None where all threads are straight.
     pub place: Option<ThreadPlace>,
 }
 
-/// [`Clearance`], with places that are named by thread and crossing.
+/// How a mesh of a cloth comes out: see [`Drawn`](crate::Drawn).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThreadDrawn {
+    /// See [`Drawn::width`](crate::Drawn::width).
+    pub width: f64,
+    /// Where that is.
+    pub width_at: Option<ThreadPlace>,
+    /// See [`Drawn::inwards`](crate::Drawn::inwards).
+    pub inwards: u64,
+    /// Where the first of them is.
+    pub inwards_at: Option<ThreadPlace>,
+}
+
+/// [`Clearance`](crate::Clearance), with places that are named by thread and crossing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClothClearance {
-    /// See [`Clearance::min`].
+    /// See [`Clearance::min`](crate::Clearance::min).
     pub min: f64,
-    /// See [`Clearance::contacts`].
+    /// See [`Clearance::contacts`](crate::Clearance::contacts).
     pub contacts: u64,
-    /// See [`Clearance::below_one`].
+    /// See [`Clearance::below_one`](crate::Clearance::below_one).
     pub below_one: u64,
-    /// See [`Clearance::worst`].
+    /// See [`Clearance::worst`](crate::Clearance::worst).
     pub worst: Vec<ThreadContact>,
-    /// See [`Clearance::histogram`].
+    /// See [`Clearance::histogram`](crate::Clearance::histogram).
     pub histogram: Vec<u64>,
-    /// See [`Clearance::crowd`].
+    /// See [`Clearance::crowd`](crate::Clearance::crowd).
     pub crowd: Option<ThreadCrowd>,
     /// The tightest bend.
     pub bend: ThreadBend,
+    /// How a mesh with these settings comes out.
+    pub drawn: ThreadDrawn,
 }
 
 impl Woven {
@@ -142,8 +157,7 @@ impl Woven {
         settings: &Settings,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<ClothClearance, FabricError> {
-        let found = clearance_with_progress(yarns, settings, progress)?;
-        Ok(Names { cloth: Some(self), yarns }.clearance(found))
+        Names { cloth: Some(self), yarns }.clearance(settings, progress)
     }
 
     /// A place on one of the cloth's `yarns`, named by thread and crossing.
@@ -163,9 +177,13 @@ impl ThreadPlace {
 }
 
 impl ClothClearance {
-    /// What was found of `yarns`, at places named by the yarn alone.
-    pub(crate) fn named(found: Clearance, yarns: &Yarns) -> Self {
-        Names { cloth: None, yarns }.clearance(found)
+    /// What is found of `yarns`, at places named by the yarn alone.
+    pub(crate) fn of(
+        yarns: &Yarns,
+        settings: &Settings,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<Self, FabricError> {
+        Names { cloth: None, yarns }.clearance(settings, progress)
     }
 }
 
@@ -176,8 +194,14 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    fn clearance(&self, found: Clearance) -> ClothClearance {
-        ClothClearance {
+    fn clearance(
+        &self,
+        settings: &Settings,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<ClothClearance, FabricError> {
+        let found = clearance_with_progress(self.yarns, settings, progress)?;
+        let drawn = drawn(self.yarns, settings)?;
+        Ok(ClothClearance {
             min: found.min,
             contacts: found.contacts,
             below_one: found.below_one,
@@ -187,8 +211,14 @@ impl Names<'_> {
                 radii: found.curvature_min,
                 place: found.curvature_at.as_ref().map(|place| self.place(place)),
             },
+            drawn: ThreadDrawn {
+                width: drawn.width,
+                width_at: drawn.width_at.map(|place| self.place(&place)),
+                inwards: drawn.inwards,
+                inwards_at: drawn.inwards_at.map(|place| self.place(&place)),
+            },
             histogram: found.histogram,
-        }
+        })
     }
 
     fn contact(&self, contact: &Contact) -> ThreadContact {

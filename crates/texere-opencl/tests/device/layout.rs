@@ -60,7 +60,7 @@ fn tables() -> Vec<Table> {
             first_vertex,
             first_index
         }),
-        structure!(YarnRow { rings, first_block, section, closed, twist }),
+        structure!(YarnRow { rings, first_block, section, closed, twist, frame }),
         structure!(CapRow {
             yarn,
             end,
@@ -78,7 +78,7 @@ fn tables() -> Vec<Table> {
             yarns,
             sides,
             subdivisions,
-            frame,
+            padding,
             indexed,
             rolled,
             s,

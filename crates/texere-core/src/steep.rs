@@ -1,0 +1,69 @@
+//! Yarns that run so steeply somewhere that upright frames would wring them.
+
+use glam::Vec3;
+
+use crate::{ControlPoint, Frame, Segment};
+
+/// By how much an upright frame may turn about a yarn within one control interval, turns: 4 degrees.
+///
+/// Woven threads that keep to their planes turn by nothing, and those that a settled cloth pushes aside by up to a degree; the loops of
+/// knits turn by 10 degrees and more. Two rings are at most an interval apart, so the tube between them is never narrower than
+/// cos 2° of its radius.
+pub const UPRIGHT_TURN: f32 = 4.0 / 360.0;
+
+/// Places within an interval between which the turn is added up. With 4 a hairpin through the vertical was taken for half as much.
+const PLACES: u32 = 16;
+
+/// The spline's `s` at tension 0. Tension moves the tangents within an interval, but hardly the turn of all of it.
+const S: f32 = 0.5;
+
+/// Whether the upright frame of a yarn turns about it by more than [`UPRIGHT_TURN`] within an interval of `points`, against a frame that is
+/// carried along.
+pub(crate) fn is_steep(points: &[ControlPoint], closed: bool) -> bool {
+    let count = points.len();
+    let intervals = if closed { count } else { count - 1 };
+    let at = |interval: usize, further: usize| points[(interval + count + further - 1) % count];
+    (0..intervals).any(|interval| {
+        let mut window = [0, 1, 2, 3].map(|further| at(interval, further));
+        if !closed && interval == 0 {
+            window[0] = window[1].reflected(&window[2]);
+        }
+        if !closed && interval + 1 == intervals {
+            window[3] = window[2].reflected(&window[1]);
+        }
+        turn_at_most(&window) > UPRIGHT_TURN && turn(&window) > UPRIGHT_TURN
+    })
+}
+
+/// No less than the interval's turn, from its velocity's three Bézier points alone: infinite where they do not tell.
+///
+/// An upright frame turns by the sine of the yarn's slope for each turn of its direction in plan.
+fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
+    let [before, start, end, after] = window.map(|point| point.position());
+    let (span, first, last) = (end - start, (end - before) * S, (after - start) * S);
+    let velocities = [first, span * 3.0 - first - last, last];
+    let plan = velocities.map(Vec3::truncate);
+    let along = span.truncate().normalize_or_zero();
+    let least = plan.iter().map(|velocity| velocity.dot(along)).fold(f32::INFINITY, f32::min);
+    if least <= 0.0 {
+        return f32::INFINITY;
+    }
+    let highest = velocities.iter().map(|velocity| velocity.z.abs()).fold(0.0, f32::max);
+    let swing = plan.map(|velocity| along.perp_dot(velocity).atan2(along.dot(velocity)));
+    let swing = swing.iter().fold(0.0, |swing, angle| angle.abs().max(swing));
+    // A cubic's direction may swing out and back.
+    4.0 * swing / std::f32::consts::TAU * highest / (highest * highest + least * least).sqrt()
+}
+
+/// The turns between places along the interval, added up without regard to sign, in turns.
+fn turn(window: &[ControlPoint; 4]) -> f32 {
+    let segment = Segment::new(window, S);
+    let mut here = segment.sample(0.0);
+    (1..=PLACES).fold(0.0, |sum, place| {
+        let next = segment.sample(place as f32 / PLACES as f32);
+        let chord = next.offset - here.offset;
+        let step = Frame::RotationMinimizing.step(here.tangent, next.tangent, chord, 0.0);
+        here = next;
+        sum + step.turns().abs()
+    })
+}

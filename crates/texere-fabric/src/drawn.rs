@@ -1,0 +1,213 @@
+//! Tubes as a mesh draws them: how wide they are between rings, and whether they are turned inside out.
+
+use glam::{DQuat, DVec3};
+use rayon::prelude::*;
+use texere_core::{PaddedPoints, Plan, Ring, Section, Settings, Turn, Yarns};
+
+use crate::{FabricError, YarnPlace};
+
+/// A tube is wrung where it is narrower than this between two rings, in radii: they are turned against one another by more than 120
+/// degrees, or two thirds of the way to a tube of no width. Twisted yarns of the usual settings come to 0.6: hard-twisted singles are drawn
+/// with few rings.
+pub const WRUNG: f64 = 0.5;
+
+/// The most points between control points that [`Drawn`] is tried with to find how many cure it.
+const FINER_MOST: u32 = 63;
+
+/// How the tubes of a fabric come out between neighbouring rings of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drawn {
+    /// The least distance from the axis half way between two rings, over that on the rings, with bends straightened: 1 where no ring is turned
+    /// against the one before, the cosine of half the turn where it is. Below [`WRUNG`] the tube is wrung.
+    pub width: f64,
+    /// Where that is.
+    pub width_at: Option<YarnPlace>,
+    /// Triangles that face inwards: of tubes that are wrung, and of bends too tight for their rings.
+    pub inwards: u64,
+    /// Where the first of them is.
+    pub inwards_at: Option<YarnPlace>,
+}
+
+/// Looks at the tubes of a mesh of `yarns` with `settings`, caps left out. Memory is that of the yarns once more.
+///
+/// **Errors**: [`FabricError::Settings`] for settings that no mesh is made with, [`FabricError::OutOfMemory`].
+///
+/// ```
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
+/// // Three turns per mm and rings half a millimetre apart: each is turned by a turn and a half.
+/// let mut yarns = Yarns::builder();
+/// let twist = 3.0 * std::f32::consts::TAU;
+/// yarns.yarn(Yarn { twist, ..Yarn::default() }, &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let yarns = yarns.build()?;
+/// let few = texere_fabric::drawn(&yarns, &Settings::default())?;
+/// assert!(few.width < 1e-3 && few.is_wrung());
+/// let many = texere_fabric::drawn(&yarns, &Settings { subdivisions: 15, ..Settings::default() })?;
+/// assert!(many.width > 0.8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn drawn(yarns: &Yarns, settings: &Settings) -> Result<Drawn, FabricError> {
+    // A polygon has the sides that it has.
+    let corners = yarns.layout().sections().iter().find_map(|section| match section {
+        Section::Polygon(corners) => Some(corners.len() as u32),
+        _ => None,
+    });
+    let settings = &Settings { sides: corners.unwrap_or(settings.sides), ..*settings };
+    let plan = Plan::new(yarns.layout().clone(), *settings)?;
+    let mut points = PaddedPoints::new(&plan)
+        .map_err(|_| FabricError::OutOfMemory { what: "control points", bytes: plan.resident_bytes() })?;
+    points.upload(&plan, 0, yarns.points());
+    let each = (0..yarns.layout().yarns().len()).into_par_iter().map(|yarn| along(&plan, &points, yarn));
+    let worst = each.reduce(Found::default, Found::and);
+    let place = |(yarn, ring): (usize, u32)| {
+        let per_interval = settings.subdivisions + 1;
+        let t = f64::from(ring % per_interval) / f64::from(per_interval);
+        YarnPlace::at(yarns, yarn, (ring / per_interval) as usize, t, settings.tension)
+    };
+    Ok(Drawn {
+        width: worst.width,
+        width_at: worst.width_at.and_then(place),
+        inwards: worst.inwards,
+        inwards_at: worst.inwards_at.and_then(place),
+    })
+}
+
+impl Drawn {
+    /// Whether a tube is [wrung](WRUNG) somewhere.
+    #[must_use]
+    pub fn is_wrung(&self) -> bool {
+        self.width < WRUNG
+    }
+
+    /// Whether nothing is wrung, and nothing inside out.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        !self.is_wrung() && self.inwards == 0
+    }
+}
+
+/// The fewest points between control points, more than those of `settings`, with which a mesh of `yarns` is [sound](Drawn::is_sound), and
+/// what it comes to. None where no number up to 63 helps.
+///
+/// **Errors**: those of [`drawn`].
+pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, FabricError> {
+    let mut subdivisions = settings.subdivisions;
+    while subdivisions < FINER_MOST {
+        // So many that steps are half as long.
+        subdivisions = 2 * subdivisions + 1;
+        let found = drawn(yarns, &Settings { subdivisions, ..*settings })?;
+        if found.is_sound() {
+            return Ok(Some((subdivisions, found)));
+        }
+    }
+    Ok(None)
+}
+
+/// What was found so far, places by yarn and ring.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    width: f64,
+    width_at: Option<(usize, u32)>,
+    inwards: u64,
+    inwards_at: Option<(usize, u32)>,
+}
+
+impl Default for Found {
+    fn default() -> Self {
+        Self { width: 1.0, width_at: None, inwards: 0, inwards_at: None }
+    }
+}
+
+impl Found {
+    /// Of equal ones that of the lower yarn counts.
+    fn and(self, other: Self) -> Self {
+        let narrower = if other.width < self.width { other } else { self };
+        Self {
+            width: narrower.width,
+            width_at: narrower.width_at,
+            inwards: self.inwards + other.inwards,
+            inwards_at: self.inwards_at.or(other.inwards_at),
+        }
+    }
+}
+
+/// A ring with its vertices, as seen from its centre.
+struct Standing {
+    centre: DVec3,
+    tangent: DVec3,
+    arms: Vec<DVec3>,
+}
+
+/// Looks at all rings of a yarn.
+fn along(plan: &Plan, points: &PaddedPoints, yarn: usize) -> Found {
+    let outline = plan.outline(plan.yarn(yarn).section as usize);
+    let mut found = Found::default();
+    let mut before: Option<Standing> = None;
+    each_ring(plan, points, yarn, |number, ring| {
+        let (stance, [centre, tangent]) = (ring.stance(), [ring.centre, ring.tangent].map(wide));
+        let arms = outline.iter().map(|point| wide(ring.vertex(&stance, point).position) - centre).collect();
+        let here = Standing { centre, tangent, arms };
+        if let Some(before) = &before {
+            let (width, inwards) = between(before, &here);
+            let at = Some((yarn, number - 1));
+            let own = Found { width, width_at: at, inwards, inwards_at: at.filter(|_| inwards > 0) };
+            found = found.and(own);
+        }
+        before = Some(here);
+    });
+    found
+}
+
+/// Calls `see` with each ring of a yarn, in order.
+fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMut(u32, &Ring)) {
+    let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
+    let (frame, twist) = (plan.frame(yarn), plan.turns_per_mm(yarn));
+    let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
+    let walk = |see: &mut dyn FnMut(u32, Ring)| {
+        let (mut here, mut roll) = (at(0), Turn::ZERO);
+        for ring in 0..rings {
+            see(ring, Ring::new(&here.sample, roll));
+            if ring + 1 < rings {
+                let next = at(ring + 1);
+                roll =
+                    roll + frame.step(here.sample.tangent, next.sample.tangent, here.chord_to(&next), twist);
+                here = next;
+            }
+        }
+        roll
+    };
+    // A closed yarn gives back its whole turn, so that its last ring meets its first.
+    let whole = if closed && plan.turns(yarn) { walk(&mut |_, _| ()) } else { Turn::ZERO };
+    walk(&mut |number, ring| {
+        let roll = if number + 1 == rings && closed {
+            Turn::ZERO
+        } else {
+            ring.roll - whole.share(number, rings - 1)
+        };
+        see(number, &Ring { roll, ..ring });
+    });
+}
+
+/// How wide the tube is half way between two rings, and how many of its triangles face inwards.
+fn between(here: &Standing, next: &Standing) -> (f64, u64) {
+    let carry = DQuat::from_rotation_arc(here.tangent, next.tangent);
+    let (mut width, mut inwards) = (1.0_f64, 0);
+    let sides = here.arms.len();
+    for (point, (arm, other)) in here.arms.iter().zip(&next.arms).enumerate() {
+        width = width.min((carry * *arm + *other).length() / (arm.length() + other.length()));
+        let further = (point + 1) % sides;
+        let chord = next.centre - here.centre;
+        let [a, b, c, d] = [*arm, here.arms[further], chord + *other, chord + next.arms[further]];
+        // The two triangles of a quad, each with where outwards is.
+        for ([p, q, r], outwards) in [
+            ([a, b, c], *arm + here.arms[further] + *other),
+            ([b, d, c], here.arms[further] + *other + next.arms[further]),
+        ] {
+            inwards += u64::from((q - p).cross(r - p).dot(outwards) < 0.0);
+        }
+    }
+    (width, inwards)
+}
+
+fn wide(v: [f32; 3]) -> DVec3 {
+    DVec3::from_array(v.map(f64::from))
+}

@@ -1,0 +1,129 @@
+//! Tubes are not wrung: no ring of any yarn is turned against the one before by more than its twist asks.
+
+mod judge;
+
+use std::f64::consts::{PI, TAU};
+
+use judge::drawn;
+use proptest::prelude::*;
+use texere_conformance::cases::small_designs;
+use texere_core::{ControlPoint, Frame, Settings, Yarn, Yarns};
+use texere_cpu::ParallelBackend;
+
+/// By how much a ring may be turned against the one before, degrees.
+const TURN: f64 = 30.0;
+
+/// How wide a tube is half way between two rings that are turned by so much.
+const WIDTH: f64 = 0.965_925;
+
+const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
+
+/// Few rings with few sides, and many.
+const DRAWN: [(u32, u32); 5] = [(0, 6), (1, 6), (1, 3), (3, 8), (7, 13)];
+
+/// Checks a mesh of `yarns` with either frame, and gives back how many triangles face inwards at the worst.
+fn check(name: &str, yarns: &Yarns, tension: f32) -> usize {
+    let device = ParallelBackend::open().unwrap();
+    let mut inwards = 0;
+    for (subdivisions, sides) in DRAWN {
+        for frame in FRAMES {
+            let settings = Settings { subdivisions, sides, frame, tension, ..Settings::default() };
+            let drawn = drawn(&device, yarns, settings);
+            let case = format!("{name}, {frame:?}, K {subdivisions}, {sides} sides: {drawn:?}");
+            assert!(drawn.turn <= TURN, "{case}");
+            assert!(drawn.width >= WIDTH, "{case}");
+            inwards = inwards.max(drawn.inwards);
+        }
+    }
+    inwards
+}
+
+/// An open yarn of radius 0.1 mm through `places`, and a closed one where they go round.
+fn yarn(places: &[[f64; 3]], closed: bool) -> Yarns {
+    let points: Vec<_> = places
+        .iter()
+        .map(|place| {
+            let [x, y, z] = place.map(|at| at as f32);
+            ControlPoint::new(x, y, z, 0.1)
+        })
+        .collect();
+    let mut yarns = Yarns::builder();
+    yarns.yarn(Yarn { closed, ..Yarn::default() }, &points);
+    yarns.build().unwrap()
+}
+
+#[test]
+fn every_design_is_drawn_without_wringing_in_either_frame() {
+    for (name, yarns) in small_designs() {
+        assert_eq!(check(&name, &yarns, 0.0), 0, "{name}: triangles face inwards");
+    }
+}
+
+/// A binder goes straight down through the cloth and comes up again. It leans a little to one side and to the other, so that its
+/// tangent passes z on either side, and exactly through it.
+#[test]
+fn a_binder_that_goes_through_the_cloth_is_no_string_of_beads() {
+    for lean in [0.0, 1e-7, 1e-3, 0.05, -0.2] {
+        let mut places = Vec::new();
+        for turn in 0..6 {
+            let (x, down) = (f64::from(turn), turn % 2 == 0);
+            for step in 0..8 {
+                let z = 1.0 - 0.25 * f64::from(step);
+                let side = lean * f64::from(step % 3 - 1);
+                places.push([x + side, 0.3 * side, if down { z } else { -z }]);
+            }
+        }
+        check(&format!("binder leaning by {lean}"), &yarn(&places, false), 0.0);
+    }
+}
+
+/// Hairpins in planes of every slope, the steepest through z.
+#[test]
+fn hairpins_through_the_vertical_are_not_wrung() {
+    for slope in [0.0, 0.3, 0.8, 1.2, 1.5, PI / 2.0] {
+        for aside in [0.0, 0.02, 0.3] {
+            let arc = (-8..=8).map(|step| {
+                let angle = f64::from(step) / 8.0 * PI * 0.75;
+                let (along, across) = (angle.cos(), angle.sin());
+                [along * slope.cos() + aside * across, across, along * slope.sin()]
+            });
+            let arc: Vec<_> = arc.map(|[x, y, z]| [y, x, z]).collect();
+            assert_eq!(check(&format!("hairpin, slope {slope}, {aside}"), &yarn(&arc, false), 0.0), 0);
+        }
+    }
+}
+
+/// A ring that stands on end passes z twice. Its frame comes round to itself.
+#[test]
+fn closed_yarns_that_stand_on_end_are_not_wrung() {
+    for aside in [0.0, 1e-6, 0.1] {
+        let round: Vec<_> = (0..24)
+            .map(|step| {
+                let angle = f64::from(step) / 24.0 * TAU;
+                [angle.cos(), aside * (2.0 * angle).sin(), angle.sin()]
+            })
+            .collect();
+        assert_eq!(check(&format!("ring, {aside}"), &yarn(&round, true), 0.0), 0);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Any yarn at any tension.
+    #[test]
+    fn no_yarn_is_wrung(
+        steps in prop::collection::vec([-1.0..1.0f64, -1.0..1.0, -1.0..1.0], 3..30),
+        tension in 0.0..0.9f32,
+    ) {
+        let mut at = [0.0; 3];
+        let places: Vec<_> = steps
+            .iter()
+            .map(|step| {
+                at = [0, 1, 2].map(|axis| at[axis] + step[axis]);
+                at
+            })
+            .collect();
+        check("any yarn", &yarn(&places, false), tension);
+    }
+}

@@ -1,10 +1,94 @@
 //! Which package needs which: no GPU backend falls back on the CPU's, and what has no need of a GPU does without.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
+use serde_json::Value;
+
 const GPU: [&str; 4] = ["texere-opencl", "texere-wgpu", "opencl3", "wgpu"];
+
+/// The oldest Rust that our own code builds with.
+const OWN: [u64; 3] = [1, 89, 0];
+
+/// The three numbers of a version.
+fn version(text: &str) -> [u64; 3] {
+    let mut numbers = text.split('.').map(|number| number.parse().unwrap());
+    std::array::from_fn(|_| numbers.next().unwrap_or(0))
+}
+
+/// What cargo knows of the workspace and of all that it takes in on this system, with all features.
+fn metadata() -> Value {
+    let rustc = Command::new("rustc").arg("-vV").output().unwrap();
+    let said = String::from_utf8(rustc.stdout).unwrap();
+    let host = said.lines().find_map(|line| line.strip_prefix("host: ")).unwrap();
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["metadata", "--format-version", "1", "--locked", "--all-features", "--filter-platform", host])
+        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().unwrap()
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap()
+}
+
+/// A package asks for the newest Rust that any of what it links or builds with asks for, or our own code, and for no newer one; and the workflow
+/// checks it with that.
+#[test]
+fn each_package_names_the_oldest_rust_that_builds_it() {
+    let metadata = metadata();
+    let packages: BTreeMap<_, _> =
+        list(&metadata["packages"]).iter().map(|package| (text(&package["id"]), package)).collect();
+    let nodes: BTreeMap<_, _> =
+        list(&metadata["resolve"]["nodes"]).iter().map(|node| (text(&node["id"]), node)).collect();
+    let members: BTreeSet<_> = list(&metadata["workspace_members"]).iter().map(text).collect();
+    let mut newer = BTreeSet::new();
+    for &member in &members {
+        let (mut seen, mut left) = (BTreeSet::new(), vec![member]);
+        let mut oldest = (OWN, "its own code");
+        while let Some(id) = left.pop() {
+            if !seen.insert(id) {
+                continue;
+            }
+            if let (false, Some(asked)) = (members.contains(id), packages[id]["rust_version"].as_str()) {
+                oldest = oldest.max((version(asked), text(&packages[id]["name"])));
+            }
+            let is_built = |kind: &Value| kind["kind"].as_str() != Some("dev");
+            let built = list(&nodes[id]["deps"])
+                .iter()
+                .filter(|needed| list(&needed["dep_kinds"]).iter().any(is_built));
+            left.extend(built.map(|needed| text(&needed["pkg"])));
+        }
+        let (name, claimed) = (text(&packages[member]["name"]), text(&packages[member]["rust_version"]));
+        assert_eq!(version(claimed), oldest.0, "{name} says {claimed}, {} needs another", oldest.1);
+        if oldest.0 > OWN {
+            newer.insert((name, claimed));
+        }
+    }
+    // Else nothing was followed.
+    assert!(newer.contains(&("texere-view", "1.95")), "{newer:?}");
+    let workflow = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/workflows/ci.yml");
+    let workflow = std::fs::read_to_string(workflow).unwrap();
+    let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let named = |rust: &str, option: &str| -> BTreeSet<String> {
+        let lines = workflow.lines().filter(|line| line.contains(&format!("cargo +{rust} check")));
+        let pairs = lines.flat_map(|line| words(line).windows(2).map(<[String]>::to_vec).collect::<Vec<_>>());
+        pairs.filter(|pair| pair[0] == option).map(|pair| pair[1].clone()).collect()
+    };
+    let all: BTreeSet<_> = newer.iter().map(|(name, _)| (*name).to_owned()).collect();
+    assert_eq!(named("1.89", "--exclude"), all);
+    for (name, rust) in newer {
+        assert!(named(rust, "--package").contains(name), "{name} is not checked with {rust}");
+    }
+}
 
 /// Everything that a build of `package` takes in, itself left out.
 fn needs(package: &str, features: &str) -> BTreeSet<String> {

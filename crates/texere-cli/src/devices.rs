@@ -4,6 +4,7 @@ use std::error::Error;
 use std::fmt::Write;
 
 use serde_json::json;
+use texere::BackendError;
 
 use crate::args::DevicesArgs;
 use crate::fail::Fail;
@@ -11,7 +12,7 @@ use crate::terminal::lines;
 use crate::{drivers, print};
 
 pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
-    let devices = drivers::quietly(|| Ok(texere::devices()))?;
+    let devices = drivers::quietly(|| Ok::<_, BackendError>(texere::devices()))?;
     let (auto, why) = devices.auto();
     let missing = devices.missing.iter().map(|(family, error)| (*family, causes(error)));
     if args.json {

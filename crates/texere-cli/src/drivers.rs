@@ -1,10 +1,8 @@
 //! What drivers write to standard error by themselves while they are loaded, such as complaints about the environment.
 
-use texere::BackendError;
-
 /// Does `work`, which loads drivers. What they write meanwhile is shown if it fails, and says nothing to a person if not.
 #[cfg(unix)]
-pub(crate) fn quietly<T>(work: impl FnOnce() -> Result<T, BackendError>) -> Result<T, BackendError> {
+pub(crate) fn quietly<T, E>(work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
     // Where there is no room to put it aside, it is shown.
     let aside = aside::Aside::begin().ok();
     let done = work();
@@ -16,7 +14,7 @@ pub(crate) fn quietly<T>(work: impl FnOnce() -> Result<T, BackendError>) -> Resu
 
 /// Other systems' drivers write nothing there.
 #[cfg(not(unix))]
-pub(crate) fn quietly<T>(work: impl FnOnce() -> Result<T, BackendError>) -> Result<T, BackendError> {
+pub(crate) fn quietly<T, E>(work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
     work()
 }
 

@@ -3,6 +3,7 @@
 use texere_view::{Event, View};
 
 use crate::args::ViewArgs;
+use crate::drivers;
 use crate::fail::Fail;
 use crate::print;
 use crate::terminal::line;
@@ -18,10 +19,13 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
         ..View::of(&args.design)
     };
     let mut printed = Ok(());
-    view.open(|event: &Event| {
-        if printed.is_ok() {
-            printed = print::text(&format!("{}\n", line(event)));
-        }
+    // Drivers are loaded for the window, and again where yarns settle.
+    drivers::quietly(|| {
+        view.open(|event: &Event| {
+            if printed.is_ok() {
+                printed = print::text(&format!("{}\n", line(event)));
+            }
+        })
     })?;
     printed
 }

@@ -1,8 +1,11 @@
 //! The window: what it shows, and what it sends to the workshop.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread;
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Key, Modifiers, ViewportBuilder};
 use texere::{NamedPlace, Renderer, Schedule, WgpuBackend};
@@ -12,6 +15,12 @@ use crate::orbit::Side;
 use crate::watch::Watch;
 use crate::workshop::{Cloth, News, Order, Workshop};
 use crate::{Event, View, ViewError, device};
+
+/// How long a picture that the device refused is not tried again.
+const AGAIN: Duration = Duration::from_millis(50);
+
+/// How long a window that closes waits for the workshop: what it does on the device would keep the device from going.
+const LEAVING: Duration = Duration::from_millis(500);
 
 /// Opens the window and waits until it is closed.
 pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError> {
@@ -32,9 +41,15 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
         let render = context.wgpu_render_state.clone().ok_or("no device")?;
         let device =
             WgpuBackend::from_device(render.device.clone(), render.queue.clone(), Schedule::PerRing)?;
+        // The surface can't take another size while the workshop hands the device work, and what is drawn for the new size does not go with the
+        // old one. Every call of ours is in a scope, so nothing else comes here. The next picture asks the surface anew.
+        let window = context.egui_ctx.clone();
+        render.device.on_uncaptured_error(Arc::new(move |_| window.request_repaint_after(AGAIN)));
         let ((orders, taken), (news, told)) = (channel(), channel());
+        let is_closing = Arc::new(AtomicBool::new(false));
         let workshop = Workshop {
             orders: taken,
+            is_closing: is_closing.clone(),
             news,
             window: context.egui_ctx.clone(),
             renderer: Renderer::new(device)?,
@@ -45,10 +60,12 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
             lifts: Vec::new(),
             yarns: None,
         };
-        thread::Builder::new().name("workshop".into()).spawn(|| workshop.run())?;
+        let workshop = thread::Builder::new().name("workshop".into()).spawn(|| workshop.run())?;
         Ok(Box::new(Window {
             canvas: Canvas::new(render),
             orders,
+            is_closing,
+            workshop,
             news: told,
             cloth: None,
             settling: None,
@@ -65,6 +82,9 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
 pub(crate) struct Window<T> {
     pub(crate) canvas: Canvas,
     orders: Sender<Order>,
+    /// What the workshop looks at while it works.
+    is_closing: Arc<AtomicBool>,
+    workshop: JoinHandle<()>,
     news: Receiver<News>,
     /// None until the first one is made.
     pub(crate) cloth: Option<Box<Cloth>>,
@@ -81,6 +101,11 @@ pub(crate) struct Window<T> {
 
 impl<T: FnMut(&Event)> eframe::App for Window<T> {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        if ui.input(|input| input.viewport().close_requested()) {
+            self.is_closing.store(true, Ordering::Relaxed);
+            // Nobody would see another picture.
+            return;
+        }
         while let Ok(news) = self.news.try_recv() {
             self.take(news);
         }
@@ -97,6 +122,14 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
                 self.click();
             }
         });
+    }
+
+    fn on_exit(&mut self) {
+        self.is_closing.store(true, Ordering::Relaxed);
+        let start = Instant::now();
+        while !self.workshop.is_finished() && start.elapsed() < LEAVING {
+            thread::sleep(Duration::from_millis(5));
+        }
     }
 }
 

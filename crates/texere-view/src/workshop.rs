@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eframe::egui;
 use texere::{
@@ -23,6 +24,9 @@ const POLL: Duration = Duration::from_millis(150);
 
 /// How long a file has to stay as it is before it is read: an editor may be writing it.
 const WRITING: Duration = Duration::from_millis(40);
+
+/// How long a file is waited for that changes without end. Then it is read as it is.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// What the window asks for.
 #[derive(Debug)]
@@ -77,6 +81,8 @@ enum Change {
 /// All that a cloth is made from.
 pub(crate) struct Workshop {
     pub(crate) orders: Receiver<Order>,
+    /// Whether the window is being closed: what is done then is for nobody.
+    pub(crate) is_closing: Arc<AtomicBool>,
     pub(crate) news: Sender<News>,
     /// What waits for news.
     pub(crate) window: egui::Context,
@@ -97,7 +103,7 @@ impl Workshop {
     pub(crate) fn run(mut self) {
         let mut change = Change::Yarns;
         let mut waiting = None;
-        loop {
+        while !self.is_closing() {
             match change {
                 Change::Nothing => {}
                 Change::Scene => self.show(),
@@ -116,6 +122,10 @@ impl Workshop {
                 Err(RecvTimeoutError::Disconnected) => return,
             };
         }
+    }
+
+    fn is_closing(&self) -> bool {
+        self.is_closing.load(Ordering::Relaxed)
     }
 
     fn tell(&self, news: News) {
@@ -211,9 +221,10 @@ impl Workshop {
         if !self.watch.changed() {
             return Change::Nothing;
         }
+        let seen = Instant::now();
         loop {
             thread::sleep(WRITING);
-            if !self.watch.changed() {
+            if !self.watch.changed() || seen.elapsed() > PATIENCE {
                 break;
             }
         }
@@ -241,7 +252,7 @@ impl Workshop {
                 return None;
             }
         }
-        if !self.settles() {
+        if !self.settles() || self.is_closing() {
             return None;
         }
         let mut order = None;
@@ -260,11 +271,11 @@ impl Workshop {
 
     /// Lets the yarns settle until an order comes, which is put into `order`, a file changes, or the window is closed.
     fn settled(&mut self, order: &mut Option<Order>) -> Result<Finished, FinishError> {
-        let Self { orders, news, window, watch, view, design, .. } = self;
+        let Self { orders, is_closing, news, window, watch, view, design, .. } = self;
         let device = texere::open(&view.device)?;
         // Moved in, for a receiver can be sent to other threads but not shared with them.
         let mut progress = move |share| {
-            let is_open = news.send(News::Settling(share)).is_ok();
+            let is_open = news.send(News::Settling(share)).is_ok() && !is_closing.load(Ordering::Relaxed);
             window.request_repaint();
             if order.is_none() {
                 *order = orders.try_recv().ok();
@@ -306,6 +317,9 @@ impl Workshop {
 
     /// Sends the yarns as they are now to the device and the window.
     fn show(&self) {
+        if self.is_closing() {
+            return;
+        }
         let Some((yarns, is_settled)) = &self.yarns else { return };
         let mut settings = self.view.settings;
         let lies_close = *is_settled && self.design.structure.woven().is_some();

@@ -9,8 +9,10 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use screen::{DEADLINE, Picture, Screen, wait_for};
 
@@ -69,6 +71,8 @@ impl Viewer {
             .arg(design)
             .env("DISPLAY", &screen.name)
             .env_remove("WAYLAND_DISPLAY")
+            // Drivers complain of this to people.
+            .env_remove("XDG_RUNTIME_DIR")
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -85,6 +89,14 @@ impl Viewer {
             self.lines.recv_timeout(DEADLINE).unwrap_or_else(|_| panic!("nothing is said; expected {start}"));
         assert!(line.starts_with(start), "{line} is said and not {start}");
         line
+    }
+
+    /// Waits for the program's end, which has nothing to complain of.
+    fn ends(&mut self) {
+        let status = wait_for("the program's end", || self.program.try_wait().unwrap());
+        let mut errors = String::new();
+        std::io::Read::read_to_string(&mut self.program.stderr.take().unwrap(), &mut errors).unwrap();
+        assert!(status.success() && errors.is_empty(), "{status}: {errors}");
     }
 }
 
@@ -231,11 +243,7 @@ fn a_window_shows_turns_names_edits_and_reloads_a_cloth() {
     screen.picture("ground in the corner", |picture| picture.at(corner).iter().all(|&channel| channel > 100));
 
     screen.close(window);
-    let status = wait_for("the program's end", || viewer.program.try_wait().unwrap());
-    let mut errors = String::new();
-    std::io::Read::read_to_string(&mut viewer.program.stderr.take().unwrap(), &mut errors).unwrap();
-    assert!(status.success(), "{status}: {errors}");
-    assert!(!errors.contains("panicked"), "{errors}");
+    viewer.ends();
     fs::remove_dir_all(&folder).unwrap();
 }
 
@@ -258,6 +266,66 @@ fn cloth_is_shown_before_it_settles_and_after() {
     let up = like(settled.at(at), &[ENDS[0], PICKS[3]]) == ENDS[0].0;
     let named = if up { "picked: end 1 at pick 4, red" } else { "picked: pick 4 at end 1, orange" };
     assert_eq!(viewer.says("picked: "), named);
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+/// The surface takes another size while the workshop hands the device one cloth after the other.
+#[test]
+fn a_window_is_resized_while_its_cloth_is_read_again() {
+    let folder = folder("resized");
+    let file = folder.join("cloth.toml");
+    fs::write(&file, design("plain", 4)).unwrap();
+    let screen = Screen::open();
+    let mut viewer = Viewer::open(&file, &screen, "--no-settle");
+    viewer.says("shown: ");
+    let window = screen.window();
+    for turn in 0..400 {
+        screen.resize(window, [300 + turn * 53 % 97, 200 + turn * 31 % 89]);
+        if turn % 4 == 0 {
+            fs::write(&file, design("plain", 4 + turn as usize / 4 % 2)).unwrap();
+        }
+        thread::sleep(Duration::from_millis(40));
+        assert_eq!(viewer.program.try_wait().unwrap(), None, "after {turn} sizes");
+    }
+    // It has gone on, and goes on: a last cloth is shown, in a window of a last size.
+    fs::write(&file, design("plain", 9)).unwrap();
+    let is_last = |line: String| line.contains("13 yarns").then_some(());
+    wait_for("the last cloth", || is_last(viewer.lines.recv_timeout(DEADLINE).unwrap()));
+    screen.resize(window, SIZE);
+    screen.picture("ground in the corner", |picture| {
+        picture.at([SIZE[0] - 5, SIZE[1] - 5]).iter().all(|&channel| channel > 100)
+    });
+    screen.close(window);
+    viewer.ends();
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_file_that_changes_without_end_is_read_all_the_same() {
+    let folder = folder("restless");
+    let file = folder.join("cloth.toml");
+    fs::write(&file, design("plain", 4)).unwrap();
+    let screen = Screen::open();
+    let mut viewer = Viewer::open(&file, &screen, "--no-settle");
+    assert!(viewer.says("shown: ").contains("8 yarns"));
+    let other = folder.join("other.toml");
+    let is_read = AtomicBool::new(false);
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            let start = Instant::now();
+            while !is_read.load(Ordering::Relaxed) && start.elapsed() < 2 * DEADLINE {
+                // Whole at any time, and another file each time.
+                fs::write(&other, design("plain", 7)).unwrap();
+                fs::rename(&other, &file).unwrap();
+                thread::sleep(Duration::from_millis(20));
+            }
+        });
+        let said = viewer.lines.recv_timeout(DEADLINE);
+        is_read.store(true, Ordering::Relaxed);
+        assert!(said.as_ref().is_ok_and(|said| said.contains("11 yarns")), "{said:?}");
+    });
+    screen.close(screen.window());
+    viewer.ends();
     fs::remove_dir_all(&folder).unwrap();
 }
 

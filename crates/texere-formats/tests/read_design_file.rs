@@ -295,6 +295,24 @@ fn another_section_is_relieved_anew() {
 }
 
 #[test]
+fn a_dash_that_looks_like_a_hyphen_is_named() {
+    let number = "diameter_mm = \u{2212}0.3";
+    let text =
+        |line: &str| format!("[weave]\nnotation = \"plain\"\nends = 4\npicks = 4\n{line}\n[yarns.a]\n");
+    for (line, sign) in [
+        (number, "a minus sign (U+2212), not a hyphen"),
+        ("end\u{2013}count = 3", "an en dash (U+2013), not a hyphen"),
+        ("rows = \"last\u{2011}pick-first\"", "a non-breaking hyphen (U+2011), not a hyphen"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("design.toml");
+        std::fs::write(&path, text(line)).unwrap();
+        let told = texere_formats::read(&path).unwrap_err().to_string();
+        assert!(told.contains("line 5") && told.contains(sign), "{told}");
+    }
+}
+
+#[test]
 fn a_list_of_spacings_is_repeated() {
     let woven = cloth(&DENIM.replace("per_cm = 12.5", "spacing_mm = [0.9, 0.3, 0.4]"));
     let spacings: Vec<_> = woven.warp().iter().map(|end| end.spacing_mm).collect();

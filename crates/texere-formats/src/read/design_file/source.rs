@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use texere_fabric::{FabricError, Weave};
+use texere_fabric::{FabricError, Weave, hyphen_look_alike};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -37,10 +37,11 @@ impl<'a> Source<'a> {
 
     /// What the file says.
     pub(super) fn parse<T: Value>(&self) -> Result<T, ReadError> {
-        let table = DeTable::parse(self.text).map_err(|error| ReadError::Syntax {
-            file: self.path.into(),
-            line: self.line(error.span().unwrap_or(0..0)),
-            message: said(error.message()),
+        let table = DeTable::parse(self.text).map_err(|error| {
+            let line = self.line(error.span().unwrap_or(0..0));
+            let written = self.text.lines().nth(line - 1).and_then(|line| line.split('#').next());
+            let message = said(error.message()) + &no_hyphen(written.unwrap_or_default());
+            ReadError::Syntax { file: self.path.into(), line, message }
         })?;
         let span = table.span();
         T::read(&Node::root(self, &Spanned::new(span, DeValue::Table(table.into_inner()))))
@@ -61,7 +62,8 @@ impl<'a> Source<'a> {
 
     pub(super) fn bad<T: ToString>(&self, field: &str, value: &Spanned<T>, expected: &str) -> ReadError {
         let (place, value) = (self.place(field, value.span()), shown(&value.as_ref().to_string()));
-        ReadError::BadValue { place, value, expected: expected.into() }
+        let expected = expected.to_owned() + &no_hyphen(&value);
+        ReadError::BadValue { place, value, expected }
     }
 
     /// The refusal of a value that is not even of the right kind: it is shown as the file has it.
@@ -72,7 +74,8 @@ impl<'a> Source<'a> {
     /// The refusal of what stands at `span`, shown as the file has it.
     pub(super) fn unfit(&self, field: &str, span: Range<usize>, expected: &str) -> ReadError {
         let (place, value) = (self.place(field, span.clone()), self.written(span));
-        ReadError::BadValue { place, value, expected: expected.into() }
+        let expected = expected.to_owned() + &no_hyphen(&value);
+        ReadError::BadValue { place, value, expected }
     }
 
     /// A number of any size, whole or not.
@@ -146,4 +149,10 @@ impl<'a> Source<'a> {
     pub(super) fn fabric(&self, source: FabricError) -> ReadError {
         ReadError::fabric(self.path, source)
     }
+}
+
+/// What an error adds where a text has a sign that looks like a hyphen or a minus and is none.
+fn no_hyphen(text: &str) -> String {
+    let sign = text.chars().find_map(hyphen_look_alike);
+    sign.map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
 }

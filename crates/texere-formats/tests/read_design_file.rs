@@ -307,7 +307,7 @@ fn a_dash_that_looks_like_a_hyphen_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("design.toml");
         std::fs::write(&path, text(line)).unwrap();
-        let told = texere_formats::read(&path).unwrap_err().to_string();
+        let told = read(&path).unwrap_err().to_string();
         assert!(told.contains("line 5") && told.contains(sign), "{told}");
     }
 }

@@ -1,5 +1,7 @@
 //! How long yarns are: arc length of the spline.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use texere_core::{ControlPoint, Yarns};
 
@@ -60,6 +62,13 @@ pub(crate) fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension:
         [x + rounds * shift[0], y + rounds * shift[1], z]
     };
     (0..count).map(|first| interval_length([-1, 0, 1, 2].map(|step| at(first + step)), s)).sum()
+}
+
+/// Length of those intervals of an open yarn that lie between a range of its points, mm. Points beyond bend its ends.
+pub(crate) fn part_length_mm(points: &[ControlPoint], part: Range<usize>, tension: f32) -> f64 {
+    let s = (1.0 - f64::from(tension)) / 2.0;
+    let last = part.end.min(points.len()).saturating_sub(1);
+    (part.start..last).map(|first| interval_length(neighbours(points, false, first).map(position), s)).sum()
 }
 
 fn position(point: ControlPoint) -> [f64; 3] {

@@ -1,12 +1,16 @@
 //! What designers and mills ask of a fabric: yarn consumption, crimp, cover, weight, thickness.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use texere_core::{ControlPoint, Material, Segment, Yarns};
 
 use crate::clearance::neighbours;
+use crate::length::{part_length_mm, round_length_mm};
 use crate::reach::{Reach, mean_reach};
+use crate::woven::Sample;
 use crate::yarn_size::INCH_MM;
-use crate::{FabricError, Thread, Woven, lengths_mm, tex_from_cotton_count};
+use crate::{FabricError, Thread, Woven, tex_from_cotton_count};
 
 /// Intervals of a yarn's thickness that are looked at: the spline's height between two points is a cubic, whose turning
 /// points are met to 1/64 of an interval, and its height to the square of that.
@@ -34,9 +38,9 @@ const PEIRCE: f64 = 28.0;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measures {
-    /// Length of yarn of each material, mm, in the materials' order.
+    /// Length of yarn of each material, mm, in the materials' order. Ends that hang out of a knit do not count.
     pub length_mm: Vec<f64>,
-    /// Crimp of the warp and of the weft: length of yarn over length of cloth, less 1. Turns at a selvedge count as
+    /// Crimp of the warp and of the weft: length of yarn over length of cloth, less 1, in whole repeats. Turns at a selvedge count as
     /// weft; of a cloth whose weft turns it is what the mill has to wind, not the wave of a pick alone.
     ///
     /// **Source**: BS 2863 and ISO 7211-3 define it so.
@@ -87,15 +91,20 @@ pub struct Cover {
 }
 
 impl Measures {
-    /// What is measured of a knit of so many loops, so many wales and courses, and so many mm of width and height.
+    /// What is measured of a knit of so many loops, so many wales and courses, and so many mm of width and height. `own` is what of each
+    /// yarn is the cloth's.
     pub(crate) fn of_knit(
         yarns: &Yarns,
         tension: f32,
+        own: impl Fn(usize) -> Own + Sync,
         loops: u64,
         size: [u32; 2],
         size_mm: [f64; 2],
     ) -> Self {
-        let length_mm = lengths_by_material(yarns, &lengths_mm(yarns, tension));
+        let all = 0..yarns.layout().yarns().len();
+        let lengths: Vec<f64> =
+            all.into_par_iter().map(|yarn| own(yarn).length_mm(yarns, yarn, tension)).collect();
+        let length_mm = lengths_by_material(yarns, &lengths);
         let area = size_mm[0] * size_mm[1];
         let loop_length_mm = length_mm.iter().sum::<f64>() / loops as f64;
         Self {
@@ -110,32 +119,73 @@ impl Measures {
             }),
             areal_weight: weight_g(&length_mm, yarns.materials()).map(|grams| grams / (area * 1e-6)),
             length_mm,
-            thickness_mm: thickness_mm(yarns, tension),
+            thickness_mm: thickness_within(yarns, tension, |yarn| own(yarn).points),
         }
     }
 
-    /// Measures a woven `cloth`, whose yarns are `yarns`, as they are woven or at rest, with splines of `tension`.
+    /// Measures a woven `cloth`, whose yarns are `yarns`, as they are woven or at rest, with splines of `tension`. One repeat has the numbers
+    /// that many have: what is measured is whole repeats, as they lie among others.
     ///
     /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
-        let lengths = lengths_mm(yarns, tension);
-        let length_mm = lengths_by_material(yarns, &lengths);
-        let [width, height] = cloth.size_mm();
-        let (ends, picks) = (cloth.warp().len(), cloth.weft().len());
-        let (warp, weft) = lengths.split_at(ends.min(lengths.len()));
-        let crimp = |lengths: &[f64], threads: usize, along: f64| {
-            lengths.iter().sum::<f64>() / (threads as f64 * along) - 1.0
+        let ratios = Sample::new(cloth, yarns)?.ratios(tension);
+        let (whole, size, sets) = (cloth.whole(), cloth.size_mm(), [cloth.warp(), cloth.weft()]);
+        let mut length_mm = vec![0.0; yarns.materials().len()];
+        for set in [0, 1] {
+            for (thread, ratio) in sets[set].iter().zip(&ratios[set]) {
+                length_mm[thread.material as usize] += ratio * size[1 - set];
+            }
+        }
+        let crimp = |set: usize| {
+            let (count, _) = whole[set];
+            ratios[set][..count].iter().sum::<f64>() / count as f64 - 1.0
         };
+        // tex is g/km, so that a thread of one tex in each mm weighs a gram in each m².
+        let weights = [0, 1].map(|set| {
+            let (count, extent) = whole[set];
+            let threads = sets[set].iter().zip(&ratios[set]).take(count);
+            let tex = |thread: &Thread| yarns.materials()[thread.material as usize].tex.map(f64::from);
+            threads.map(|(thread, ratio)| Some(tex(thread)? * ratio / extent)).sum::<Option<f64>>()
+        });
         Ok(Self {
-            crimp: Some([crimp(warp, ends, height), crimp(weft, picks, width)]),
+            crimp: Some([crimp(0), crimp(1)]),
             cover: Some(Cover::new(cloth, yarns)?),
             knit: None,
-            areal_weight: weight_g(&length_mm, yarns.materials())
-                .map(|grams| grams / (width * height * 1e-6)),
+            areal_weight: weights.into_iter().sum(),
             length_mm,
             thickness_mm: thickness_mm(yarns, tension),
         })
+    }
+}
+
+/// What of a yarn is the cloth's: what lies beyond is cut off where a sample ends, and another sample would have it elsewhere.
+#[derive(Debug, Clone)]
+pub(crate) struct Own {
+    /// The control points.
+    pub(crate) points: Range<usize>,
+    /// How far its next round lies from this one, mm, where it goes on for ever; the last point leads to that one's first.
+    pub(crate) onward: Option<[f64; 2]>,
+}
+
+impl Own {
+    /// The yarn goes on for ever: all its points but so many before and beyond.
+    pub(crate) fn round(yarns: &Yarns, yarn: usize, [before, beyond]: [u32; 2], onward: [f64; 2]) -> Self {
+        let count = yarns.yarn_points(yarn).map_or(0, <[ControlPoint]>::len);
+        let points = before as usize..count.saturating_sub(beyond as usize);
+        if points.is_empty() {
+            return Self { points: 0..count, onward: None };
+        }
+        Self { points, onward: Some(onward) }
+    }
+
+    /// Its length, mm, at the tension of its spline.
+    pub(crate) fn length_mm(&self, yarns: &Yarns, yarn: usize, tension: f32) -> f64 {
+        let points = yarns.yarn_points(yarn).unwrap_or(&[]);
+        match self.onward {
+            Some(onward) => round_length_mm(&points[self.points.clone()], onward, tension),
+            None => part_length_mm(points, self.points.clone(), tension),
+        }
     }
 }
 
@@ -145,8 +195,9 @@ impl Cover {
     /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
-        let size = cloth.size_mm();
-        let sets = [(cloth.warp(), size[0]), (cloth.weft(), size[1])];
+        let whole = cloth.whole();
+        let sets = [(cloth.warp(), whole[0]), (cloth.weft(), whole[1])]
+            .map(|(set, (count, mm))| (&set[..count], mm));
         let turns = |threads: &[Thread], section: usize| {
             threads.iter().any(|thread| thread.twist != 0.0 && thread.section as usize == section)
         };
@@ -158,8 +209,12 @@ impl Cover {
                 [section.half_width(), if twisted { mean_reach(section) } else { 0.0 }]
             })
             .collect();
-        let mut taken = [0.0; 2];
+        let (mut taken, mut counted) = ([0.0; 2], [0; 2]);
         for (set, yarn) in cloth.yarns_of_threads() {
+            counted[set] += 1;
+            if counted[set] > whole[set].0 {
+                continue;
+            }
             let what = &yarns.layout().yarns()[yarn];
             let wide = widths[what.section as usize][usize::from(what.twist != 0.0)];
             let points = yarns.yarn_points(yarn).unwrap_or(&[]);
@@ -201,7 +256,7 @@ fn mean_half_width(points: &[ControlPoint]) -> f64 {
 }
 
 /// Length of yarn of each material, mm, in the materials' order; `lengths` are the yarns' (see
-/// [`lengths_mm`]).
+/// [`lengths_mm`](crate::lengths_mm)).
 #[must_use]
 pub fn lengths_by_material(yarns: &Yarns, lengths: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; yarns.materials().len()];
@@ -223,6 +278,11 @@ pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
 /// the upright sections, or of twisted ones, which turn through every direction, the furthest that they reach.
 #[must_use]
 pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
+    thickness_within(yarns, tension, |_| 0..usize::MAX)
+}
+
+/// That of the intervals that begin at those control points of each yarn.
+fn thickness_within(yarns: &Yarns, tension: f32, own: impl Fn(usize) -> Range<usize> + Sync) -> f64 {
     let reaches: Vec<Reach> = yarns.layout().sections().iter().map(Reach::new).collect();
     let s = (1.0 - tension) / 2.0;
     let extent = |yarn: usize| {
@@ -233,7 +293,8 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
         let count = points.len();
         let intervals = if what.closed { count } else { count.saturating_sub(1) };
         let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
-        for first in 0..intervals {
+        let own = own(yarn);
+        for first in own.start..own.end.min(intervals) {
             let four = neighbours(points, what.closed, first);
             // Nothing lies beyond the Bézier polygon: most intervals can't be the lowest or the highest.
             let heights = bezier(&four.map(|point| point.z), s);

@@ -6,7 +6,7 @@ use texere_core::settling::Length;
 use texere_core::{Backend, Origin, Yarns};
 
 use super::{Bar, WarpKnitted};
-use crate::length::round_length_mm;
+use crate::measures::Own;
 use crate::settling::settle_repeat;
 use crate::{Finish, FinishError, Measures, Piece, Repeat, Settled};
 
@@ -89,20 +89,12 @@ impl WarpKnitted {
     /// yarns of no guide count for nothing.
     #[must_use]
     pub fn run_ins(&self, yarns: &Yarns, tension: f32) -> Vec<RunIn> {
-        let [before, beyond] = self.beyond().map(|points| points as usize);
-        // All copies are alike: after the last point comes the first one, the cloth's height further.
-        let height = [0.0, self.size_mm()[1]];
-        let length = |yarn: usize| {
-            let points = yarns.yarn_points(yarn)?;
-            let within = points.get(before..points.len().checked_sub(beyond)?)?;
-            Some(round_length_mm(within, height, tension))
-        };
         let mut sums = vec![(0.0, 0.0); self.bars().len()];
         for (yarn, each) in yarns.layout().yarns().iter().enumerate() {
             let Origin::Guide { bar, .. } = each.origin else { continue };
             let sum = sums.get_mut((bar as usize).wrapping_sub(1));
-            if let (Some((sum, count)), Some(length)) = (sum, length(yarn)) {
-                *sum += length;
+            if let Some((sum, count)) = sum {
+                *sum += self.own(yarns, yarn).length_mm(yarns, yarn, tension);
                 *count += 1.0;
             }
         }
@@ -114,9 +106,16 @@ impl WarpKnitted {
         self.bars().iter().zip(sums).map(run_in).collect()
     }
 
-    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own, their splines of `tension`.
+    /// What of a yarn is the cloth's. All copies are alike: after the last point comes the first one, the cloth's height further.
+    fn own(&self, yarns: &Yarns, yarn: usize) -> Own {
+        Own::round(yarns, yarn, self.beyond(), [0.0, self.size_mm()[1]])
+    }
+
+    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own, their splines of `tension`. However many copies of
+    /// the repeat there are, they have the same numbers: what yarns reach beyond the cloth does not count.
     #[must_use]
     pub fn measures(&self, yarns: &Yarns, tension: f32) -> Measures {
-        Measures::of_knit(yarns, tension, self.loops(), self.size(), self.size_mm())
+        let own = |yarn| self.own(yarns, yarn);
+        Measures::of_knit(yarns, tension, own, self.loops(), self.size(), self.size_mm())
     }
 }

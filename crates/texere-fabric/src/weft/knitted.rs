@@ -138,7 +138,8 @@ impl Knitted {
             None => {
                 let (left, right) = extent(&self.stitches);
                 let courses = self.stitches.loops.iter().map(|stitch| stitch.course + 1).max();
-                [(right - left).ceil() as u32 + 1, courses.unwrap_or(0)]
+                // A bed that is racked by half a needle adds no wale.
+                [(right - left).floor() as u32 + 1, courses.unwrap_or(0)]
             }
         }
     }
@@ -165,11 +166,15 @@ impl Knitted {
     /// All copies of a repeat, settled or not. Yarns are cut off three control points beyond the last loop, where that does not spoil
     /// their count: a leg runs straight there, so that what is cut off bends as in the repeat, and touches nothing.
     pub(crate) fn laid(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
-        let beyond = match self.cells {
+        repeat.laid_beyond(yarns, self.beyond())
+    }
+
+    /// How many control points of a repeat's yarns go on beyond all copies, at the beginning and at the end.
+    pub(super) const fn beyond(&self) -> [u32; 2] {
+        match self.cells {
             Cells::Round => [3, 3],
             Cells::Even => [0, 0],
-        };
-        repeat.laid_beyond(yarns, beyond)
+        }
     }
 
     /// One repeat of the cloth, or all of it where none repeats, and what holds it: see [`Knitted::repeat`].

@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 
 use texere_core::settling::Length;
-use texere_core::{Backend, Yarns};
+use texere_core::{Backend, Origin, Yarns};
 
 use super::{Knitted, Stitch};
+use crate::measures::Own;
 use crate::settling::settle_repeat;
 use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled, settle};
 
@@ -49,7 +50,13 @@ impl Knitted {
             Some(asked) => {
                 let repeats = self.loops() as f64 / stitches.len() as f64;
                 let pieces = f64::from(copies[0]) * f64::from(copies[1]);
-                let factor = asked * repeats / pieces / piece.length_mm(tension);
+                let length_mm = if self.stitches().repeat.is_some() {
+                    piece.length_mm(tension)
+                } else {
+                    let own = |yarn| self.own(&piece.yarns, yarn).length_mm(&piece.yarns, yarn, tension);
+                    (0..piece.yarns.layout().yarns().len()).map(own).sum()
+                };
+                let factor = asked * repeats / pieces / length_mm;
                 Length::Given(factor.clamp(GIVEN[0], GIVEN[1]) as f32)
             }
             None => Length::Free { tension: 0.0 },
@@ -63,10 +70,24 @@ impl Knitted {
         self.stitches().loops.len() as u64 * across * along
     }
 
-    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own, their splines of `tension`.
+    /// What of a yarn is the cloth's: one that goes on from repeat to repeat without what reaches beyond them, another one without the tails
+    /// that hang out beyond its first and its last stitch.
+    fn own(&self, yarns: &Yarns, yarn: usize) -> Own {
+        let points = yarns.yarn_points(yarn).unwrap_or(&[]);
+        if !matches!(yarns.layout().yarns()[yarn].origin, Origin::Course(_)) {
+            return Own { points: 1..points.len().saturating_sub(1), onward: None };
+        }
+        let leftwards = matches!(points, [first, .., last] if last.x < first.x);
+        let width = if leftwards { -self.size_mm()[0] } else { self.size_mm()[0] };
+        Own::round(yarns, yarn, self.beyond(), [width, 0.0])
+    }
+
+    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own, their splines of `tension`. However many copies of
+    /// a repeat there are, they have the same numbers: what is cut off at the edges does not count, nor do the tails of other yarns.
     ///
     /// **Errors**: none so far.
     pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
-        Ok(Measures::of_knit(yarns, tension, self.loops(), self.size(), self.size_mm()))
+        let own = |yarn| self.own(yarns, yarn);
+        Ok(Measures::of_knit(yarns, tension, own, self.loops(), self.size(), self.size_mm()))
     }
 }

@@ -51,7 +51,7 @@ impl Woven {
     /// The setts of warp and weft. Diameters are those of the round yarns.
     #[must_use]
     pub fn setts(&self) -> [Sett; 2] {
-        let size = self.size_mm();
+        let whole = self.whole();
         let sets = [self.warp(), self.weft()];
         let diameters = sets.map(|threads| {
             let sum: f64 = threads.iter().map(|thread| 2.0 * f64::from(thread.radius_mm)).sum();
@@ -59,7 +59,7 @@ impl Woven {
         });
         let levels = self.interlacings();
         let is_plain = levels.iter().all(|levels| matches!(levels[..], [Level { interlacings: 1.0, .. }]));
-        let pitches = [0, 1].map(|set| size[set] / sets[set].len() as f64);
+        let pitches = [0, 1].map(|set| whole[set].1 / whole[set].0 as f64);
         [0, 1].map(|set| {
             // Each level has its share of the threads.
             let greatest = levels[set]

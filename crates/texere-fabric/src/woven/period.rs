@@ -1,0 +1,103 @@
+//! What of woven cloth is measured: whole repeats, so that small samples of a cloth and large ones have the same numbers.
+
+use std::borrow::Cow;
+
+use texere_core::Yarns;
+
+use super::{Drawdown, Woven};
+use crate::FabricError;
+use crate::measures::Own;
+
+/// A thread that crosses so many others in one repeat alone is measured as it is: the stretch from its last crossing to its first one in the
+/// next repeat changes its crimp by less than a share of this. The repeat of fewer is woven among others.
+const FEW: usize = 256;
+
+/// Cloth to be measured, with its yarns.
+pub(crate) struct Sample<'a> {
+    cloth: Cow<'a, Woven>,
+    yarns: Cow<'a, Yarns>,
+    repeat: [usize; 2],
+    middles: [Vec<f64>; 2],
+}
+
+impl Woven {
+    /// As many threads of either set as whole repeats of the cloth have, and what these take, mm.
+    pub(crate) fn whole(&self) -> [(usize, f64); 2] {
+        let (repeat, middles, size) = (self.repeat(), self.middles_mm(), self.size_mm());
+        [0, 1].map(|set| {
+            let count = middles[set].len();
+            let whole = if count < repeat[set] { count } else { count / repeat[set] * repeat[set] };
+            let extent = if whole < count { middles[set][whole] - middles[set][0] } else { size[set] };
+            (whole, extent)
+        })
+    }
+}
+
+impl<'a> Sample<'a> {
+    /// The sample of a cloth and its yarns. Those of a small cloth as it is woven, whose threads are cut off straight at its edges, are
+    /// woven again among others: how a thread bends at the edge depends on floats that are cut off there.
+    ///
+    /// **Errors**: those of [`Woven::yarns`].
+    pub(crate) fn new(cloth: &'a Woven, yarns: &'a Yarns) -> Result<Self, FabricError> {
+        let repeat = cloth.repeat();
+        let counts = [cloth.warp().len(), cloth.weft().len()];
+        let lacks = |set: usize| counts[set] <= 3 * repeat[set] && counts[set] < FEW;
+        if !cloth.selvedge() && (lacks(0) || lacks(1)) && yarns.points() == cloth.yarns()?.points() {
+            let more = [0, 1].map(|set| if lacks(set) { 3 * repeat[set] + 1 } else { counts[set] });
+            let place = |set: usize, thread: usize| {
+                if thread < counts[set] { thread } else { thread % repeat[set] % counts[set] }
+            };
+            let up = |end, pick| cloth.drawdown().up(place(0, end), place(1, pick));
+            let drawdown = Drawdown::from_fn(more[0], more[1], up)?;
+            let [warp, weft] = [cloth.warp(), cloth.weft()];
+            let warp = (0..more[0]).map(|end| warp[place(0, end)]).collect();
+            let weft = (0..more[1]).map(|pick| weft[place(1, pick)]).collect();
+            let cloth = cloth.like(drawdown, warp, weft)?;
+            let (yarns, middles) = (cloth.yarns()?, cloth.middles_mm());
+            return Ok(Self { cloth: Cow::Owned(cloth), yarns: Cow::Owned(yarns), repeat, middles });
+        }
+        Ok(Self {
+            middles: cloth.middles_mm(),
+            cloth: Cow::Borrowed(cloth),
+            yarns: Cow::Borrowed(yarns),
+            repeat,
+        })
+    }
+
+    /// Length of yarn over length of cloth of each end and each pick, at the tension of their splines: in whole repeats without the
+    /// outermost ones, where there are as many. What turns at a selvedge counts with its picks.
+    pub(crate) fn ratios(&self, tension: f32) -> [Vec<f64>; 2] {
+        let threads: Vec<_> = self.cloth.yarns_of_threads().collect();
+        let mut passes = vec![0_usize; self.yarns.layout().yarns().len()];
+        threads.iter().for_each(|(_, yarn)| passes[*yarn] += 1);
+        let size = self.cloth.size_mm();
+        let (mut ratios, mut numbers) = ([Vec::new(), Vec::new()], [0, 0]);
+        for (set, yarn) in threads {
+            let round = if passes[yarn] == 1 { self.round(set, numbers[set], yarn) } else { None };
+            let (own, along) = round.unwrap_or_else(|| {
+                let count = self.yarns.yarn_points(yarn).map_or(0, <[_]>::len);
+                let whole = Own { points: 0..count, onward: None };
+                (whole, size[1 - set] * passes[yarn] as f64)
+            });
+            ratios[set].push(own.length_mm(&self.yarns, yarn, tension) / along);
+            numbers[set] += 1;
+        }
+        ratios
+    }
+
+    /// As many repeats of a thread as there are without the outermost ones, and their length in the cloth, mm.
+    fn round(&self, set: usize, thread: usize, yarn: usize) -> Option<(Own, f64)> {
+        let (across, repeat) = (&self.middles[1 - set], self.repeat[1 - set]);
+        let repeats = (across.len().saturating_sub(1) / repeat).checked_sub(2)? * repeat;
+        let ends = self.cloth.warp().len();
+        let sources = self.yarns.sources()?.get(self.yarns.range(yarn)?)?;
+        let at = |crossed: usize| {
+            let source = if set == 0 { crossed * ends + thread } else { thread * ends + crossed };
+            sources.iter().position(|own| *own as usize == source)
+        };
+        let points = at(repeat)?..at(repeat + repeats)?;
+        let along = across[repeat + repeats] - across[repeat];
+        let onward = if set == 0 { [0.0, along] } else { [along, 0.0] };
+        (repeats > 0).then_some((Own { points, onward: Some(onward) }, along))
+    }
+}

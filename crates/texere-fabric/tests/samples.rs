@@ -1,0 +1,175 @@
+//! One repeat of a cloth has the numbers that many have.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
+
+use std::ops::ControlFlow;
+
+use proptest::prelude::*;
+use texere_core::{Material, Section};
+use texere_cpu::ParallelBackend;
+use texere_fabric::warp::{Bar, Chain, WarpKnitted};
+use texere_fabric::weft::{
+    Beds, CarrierSet, Chart, Direction, Gauge, Instruction, KnitYarn, Knitted, Machine, Needle, Operation,
+    Program,
+};
+use texere_fabric::{Drawdown, Finish, Measures, Structure, Thread, Weave, Woven};
+
+fn materials() -> Vec<Material> {
+    [20.0, 30.0].map(|tex| Material { tex: Some(tex), ..Material::default() }).to_vec()
+}
+
+/// Cloth of a weave, ends and picks with these spacings and materials over and over again.
+fn woven(notation: &str, size: [usize; 2], spacing: &[f64], materials_of: &[u32]) -> Woven {
+    let thread = |number: usize| Thread {
+        material: materials_of[number % materials_of.len()],
+        ..Thread::new(spacing[number % spacing.len()], 0.1)
+    };
+    let drawdown = Weave::parse(notation).unwrap().drawdown(size[0], size[1]).unwrap();
+    let warp = (0..size[0]).map(thread).collect();
+    Woven::new(drawdown, warp, vec![Thread::new(1.0, 0.1); size[1]], materials(), vec![Section::Circle])
+        .unwrap()
+}
+
+fn close(one: f64, other: f64, within: f64) -> bool {
+    (one / other - 1.0).abs() < within
+}
+
+/// Weight, cover and crimp, and threads to the cm.
+fn numbers(cloth: &Woven, measures: &Measures) -> [f64; 6] {
+    let [warp, weft] = measures.crimp.unwrap();
+    let [ends, picks] = cloth.setts().map(|sett| sett.per_cm);
+    [measures.areal_weight.unwrap(), 1.0 + warp, 1.0 + weft, 1.0 + measures.cover.unwrap().cloth, ends, picks]
+}
+
+#[test]
+fn straight_threads_weigh_what_they_are() {
+    // All ends on the face: 20 ends of 30 tex and 10 picks of 20 tex to the cm, none of them crimped.
+    for size in [1, 2, 3, 7] {
+        let mut cloth = woven("plain", [size; 2], &[0.5], &[1]);
+        let drawdown = Drawdown::from_fn(size, size, |_, _| true).unwrap();
+        let (warp, weft) = (cloth.warp().to_vec(), cloth.weft().to_vec());
+        cloth = Woven::new(drawdown, warp, weft, materials(), vec![Section::Circle]).unwrap();
+        let measures = Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap();
+        let by_hand = 0.1 * (20.0 * 30.0 + 10.0 * 20.0);
+        assert!(close(measures.areal_weight.unwrap(), by_hand, 1e-6), "{:?}", measures.areal_weight);
+    }
+}
+
+#[test]
+fn a_pattern_of_thick_and_thin_counts_by_whole_repeats() {
+    // Ends of 20 and 30 tex by turns: three of them are one repeat and a thread.
+    let [one, more] = [2, 3].map(|ends| {
+        let cloth = woven("plain", [ends, 4], &[0.8], &[0, 1]);
+        Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap().areal_weight.unwrap()
+    });
+    let by_hand = |crimped: f64| 0.1 * (12.5 * 25.0 + 10.0 * 20.0) * crimped;
+    assert!((by_hand(1.0)..by_hand(1.15)).contains(&one), "{one}");
+    assert!(close(one, more, 1e-5), "{one} {more}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 24, ..ProptestConfig::default() })]
+    #[test]
+    fn a_weave_of_one_repeat_has_the_numbers_of_many(
+        notation in prop::sample::select(vec!["plain", "2/1", "2/2", "3/1", "satin 5"]),
+        spacing in 0.5..1.0_f64,
+        second in 0_u32..2,
+        times in [1_usize..4, 1..4],
+    ) {
+        let repeat = Weave::parse(notation).unwrap().repeat();
+        let repeat = if repeat.0 == 2 { 2 } else { 2 * repeat.0 };
+        let (spacing, materials) = ([spacing], [0, second]);
+        let one = woven(notation, [repeat; 2], &spacing, &materials);
+        let many = woven(notation, times.map(|times| times * repeat), &spacing, &materials);
+        let [first, second] = [&one, &many].map(|cloth| {
+            numbers(cloth, &Measures::new(cloth, &cloth.yarns().unwrap(), 0.0).unwrap())
+        });
+        for (one, many) in first.iter().zip(second) {
+            prop_assert!(close(*one, many, 2e-4), "{:?} {:?}", first, second);
+        }
+    }
+}
+
+#[test]
+fn woven_cloth_at_rest_has_the_same_numbers_small_and_large() {
+    let device = ParallelBackend::open().unwrap();
+    let measured = |size| {
+        let cloth = woven("2/2", [size; 2], &[0.5], &[1]);
+        let rest = cloth.at_rest(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(())).unwrap();
+        numbers(&cloth, &Measures::new(&cloth, &rest.yarns, 0.0).unwrap())
+    };
+    let [one, many] = [measured(4), measured(24)];
+    assert!(one.iter().zip(many).all(|(one, many)| close(*one, many, 2e-3)), "{one:?} {many:?}");
+}
+
+fn jersey(size: u32) -> Structure {
+    let stitches =
+        Machine::default().knit(&Chart::parse("k", Beds::One).unwrap().program().unwrap()).unwrap();
+    let (yarns, sections) = (vec![KnitYarn::new(0.09)], vec![Section::Circle]);
+    let gauge = Gauge::munden(3.5);
+    Structure::Weft(Knitted::new(stitches.stitches, gauge, yarns, materials(), sections, [size; 2]).unwrap())
+}
+
+fn locknit(size: u32) -> Structure {
+    let bars = ["1-0/2-3//", "1-2/1-0//"].map(|chain| Bar::new(Chain::parse(chain, 1).unwrap())).to_vec();
+    let (yarns, sections) = (vec![KnitYarn::new(0.05)], vec![Section::Circle]);
+    let gauge = Gauge::new(1.0, 0.75);
+    Structure::Warp(WarpKnitted::new(bars, gauge, 4, 4, yarns, materials(), sections, [size; 2]).unwrap())
+}
+
+#[test]
+fn knits_have_the_same_numbers_small_and_large() {
+    let device = ParallelBackend::open().unwrap();
+    for (small, large) in [(jersey(4), jersey(16)), (locknit(1), locknit(3))] {
+        let [one, many] = [small, large].map(|structure| {
+            let settled =
+                structure.settle(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(())).unwrap();
+            [structure.yarns().unwrap(), settled.into_yarns()].map(|yarns| {
+                let measures = structure.measures(&yarns, 0.0).unwrap();
+                let knit = measures.knit.unwrap();
+                [
+                    knit.loop_length_mm,
+                    measures.areal_weight.unwrap(),
+                    knit.tightness.unwrap(),
+                    measures.thickness_mm,
+                ]
+            })
+        });
+        let pairs = one.iter().flatten().zip(many.iter().flatten());
+        assert!(pairs.into_iter().all(|(one, many)| close(*one, *many, 1e-4)), "{one:?} {many:?}");
+    }
+}
+
+#[test]
+fn a_jersey_has_the_loops_that_were_asked_for() {
+    let structure = jersey(4);
+    let settled = structure
+        .settle(&Finish::default(), 0.0, &ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(()))
+        .unwrap();
+    let measures = structure.measures(settled.yarns(), 0.0).unwrap();
+    let knit = measures.knit.unwrap();
+    assert!(close(knit.loop_length_mm, 3.5, 0.01), "{}", knit.loop_length_mm);
+    // √tex over the loop in cm; loops to the m² times their length times tex.
+    assert!(close(knit.tightness.unwrap(), 20_f64.sqrt() / (0.1 * knit.loop_length_mm), 1e-9));
+    let per_m2 = 1e6 / (3.5 / 4.2 * 3.5 / 5.5);
+    assert!(close(measures.areal_weight.unwrap(), per_m2 * knit.loop_length_mm * 20e-6, 1e-9));
+}
+
+#[test]
+fn half_a_needle_of_rack_is_no_wale() {
+    let operation = |instruction| Operation { instruction, carriers: CarrierSet(1), source: 0 };
+    let mut operations = vec![operation(Instruction::In), operation(Instruction::Rack(0.5))];
+    for _ in 0..2 {
+        for needle in 0..8 {
+            for needle in [Needle::front(needle), Needle::back(needle)] {
+                operations.push(operation(Instruction::Knit(Direction::Right, needle)));
+            }
+        }
+    }
+    let program =
+        Program { carriers: vec!["1".into()], carrier_sets: vec![vec![], vec![0]], operations, repeat: None };
+    let stitches = Machine::default().knit(&program).unwrap().stitches;
+    let (yarns, sections) = (vec![KnitYarn::new(0.09)], vec![Section::Circle]);
+    let knit = Knitted::new(stitches, Gauge::new(1.0, 0.75), yarns, materials(), sections, [1, 1]).unwrap();
+    assert_eq!(knit.size()[0], 8);
+}

@@ -125,11 +125,12 @@ struct Jammed {
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let mut design = texere::read(&args.design)?;
     let settings = Settings::default();
-    let (yarns, settling) =
+    let (yarns, mut settling) =
         settling::yarns(&mut design, &args.settling, settings.tension, || texere::open("cpu"))?;
     let clearance = progress::during("measuring how near yarns come", |bar| {
         design.structure.clearance(&yarns, &settings, progress::share(bar))
     })?;
+    settling.iter_mut().for_each(|settling| settling.measured(&clearance));
     // Whether threads that settled have found room shows in their clearance, not in the pitches at which they started.
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let jams = if settled { None } else { design.structure.jams() };
@@ -287,6 +288,9 @@ impl Report {
         }
         if let Some(empty) = &self.empty_needles {
             line("warning", empty.said.clone());
+        }
+        for missed in self.settling.iter().filter_map(SettlingReport::press_missed) {
+            line("warning", missed);
         }
         for (what, faults) in self
             .machine

@@ -4,8 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 use texere::{
-    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, ClothClearance, ThreadBend, ThreadContact,
-    ThreadCrowd, ThreadDrawn, ThreadPlace,
+    CLEAR, CLEARANCE_BESIDE, CLEARANCE_BIN, ClothClearance, ThreadBend, ThreadContact, ThreadCrowd,
+    ThreadDrawn, ThreadPlace,
 };
 
 /// How near yarns come to one another.
@@ -16,6 +16,7 @@ pub(crate) struct ClearanceReport {
     min: f64,
     contacts: u64,
     below_one: u64,
+    piercing: u64,
     pub(crate) worst: Vec<ContactReport>,
     histogram: Histogram,
     pub(crate) crowd: Option<CrowdReport>,
@@ -104,6 +105,7 @@ impl From<&ClothClearance> for ClearanceReport {
             min: found.min,
             contacts: found.contacts,
             below_one: found.below_one,
+            piercing: found.piercing,
             worst: found.worst.iter().map(ContactReport::from).collect(),
             histogram: Histogram { bin: CLEARANCE_BIN, counts: found.histogram.clone() },
             crowd: found.crowd.as_ref().map(CrowdReport::from),
@@ -175,7 +177,7 @@ impl fmt::Display for ClearanceReport {
         let [one, other] = &worst.yarns;
         let at = place(worst.place_mm);
         write!(f, "{:.4} of touching at the least: {one} and {other} at {at}; ", worst.ratio)?;
-        write!(f, "{} of {} contacts below {}", self.below_one, self.contacts, 1.0 - CLEARANCE_ACCURACY)?;
+        write!(f, "{} of {} contacts below {CLEAR}", self.piercing, self.contacts)?;
         if self.crowd.is_some() { write!(f, " beside the crowd") } else { Ok(()) }
     }
 }

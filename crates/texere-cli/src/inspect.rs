@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use serde::Serialize;
 use texere::warp::{Bar, WarpKnitted};
 use texere::weft::Knitted;
-use texere::{Counts, Design, Plan, Settings, Structure, Yarns};
+use texere::{ClothClearance, Counts, Design, Plan, Settings, Structure, Yarns};
 
 use crate::args::InspectArgs;
 use crate::at::{self, YarnUnder};
@@ -111,7 +111,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
 
 fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let settings = args.settings.settings();
-    let (yarns, settling) = if args.counts {
+    let (yarns, mut settling) = if args.counts {
         (design.yarns()?, None)
     } else {
         settling::yarns(&mut design, &args.settling, settings.tension, || texere::open("cpu"))?
@@ -121,7 +121,11 @@ fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let cloth = if args.counts {
         None
     } else {
-        Some(ClothReport::new(&design.structure, &yarns, &settings, settled)?)
+        let clearance = progress::during("measuring how near yarns come", |bar| {
+            design.structure.clearance(&yarns, &settings, progress::share(bar))
+        })?;
+        settling.iter_mut().for_each(|settling| settling.measured(&clearance));
+        Some(ClothReport::new(&design.structure, &yarns, &settings, settled, &clearance)?)
     };
     let weft = design.structure.knitted().map(KnitReport::new);
     let warp = || {
@@ -195,10 +199,13 @@ impl fmt::Display for BarReport {
 }
 
 impl ClothReport {
-    fn new(structure: &Structure, yarns: &Yarns, settings: &Settings, settled: bool) -> Result<Self, Fail> {
-        let clearance = progress::during("measuring how near yarns come", |bar| {
-            structure.clearance(yarns, settings, progress::share(bar))
-        })?;
+    fn new(
+        structure: &Structure,
+        yarns: &Yarns,
+        settings: &Settings,
+        settled: bool,
+        clearance: &ClothClearance,
+    ) -> Result<Self, Fail> {
         let measures = structure.measures(yarns, settings.tension)?;
         Ok(Self {
             woven: structure.woven().map(|woven| WovenReport {
@@ -215,7 +222,7 @@ impl ClothReport {
             }),
             size_mm: structure.size_mm(),
             measures: MeasuresReport::new(&measures, yarns.materials()),
-            clearance: ClearanceReport::from(&clearance),
+            clearance: ClearanceReport::from(clearance),
             curvature: CurvatureReport::from(&clearance.bend),
         })
     }

@@ -59,8 +59,8 @@ pub use clearance::{
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
 pub use diagnosis::{
-    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
-    StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
+    CLEAR, ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
+    StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
 };
 pub use drawn::{Drawn, WRUNG, drawn, finer};
 pub use error::FabricError;
@@ -71,7 +71,7 @@ pub use linking::{
     WINDOW_REACH, linking, linking_with_progress,
 };
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
-pub use settling::{Finish, FinishError, Finished, Piece, Repeat, Settled, settle};
+pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, Settled, settle};
 pub use structure::Structure;
 pub use under::yarns_under;
 pub use warning::FabricWarning;

@@ -119,7 +119,7 @@ impl Measures {
             }),
             areal_weight: weight_g(&length_mm, yarns.materials()).map(|grams| grams / (area * 1e-6)),
             length_mm,
-            thickness_mm: thickness_within(yarns, tension, |yarn| own(yarn).points),
+            thickness_mm: thickness_within(yarns, tension, |yarn| own(yarn).intervals()),
         }
     }
 
@@ -177,6 +177,12 @@ impl Own {
             return Self { points: 0..count, onward: None };
         }
         Self { points, onward: Some(onward) }
+    }
+
+    /// The intervals that begin at its points: where it ends, none does at the last one.
+    fn intervals(&self) -> Range<usize> {
+        let Range { start, end } = self.points;
+        start..end.saturating_sub(usize::from(self.onward.is_none()))
     }
 
     /// Its length, mm, at the tension of its spline.

@@ -221,7 +221,8 @@ impl Structure {
         }
     }
 
-    /// What a designer should know before looking at the fabric.
+    /// What a designer should know of the fabric as its structure puts it, before its yarns settle. Of what has come to rest
+    /// [`Finished::warnings`] says more.
     #[must_use]
     pub fn warnings(&self) -> Vec<FabricWarning> {
         match self {
@@ -292,6 +293,23 @@ impl Structure {
                 Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
             }
         }
+    }
+
+    /// What is wrong with the fabric once it has settled to `finished`, its splines of `tension`: jams are not looked for, since threads that
+    /// have found room show it in their clearance. Contacts of a ratio below `touching` pierce; [`CLEAR`](crate::CLEAR) is what
+    /// [`Finished::verdict`] goes by.
+    ///
+    /// **Errors**: those of [`Structure::clearance`].
+    pub fn diagnose_finished(
+        &self,
+        finished: &Finished,
+        tension: f32,
+        touching: f64,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<Diagnosis, FabricError> {
+        let settings = Settings { tension, ..Settings::default() };
+        let clearance = self.clearance(finished.yarns(), &settings, progress)?;
+        Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
     }
 
     /// Single changes that were tried and help against the faults of `diagnosis`: see [`WovenDesign::cures`]. There are none

@@ -35,6 +35,13 @@ pub enum FabricWarning {
         /// The worst one's distance to the thread before, mm.
         pitch_mm: f64,
     },
+    /// A knit that was pressed is thicker than the plates' distance.
+    PressMissed {
+        /// The distance that was asked for, mm.
+        asked_mm: f64,
+        /// How thick the cloth is, mm.
+        reached_mm: f64,
+    },
 }
 
 /// `end 3`, or `end 3 and 41 more`.
@@ -56,6 +63,10 @@ impl fmt::Display for FabricWarning {
                 "threads that cross pierce one another: {}; worst is {worst}, which needs a pitch of {needed_mm:.4} mm \
                  and has {pitch_mm:.4} mm",
                 and_more(*first, *count)
+            ),
+            Self::PressMissed { asked_mm, reached_mm } => write!(
+                f,
+                "the press of {asked_mm:.3} mm is not reached: the cloth is {reached_mm:.3} mm thick at rest"
             ),
         }
     }

@@ -258,9 +258,11 @@ impl Workshop {
         let mut order = None;
         match self.settled(&mut order) {
             Ok(finished) => {
-                let rest = if finished.is_at_rest() { "at rest" } else { "not at rest" };
+                let verdict = [finished.verdict().to_string()].into_iter();
+                let warnings = finished.warnings().into_iter().map(|warning| warning.to_string());
+                let said = verdict.chain(warnings).collect::<Vec<_>>().join("; ");
                 self.take_yarns(finished.into_yarns(), true);
-                self.tell(News::Settled(rest.into()));
+                self.tell(News::Settled(said));
             }
             // It was stopped, for there is something else to be done.
             Err(_) if order.is_some() || self.watch.is_stale() => self.tell(News::Settled(String::new())),

@@ -143,13 +143,13 @@ pub use texere_core::{
 };
 pub use texere_cpu::{Hit, PickError, Picker};
 pub use texere_fabric::{
-    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
+    CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
     ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, Drawn,
     FabricError, FabricWarning, FaultKind, Faults, Finish, FinishError, Finished, JamReport, Jams,
-    KnitMeasures, LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pieces, Pitch,
+    KnitMeasures, LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pieces, Pitch, Press,
     Relief, Remedy, Repeat, Sett, Settled, Shape, Shedding, StitchPlace, Stretch, Structure, Thread,
-    ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Tightness, WRUNG, Weave, Woven,
-    WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, drawn, finer, length_mm,
+    ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Tightness, Verdict, WRUNG, Weave,
+    Woven, WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, drawn, finer, length_mm,
     lengths_mm, linking, linking_with_progress, settle, turns_per_m, twist_from_turns_per_m, warp, weft,
     yarns_under,
 };

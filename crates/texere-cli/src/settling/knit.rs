@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 use texere::settling::Length;
-use texere::{Design, Passage, Settled};
+use texere::{Design, Passage, Press, Settled, Verdict};
 
 use crate::clearance::place;
 
@@ -12,20 +12,36 @@ use crate::clearance::place;
 #[derive(Debug, Serialize)]
 pub(crate) struct KnitRestReport {
     device: String,
-    pub(super) at_rest: bool,
+    at_rest: bool,
+    #[serde(skip)]
+    verdict: Verdict,
+    #[serde(skip)]
+    pub(super) warnings: Vec<String>,
+    #[serde(skip)]
+    pub(super) press_missed: Option<String>,
     /// Passes in all, and those of the block form among them.
     passes: u32,
     block_passes: u32,
-    /// The least distance of two yarns over both reaches: 1 where they touch.
-    clearance: f32,
+    /// The least clearance of surfaces as drawn: 1 where they touch; null where none comes near another.
+    pub(super) clearance: f64,
     /// The least radius of curvature.
     radius_diameters: f32,
     /// By how much a part of a yarn is off the length that it is to have at most, as a share; null where lengths are free.
     length_off: Option<f32>,
+    /// How thick it was to be pressed, and how thick it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    press: Option<PressReport>,
     /// Whether no yarn has passed through another.
     linked: bool,
     /// The worst place where one has: then yarns are as they were before.
     passage: Option<PassageReport>,
+}
+
+/// A press: the plates' distance, and how thick the cloth is.
+#[derive(Debug, Serialize)]
+struct PressReport {
+    asked_mm: f64,
+    reached_mm: f64,
 }
 
 /// Two yarns that have passed through one another.
@@ -39,7 +55,7 @@ struct PassageReport {
 }
 
 impl KnitRestReport {
-    pub(super) fn new(design: &Design, settled: &Settled, device: &str) -> Self {
+    pub(super) fn new(design: &Design, settled: &Settled, warnings: Vec<String>, device: &str) -> Self {
         let rest = &settled.rest;
         let passage = |passage: &Passage| {
             let [one, other] = passage.places.map(|place| design.structure.place(&settled.yarns, &place));
@@ -52,10 +68,14 @@ impl KnitRestReport {
         };
         Self {
             device: device.to_owned(),
-            at_rest: rest.at_rest,
+            at_rest: settled.verdict() == Verdict::AtRest,
+            verdict: settled.verdict(),
+            warnings,
+            press_missed: settled.press.and_then(|press| press.missed()).map(|missed| missed.to_string()),
+            press: settled.press.map(|Press { asked_mm, reached_mm }| PressReport { asked_mm, reached_mm }),
             passes: rest.passes,
             block_passes: rest.block_passes,
-            clearance: rest.end.clearance,
+            clearance: settled.clearance.min,
             radius_diameters: rest.end.radius,
             length_off: match settled.length {
                 Length::Free { .. } => None,
@@ -69,15 +89,12 @@ impl KnitRestReport {
 
 impl fmt::Display for KnitRestReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { device, passes, block_passes, clearance, radius_diameters, .. } = self;
-        let rest = match self {
-            Self { at_rest: true, .. } => "at rest",
-            // What neither form has brought to rest has no room for its yarns.
-            Self { linked: true, block_passes: 1.., .. } => "jammed, not at rest",
-            _ => "not at rest",
-        };
+        let Self { device, verdict, passes, block_passes, clearance, radius_diameters, .. } = self;
         let s = if *passes == 1 { "" } else { "es" };
-        write!(f, "{rest} after {passes} pass{s} on {device}, {block_passes} of them in the block form; ")?;
+        write!(
+            f,
+            "{verdict} after {passes} pass{s} on {device}, {block_passes} of them in the block form; "
+        )?;
         if clearance.is_finite() {
             write!(f, "clearance {clearance:.3}, ")?;
         }

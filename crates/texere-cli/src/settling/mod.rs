@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::Deref;
 
 use serde::Serialize;
-use texere::{Backend, BackendError, Design, Finish, FinishError, Finished, Output, Yarns};
+use texere::{Backend, BackendError, ClothClearance, Design, Finish, FinishError, Finished, Output, Yarns};
 
 use crate::args::SettlingArgs;
 use crate::fail::Fail;
@@ -71,18 +71,28 @@ pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
     Ok((finished.into_yarns(), report))
 }
 
-/// What a designer should know of yarns that have settled so, if they have: where all have found room, that the structure gave them
-/// too little is no longer true.
+/// What a designer should know of yarns that have settled so, if they have.
 pub(crate) fn warnings(design: &Design, settling: Option<&SettlingReport>) -> Vec<String> {
-    if settling.is_some_and(SettlingReport::has_room) { design.remarks().to_vec() } else { design.warnings() }
+    match settling {
+        Some(
+            SettlingReport::Knit(KnitRestReport { warnings, .. })
+            | SettlingReport::Woven(WovenRestReport { warnings, .. }),
+        ) => warnings.clone(),
+        Some(SettlingReport::Refused { .. }) | None => design.warnings(),
+    }
 }
 
 impl SettlingReport {
     /// None of a way to rest that is not known here.
     fn new(design: &Design, finished: &Finished, device: &str) -> Option<Self> {
         match finished {
-            Finished::Knit(settled) => Some(Self::Knit(KnitRestReport::new(design, settled, device))),
-            Finished::Woven(rest) => Some(Self::Woven(WovenRestReport::new(rest, device))),
+            Finished::Knit(settled) => {
+                let warnings = design.warnings_at_rest(finished);
+                Some(Self::Knit(KnitRestReport::new(design, settled, warnings, device)))
+            }
+            Finished::Woven(rest) => {
+                Some(Self::Woven(WovenRestReport::new(rest, design.warnings_at_rest(finished), device)))
+            }
             _ => None,
         }
     }
@@ -92,12 +102,21 @@ impl SettlingReport {
         !matches!(self, Self::Refused { .. })
     }
 
-    /// Whether the yarns are clear of one another.
-    const fn has_room(&self) -> bool {
+    /// Takes over what was measured of all the cloth afterwards, so that one figure is said of it: settling looks at one repeat of woven
+    /// cloth alone, and no further than yarns that touch.
+    pub(crate) const fn measured(&mut self, clearance: &ClothClearance) {
         match self {
-            Self::Knit(report) => report.at_rest,
-            Self::Woven(report) => report.has_room(),
-            Self::Refused { .. } => false,
+            Self::Knit(report) => report.clearance = clearance.min,
+            Self::Woven(report) => report.clearance = clearance.min,
+            Self::Refused { .. } => {}
+        }
+    }
+
+    /// That a press was not reached, if so.
+    pub(crate) fn press_missed(&self) -> Option<String> {
+        match self {
+            Self::Knit(report) => report.press_missed.clone(),
+            Self::Woven(_) | Self::Refused { .. } => None,
         }
     }
 }

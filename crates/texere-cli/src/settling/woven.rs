@@ -3,24 +3,25 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::WovenRest;
+use texere::{Verdict, WovenRest};
 
 use crate::measures::Sets;
-
-/// Surfaces as clear as this do not pierce one another.
-const CLEAR: f64 = 0.98;
 
 /// How woven cloth has come to rest. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
 pub(crate) struct WovenRestReport {
     device: String,
     at_rest: bool,
+    #[serde(skip)]
+    verdict: Verdict,
+    #[serde(skip)]
+    pub(super) warnings: Vec<String>,
     passes: u32,
     /// Ends and picks of what has settled.
     repeat: Sets<usize>,
     /// The least clearance of surfaces as drawn: before threads were made thinner where they lacked it, and after.
     clearance_before: f64,
-    clearance: f64,
+    pub(super) clearance: f64,
     /// How many times threads were made thinner.
     rounds: u32,
     /// The share of its area that each set keeps.
@@ -37,14 +38,16 @@ struct AreaReport {
 }
 
 impl WovenRestReport {
-    pub(super) fn new(rest: &WovenRest, device: &str) -> Self {
+    pub(super) fn new(rest: &WovenRest, warnings: Vec<String>, device: &str) -> Self {
         let area = [0, 1].map(|set| {
             let [mean, least] = rest.area[set];
             AreaReport { mean, least, lost: rest.area_lost[set] }
         });
         Self {
             device: device.to_owned(),
-            at_rest: rest.crossings.at_rest,
+            at_rest: rest.verdict() == Verdict::AtRest,
+            verdict: rest.verdict(),
+            warnings,
             passes: rest.crossings.passes,
             repeat: rest.repeat.into(),
             clearance_before: rest.clearance[0],
@@ -53,22 +56,18 @@ impl WovenRestReport {
             area: area.into(),
         }
     }
-
-    /// Whether threads are clear of one another.
-    pub(super) const fn has_room(&self) -> bool {
-        self.clearance >= CLEAR
-    }
 }
 
 impl fmt::Display for WovenRestReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { device, passes, repeat, clearance_before, clearance, rounds, area, .. } = self;
-        let rest = if self.at_rest { "at rest" } else { "not yet at rest" };
+        let Self { device, verdict, passes, repeat, clearance_before, clearance, rounds, area, .. } = self;
         let Sets { warp, weft } = repeat;
-        write!(
-            f,
-            "{rest} after {passes} passes on {device}, {warp} by {weft} threads; clearance {clearance:.3}"
-        )?;
+        write!(f, "{verdict} after {passes} passes on {device}, {warp} by {weft} threads; ")?;
+        if clearance.is_finite() {
+            write!(f, "clearance {clearance:.3}")?;
+        } else {
+            write!(f, "no threads near one another")?;
+        }
         if *rounds > 0 {
             let s = if *rounds == 1 { "" } else { "s" };
             write!(f, ", {clearance_before:.3} before threads were made thinner, {rounds} time{s}")?;

@@ -211,3 +211,53 @@ fn stretched_cloth_keeps_its_yarn() {
     let output = texere(&["inspect", &at(&sheeting("stretch_warp = 1.3"), "sheeting.toml")]);
     assert!(!output.status.success() && stderr(&output).contains("straight at 1.06"), "{}", stderr(&output));
 }
+
+/// Settling sees upright ellipses on one repeat; what is drawn are plies of all the cloth.
+const PIERCES_AS_DRAWN: &str = "[warp_knit]\nwales = 2\ncourses = 4\nneedles_per_inch = 20.0388\ncourses_per_cm = 15.3001\ncompression = 0.8019\n\
+    [[warp_knit.bars]]\nlapping = \"tricot\"\nstep = 2\nthreading = [\"b\", \"b\"]\n\
+    [[warp_knit.bars]]\nlapping = \"8-10//\"\nstep = 2\nthreading = [\"a\", \"b\"]\nrun_in_mm = 865.8104\n[finish]\nlength = 1.8704\n\
+    [yarns.a]\ndiameter_mm = 0.0615\nplies = 12\n[yarns.b]\ndiameter_mm = 0.2278\nsection = { shape = \"ellipse\", aspect = 1.1039 }\n";
+
+/// A locknit between plates closer than its yarns can lie.
+const PRESSED: &str = "[warp_knit]\nwales = 6\ncourses = 6\nwales_per_cm = 14.8\ncourses_per_cm = 19.7\n\
+    [[warp_knit.bars]]\nlapping = \"1-0/2-3//\"\nthreading = [\"a\"]\n[[warp_knit.bars]]\nlapping = \"1-2/1-0//\"\nthreading = [\"a\"]\n\
+    [finish]\npress = 0.2\n[yarns.a]\ntex = 4.444\ndensity = 0.8\n";
+
+fn said(command: &str, text: &str) -> (serde_json::Value, String) {
+    let folder = tempfile::TempDir::new().unwrap();
+    let path = folder.path().join("cloth.toml");
+    std::fs::write(&path, text).unwrap();
+    let path = path.to_str().unwrap();
+    let json = crate::texere(&[command, "--json", path]);
+    (serde_json::from_str(&crate::stdout(&json)).unwrap(), crate::stdout(&crate::texere(&[command, path])))
+}
+
+#[test]
+fn what_is_at_rest_is_clean_and_what_pierces_is_not_at_rest() {
+    let denim = std::fs::read_to_string(crate::design("denim.toml")).unwrap();
+    for text in [PIERCES_AS_DRAWN, PRESSED, &denim] {
+        let (report, words) = said("check", text);
+        assert_eq!(report["settling"]["at_rest"], report["clean"], "{words}");
+        assert_eq!(words.contains("not at rest"), report["clean"] == false, "{words}");
+        let (report, words) = said("inspect", text);
+        assert_eq!(report["settling"]["clearance"], report["clearance"]["min"], "{words}");
+        assert_eq!(report["clearance"]["piercing"] == 0, report["settling"]["at_rest"] == true, "{words}");
+        assert!(report["settling"]["at_rest"] == false || !words.contains("pierce"), "{words}");
+    }
+    let (report, _) = said("check", PIERCES_AS_DRAWN);
+    assert_eq!(report["clean"], false);
+}
+
+#[test]
+fn a_press_that_is_not_reached_is_said() {
+    let (report, words) = said("inspect", PRESSED);
+    let thick = report["measures"]["thickness_mm"].as_f64().unwrap();
+    assert!(thick > 0.21, "{thick}");
+    let warning = format!("the press of 0.200 mm is not reached: the cloth is {thick:.3} mm thick at rest");
+    assert!(report["warnings"].as_array().unwrap().iter().any(|said| *said == warning[..]), "{words}");
+    assert_eq!(report["settling"]["press"]["reached_mm"].as_f64(), Some(thick));
+    assert!(said("check", PRESSED).1.contains(&warning));
+    // Plates that hardly touch it.
+    let (report, words) = said("inspect", &PRESSED.replace("press = 0.2\n", "press = 2.0\n"));
+    assert!(report["warnings"].as_array().unwrap().is_empty(), "{words}");
+}

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BIN, CONTACTS_LISTED, Contact};
 use super::crowd::Crowd;
+use crate::CLEAR;
 
 /// Bins from 0 to [`CLEARANCE_NEAR`](crate::CLEARANCE_NEAR).
 const BINS: usize = 110;
@@ -13,6 +14,7 @@ pub(super) struct Found {
     /// The least ratio, listed or not.
     pub(super) least: f64,
     pub(super) below_one: u64,
+    pub(super) piercing: u64,
     pub(super) histogram: Vec<u64>,
     pub(super) worst: Vec<Contact>,
     pub(super) crowd: Option<Crowd>,
@@ -39,6 +41,7 @@ impl Found {
         Self {
             least: f64::INFINITY,
             below_one: 0,
+            piercing: 0,
             histogram: vec![0; BINS],
             worst: Vec::new(),
             crowd: None,
@@ -51,6 +54,7 @@ impl Found {
     pub(super) fn add(&mut self, ratio: f64, contact: impl FnOnce() -> Contact) {
         self.least = self.least.min(ratio);
         self.below_one += u64::from(ratio < 1.0 - CLEARANCE_ACCURACY);
+        self.piercing += u64::from(ratio < CLEAR);
         if let Some(bin) = self.histogram.get_mut((ratio / CLEARANCE_BIN) as usize) {
             *bin += 1;
         }
@@ -79,6 +83,7 @@ impl Found {
         self.pairs += other.pairs;
         self.least = self.least.min(other.least);
         self.below_one += other.below_one;
+        self.piercing += other.piercing;
         for (bin, more) in self.histogram.iter_mut().zip(&other.histogram) {
             *bin += more;
         }

@@ -53,8 +53,11 @@ pub struct Clearance {
     pub min: f64,
     /// All contacts within [`CLEARANCE_NEAR`]. Where two yarns run side by side each pair of control intervals may be one.
     pub contacts: u64,
-    /// Contacts that pierce: nearer than 1 by more than [`CLEARANCE_ACCURACY`].
+    /// Contacts nearer than 1 by more than [`CLEARANCE_ACCURACY`]. Of threads that touch by construction many are, since splines between their
+    /// control points come to 0.99.
     pub below_one: u64,
+    /// Contacts that pierce: nearer than [`CLEAR`](crate::CLEAR).
+    pub piercing: u64,
     /// The worst contacts, [`CONTACTS_LISTED`] at most, worst first.
     pub worst: Vec<Contact>,
     /// How many contacts have a ratio in \[0, 0.01), \[0.01, 0.02) and so on to [`CLEARANCE_NEAR`] (steps of [`CLEARANCE_BIN`]).
@@ -208,6 +211,7 @@ fn measured(
         min: found.crowd.map_or(found.least, |crowd| found.least.min(crowd.ratio_max())),
         contacts: found.histogram.iter().sum(),
         below_one: found.below_one,
+        piercing: found.piercing,
         worst: found.worst,
         histogram: found.histogram,
         curvature_min: bend.0,

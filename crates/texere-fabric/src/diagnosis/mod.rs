@@ -5,6 +5,7 @@ mod faults;
 mod joined;
 mod pieces;
 mod places;
+mod verdict;
 
 pub use cures::{Cure, Remedy};
 pub use faults::{Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams};
@@ -13,3 +14,4 @@ pub use pieces::Pieces;
 pub use places::{
     ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };
+pub use verdict::{CLEAR, Verdict};

@@ -120,6 +120,8 @@ pub struct ClothClearance {
     pub contacts: u64,
     /// See [`Clearance::below_one`](crate::Clearance::below_one).
     pub below_one: u64,
+    /// See [`Clearance::piercing`](crate::Clearance::piercing).
+    pub piercing: u64,
     /// See [`Clearance::worst`](crate::Clearance::worst).
     pub worst: Vec<ThreadContact>,
     /// See [`Clearance::histogram`](crate::Clearance::histogram).
@@ -205,6 +207,7 @@ impl Names<'_> {
             min: found.min,
             contacts: found.contacts,
             below_one: found.below_one,
+            piercing: found.piercing,
             worst: found.worst.iter().map(|contact| self.contact(contact)).collect(),
             crowd: found.crowd.as_ref().map(|crowd| self.crowd(crowd)),
             bend: ThreadBend {

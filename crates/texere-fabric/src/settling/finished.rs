@@ -3,7 +3,7 @@
 use texere_core::Yarns;
 
 use super::Settled;
-use crate::WovenRest;
+use crate::{FabricWarning, Verdict, WovenRest};
 
 /// A fabric that has come to rest, or as near to it as it got: see [`Structure::settle`](crate::Structure::settle).
 #[derive(Debug, Clone)]
@@ -35,12 +35,20 @@ impl Finished {
         }
     }
 
-    /// Whether it is at rest. What is not may still be clear: its report has the figures.
+    /// Whether it is at rest: no surface pierces another ([`CLEAR`](crate::CLEAR)) or folds, and yarns of a knit keep their lengths and
+    /// their linking. Then `check` finds neither, too.
     #[must_use]
-    pub const fn is_at_rest(&self) -> bool {
-        match self {
-            Self::Knit(settled) => settled.rest.at_rest,
-            Self::Woven(rest) => rest.crossings.at_rest,
-        }
+    pub fn is_at_rest(&self) -> bool {
+        self.verdict() == Verdict::AtRest
+    }
+
+    /// What a designer should know of how it came to rest: [`FabricWarning::PressMissed`].
+    #[must_use]
+    pub fn warnings(&self) -> Vec<FabricWarning> {
+        let press = match self {
+            Self::Knit(settled) => settled.press,
+            Self::Woven(_) => None,
+        };
+        press.and_then(|press| press.missed()).into_iter().collect()
     }
 }

@@ -17,10 +17,10 @@ pub use self::finished::Finished;
 pub use self::piece::Piece;
 pub use self::repeat::Repeat;
 pub(crate) use self::repeat::settled_together;
-pub use self::settled::{Finish, Settled};
+pub use self::settled::{Finish, Press, Settled};
 
 use self::settled::unchanged;
-use crate::{FabricError, YarnPlace, clearance_with_progress, linking_with_progress};
+use crate::{FabricError, YarnPlace, clearance_with_progress, linking_with_progress, thickness_mm};
 
 /// The share of the progress at which passes end, and linking is compared.
 const PASSED: f64 = 0.9;
@@ -93,7 +93,11 @@ pub fn settle(
     };
     let measured = |done| progress(COMPARED + (1.0 - COMPARED) * done);
     let clearance = clearance_with_progress(&yarns, &settings, measured)?;
-    Ok(Settled { yarns, length: finish.length(), rest, linking, clearance, course })
+    let press = finish.press_mm.map(|asked| {
+        let reached_mm = thickness_mm(&yarns, tension);
+        Press { asked_mm: f64::from(asked), reached_mm }
+    });
+    Ok(Settled { yarns, length: finish.length(), rest, linking, clearance, press, course })
 }
 
 /// The share of the progress at which one repeat has settled, and its copies are measured.

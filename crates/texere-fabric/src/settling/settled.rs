@@ -3,7 +3,7 @@
 use texere_core::settling::{Length, Pass, Rest, Seen};
 use texere_core::{Origin, Yarns};
 
-use crate::{Clearance, Linking, YarnPlace};
+use crate::{Clearance, FabricWarning, Linking, YarnPlace};
 
 /// What is asked of yarns that settle: lengths, a press and passes of knits, tensions and a calender of woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +39,29 @@ impl Default for Finish {
     }
 }
 
+/// Cloth that was pressed between two plates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Press {
+    /// The plates' distance, mm: [`Finish::press_mm`].
+    pub asked_mm: f64,
+    /// How thick the cloth is without them, mm.
+    pub reached_mm: f64,
+}
+
+/// How much thicker than asked cloth may be.
+const THICKER: f64 = 0.01;
+
+impl Press {
+    /// That the cloth is thicker than was asked, if it is by more than one per cent: no plate goes through yarns, and those that
+    /// are bent stand up again.
+    #[must_use]
+    pub fn missed(&self) -> Option<FabricWarning> {
+        let Self { asked_mm, reached_mm } = *self;
+        (reached_mm > asked_mm * (1.0 + THICKER))
+            .then_some(FabricWarning::PressMissed { asked_mm, reached_mm })
+    }
+}
+
 /// Yarns that have settled, and how well.
 #[derive(Debug, Clone)]
 pub struct Settled {
@@ -55,11 +78,19 @@ pub struct Settled {
     /// How near [`Settled::yarns`] come to one another and how tightly they bend, with the worst places. Of a repeat it is the
     /// one piece, without its neighbours; [`Settled::rest`] counts these in.
     pub clearance: Clearance,
+    /// How thick the cloth was to be pressed, and how thick it has become; none where nothing presses.
+    pub press: Option<Press>,
     /// What every pass was and what it has seen, in their order; empty unless [`Finish::record`] asks for it.
     pub course: Vec<(Pass, Seen)>,
 }
 
 impl Settled {
+    /// The same with the thickness of the whole cloth, mm.
+    pub(crate) fn pressed(self, reached_mm: impl FnOnce(&Yarns) -> f64) -> Self {
+        let press = self.press.map(|press| Press { reached_mm: reached_mm(&self.yarns), ..press });
+        Self { press, ..self }
+    }
+
     /// Whether no yarn has passed through another, and everything that may have was compared.
     #[must_use]
     pub const fn is_linked(&self) -> bool {

@@ -53,7 +53,9 @@ impl WarpKnitted {
     ) -> Result<Settled, FinishError> {
         let repeat = self.repeat()?;
         let finish = self.finish_of(&repeat, finish, tension);
-        settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, tension, backend, progress)
+        let settled =
+            settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, tension, backend, progress)?;
+        Ok(settled.pressed(|yarns| self.measures(yarns, tension).thickness_mm))
     }
 
     /// `finish` with what becomes of the lengths of [`WarpKnitted::repeat`], where it does not say.

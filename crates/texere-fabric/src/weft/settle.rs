@@ -30,9 +30,15 @@ impl Knitted {
         let repeat = self.repeat()?;
         let finish = self.finish_of(&repeat, finish, tension);
         if self.stitches().repeat.is_none() {
-            return settle(&repeat.piece, &finish, tension, backend, progress);
+            return settle(&repeat.piece, &finish, tension, backend, progress)
+                .map(|settled| self.pressed(settled, tension));
         }
         settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, tension, backend, progress)
+            .map(|settled| self.pressed(settled, tension))
+    }
+
+    fn pressed(&self, settled: Settled, tension: f32) -> Settled {
+        settled.pressed(|yarns| self.measured(yarns, tension).thickness_mm)
     }
 
     /// `finish` with what becomes of the lengths of [`Knitted::repeat`], where it does not say.
@@ -87,7 +93,11 @@ impl Knitted {
     ///
     /// **Errors**: none so far.
     pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
+        Ok(self.measured(yarns, tension))
+    }
+
+    fn measured(&self, yarns: &Yarns, tension: f32) -> Measures {
         let own = |yarn| self.own(yarns, yarn);
-        Ok(Measures::of_knit(yarns, tension, own, self.loops(), self.size(), self.size_mm()))
+        Measures::of_knit(yarns, tension, own, self.loops(), self.size(), self.size_mm())
     }
 }

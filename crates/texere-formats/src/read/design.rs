@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{self, Path, PathBuf};
 
 use texere_core::Yarns;
-use texere_fabric::{FabricError, Finish, Stretch, Structure, ThreadPlace, YarnPlace};
+use texere_fabric::{FabricError, Finish, Finished, Stretch, Structure, ThreadPlace, YarnPlace};
 
 use super::knit::KnittedFrom;
 
@@ -208,6 +208,14 @@ impl Design {
     pub fn warnings(&self) -> Vec<String> {
         let warnings = self.structure.warnings();
         self.remarks.iter().cloned().chain(warnings.iter().map(ToString::to_string)).collect()
+    }
+
+    /// What a designer should know of the fabric once it has settled to `finished`: the reader's [`remarks`](Design::remarks), what settling
+    /// did not reach, and only where it is not at rest what the structure lacked before.
+    #[must_use]
+    pub fn warnings_at_rest(&self, finished: &Finished) -> Vec<String> {
+        let before = if finished.is_at_rest() { self.remarks.clone() } else { self.warnings() };
+        before.into_iter().chain(finished.warnings().iter().map(ToString::to_string)).collect()
     }
 
     /// The yarns of the fabric: [`Structure::yarns`].

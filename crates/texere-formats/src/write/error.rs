@@ -52,7 +52,7 @@ pub enum WriteError {
         spared: PathBuf,
     },
     /// The mesh could not be made, or progress asked to stop.
-    #[error("the mesh could not be made")]
+    #[error("{}", if matches!(.0, PipelineError::Cancelled) { "writing was stopped" } else { "the mesh could not be made" })]
     Pipeline(#[from] PipelineError),
     /// GLB counts its bytes with 32 bits. PLY has no such limit; fewer sides or subdivisions make a smaller file.
     #[error(

@@ -68,7 +68,9 @@ fn cancelling_leaves_no_trace() {
             stream(cancelling, path).unwrap_err()
         };
         leaves_no_trace(attempt, |error| {
-            matches!(error, WriteError::Pipeline(_)) && error.source().unwrap().to_string() == "cancelled"
+            matches!(error, WriteError::Pipeline(_))
+                && error.to_string() == "writing was stopped"
+                && error.source().unwrap().to_string() == "cancelled"
         });
     }
 }

@@ -39,18 +39,20 @@ const BEYOND: usize = 4;
 /// A round: how clear surfaces are, up to what is enough, and how wide bends, up to what is no fold; which round it is, and what was drawn.
 struct Round {
     measured: [f64; 2],
+    /// How clear surfaces are, [`NEAR`] at most.
+    clearance: f64,
     number: u32,
     drawn: Vec<[[f32; 2]; 2]>,
 }
 
-/// Measures and thins. Gives the clearance before and after, and how often threads were thinned. Where no round makes surfaces clear, threads stay as
+/// Measures and thins. Gives the clearance before and after, the tightest bend after, and how often threads were thinned. Where no round makes surfaces clear, threads stay as
 /// in the best one.
 pub(super) fn certify(
     cloth: &Woven,
     lies: &mut Lies,
     settings: &Settings,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-) -> Result<([f64; 2], u32), FabricError> {
+) -> Result<([f64; 2], f64, u32), FabricError> {
     let piece = crop(cloth, lies.repeat())?;
     let mut yarns = lies.yarns(&piece)?;
     let (mut round, once) = (0, once(&piece, &yarns, lies.repeat()));
@@ -72,15 +74,15 @@ pub(super) fn certify(
         tight.extend(bends_up_to(&yarns, settings, BENDS_WANTED, |point| fresh[point])?);
         let bends = tight.iter().map(|(bend, _)| *bend).fold(1.0, f64::min);
         if now >= ENOUGH && bends >= 1.0 {
-            return Ok((least, round));
+            return Ok((least, bends, round));
         }
         let measured = [now.min(ENOUGH), bends];
         if best.as_ref().is_none_or(|best| best.measured < measured) {
-            best = Some(Round { measured, number: round, drawn: lies.drawn.clone() });
+            best = Some(Round { measured, clearance: now, number: round, drawn: lies.drawn.clone() });
         }
         if let Some(best) = best.take_if(|_| round == ROUNDS) {
             lies.drawn = best.drawn;
-            return Ok(([least[0], best.measured[0]], best.number));
+            return Ok(([least[0], best.clearance], best.measured[1], best.number));
         }
         thin(lies, &piece, &yarns, &known, &tight);
         let thinner = lies.yarns(&piece)?;

@@ -34,6 +34,8 @@ pub struct WovenRest {
     pub crossings: CrossingsRest,
     /// The least clearance of surfaces as drawn, before any thread was made thinner for it and after: 0.99 at most, contacts beyond are not looked for.
     pub clearance: [f64; 2],
+    /// The least radius of curvature over how far the thread reaches into the bend, 1 at most: wider bends are not looked for.
+    pub bend: f64,
     /// How many times threads were made thinner where they lacked clearance.
     pub rounds: u32,
     /// The share of its area that each set keeps, in the mean and at its worst place: warp, then weft.
@@ -92,7 +94,7 @@ impl Woven {
         let repeat = lies.repeat();
         let at_first = lies.area(self);
         let settings = Settings { tension, ..Settings::default() };
-        let (clearance, rounds) =
+        let (clearance, bend, rounds) =
             certify(self, &mut lies, &settings, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
         let (area, yarns) = (lies.area(self), lies.yarns(self)?);
         if progress(1.0).is_break() {
@@ -103,6 +105,7 @@ impl Woven {
             repeat,
             crossings: rest,
             clearance,
+            bend,
             rounds,
             area,
             area_lost: [0, 1].map(|set| at_first[set][0] - area[set][0]),

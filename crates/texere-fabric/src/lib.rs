@@ -33,6 +33,8 @@
 //! ```
 
 mod clearance;
+mod counted;
+mod dash;
 mod diagnosis;
 mod error;
 mod grid;
@@ -56,6 +58,8 @@ pub use clearance::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
+pub use counted::counted;
+pub use dash::hyphen_look_alike;
 pub use diagnosis::{
     ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Remedy, StitchPlace,
     ThreadBend, ThreadContact, ThreadCrowd, ThreadPlace,

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::str::SplitWhitespace;
 
+use texere_fabric::hyphen_look_alike;
 use texere_fabric::weft::{Bed, Direction, Needle};
 
 use super::NEEDLE_MAX;
@@ -34,7 +35,11 @@ impl<'a> Line<'a> {
         let before = (word.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let column = self.text.get(..before).unwrap_or_default().chars().count() + 1;
         let (file, line, value) = (self.file.into(), self.number, shown(word));
-        ReadError::Word { file, line, column, value, expected: expected.into() }
+        let expected = match hyphen_look_alike(word) {
+            Some(dash) => format!("{}; it has {dash}", expected.into()),
+            None => expected.into(),
+        };
+        ReadError::Word { file, line, column, value, expected }
     }
 }
 
@@ -113,7 +118,10 @@ impl<'a> Words<'a> {
     /// Passes by `D N` that older writers put before the carriers of `in` and its like. Gives back whether they were there.
     pub(super) fn pass_place(&mut self) -> Result<bool, ReadError> {
         let mut ahead = self.rest.clone();
-        if !matches!(ahead.next(), Some("+" | "-")) {
+        let is_direction = |word: &str| {
+            matches!(word, "+" | "-") || word.chars().count() == 1 && hyphen_look_alike(word).is_some()
+        };
+        if !ahead.next().is_some_and(is_direction) {
             return Ok(false);
         }
         self.direction()?;

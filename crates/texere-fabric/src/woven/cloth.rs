@@ -192,6 +192,13 @@ impl Woven {
         Ok(())
     }
 
+    /// Replaces material number `material`, from 0.
+    pub(super) fn set_material(&mut self, material: usize, with: Material) -> Result<(), FabricError> {
+        let materials = self.materials.len();
+        *self.materials.get_mut(material).ok_or(FabricError::NoMaterial { material, materials })? = with;
+        Ok(())
+    }
+
     /// The sections that threads refer to.
     #[must_use]
     pub fn sections(&self) -> &[Section] {

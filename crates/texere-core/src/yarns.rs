@@ -333,10 +333,21 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
             });
         }
     }
-    for (material, &Material { hairiness, .. }) in materials.iter().enumerate() {
-        if !(0.0..=HAIRINESS_LIMIT).contains(&hairiness) {
-            return Err(YarnError::Hairiness { material, hairiness, limit: HAIRINESS_LIMIT });
-        }
+    materials.iter().enumerate().try_for_each(|(material, each)| check_material(material, each))
+}
+
+/// Checks material number `material`, whose number is only said in errors.
+///
+/// **Errors**: [`YarnError::Hairiness`] outside \[0, [`HAIRINESS_LIMIT`]\].
+///
+/// ```
+/// use texere_core::{Material, check_material};
+/// assert!(check_material(0, &Material::default()).is_ok());
+/// assert!(check_material(0, &Material { hairiness: f32::NAN, ..Material::default() }).is_err());
+/// ```
+pub fn check_material(material: usize, &Material { hairiness, .. }: &Material) -> Result<(), YarnError> {
+    if !(0.0..=HAIRINESS_LIMIT).contains(&hairiness) {
+        return Err(YarnError::Hairiness { material, hairiness, limit: HAIRINESS_LIMIT });
     }
     Ok(())
 }

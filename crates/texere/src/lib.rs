@@ -149,8 +149,9 @@ pub use texere_fabric::{
     KnitMeasures, LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pieces, Pitch, Press,
     Relief, Remedy, Repeat, Sett, Settled, Shape, Shedding, StitchPlace, Stretch, Structure, Thread,
     ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Tightness, Verdict, WRUNG, Weave,
-    Woven, WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, counted, drawn, finer,
-    length_mm, lengths_mm, linking, linking_with_progress, settle, turns_per_m, twist_from_turns_per_m, warp,
+    Woven, WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, counted, diameter_mm,
+    drawn, finer, length_mm, lengths_mm, linking, linking_with_progress, settle, tex_from_cotton_count,
+    tex_from_denier, tex_from_diameter, tex_from_metric_count, turns_per_m, twist_from_turns_per_m, warp,
     weft, yarns_under,
 };
 pub use texere_formats::write::{

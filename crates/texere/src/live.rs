@@ -47,13 +47,24 @@ pub struct Live {
     settings: Settings,
     source: Source,
     /// Yarns that were set, one by one, to others than the source's.
-    set: BTreeMap<usize, (Yarn, Vec<ControlPoint>)>,
+    set: BTreeMap<usize, SetYarn>,
     materials: Vec<Material>,
     mesh: LiveMesh,
     /// Whether the mesh is another one since the last update.
     anew: bool,
     /// What picks, from the first ray on, until the mesh is another one.
     picker: Option<Picker>,
+}
+
+/// A yarn that lies otherwise than the source's.
+#[derive(Debug)]
+struct SetYarn {
+    what: Yarn,
+    points: Vec<ControlPoint>,
+    /// Where its control points come from, where it was said.
+    sources: Option<Vec<u32>>,
+    /// What the source's yarn was before.
+    before: Yarn,
 }
 
 /// Where yarns come from.
@@ -121,7 +132,8 @@ impl Live {
         Self { device, settings, source, set, materials, mesh, anew: false, picker: None }
     }
 
-    /// The cloth as it is now, where it is woven. Yarns that were [set](Live::set_yarn) are not in it.
+    /// The cloth as it is now, where it is woven. Yarns that were [set](Live::set_yarn) are in it with their material, section and twist, but lie as
+    /// they are woven.
     #[must_use]
     pub const fn woven(&self) -> Option<&texere_fabric::Woven> {
         match &self.source {
@@ -184,9 +196,9 @@ impl Live {
     ///
     /// // What a weaver calls the place; Design::named says it with the line of the design.
     /// let hit = live.pick(&above)?.ok_or("nothing is there")?;
-    /// let yarns = live.yarns()?;
-    /// let place = YarnPlace::at(&yarns, hit.place.yarn as usize, hit.interval as usize, hit.t, 0.0);
-    /// let place = live.woven().ok_or("not woven")?.place(&yarns, &place.ok_or("no such place")?);
+    /// let pick = live.only(hit.place.yarn as usize)?; // its yarn alone, number 0
+    /// let place = YarnPlace::at(&pick, 0, hit.interval as usize, hit.t, 0.0).ok_or("no such place")?;
+    /// let place = live.woven().ok_or("not woven")?.place(&pick, &place);
     /// assert_eq!(place.to_string(), "pick 4 at end 8");
     /// # Ok(())
     /// # }
@@ -199,7 +211,8 @@ impl Live {
         Ok(self.picker.insert(picker).pick(ray))
     }
 
-    /// All yarns as they are now, with their [sources](Yarns::sources) for as long as none was [set](Live::set_yarn).
+    /// All yarns as they are now, with their [sources](Yarns::sources). Of a yarn that was [set](Live::set_yarn) to other control points they are those of
+    /// the points that these stand for, as far along it.
     ///
     /// **Errors**: [`LiveError::Fabric`] and [`LiveError::Yarns`] where they can't be made.
     pub fn yarns(&self) -> Result<Yarns, LiveError> {
@@ -209,25 +222,60 @@ impl Live {
         };
         let mut offsets = vec![0];
         let (mut table, mut points) = (Vec::new(), Vec::with_capacity(yarns.points().len()));
+        let mut sources = Vec::new();
         for (yarn, what) in yarns.layout().yarns().iter().enumerate() {
-            let own = yarns.yarn_points(yarn).unwrap_or_default();
-            let (what, own) = self.set.get(&yarn).map_or((*what, own), |(what, points)| (*what, &points[..]));
+            let range = yarns.range(yarn).unwrap_or_default();
+            let (own, told) = (&yarns.points()[range.clone()], yarns.sources().map(|all| &all[range]));
+            let set = self.set.get(&yarn);
+            let (what, own) = set.map_or((*what, own), |set| (set.what, &set.points[..]));
+            self.tell(yarn, told, own.len(), &mut sources);
             table.push(what);
             points.extend_from_slice(own);
             offsets.push(points.len() as u64);
         }
         let layout = texere_core::Layout::new(table, offsets, yarns.layout().sections().to_vec())?;
         let all = Yarns::new(layout, self.materials.clone(), points)?;
-        Ok(match yarns.sources().filter(|_| self.set.is_empty()) {
-            Some(sources) => all.with_sources(sources.to_vec())?,
-            None => all,
-        })
+        Ok(if sources.len() == all.points().len() { all.with_sources(sources)? } else { all })
+    }
+
+    /// Yarn number `yarn`, from 0, alone as it is now, with its sources: what a place on it is called needs no other yarn.
+    ///
+    /// **Errors**: [`LiveError::NoYarn`], and those of [`Live::yarns`].
+    pub fn only(&self, yarn: usize) -> Result<Yarns, LiveError> {
+        let layout = self.mesh.plan().layout();
+        if yarn >= layout.yarns().len() {
+            return Err(LiveError::NoYarn { yarn, yarns: layout.yarns().len() });
+        }
+        let (mut points, mut sources) = (Vec::new(), Vec::new());
+        self.lay(yarn, &mut points);
+        let told = match &self.source {
+            Source::Loom(loom) => Some(loom.sources(yarn)),
+            Source::Given(yarns) => {
+                yarns.sources().zip(yarns.range(yarn)).map(|(all, range)| all[range].to_vec())
+            }
+        };
+        self.tell(yarn, told.as_deref(), points.len(), &mut sources);
+        let count = points.len() as u64;
+        let layout =
+            texere_core::Layout::new(vec![self.yarn(yarn)], vec![0, count], layout.sections().to_vec())?;
+        let only = Yarns::new(layout, self.materials.clone(), points)?;
+        Ok(if sources.is_empty() { only } else { only.with_sources(sources)? })
+    }
+
+    /// Adds to `sources` where the control points of yarn number `yarn`, `count` as it is now, come from. `told` is where those of the
+    /// source's yarn do.
+    fn tell(&self, yarn: usize, told: Option<&[u32]>, count: usize, sources: &mut Vec<u32>) {
+        match (told, self.set.get(&yarn)) {
+            (_, Some(SetYarn { sources: Some(said), .. })) => sources.extend_from_slice(said),
+            (Some(told), _) => sources.extend((0..count).map(|point| told[point * told.len() / count])),
+            (None, _) => {}
+        }
     }
 
     /// What yarn number `yarn` is.
     fn yarn(&self, yarn: usize) -> Yarn {
         match (self.set.get(&yarn), &self.source) {
-            (Some((what, _)), _) => *what,
+            (Some(set), _) => set.what,
             (None, Source::Loom(loom)) => loom.yarn(yarn),
             (None, Source::Given(yarns)) => yarns.layout().yarns()[yarn],
         }
@@ -237,7 +285,7 @@ impl Live {
     fn lay(&self, yarn: usize, points: &mut Vec<ControlPoint>) {
         points.clear();
         match (self.set.get(&yarn), &self.source) {
-            (Some((_, own)), _) => points.extend_from_slice(own),
+            (Some(set), _) => points.extend_from_slice(&set.points),
             (None, Source::Loom(loom)) => loom.lay(yarn, points),
             (None, Source::Given(yarns)) => {
                 points.extend_from_slice(yarns.yarn_points(yarn).unwrap_or_default());

@@ -191,6 +191,19 @@ impl Plan {
         points: u64,
         steep: bool,
     ) -> Result<Self, PlanError> {
+        self.check_edit(yarn, &what, points)?;
+        let mut plan = self.clone();
+        plan.layout = Arc::new(self.layout.edited(yarn, what, points, steep));
+        plan.counts = plan.count();
+        // A yarn that has become steep turns where none did.
+        plan.needs_scan |= steep;
+        Ok(plan)
+    }
+
+    /// Whether [`Plan::edited`] takes `what` of `points` control points in place of yarn number `yarn`. No plan is made.
+    ///
+    /// **Errors** and **panics**: those of [`Plan::edited`].
+    pub fn check_edit(&self, yarn: usize, what: &Yarn, points: u64) -> Result<(), PlanError> {
         let before = self.yarn(yarn);
         let room = self.offsets.room(yarn, before.closed);
         if points > room {
@@ -210,12 +223,7 @@ impl Plan {
                 return Err(PlanError::OtherPlan { yarn, what });
             }
         }
-        let mut plan = self.clone();
-        plan.layout = Arc::new(self.layout.edited(yarn, what, points, steep));
-        plan.counts = plan.count();
-        // A yarn that has become steep turns where none did.
-        plan.needs_scan |= steep;
-        Ok(plan)
+        Ok(())
     }
 
     /// Whether `chunk` was cut from this plan, a clone of it, one [edited](Plan::edited) or one of a [region](Plan::within), so that its tables fit the plan's offsets.

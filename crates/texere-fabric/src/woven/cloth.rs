@@ -163,6 +163,55 @@ impl Woven {
         &mut self.drawdown
     }
 
+    /// Says whether the warp is up at a crossing, end and pick counted from 0.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{Thread, Weave, Woven};
+    /// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 4], vec![Thread::new(1.0, 0.2); 4]);
+    /// let plain = Weave::parse("plain")?.drawdown(4, 4)?;
+    /// let mut cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let up = cloth.drawdown().up(2, 1);
+    /// cloth.set_lift(2, 1, !up)?;
+    /// assert_eq!(cloth.drawdown().up(2, 1), !up);
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    ///
+    /// **Errors**: [`FabricError::NoCrossing`] outside the cloth.
+    pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
+        self.drawdown.set(end, pick, up)
+    }
+
+    /// The same cloth, its drawdown, shape, crimp and selvedge, of other yarns: other ends (`warp`) and picks (`weft`), and the materials and
+    /// sections that they refer to.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{Thread, Weave, Woven, diameter_mm, tex_from_cotton_count};
+    /// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 4], vec![Thread::new(1.0, 0.2); 4]);
+    /// let plain = Weave::parse("plain")?.drawdown(4, 4)?;
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// // Cotton of Ne 20, whose yarns have a density of .9 g/cm3.
+    /// let cotton = Thread::new(0.5, (diameter_mm(tex_from_cotton_count(20.0), 0.9) / 2.0) as f32);
+    /// let (materials, sections) = (cloth.materials().to_vec(), cloth.sections().to_vec());
+    /// let finer = cloth.with_threads(vec![cotton; 4], vec![cotton; 4], materials, sections)?;
+    /// assert_eq!(finer.drawdown(), cloth.drawdown());
+    /// assert_eq!(finer.size_mm(), [2.0, 2.0]);
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    ///
+    /// **Errors**: those of [`Woven::new`].
+    pub fn with_threads(
+        &self,
+        warp: Vec<Thread>,
+        weft: Vec<Thread>,
+        materials: Vec<Material>,
+        sections: Vec<Section>,
+    ) -> Result<Self, FabricError> {
+        let cloth = Self::new(self.drawdown.clone(), warp, weft, materials, sections)?;
+        Ok(Self { shape: self.shape, crimp: self.crimp, selvedge: self.selvedge, ..cloth })
+    }
+
     /// The ends, from the left.
     #[must_use]
     pub fn warp(&self) -> &[Thread] {
@@ -189,6 +238,13 @@ impl Woven {
         let place =
             self.materials.get_mut(material).ok_or(FabricError::NoMaterial { material, materials })?;
         place.srgb = srgb;
+        Ok(())
+    }
+
+    /// Replaces material number `material`, from 0.
+    pub(super) fn set_material(&mut self, material: usize, with: Material) -> Result<(), FabricError> {
+        let materials = self.materials.len();
+        *self.materials.get_mut(material).ok_or(FabricError::NoMaterial { material, materials })? = with;
         Ok(())
     }
 

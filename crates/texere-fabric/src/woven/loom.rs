@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use texere_core::{ControlPoint, Yarn};
+use texere_core::{ControlPoint, Material, Yarn};
 
 use super::Woven;
 use super::path::Station;
 use super::yarns::{Kind, Measured, Pass};
-use crate::FabricError;
+use crate::{FabricError, yarn_check};
 
 /// A cloth on the loom: its lifts are changed, and the yarns that this changes are laid anew, each for itself.
 ///
@@ -114,6 +114,37 @@ impl Loom {
         Ok(yarns)
     }
 
+    /// Replaces material number `material`, from 0. No yarn lies otherwise for it.
+    ///
+    /// **Errors**: [`FabricError::NoMaterial`].
+    pub fn set_material(&mut self, material: usize, with: Material) -> Result<(), FabricError> {
+        self.cloth.set_material(material, with)
+    }
+
+    /// Gives the threads that yarn number `yarn` consists of the material, the section and the twist of `what`. No yarn lies otherwise for it.
+    ///
+    /// **Errors**: those of [`Woven::new`] for a thread; the cloth is then as it was.
+    ///
+    /// **Panics** past the last yarn.
+    pub fn set_yarn(&mut self, yarn: usize, what: &Yarn) -> Result<(), FabricError> {
+        for checking in [true, false] {
+            for pass in &self.passes[self.yarns[yarn].clone()] {
+                let thread = match *pass {
+                    Pass::End(end) => &mut self.cloth.warp[end],
+                    Pass::Pick(pick, _) => &mut self.cloth.weft[pick],
+                };
+                if checking {
+                    let radius = thread.radius_mm;
+                    yarn_check::yarn(what, radius, self.cloth.materials(), self.cloth.sections())?;
+                } else {
+                    (thread.material, thread.section, thread.twist) =
+                        (what.material, what.section, what.twist);
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// What yarn number `yarn` is beside its control points.
     ///
     /// **Panics** past the last yarn.
@@ -127,10 +158,24 @@ impl Loom {
     /// **Panics** past the last yarn.
     pub fn lay(&self, yarn: usize, points: &mut Vec<ControlPoint>) {
         points.clear();
+        self.each_point(yarn, &mut |point, _| points.push(point));
+    }
+
+    /// Where the control points of yarn number `yarn` come from, as [`Yarns::sources`](texere_core::Yarns::sources) of [`Woven::yarns`] has it.
+    ///
+    /// **Panics** past the last yarn.
+    #[must_use]
+    pub fn sources(&self, yarn: usize) -> Vec<u32> {
+        let mut sources = Vec::new();
+        self.each_point(yarn, &mut |_, source| sources.push(source));
+        sources
+    }
+
+    fn each_point(&self, yarn: usize, take: &mut dyn FnMut(ControlPoint, u32)) {
         let laying = self.cloth.laying(&self.measured);
         for pass in &self.passes[self.yarns[yarn].clone()] {
             let path = laying.path(*pass, self.paths[&laying.kind(*pass)].clone());
-            laying.lay(&path, *pass, &mut |point, _| points.push(point));
+            laying.lay(&path, *pass, &mut |point, source| take(point, source));
         }
     }
 }

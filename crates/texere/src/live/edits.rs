@@ -2,21 +2,27 @@
 
 use std::ops::Range;
 
-use texere_core::{ControlPoint, Material, PlanError, SessionError, Yarn, Yarns};
+use texere_core::{
+    ControlPoint, Material, PlanError, SessionError, Yarn, Yarns, check_material, check_points,
+};
 use texere_fabric::{Loom, Structure};
 
-use super::{Live, LiveError, Source};
+use super::{Live, LiveError, SetYarn, Source};
 
 impl Live {
     /// Changes a material: a colour is none of the mesh's, so nothing is made again.
     ///
-    /// **Errors**: [`LiveError::NoMaterial`].
+    /// **Errors**: [`LiveError::NoMaterial`], and [`LiveError::Yarns`] for a material that no yarn can have; the fabric is then as it was.
     pub fn set_material(&mut self, number: usize, material: Material) -> Result<(), LiveError> {
         let materials = self.materials.len();
-        let Some(place) = self.materials.get_mut(number) else {
+        if number >= materials {
             return Err(LiveError::NoMaterial { material: number, materials });
-        };
-        *place = material;
+        }
+        check_material(number, &material)?;
+        if let Source::Loom(loom) = &mut self.source {
+            loom.set_material(number, material.clone())?;
+        }
+        self.materials[number] = material;
         Ok(())
     }
 
@@ -39,8 +45,12 @@ impl Live {
     ) -> Result<(), LiveError> {
         let Source::Loom(loom) = &mut self.source else { return Err(LiveError::NotWoven) };
         let changed = loom.set_lifts(ends, picks, up)?;
-        self.set.retain(|yarn, _| changed.binary_search(yarn).is_err());
-        self.show_all(changed)
+        for yarn in &changed {
+            if let Some(set) = self.set.remove(yarn) {
+                loom.set_yarn(*yarn, &set.before)?;
+            }
+        }
+        self.show_all(&changed)
     }
 
     /// Makes yarn number `yarn`, from 0, another one: its material, section and twist, and its control points, mm.
@@ -55,15 +65,8 @@ impl Live {
         if material >= materials {
             return Err(LiveError::NoMaterial { material, materials });
         }
-        let before = self.set.insert(yarn, (what, points.to_vec()));
-        let shown = self.show(yarn, what, points);
-        if shown.is_err() {
-            match before {
-                Some(before) => self.set.insert(yarn, before),
-                None => self.set.remove(&yarn),
-            };
-        }
-        shown
+        check_points(yarn, points).map_err(SessionError::from)?;
+        self.set_all([(yarn, what, points.to_vec(), None)])
     }
 
     /// Moves yarn number `yarn`, from 0: gives it other control points, perhaps more or fewer.
@@ -110,7 +113,7 @@ impl Live {
             self.materials = yarns.materials().to_vec();
             self.source = Source::Given(yarns);
             self.set.clear();
-            self.show_all(changed)?;
+            self.show_all(&changed)?;
         }
         Ok(())
     }
@@ -148,42 +151,71 @@ impl Live {
                 own: own.sections().len(),
             });
         }
-        let mut old = Vec::new();
+        let materials = self.materials.len();
+        let (mut old, mut changed) = (Vec::new(), Vec::new());
         for (yarn, what) in layout.yarns().iter().enumerate() {
-            let points = rest.yarn_points(yarn).unwrap_or_default();
+            let material = what.material as usize;
+            if material >= materials {
+                return Err(LiveError::NoMaterial { material, materials });
+            }
+            let range = rest.range(yarn).unwrap_or_default();
+            let (points, sources) =
+                (&rest.points()[range.clone()], rest.sources().map(|all| all[range].to_vec()));
             self.lay(yarn, &mut old);
             if (self.yarn(yarn), &old[..]) != (*what, points) {
-                self.set_yarn(yarn, *what, points)?;
+                changed.push((yarn, *what, points.to_vec(), sources));
             }
         }
-        Ok(())
+        self.set_all(changed)
     }
 
-    fn show_all(&mut self, yarns: Vec<usize>) -> Result<(), LiveError> {
-        let mut points = Vec::new();
-        yarns.into_iter().try_for_each(|yarn| {
+    /// Takes yarns in place of the source's: all of them, or none where it fails.
+    fn set_all(
+        &mut self,
+        yarns: impl IntoIterator<Item = (usize, Yarn, Vec<ControlPoint>, Option<Vec<u32>>)>,
+    ) -> Result<(), LiveError> {
+        let (mut numbers, mut replaced) = (Vec::new(), Vec::new());
+        for (yarn, what, points, sources) in yarns {
+            let before = self.set.get(&yarn).map_or_else(|| self.yarn(yarn), |set| set.before);
+            numbers.push(yarn);
+            replaced.push(self.set.insert(yarn, SetYarn { what, points, sources, before }));
+        }
+        let shown = self.show_all(&numbers);
+        for (yarn, replaced) in numbers.into_iter().zip(replaced) {
+            if shown.is_err() {
+                match replaced {
+                    Some(set) => self.set.insert(yarn, set),
+                    None => self.set.remove(&yarn),
+                };
+            } else if let Source::Loom(loom) = &mut self.source {
+                loom.set_yarn(yarn, &self.set[&yarn].what)?;
+            }
+        }
+        shown
+    }
+
+    /// Gives the mesh these yarns as they are now, or begins another mesh, once, where it has no room for one of them.
+    fn show_all(&mut self, yarns: &[usize]) -> Result<(), LiveError> {
+        let (plan, mut points) = (self.mesh.plan().clone(), Vec::new());
+        for &yarn in yarns {
             self.lay(yarn, &mut points);
-            self.show(yarn, self.yarn(yarn), &points)
-        })
-    }
-
-    /// Gives the mesh a yarn, or begins another mesh where this one has no room for it.
-    fn show(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), LiveError> {
-        match self.mesh.set_yarn(yarn, what, points) {
-            Err(SessionError::Plan(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. })) => {
+            if let Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }) =
+                plan.check_edit(yarn, &self.yarn(yarn), points.len() as u64)
+            {
                 self.mesh = self.another(&self.yarns()?)?;
                 (self.anew, self.picker) = (true, None);
-                Ok(())
-            }
-            shown => {
-                shown?;
-                let plan = self.mesh.plan().clone();
-                // A picker that does not take the yarn is made anew.
-                let picker = self.picker.take();
-                self.picker =
-                    picker.and_then(|mut picker| picker.set_yarn(plan, yarn, points).ok().and(Some(picker)));
-                Ok(())
+                return Ok(());
             }
         }
+        for &yarn in yarns {
+            self.lay(yarn, &mut points);
+            self.mesh.set_yarn(yarn, self.yarn(yarn), &points)?;
+            let plan = self.mesh.plan().clone();
+            // A picker that does not take the yarn is made anew.
+            let picker = self.picker.take();
+            self.picker =
+                picker.and_then(|mut picker| picker.set_yarn(plan, yarn, &points).ok().and(Some(picker)));
+        }
+        Ok(())
     }
 }

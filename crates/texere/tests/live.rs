@@ -1,0 +1,155 @@
+//! A fabric that is edited: how often its mesh is planned, and what is still known of it afterwards.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use texere::{
+    Backend, BackendError, ControlPoint, DeviceInfo, Drawdown, Engine, Live, Material, Plan, Section,
+    Settings, Thread, Woven, Yarn, YarnPlace, Yarns, YarnsBuilder,
+};
+
+/// A device that counts the meshes that are begun on it.
+#[derive(Debug)]
+struct Counting {
+    inner: Box<dyn Backend>,
+    meshes: AtomicUsize,
+}
+
+impl Backend for Counting {
+    fn info(&self) -> &DeviceInfo {
+        self.inner.info()
+    }
+
+    fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
+        self.meshes.fetch_add(1, Ordering::Relaxed);
+        self.inner.engine(plan)
+    }
+}
+
+fn device() -> Arc<Counting> {
+    Arc::new(Counting { inner: texere::open("cpu-serial").unwrap(), meshes: AtomicUsize::new(0) })
+}
+
+fn cloth() -> Woven {
+    let threads = |count| vec![Thread::new(0.5, 0.1); count];
+    let plain = Drawdown::from_fn(40, 36, |end, pick| (end + pick) % 2 == 0).unwrap();
+    let materials = vec![Material::default(), Material { srgb: [9, 8, 7], ..Material::default() }];
+    let sections = vec![Section::Circle, Section::Lobed { plies: 2 }];
+    Woven::new(plain, threads(40), threads(36), materials, sections).unwrap()
+}
+
+/// The same yarns with `times` as many intervals, and the sources of the points before.
+fn finer(yarns: &Yarns, times: usize) -> Yarns {
+    let (mut all, mut sources): (YarnsBuilder, Vec<u32>) = (Yarns::builder(), Vec::new());
+    yarns.materials().iter().for_each(|material| _ = all.material(material.clone()));
+    yarns.layout().sections().iter().for_each(|section| _ = all.section(section.clone()));
+    for (number, yarn) in yarns.layout().yarns().iter().enumerate() {
+        let own = yarns.yarn_points(number).unwrap();
+        let told = &yarns.sources().unwrap()[yarns.range(number).unwrap()];
+        let mut points = Vec::new();
+        for at in 0..(own.len() - 1) * times + 1 {
+            let (from, part) = (at / times, (at % times) as f32 / times as f32);
+            let [one, other] = [own[from], own[(from + 1).min(own.len() - 1)]];
+            let between = |one: f32, other: f32| one + (other - one) * part;
+            points.push(ControlPoint::new(
+                between(one.x, other.x),
+                between(one.y, other.y),
+                between(one.z, other.z),
+                0.1,
+            ));
+            sources.push(told[from]);
+        }
+        all.yarn(*yarn, &points);
+    }
+    all.build().unwrap().with_sources(sources).unwrap()
+}
+
+#[test]
+fn yarns_that_outgrow_their_room_take_one_mesh_together() {
+    let (cloth, device) = (cloth(), device());
+    let yarns = cloth.yarns().unwrap();
+    let mut live = Live::weave(device.clone(), cloth, Settings::default()).unwrap();
+    let meshes = || device.meshes.load(Ordering::Relaxed);
+    live.set_rest(&finer(&yarns, 3)).unwrap();
+    assert_eq!(meshes(), 2, "at rest");
+    assert_eq!(live.yarns().unwrap().points(), finer(&yarns, 3).points());
+    live.set_yarns(finer(&yarns, 7)).unwrap();
+    assert_eq!(meshes(), 3, "others");
+    assert!(live.update().unwrap().anew);
+    // Where all have room there is no other mesh.
+    live.set_yarns(finer(&yarns, 6)).unwrap();
+    assert_eq!(meshes(), 3, "shorter ones");
+    assert!(!live.update().unwrap().anew);
+    let counted: u64 = live.mesh().plan().layout().point_count();
+    assert_eq!(counted, finer(&yarns, 6).points().len() as u64);
+}
+
+#[test]
+fn sources_stay_when_yarns_are_set() {
+    let cloth = cloth();
+    let yarns = cloth.yarns().unwrap();
+    let mut live = Live::weave(device(), cloth, Settings::default()).unwrap();
+    let rest = finer(&yarns, 3);
+    live.set_rest(&rest).unwrap();
+    assert_eq!(live.yarns().unwrap().sources(), rest.sources());
+    // One yarn is moved, as a caller does who knows nothing of sources.
+    let (number, up) = (40 + 30, 0.05);
+    let moved: Vec<_> = (rest.yarn_points(number).unwrap().iter())
+        .map(|point| ControlPoint::new(point.x, point.y, point.z + up, 0.1))
+        .collect();
+    live.set_points(number, &moved).unwrap();
+    let now = live.yarns().unwrap();
+    for end in 0..40 {
+        let range = rest.range(end).unwrap();
+        assert_eq!(now.sources().unwrap()[range.clone()], rest.sources().unwrap()[range], "end {end}");
+    }
+    // What a weaver calls the middle of its crossings: with all yarns, and with that yarn alone.
+    let intervals = yarns.yarn_points(number).unwrap().len();
+    let mut crossings = 0;
+    for interval in 0..intervals {
+        let all = YarnPlace::at(&now, number, interval, 0.0, 0.0).unwrap();
+        let only = live.only(number).unwrap();
+        let alone = YarnPlace::at(&only, 0, interval, 0.0, 0.0).unwrap();
+        let woven = live.woven().unwrap();
+        let name = woven.place(&now, &all);
+        assert_eq!(name.to_string(), woven.place(&only, &alone).to_string());
+        crossings += usize::from(name.to_string().starts_with("pick 31 at end "));
+    }
+    assert!(crossings > intervals / 2, "{crossings} of {intervals}");
+}
+
+#[test]
+fn a_material_that_yarns_refuse_is_refused() {
+    let mut live = Live::weave(device(), cloth(), Settings::default()).unwrap();
+    for hairiness in [f32::NAN, -1.0, f32::INFINITY, 1e6] {
+        let refused = live.set_material(0, Material { hairiness, ..Material::default() });
+        assert!(refused.is_err(), "{hairiness}");
+    }
+    assert!(live.set_material(2, Material::default()).is_err());
+    assert_eq!(live.materials()[0], Material::default());
+    live.set_lift(3, 2, false).unwrap();
+    live.yarns().unwrap();
+    live.update().unwrap();
+}
+
+#[test]
+fn what_is_set_reaches_the_cloth() {
+    let mut live = Live::weave(device(), cloth(), Settings::default()).unwrap();
+    let red = Material { srgb: [200, 0, 0], name: "red".into(), ..Material::default() };
+    live.set_material(1, red.clone()).unwrap();
+    let points = live.yarns().unwrap().yarn_points(5).unwrap().to_vec();
+    let before = live.yarns().unwrap().layout().yarns()[5];
+    let what = Yarn { material: 1, section: 1, ..before };
+    live.set_yarn(5, what, &points).unwrap();
+    let woven = live.woven().unwrap();
+    assert_eq!(woven.materials()[1], red);
+    assert_eq!((woven.warp()[5].material, woven.warp()[5].section), (1, 1));
+    assert_eq!((woven.warp()[4].material, woven.warp()[4].section), (0, 0));
+    // The cloth's own yarns say so, too, and lie as before.
+    assert_eq!(woven.yarns().unwrap().layout().yarns()[5], what);
+    // A yarn that is lifted is that of the weave again.
+    live.set_lift(5, 0, !live.woven().unwrap().drawdown().up(5, 0)).unwrap();
+    assert_eq!(live.woven().unwrap().warp()[5].material, 0);
+    assert_eq!(live.yarns().unwrap().layout().yarns()[5], before);
+}

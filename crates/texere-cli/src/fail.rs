@@ -6,8 +6,10 @@ use std::iter::successors;
 use std::path::Path;
 use std::process::ExitCode;
 
+use texere::crossings::CrossingsError;
 use texere::{
-    BackendError, FabricError, FinishError, PipelineError, PlanError, ReadError, RenderError, WriteError,
+    BackendError, FabricError, FinishError, PipelineError, PlanError, ReadError, Refusal, RenderError,
+    SettlingError, WriteError,
 };
 
 use crate::terminal::line;
@@ -121,6 +123,11 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         FabricError::OutOfMemory { .. } => WORLD,
         _ => DESIGN,
     });
+    let finish = error.downcast_ref().map(|error| match error {
+        FinishError::Settling(SettlingError::OutOfMemory { .. })
+        | FinishError::Crossings(CrossingsError::OutOfMemory { .. }) => WORLD,
+        _ => DESIGN,
+    });
     let plan = error.downcast_ref().map(|_: &PlanError| USAGE);
     let backend = error.downcast_ref().map(|error| match error {
         // Where there are others, the name is wrong; where there are none, the machine lacks them.
@@ -147,7 +154,7 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         PipelineError::Backend(error) => own_code(error),
         _ => None,
     });
-    read.or(fabric).or(plan).or(backend).or(pipeline).or(write)
+    read.or(fabric).or(finish).or(plan).or(backend).or(pipeline).or(write)
 }
 
 impl From<ReadError> for Fail {
@@ -180,13 +187,14 @@ impl From<WriteError> for Fail {
     }
 }
 
-impl From<FinishError> for Fail {
-    fn from(error: FinishError) -> Self {
+impl From<Refusal> for Fail {
+    fn from(error: Refusal) -> Self {
         match error {
             // The tension of splines is the command line's.
-            FinishError::Fabric(FabricError::Settings(error)) => error.into(),
-            FinishError::Fabric(error) => error.into(),
-            FinishError::Backend(error) => error.into(),
+            Refusal::Other(FinishError::Fabric(FabricError::Settings(error))) => error.into(),
+            Refusal::Other(FinishError::Fabric(error)) => error.into(),
+            Refusal::Other(FinishError::Backend(error)) => error.into(),
+            Refusal::Other(error) => Self { code: code_of(&error), source: error.into() },
             _ => Self { code: DESIGN, source: error.into() },
         }
     }

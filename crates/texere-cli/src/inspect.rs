@@ -112,7 +112,7 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
 fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let settings = args.settings.settings();
     let (yarns, mut settling) = if args.counts {
-        (design.yarns()?, None)
+        (design.yarns().map_err(|error| design.refused(error))?, None)
     } else {
         settling::yarns(&mut design, &args.settling, settings.tension, || texere::open("cpu"))?
     };

@@ -12,5 +12,5 @@
 pub mod read;
 pub mod write;
 
-pub use read::{Design, MachineFault, NamedPlace, Place, ReadError, Structure, Told, read};
+pub use read::{Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Structure, Told, read};
 pub use write::WriteError;

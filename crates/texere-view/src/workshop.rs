@@ -248,7 +248,7 @@ impl Workshop {
         match self.design.yarns() {
             Ok(yarns) => self.take_yarns(yarns, false),
             Err(error) => {
-                self.fail(said(&error));
+                self.fail(said(&self.design.refused(error)));
                 return None;
             }
         }
@@ -266,7 +266,7 @@ impl Workshop {
             }
             // It was stopped, for there is something else to be done.
             Err(_) if order.is_some() || self.watch.is_stale() => self.tell(News::Settled(String::new())),
-            Err(error) => self.tell(News::Settled(said(&error))),
+            Err(error) => self.tell(News::Settled(said(&self.design.refused(error)))),
         }
         order
     }

@@ -169,7 +169,9 @@ pub use texere_formats::write::{
 pub use texere_formats::write::{toml as write_toml, toml_to as write_toml_to};
 #[cfg(feature = "wif")]
 pub use texere_formats::write::{wif as write_wif, wif_to as write_wif_to};
-pub use texere_formats::{Design, MachineFault, NamedPlace, Place, ReadError, Told, WriteError, read};
+pub use texere_formats::{
+    Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Told, WriteError, read,
+};
 #[cfg(feature = "opencl")]
 pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};
 #[cfg(feature = "render")]

@@ -18,7 +18,7 @@ pub(crate) const WIF: &[&str] = &[
 pub(crate) const DESIGNS: &[&str] = &[
     "name = \"Denim\"\n[weave]\nnotation = \"3/1\"\nends = 7\npicks = 5\n[yarns.indigo]\ntex = 84.0\ncolor = \"#2b3f6b\"\n\
      twist_per_m = -500.0\n[yarns.ecru]\ndiameter_mm = 0.25\nplies = 2\n[warp]\nyarns = [\"2 indigo\", \"ecru\"]\nper_cm = 12.5\n\
-     [weft]\nyarns = [\"ecru\"]\nspacing_mm = 1.25\n",
+     [weft]\nyarns = [\"ecru\"]\nspacing_mm = 1.25\n[finish]\nwarp_tension = 2\ncalender = 0.5\nstretch_weft = 1.01\n",
     "[weave]\nnotation = \"satin 8(3)\"\nends = 9\npicks = 8\n[cloth]\nshape = \"crossing\"\nwarp_crimp = 0.3\nselvedge = true\n\
      jam = \"flatten\"\n[yarns.a]\ndiameter_mm = 0.3\nsection = { shape = \"ellipse\", aspect = 1.4 }\n[yarns.b]\ndiameter_mm = 0.3\n\
      section = { shape = \"lenticular\", aspect = 2.0, distortion = 0.2 }\n[warp]\nyarns = [\"a\", \"3 b\"]\nspacing_mm = [0.9, 0.3]\n\
@@ -60,6 +60,24 @@ pub(crate) const KNITS: &[&str] = &[
      \"#ffffff\" = \"b\"\n\"#c81020\" = \"a\"\n[yarns.a]\ndiameter_mm = 0.2\n[yarns.b]\ntex = 20\n",
     "[knit]\nknitout = \"program.k\"\nyarns = [\"a\"]\nwales_per_cm = 8\ncourses_per_cm = 10\n[knit.stitch_lengths_mm]\n70 = 5.5\n\
      [yarns.a]\ndiameter_mm = 0.2\n",
+    "[knit]\nimage = \"motif.png\"\nrows = \"first-pick-first\"\nyarns = [\"a\"]\nrepeat = [1, 3]\nwales_per_cm = 4\ncourses_per_cm = 20\n\
+     [knit.colors]\n\"#000000\" = \"p\"\n\"#ffffff\" = \"k\"\n\"#c81020\" = \"m\"\n[finish]\nlength = 1.05\npress = 0.6\n[yarns.a]\ntex = 30\n",
+    "[knit]\nchart = \"\"\"\nm m b\nu p b\nkpp\n\"\"\"\nbeds = 2\nyarns = [\"1 a\", \"1 a\"]\nrepeat = [3, 1]\nwales_per_cm = 5\n\
+     courses_per_cm = 9\n[finish]\nlength = \"free\"\ntension = 0.01\n[yarns.a]\ndiameter_mm = 0.2\n",
+];
+
+/// Design files of warp knits, some with an image `motif.png` beside them.
+pub(crate) const WARPS: &[&str] = &[
+    "[warp_knit]\nwales = 8\ncourses = 8\nwales_per_cm = 10\ncourses_per_cm = 13\n[[warp_knit.bars]]\nlapping = \"1-0/1-2//\"\n\
+     threading = [\"a\"]\nrun_in_mm = 1600\n[[warp_knit.bars]]\nlapping = \"closed atlas 3\"\nthreading = [\"2 b\", \"out\", \"b\"]\n\
+     offset = -2\n[finish]\nlength = 1.1\n[yarns.a]\ndiameter_mm = 0.1\n[yarns.b]\ntex = 8\n",
+    "[warp_knit]\nwales = 4\ncourses = 6\nrepeat = [2, 2]\nneedles_per_inch = 24\ndraw_in = 0.8\ncourses_per_cm = 18\ncells = \"even\"\n\
+     compression = 0.9\n[[warp_knit.bars]]\nlapping = \"2-0/(4-3/2-3)x2/2-4//\"\n[[warp_knit.bars]]\nlapping = \"inlay 3\"\n\
+     [finish]\nsettle = false\n[yarns.a]\ndiameter_mm = 0.1\n",
+    "[warp_knit]\nwales = 24\ncourses = 24\nwales_per_cm = 10\ncourses_per_cm = 13\n[[warp_knit.bars]]\nlapping = \"1-0/1-2//\"\n\
+     image = \"motif.png\"\n[warp_knit.bars.colors]\n\"#000000\" = \"0-0/0-0\"\n\"#ffffff\" = \"0-0/1-1\"\n\"#c81020\" = \"1-1/0-0\"\n\
+     [[warp_knit.bars]]\nlapping = \"8-10/2-4//\"\nstep = 2\nimage = \"motif.png\"\nrows = \"first-pick-first\"\n[warp_knit.bars.colors]\n\
+     \"#000000\" = \"1-1/0-1\"\n\"#ffffff\" = \"0-1/1-0\"\n\"#c81020\" = \"1-0/0-0\"\n[yarns.a]\ndiameter_mm = 0.1\n",
 ];
 
 /// Weaves, each of another form.

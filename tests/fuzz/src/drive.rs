@@ -1,12 +1,15 @@
 //! From a file to all that is made of it.
 
 use std::error::Error;
+use std::io::sink;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology};
 use texere_cpu::ParallelBackend;
-use texere_fabric::{Structure, clearance};
-use texere_formats::read;
+use texere_fabric::{Finish, Structure, clearance};
+use texere_formats::write::{self, Side};
+use texere_formats::{Design, WriteError, read};
 
 /// The most crossings of a cloth whose yarns are made, and the most control points of one whose mesh is.
 const CROSSINGS: usize = 2_000;
@@ -39,12 +42,14 @@ pub fn drive(path: &Path) -> Outcome {
     for warning in design.warnings() {
         assert!(warning.chars().count() < 600, "a warning of {} characters", warning.chars().count());
     }
-    if let Some(knit) = design.structure.knitted() {
-        let size = knit.size().map(|side| side as usize);
+    let (weft, warp) = (design.structure.knitted(), design.structure.warp_knitted());
+    if let Some(size) = weft.map(|knit| knit.size()).or(warp.map(|knit| knit.size())) {
+        let size = size.map(|side| side as usize);
         if size[0].saturating_mul(size[1]) > CROSSINGS {
             return Outcome::Large;
         }
-        return cloth(&design.structure);
+        sinks(&design);
+        return finished(&design, cloth(&design.structure));
     }
     let Some(woven) = design.structure.woven() else { return Outcome::Large };
     let (woven, draft) = (woven.cloth(), woven.draft());
@@ -54,10 +59,63 @@ pub fn drive(path: &Path) -> Outcome {
     if let Some(draft) = draft {
         assert_eq!(draft.drawdown().as_ref(), Ok(woven.drawdown()), "a draft that is another cloth's");
     }
-    let outcome = cloth(&design.structure);
+    sinks(&design);
+    let outcome = finished(&design, cloth(&design.structure));
     // Another section instead, and everything again where that is taken.
     if design.structure.set_section(Section::Ellipse { aspect: 1.5 }).is_ok() {
         let _ = cloth(&design.structure);
+    }
+    outcome
+}
+
+/// What `convert` and `draft` write of a design: all that can be written, to nowhere.
+fn sinks(design: &Design) {
+    let told = |outcome: Result<(), WriteError>| {
+        if let Err(error) = outcome {
+            let _ = chain(&error);
+        }
+    };
+    told(write::toml_to(design, sink()).map(drop));
+    told(write::wif_to(design, sink()).map(drop));
+    for side in [Side::Face, Side::Back] {
+        match &design.structure {
+            Structure::Woven(woven) => {
+                told(write::draft_to(woven.cloth(), woven.draft(), side, sink()).map(drop));
+            }
+            Structure::Weft(knit) => {
+                told(write::knit_draft_to(knit, side, sink()).map(drop));
+                told(write::knit_rows(knit, side).map(|rows| assert!(rows.count() > 0)));
+            }
+            Structure::Warp(knit) => {
+                told(write::warp_draft_to(knit, side, sink()).map(drop));
+                let _ = write::warp_rows(knit);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The most control points of a cloth that settles here, and the passes that it gets of either form.
+const SETTLING_POINTS: usize = 300;
+const PASSES: u32 = 3;
+
+/// `outcome`, after the cloth has begun to settle as its design says. What refuses it names the design's file.
+fn finished(design: &Design, outcome: Outcome) -> Outcome {
+    let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
+    if outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {
+        return outcome;
+    }
+    let backend = ParallelBackend::open().expect("the CPU's backend");
+    let finish = Finish { passes: PASSES, ..design.finish };
+    let on = |_| ControlFlow::Continue(());
+    let mut structure = design.structure.clone();
+    let stretched = match design.stretch {
+        Some(stretch) => structure.stretch(&finish, stretch, 0.0, &backend, on).map(|_| finish),
+        None => Ok(finish),
+    };
+    if let Err(error) = stretched.and_then(|finish| structure.settle(&finish, 0.0, &backend, on)) {
+        let said = chain(&design.refused(error));
+        assert!(said.contains("design."), "an error without its file: {said}");
     }
     outcome
 }

@@ -34,12 +34,22 @@ pub enum Reader {
     Knitout,
     /// Design files of knits: charts, and an image or a knitout file, mutated as well.
     Knit,
+    /// Design files of warp knits, with an image that is mutated as well.
+    WarpKnit,
 }
 
 impl Reader {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Wif, Self::Design, Self::Notation, Self::Image, Self::Paper, Self::Knitout, Self::Knit];
+    pub const ALL: [Self; 8] = [
+        Self::Wif,
+        Self::Design,
+        Self::Notation,
+        Self::Image,
+        Self::Paper,
+        Self::Knitout,
+        Self::Knit,
+        Self::WarpKnit,
+    ];
 
     /// Its name, in lower case.
     #[must_use]
@@ -52,6 +62,7 @@ impl Reader {
             Self::Paper => "paper",
             Self::Knitout => "knitout",
             Self::Knit => "knit",
+            Self::WarpKnit => "warp-knit",
         }
     }
 }
@@ -88,8 +99,12 @@ impl Input {
             Reader::Knitout => vec![("design.k", text::mutated(corpus::KNITOUT, random))],
             Reader::Knit => vec![
                 ("design.toml", text::mutated(corpus::KNITS, random)),
-                ("motif.png", image_bytes::mutated(random)),
+                ("motif.png", image_bytes::plain(random)),
                 ("program.k", text::mutated(corpus::KNITOUT, random)),
+            ],
+            Reader::WarpKnit => vec![
+                ("design.toml", text::mutated(corpus::WARPS, random)),
+                ("motif.png", image_bytes::plain(random)),
             ],
         };
         Self { files }

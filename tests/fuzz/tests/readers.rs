@@ -1,4 +1,4 @@
-//! Three thousand inputs for each reader; `cargo run -p texere-fuzz --example fuzz` feeds as many as are wanted. A failure tells the
+//! Ten thousand inputs for each reader; `cargo run -p texere-fuzz --example fuzz` feeds as many as are wanted. A failure tells the
 //! input's number, which makes it again.
 
 use std::path::Path;
@@ -9,43 +9,48 @@ use texere_fuzz::{Reader, fuzz};
 #[global_allocator]
 static HEAP: PeakAlloc = PeakAlloc;
 
-fn three_thousand(reader: Reader) {
-    let taken = fuzz(reader, 0..3_000, &HEAP, Path::new(env!("CARGO_TARGET_TMPDIR")));
+fn ten_thousand(reader: Reader) {
+    let taken = fuzz(reader, 0..10_000, &HEAP, Path::new(env!("CARGO_TARGET_TMPDIR")));
     // Mutations are small, so that much of what is fed gets far; least where a design and its image are both mutated.
-    assert!(taken > 90, "only {taken} were taken");
+    assert!(taken > 300, "only {taken} were taken");
 }
 
 #[test]
 fn wif_drafts() {
-    three_thousand(Reader::Wif);
+    ten_thousand(Reader::Wif);
 }
 
 #[test]
 fn design_files() {
-    three_thousand(Reader::Design);
+    ten_thousand(Reader::Design);
 }
 
 #[test]
 fn notations() {
-    three_thousand(Reader::Notation);
+    ten_thousand(Reader::Notation);
 }
 
 #[test]
 fn images() {
-    three_thousand(Reader::Image);
+    ten_thousand(Reader::Image);
 }
 
 #[test]
 fn designs_with_images_and_drafts() {
-    three_thousand(Reader::Paper);
+    ten_thousand(Reader::Paper);
 }
 
 #[test]
 fn knitout_files() {
-    three_thousand(Reader::Knitout);
+    ten_thousand(Reader::Knitout);
 }
 
 #[test]
 fn designs_of_knits() {
-    three_thousand(Reader::Knit);
+    ten_thousand(Reader::Knit);
+}
+
+#[test]
+fn designs_of_warp_knits() {
+    ten_thousand(Reader::WarpKnit);
 }

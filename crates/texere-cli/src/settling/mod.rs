@@ -8,7 +8,9 @@ use std::fmt;
 use std::ops::Deref;
 
 use serde::Serialize;
-use texere::{Backend, BackendError, ClothClearance, Design, Finish, FinishError, Finished, Output, Yarns};
+use texere::{
+    Backend, BackendError, ClothClearance, Design, Finish, FinishError, Finished, Output, Refusal, Yarns,
+};
 
 use crate::args::SettlingArgs;
 use crate::fail::Fail;
@@ -40,7 +42,7 @@ pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
     if !args.settles(design) {
         return match args.settling_plot {
             Some(_) => Err(Fail::nothing_settles()),
-            None => Ok((design.yarns()?, None)),
+            None => Ok((design.yarns().map_err(|error| design.refused(error))?, None)),
         };
     }
     if args.settling_plot.is_some() && design.structure.woven().is_some() {
@@ -52,17 +54,23 @@ pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
     if let Some(stretch) = design.stretch {
         design.finish = progress::during("stretching", |bar| {
             design.structure.stretch(&design.finish, stretch, tension, &*device, progress::share(bar))
-        })?;
+        })
+        .map_err(|error| design.refused(error))?;
     }
     let finish = Finish { record: output.is_some(), ..design.finish };
     let finished = progress::during("settling", |bar| {
         design.structure.settle(&finish, tension, &*device, progress::share(bar))
     });
     let finished = match finished {
-        Err(FinishError::Crossings(error)) => {
-            return Ok((design.yarns()?, Some(SettlingReport::Refused { refused: error.to_string() })));
+        Err(error @ FinishError::Crossings(_)) => {
+            let yarns = design.yarns().map_err(|error| design.refused(error))?;
+            let refused = match design.refused(error) {
+                Refusal::Key { place, source } => format!("{place}: {source}"),
+                refused => refused.to_string(),
+            };
+            return Ok((yarns, Some(SettlingReport::Refused { refused })));
         }
-        finished => finished?,
+        finished => finished.map_err(|error| design.refused(error))?,
     };
     if let (Some(output), Finished::Knit(settled)) = (output, &finished) {
         texere::write_file(plot(&settled.course).as_bytes(), output)?;

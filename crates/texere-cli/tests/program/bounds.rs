@@ -58,7 +58,7 @@ fn what_is_out_of_proportion_is_refused_in_little_memory() {
         let output = within(1_000_000, "inspect", &design);
         let error = stderr(&output);
         assert_eq!(output.status.code(), Some(3), "{said}: {error}");
-        assert!(error.contains(said), "{said}: {error}");
+        assert!(error.contains(said) && error.contains("design.toml, line "), "{said}: {error}");
     }
 }
 

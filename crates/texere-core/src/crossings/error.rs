@@ -49,7 +49,7 @@ pub enum CrossingsError {
         high: f32,
     },
     /// A value of a thread that is out of its range.
-    #[error("{setting} of {set} thread {thread} is {value}, not between {low} and {high}")]
+    #[error("{setting} of {} {} is {value}, not between {low} and {high}", if *.set == "warp" { "end" } else { "pick" }, .thread + 1)]
     Thread {
         /// `warp` or `weft`.
         set: &'static str,

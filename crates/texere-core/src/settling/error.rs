@@ -26,7 +26,7 @@ pub enum SettlingError {
         least: f32,
     },
     /// A yarn with too few control points between its ends.
-    #[error("yarn {yarn} has {points} control points, settling needs {least}")]
+    #[error("yarn {} has {points} control points, settling needs {least}", .yarn + 1)]
     TooFewPoints {
         /// The yarn's number, from 0.
         yarn: usize,
@@ -106,4 +106,20 @@ pub enum SettlingError {
         /// How many there are.
         points: u64,
     },
+}
+
+impl SettlingError {
+    /// The number of the yarn that is refused, from 0. None of what is so of all of them.
+    ///
+    /// ```
+    /// use texere_core::SettlingError;
+    /// assert_eq!(SettlingError::LongInterval { yarn: 2, chords: 5000, limit: 4096 }.yarn(), Some(2));
+    /// ```
+    #[must_use]
+    pub const fn yarn(&self) -> Option<usize> {
+        match self {
+            Self::TooFewPoints { yarn, .. } | Self::LongInterval { yarn, .. } => Some(*yarn),
+            _ => None,
+        }
+    }
 }

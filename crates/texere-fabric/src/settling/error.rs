@@ -1,6 +1,6 @@
 //! What can go wrong while yarns settle.
 
-use texere_core::{BackendError, CrossingsError, SettlingError};
+use texere_core::{BackendError, CrossingsError, Origin, SettlingError};
 use thiserror::Error;
 
 use crate::FabricError;
@@ -16,6 +16,14 @@ pub enum FinishError {
     /// What is asked can't be settled.
     #[error(transparent)]
     Settling(#[from] SettlingError),
+    /// A thread can't be settled as asked.
+    #[error("{thread} can't settle")]
+    Thread {
+        /// The thread.
+        thread: Origin,
+        /// Why.
+        source: SettlingError,
+    },
     /// Something was asked of woven cloth that only knits have.
     #[error("woven cloth comes to rest by its crossings: {asked} is for knits")]
     Woven {

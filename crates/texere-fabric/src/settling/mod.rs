@@ -61,7 +61,13 @@ pub fn settle(
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
-    let plan = Arc::new(SettlingPlan::new(&piece.settling(finish, tension))?);
+    let plan = SettlingPlan::new(&piece.settling(finish, tension)).map_err(|source| {
+        match source.yarn().and_then(|yarn| piece.yarns.layout().yarns().get(yarn)) {
+            Some(yarn) => FinishError::Thread { thread: yarn.origin, source },
+            None => source.into(),
+        }
+    })?;
+    let plan = Arc::new(plan);
     let mut settler = backend.settler(Arc::clone(&plan))?;
     let (mut course, mut stopped) = (Vec::new(), false);
     // Both forms take so many passes at most, and few more come before.

@@ -3,10 +3,12 @@
 use std::fmt;
 use std::path::{self, Path, PathBuf};
 
-use texere_core::Yarns;
-use texere_fabric::{FabricError, Finish, Finished, Stretch, Structure, ThreadPlace, YarnPlace};
+use texere_core::{BackendError, CrossingsError, Origin, SettlingError, Yarns};
+use texere_fabric::{FabricError, Finish, FinishError, Finished, Stretch, Structure, ThreadPlace, YarnPlace};
 
+use super::keys::Keys;
 use super::knit::KnittedFrom;
+use super::refusal::Refusal;
 
 /// A design, read and checked.
 ///
@@ -31,6 +33,7 @@ pub struct Design {
     files: Vec<PathBuf>,
     knitted_from: Option<KnittedFrom>,
     faults: Vec<MachineFault>,
+    keys: Keys,
 }
 
 /// What a knitting machine could not do, or a knitter would not want it to.
@@ -111,6 +114,7 @@ impl Design {
             files: Vec::new(),
             knitted_from: None,
             faults: Vec::new(),
+            keys: Keys::default(),
         }
     }
 
@@ -133,6 +137,59 @@ impl Design {
     /// The same design with the program that it is knitted from, and what a machine says of it.
     pub(super) fn knitted(self, from: KnittedFrom, faults: Vec<MachineFault>) -> Self {
         Self { knitted_from: Some(from), faults, ..self }
+    }
+
+    /// The same design with the keys of its file.
+    pub(super) fn keyed(self, keys: Keys) -> Self {
+        Self { keys, ..self }
+    }
+
+    /// An error of its structure, or of how that comes to rest, with the file, line and key that ask for it: what
+    /// [`Design::yarns`], [`Structure::stretch`] and [`Structure::settle`] give back knows threads and bars alone.
+    ///
+    /// ```no_run
+    /// use std::ops::ControlFlow;
+    /// let design = texere_formats::read("designs/jersey.toml")?;
+    /// let backend = texere_cpu::SerialBackend::new();
+    /// let settled = design.structure.settle(&design.finish, 0.0, &backend, |_| ControlFlow::Continue(()));
+    /// let settled = settled.map_err(|error| design.refused(error))?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn refused(&self, error: impl Into<FinishError>) -> Refusal {
+        let source = error.into();
+        if is_of_the_world(&source) {
+            return Refusal::Other(source);
+        }
+        match (self.keys.place(&source, |thread| self.yarn_of(thread)), self.files.last()) {
+            (Some(place), _) => Refusal::Key { place, source },
+            (None, Some(file)) => {
+                Refusal::File { file: self.keys.file().unwrap_or(file).to_path_buf(), source }
+            }
+            (None, None) => Refusal::Other(source),
+        }
+    }
+
+    /// The name of a thread's yarn.
+    fn yarn_of(&self, thread: Origin) -> Option<String> {
+        let number = |number: u32| number.checked_sub(1).map(|number| number as usize);
+        let (materials, material) = match (&self.structure, thread) {
+            (Structure::Woven(woven), Origin::End(end)) => {
+                (woven.cloth().materials(), woven.cloth().warp().get(number(end)?)?.material)
+            }
+            (Structure::Woven(woven), Origin::Pick(pick)) => {
+                (woven.cloth().materials(), woven.cloth().weft().get(number(pick)?)?.material)
+            }
+            (Structure::Weft(knit), Origin::Carrier(carrier)) => {
+                (knit.materials(), knit.carriers().get(number(carrier)?)?.material)
+            }
+            (Structure::Warp(knit), Origin::Guide { bar, guide }) => {
+                let yarn = knit.bars().get(number(bar)?)?.threading.yarn(guide.checked_sub(1)?)?;
+                (knit.materials(), knit.guide_yarns().get(yarn as usize)?.material)
+            }
+            _ => return None,
+        };
+        materials.get(material as usize).map(|material| material.name.clone())
     }
 
     /// Notes a file that it was read from.
@@ -224,4 +281,15 @@ impl Design {
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         self.structure.yarns()
     }
+}
+
+/// Whether an error is none of a design: memory, a device, a setting of the mesh, or somebody who asked to stop.
+const fn is_of_the_world(error: &FinishError) -> bool {
+    matches!(
+        error,
+        FinishError::Fabric(
+            FabricError::OutOfMemory { .. } | FabricError::Cancelled | FabricError::Settings(_)
+        ) | FinishError::Settling(SettlingError::OutOfMemory { .. })
+            | FinishError::Crossings(CrossingsError::OutOfMemory { .. })
+    ) || matches!(error, FinishError::Backend(error) if !matches!(error, BackendError::Crowded { .. }))
 }

@@ -357,6 +357,14 @@ pub enum ReadError {
         /// Why.
         source: SectionError,
     },
+    /// The cloth that a key of the design asks for can't be made.
+    #[error("{place} can't be made into a fabric")]
+    Cloth {
+        /// The key.
+        place: Place,
+        /// Why.
+        source: FabricError,
+    },
     /// The structure that the design describes can't be made.
     #[error("{} can't be made into a fabric", named(.file))]
     Fabric {

@@ -7,12 +7,14 @@ mod error;
 mod file;
 #[cfg(all(feature = "images", feature = "toml"))]
 mod image_file;
+mod keys;
 mod knit;
 #[cfg(feature = "knitout")]
 mod knitout;
 mod memory;
 #[cfg(feature = "toml")]
 mod point_paper;
+mod refusal;
 mod threads;
 #[cfg(all(feature = "images", feature = "toml"))]
 mod tiff_file;
@@ -37,6 +39,7 @@ use std::path::Path;
 
 pub use design::{Design, MachineFault, NamedPlace, Told};
 pub use error::{Place, ReadError};
+pub use refusal::Refusal;
 pub use texere_fabric::Structure;
 
 #[cfg(feature = "toml")]

@@ -168,19 +168,29 @@ use threads::YarnTable;
 pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     let bytes = bytes_of(path, limits::FILE)?;
     let source = Source::new(path, &bytes)?;
+    let keys = source.keys();
+    match designed(&source) {
+        Ok(design) => Ok(design.keyed(keys)),
+        Err(ReadError::Fabric { file, source }) if file == path => Err(keys.refused(source)),
+        Err(error) => Err(error),
+    }
+}
+
+fn designed(source: &Source<'_>) -> Result<Design, ReadError> {
+    let path = source.path;
     let file: DesignFile = source.parse()?;
-    let (settle, finish) = file.finish.read(&source, file.weave.is_some())?;
-    let stretch = file.finish.stretch(&source)?;
+    let (settle, finish) = file.finish.read(source, file.weave.is_some())?;
+    let stretch = file.finish.stretch(source)?;
     let rests = settle != Some(false);
-    let laid = Cloth::new(&source, &file.cloth, rests)?;
-    let yarns = YarnTable::new(&source, &file.yarns)?;
+    let laid = Cloth::new(source, &file.cloth, rests)?;
+    let yarns = YarnTable::new(source, &file.yarns)?;
     let weave = match (&file.weave, &file.knit, &file.warp_knit) {
         (Some(weave), None, None) => weave,
         (None, Some(table), None) => {
-            return Ok(knit::read(&source, &file, table, &yarns)?.finished(settle, finish, stretch));
+            return Ok(knit::read(source, &file, table, &yarns)?.finished(settle, finish, stretch));
         }
         (None, None, Some(table)) => {
-            return Ok(warp_knit::read(&source, &file, table, &yarns)?.finished(settle, finish, stretch));
+            return Ok(warp_knit::read(source, &file, table, &yarns)?.finished(settle, finish, stretch));
         }
         _ => {
             let keys = "[weave], [knit] and [warp_knit]";
@@ -189,11 +199,11 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
     };
     let mut warnings = Vec::new();
     let drawdown = match (&weave.notation, &weave.drawdown, &weave.image, &weave.wif) {
-        (Some(notation), None, None, None) => weave::from_notation(&source, weave, notation)?,
-        (None, Some(rows), None, None) => weave::from_rows(&source, weave, rows)?,
-        (None, None, Some(image), None) => weave::from_image(&source, weave, image, &mut warnings)?,
+        (Some(notation), None, None, None) => weave::from_notation(source, weave, notation)?,
+        (None, Some(rows), None, None) => weave::from_rows(source, weave, rows)?,
+        (None, None, Some(image), None) => weave::from_image(source, weave, image, &mut warnings)?,
         (None, None, None, Some(wif)) => {
-            let design = from_wif(&source, &file, weave, wif, &yarns, laid)?;
+            let design = from_wif(source, &file, weave, wif, &yarns, laid)?;
             return Ok(design.remarking(unused(&file, rests)).finished(settle, finish, stretch));
         }
         _ => {
@@ -201,8 +211,8 @@ pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
             return Err(ReadError::ExactlyOne { file: path.into(), keys });
         }
     };
-    let mut woven = threaded(&source, &file, &yarns, drawdown)?;
-    laid.lay(&source, &mut woven)?;
+    let mut woven = threaded(source, &file, &yarns, drawdown)?;
+    laid.lay(source, &mut woven)?;
     let name = file.name.clone().unwrap_or_else(|| file_name(path));
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
     let design = Design::new(name, Structure::Woven(woven), warnings);

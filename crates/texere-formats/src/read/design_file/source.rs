@@ -9,6 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::value::{Any, Node, Value};
 use crate::read::error::{said, shown};
+use crate::read::keys::Keys;
 use crate::read::{Place, ReadError};
 
 /// Most threads of a warp or weft.
@@ -45,6 +46,22 @@ impl<'a> Source<'a> {
         })?;
         let span = table.span();
         T::read(&Node::root(self, &Spanned::new(span, DeValue::Table(table.into_inner()))))
+    }
+
+    /// All its keys, as far as it is TOML.
+    pub(super) fn keys(&self) -> Keys {
+        let mut found = Vec::new();
+        if let Ok(table) = DeTable::parse(self.text) {
+            keys_of("", table.get_ref(), &mut found);
+        }
+        found.sort_unstable_by_key(|(_, at)| *at);
+        let (mut line, mut from) = (1, 0);
+        let lines = found.into_iter().map(|(key, at)| {
+            line += self.text.as_bytes()[from..at].iter().filter(|byte| **byte == b'\n').count();
+            from = at;
+            (key, line)
+        });
+        Keys { file: self.path.into(), lines: lines.collect() }
     }
 
     /// A value as the file has it, without its quotes.
@@ -155,4 +172,26 @@ impl<'a> Source<'a> {
 fn no_hyphen(text: &str) -> String {
     let sign = text.chars().find_map(hyphen_look_alike);
     sign.map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
+}
+
+/// Adds the keys of a table, which `above` leads to, and where each begins.
+fn keys_of(above: &str, table: &DeTable<'_>, found: &mut Vec<(String, usize)>) {
+    for (key, value) in table {
+        let key_at = key.span().start;
+        let key = format!("{above}{}", key.get_ref());
+        match value.get_ref() {
+            DeValue::Table(table) => keys_of(&format!("{key}."), table, found),
+            // Tables in a list are named as one of them and by their numbers: `bars, bar 2: lapping`.
+            DeValue::Array(list) => {
+                let one = key.rsplit('.').next().unwrap_or_default().trim_end_matches('s');
+                for (number, item) in (1..).zip(list.iter()) {
+                    if let DeValue::Table(table) = item.get_ref() {
+                        keys_of(&format!("{key}, {one} {number}: "), table, found);
+                    }
+                }
+            }
+            _ => {}
+        }
+        found.push((key, key_at));
+    }
 }

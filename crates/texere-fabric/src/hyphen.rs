@@ -1,13 +1,17 @@
 //! Signs that look like a hyphen and are none, as word processors put them in its place.
 
-/// What a sign is called, with its number in Unicode, if it looks like a hyphen and is none.
+/// What the first sign of a text is called that looks like a hyphen and is none, with its number in Unicode.
 ///
 /// ```
-/// assert_eq!(texere_fabric::hyphen_look_alike('\u{2013}'), Some("an en dash (U+2013)"));
-/// assert_eq!(texere_fabric::hyphen_look_alike('-'), None);
+/// assert_eq!(texere_fabric::hyphen_look_alike("1\u{2013}0"), Some("an en dash (U+2013)"));
+/// assert_eq!(texere_fabric::hyphen_look_alike("1-0"), None);
 /// ```
 #[must_use]
-pub const fn look_alike(sign: char) -> Option<&'static str> {
+pub fn hyphen_look_alike(text: &str) -> Option<&'static str> {
+    text.chars().find_map(name)
+}
+
+const fn name(sign: char) -> Option<&'static str> {
     Some(match sign {
         '\u{ad}' => "a soft hyphen (U+00AD)",
         '\u{2010}' => "a typographic hyphen (U+2010)",

@@ -34,7 +34,6 @@
 
 mod clearance;
 mod counted;
-mod dash;
 mod diagnosis;
 mod drawn;
 mod error;
@@ -61,14 +60,13 @@ pub use clearance::{
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
 pub use counted::counted;
-pub use dash::hyphen_look_alike;
 pub use diagnosis::{
     CLEAR, ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
     StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
 };
 pub use drawn::{Drawn, WRUNG, drawn, finer};
 pub use error::FabricError;
-pub use hyphen::look_alike as hyphen_look_alike;
+pub use hyphen::hyphen_look_alike;
 pub use length::{length_mm, lengths_mm};
 pub use linking::{
     LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,

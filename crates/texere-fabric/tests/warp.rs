@@ -105,14 +105,12 @@ fn wrong_notation_is_refused_with_its_column() {
         assert_eq!(error.column, column, "{text}: {error}");
     }
     for (dash, name) in [
-        ('\u{2010}', "a typographic hyphen, U+2010"),
-        ('\u{2013}', "an en dash, U+2013"),
-        ('\u{2212}', "a minus sign, U+2212"),
+        ('\u{2010}', "a typographic hyphen (U+2010)"),
+        ('\u{2013}', "an en dash (U+2013)"),
+        ('\u{2212}', "a minus sign (U+2212)"),
     ] {
         let error = Chain::parse(&format!("1-0/1{dash}2//"), 1).unwrap_err().to_string();
-        let said = format!(
-            "chain, column 6: found \"{dash}\", {name}, where a hyphen \"-\" belongs, expected \"-\""
-        );
+        let said = format!("chain, column 6: found \"{dash}\", {name}, not a hyphen, expected \"-\"");
         assert_eq!(error, said);
     }
     assert_eq!(

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::{stderr, stdout, texere};
+use crate::{design, stderr, stdout, texere};
 
 /// A folder with a design of that name.
 fn folder(name: &str, text: &str) -> TempDir {
@@ -223,18 +223,18 @@ const PRESSED: &str = "[warp_knit]\nwales = 6\ncourses = 6\nwales_per_cm = 14.8\
     [[warp_knit.bars]]\nlapping = \"1-0/2-3//\"\nthreading = [\"a\"]\n[[warp_knit.bars]]\nlapping = \"1-2/1-0//\"\nthreading = [\"a\"]\n\
     [finish]\npress = 0.2\n[yarns.a]\ntex = 4.444\ndensity = 0.8\n";
 
-fn said(command: &str, text: &str) -> (serde_json::Value, String) {
-    let folder = tempfile::TempDir::new().unwrap();
+fn said(command: &str, text: &str) -> (Value, String) {
+    let folder = TempDir::new().unwrap();
     let path = folder.path().join("cloth.toml");
-    std::fs::write(&path, text).unwrap();
+    fs::write(&path, text).unwrap();
     let path = path.to_str().unwrap();
-    let json = crate::texere(&[command, "--json", path]);
-    (serde_json::from_str(&crate::stdout(&json)).unwrap(), crate::stdout(&crate::texere(&[command, path])))
+    let json = texere(&[command, "--json", path]);
+    (serde_json::from_str(&stdout(&json)).unwrap(), stdout(&texere(&[command, path])))
 }
 
 #[test]
 fn what_is_at_rest_is_clean_and_what_pierces_is_not_at_rest() {
-    let denim = std::fs::read_to_string(crate::design("denim.toml")).unwrap();
+    let denim = fs::read_to_string(design("denim.toml")).unwrap();
     for text in [PIERCES_AS_DRAWN, PRESSED, &denim] {
         let (report, words) = said("check", text);
         assert_eq!(report["settling"]["at_rest"], report["clean"], "{words}");

@@ -195,7 +195,7 @@ impl Reader {
         let shown: String = rest.iter().take(digits.clamp(1, SHOWN)).collect();
         let found = match hyphen_look_alike(&shown) {
             _ if rest.is_empty() => "the end".to_owned(),
-            Some(dash) => format!("{shown:?}, {dash}"),
+            Some(sign) => format!("{shown:?}, {sign}, not a hyphen"),
             None => format!("{shown:?}"),
         };
         ChainError { column: at + 1, found, expected: expected.to_owned() }

@@ -2,7 +2,7 @@
 
 use super::library::{CREPE, HONEYCOMB, Reversal, drawn};
 use crate::FabricError;
-use crate::hyphen;
+use crate::hyphen_look_alike;
 
 /// The most ends, and the most picks, in the repeat of a weave.
 ///
@@ -394,7 +394,9 @@ impl Cursor<'_> {
     }
 
     fn fail(&self, expected: &'static str) -> FabricError {
-        if let Some(sign) = self.rest.trim_start().chars().next().and_then(hyphen::look_alike) {
+        let next = self.rest.trim_start();
+        let next = &next[..next.chars().next().map_or(0, char::len_utf8)];
+        if let Some(sign) = hyphen_look_alike(next) {
             return FabricError::Hyphen { text: self.shown(), position: self.position(), sign };
         }
         FabricError::Notation { text: self.shown(), position: self.position(), expected }

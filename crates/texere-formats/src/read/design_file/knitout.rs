@@ -2,7 +2,6 @@
 
 use std::ffi::OsStr;
 
-use texere_fabric::hyphen_look_alike;
 use toml::Spanned;
 
 use super::knit::{LOOP_MM, Reader};
@@ -28,12 +27,8 @@ impl Reader<'_> {
         for (size, length) in &table.stitch_lengths_mm {
             let field = format!("knit.stitch_lengths_mm.\"{}\"", shown(size.as_ref()));
             let Some(name) = knitout::size(size.as_ref()) else {
-                let mut expected =
-                    "a stitch size: the number behind x-stitch-number, or both behind stitch".to_owned();
-                if let Some(dash) = hyphen_look_alike(size.as_ref()) {
-                    expected += &format!("; it has {dash}");
-                }
-                return Err(source.unfit(&field, size.span(), &expected));
+                let expected = "a stitch size: the number behind x-stitch-number, or both behind stitch";
+                return Err(source.unfit(&field, size.span(), expected));
             };
             let length = source.number(&field, length, LOOP_MM.0, LOOP_MM.1)?;
             if lengths.insert(name, length).is_some() {

@@ -170,8 +170,7 @@ impl<'a> Source<'a> {
 
 /// What an error adds where a text has a sign that looks like a hyphen or a minus and is none.
 fn no_hyphen(text: &str) -> String {
-    let sign = text.chars().find_map(hyphen_look_alike);
-    sign.map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
+    hyphen_look_alike(text).map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
 }
 
 /// Adds the keys of a table, which `above` leads to, and where each begins.

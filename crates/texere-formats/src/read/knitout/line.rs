@@ -36,7 +36,7 @@ impl<'a> Line<'a> {
         let column = self.text.get(..before).unwrap_or_default().chars().count() + 1;
         let (file, line, value) = (self.file.into(), self.number, shown(word));
         let expected = match hyphen_look_alike(word) {
-            Some(dash) => format!("{}; it has {dash}", expected.into()),
+            Some(sign) => format!("{} (there is {sign}, not a hyphen)", expected.into()),
             None => expected.into(),
         };
         ReadError::Word { file, line, column, value, expected }

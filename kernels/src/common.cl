@@ -49,7 +49,7 @@ typedef struct {
     uint yarns;
     uint sides;
     uint subdivisions;
-    uint padding;
+    uint leans;
     uint indexed;
     uint rolled;
     float s;
@@ -393,10 +393,10 @@ typedef struct {
     float2 sin_cos;
 } Stance;
 
-// The side that a section stands with. It turns with the roll, but where yarns are FLATTENED: there the section turns inside
-// its outline.
-float3 side_of(float3 tangent, uint roll) {
-    return FLATTENED ? basis_upright(tangent).side : side_standing(tangent, roll);
+// The side that a section stands with. It turns with the roll, but where yarns are FLATTENED: there it leans with the outline, and
+// the section turns inside.
+float3 side_of(float3 tangent, uint roll, uint lean) {
+    return side_standing(tangent, FLATTENED ? lean : roll);
 }
 
 // `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the roll's.

@@ -12,12 +12,17 @@ typedef struct {
     // As `side_of` gives it, and the half height.
     float4 side[BLOCK_RINGS];
     float height_growth[BLOCK_RINGS];
-    // Sine and cosine of the roll: where yarns are FLATTENED.
+    // Sine and cosine of the roll against the outline: where yarns are FLATTENED.
     float2 sin_cos[BLOCK_RINGS];
     uint roll[BLOCK_RINGS];
     // The turns of each eight rings.
     uint eights[BLOCK_RINGS / 8];
 } BlockRings;
+
+// The lean of ring `ring` of a yarn: `rolls` has those of all rings behind the rolls of blocks, where any yarn leans.
+uint lean_of(const Params *params, const YarnRow *yarn, __global const uint *rolls, uint ring) {
+    return params->leans == 0u ? 0u : rolls[params->leans + yarn->first_block * BLOCK_RINGS + ring];
+}
 
 // Makes the rings of `block`, which is row `row` of the table: one lane a ring. Every lane of the workgroup, which has
 // at least BLOCK_RINGS, must come here.
@@ -26,6 +31,7 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
                  __local BlockRings *rings) {
     RingSample here;
     uint roll = 0u;
+    uint lean = 0u;
     if (lane < block->rings) {
         here = ring_sample(points, params, yarn, block, lane);
         rings->tangent[lane] = (float4)(here.sample.tangent, here.sample.width_growth);
@@ -60,15 +66,18 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
             }
             uint start = rolls[yarn->first_block + block->first_ring / BLOCK_RINGS];
             roll = closed_up(yarn, block->first_ring + lane, start + sum - turn, whole[block->yarn]);
+            lean = lean_of(params, yarn, rolls, block->first_ring + lane);
+            // An upright section leans with its outline; one that is carried along starts so.
+            roll += yarn->frame == ROTATION_MINIMIZING ? lean_of(params, yarn, rolls, 0u) : lean;
         }
     }
     if (lane < block->rings) {
         rings->centre[lane] = (float4)(here.sample.centre, here.sample.half_width);
-        rings->side[lane] = (float4)(side_of(here.sample.tangent, roll), here.sample.half_height);
+        rings->side[lane] = (float4)(side_of(here.sample.tangent, roll, lean), here.sample.half_height);
         rings->height_growth[lane] = here.sample.height_growth;
         rings->roll[lane] = roll;
         if (FLATTENED) {
-            rings->sin_cos[lane] = turn_sin_cos(roll);
+            rings->sin_cos[lane] = turn_sin_cos(roll - lean);
         }
     }
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -27,7 +27,9 @@ void trajectory(const Params params, const ulong window, __global const uint4 *p
         } else if (piece % 3u == 1u) {
             out[piece] = (uint4)(as_uint(tangent.x), as_uint(tangent.y), as_uint(tangent.z), standing.roll[ring]);
         } else {
-            out[piece] = as_uint4((float4)(standing.side[ring].w, tangent.w, standing.height_growth[ring], 0.0f));
+            uint lean = lean_of(&params, &yarn, rolls, block.first_ring + ring);
+            out[piece] = (uint4)(as_uint(standing.side[ring].w), as_uint(tangent.w),
+                                 as_uint(standing.height_growth[ring]), lean);
         }
     }
 }

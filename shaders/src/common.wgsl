@@ -47,7 +47,7 @@ struct Params {
     yarns: u32,
     sides: u32,
     subdivisions: u32,
-    padding: u32,
+    leans: u32,
     indexed: u32,
     rolled: u32,
     s: f32,
@@ -392,13 +392,10 @@ struct Stance {
     sin_cos: vec2<f32>,
 }
 
-// The side that a section stands with. It turns with the roll, but where yarns are FLATTENED: there the section turns inside
-// its outline.
-fn side_of(tangent: vec3<f32>, roll: u32) -> vec3<f32> {
-    if FLATTENED {
-        return basis_upright(tangent).side;
-    }
-    return side_standing(tangent, roll);
+// The side that a section stands with. It turns with the roll, but where yarns are FLATTENED: there it leans with the outline, and
+// the section turns inside.
+fn side_of(tangent: vec3<f32>, roll: u32, lean: u32) -> vec3<f32> {
+    return side_standing(tangent, select(roll, lean, FLATTENED));
 }
 
 // `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the roll's.

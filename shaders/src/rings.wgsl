@@ -6,7 +6,7 @@
 // Rings that there is room for: whole eights, for the scan.
 const RINGS_HELD = BLOCK_RINGS + 8u * RINGS_BEYOND;
 
-// The whole turn of each yarn, then the roll at each block's start: one buffer, since eight are all that WebGPU promises.
+// The whole turn of each yarn, then the roll at each block's start, then the leans of all rings where any yarn leans: one buffer, since eight are all that WebGPU promises.
 @group(0) @binding(4) var<storage, read> rolls: array<u32>;
 
 // The rings of a block, each with its side and its roll. `up_of` works out the rest of the basis instead of storing it: the
@@ -19,7 +19,7 @@ struct BlockRings {
     // As `side_of` gives it, and the half height.
     side: array<vec4<f32>, RINGS_HELD>,
     height_growth: array<f32, RINGS_HELD>,
-    // Sine and cosine of the roll: where yarns are FLATTENED.
+    // Sine and cosine of the roll against the outline: where yarns are FLATTENED.
     sin_cos: array<vec2<f32>, RINGS_HELD>,
     roll: array<u32, RINGS_HELD>,
     // The turns of each eight rings.
@@ -33,12 +33,21 @@ fn rings_made(block: Block) -> u32 {
     return min(block.rings + RINGS_BEYOND, max(block.rings, block.quads + 1u));
 }
 
+// The lean of ring `ring` of a yarn.
+fn lean_of(yarn: YarnRow, ring: u32) -> u32 {
+    if params.leans == 0u {
+        return 0u;
+    }
+    return rolls[params.yarns + params.leans + yarn.first_block * BLOCK_RINGS + ring];
+}
+
 // Makes the rings of `block`: one lane a ring. Every lane of the workgroup, which has
 // at least RINGS_HELD, must come here.
 fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
     let rings = rings_made(block);
     var here: RingSample;
     var roll = 0u;
+    var lean = 0u;
     if lane < rings {
         here = ring_sample(yarn, block, lane);
         standing.tangent[lane] = vec4(here.sample.tangent, here.sample.width_growth);
@@ -73,15 +82,22 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
             }
             let start = rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS];
             roll = closed_up(yarn, block.first_ring + lane, start + sum - turn, rolls[block.yarn]);
+            lean = lean_of(yarn, block.first_ring + lane);
+            // An upright section leans with its outline; one that is carried along starts so.
+            if yarn.frame == ROTATION_MINIMIZING {
+                roll += lean_of(yarn, 0u);
+            } else {
+                roll += lean;
+            }
         }
     }
     if lane < rings {
         standing.centre[lane] = vec4(here.sample.centre, here.sample.half_width);
-        standing.side[lane] = vec4(side_of(here.sample.tangent, roll), here.sample.half_height);
+        standing.side[lane] = vec4(side_of(here.sample.tangent, roll, lean), here.sample.half_height);
         standing.height_growth[lane] = here.sample.height_growth;
         standing.roll[lane] = roll;
         if FLATTENED {
-            standing.sin_cos[lane] = turn_sin_cos(roll);
+            standing.sin_cos[lane] = turn_sin_cos(roll - lean);
         }
     }
     workgroupBarrier();

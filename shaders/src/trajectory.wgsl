@@ -29,8 +29,8 @@ fn trajectory(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
         } else if piece % 3u == 1u {
             rings[out + piece] = vec4(bitcast<vec3<u32>>(tangent.xyz), standing.roll[ring]);
         } else {
-            let sizes = vec4(standing.side[ring].w, tangent.w, standing.height_growth[ring], 0.0);
-            rings[out + piece] = bitcast<vec4<u32>>(sizes);
+            let sizes = vec3(standing.side[ring].w, tangent.w, standing.height_growth[ring]);
+            rings[out + piece] = vec4(bitcast<vec3<u32>>(sizes), lean_of(yarn, block.first_ring + ring));
         }
     }
 }

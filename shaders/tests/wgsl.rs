@@ -127,7 +127,7 @@ fn tables_lie_as_in_rust() {
                 yarns,
                 sides,
                 subdivisions,
-                padding,
+                leans,
                 indexed,
                 rolled,
                 s,

@@ -17,7 +17,7 @@ pub(crate) const POISONED_RING: Ring = Ring {
     half_height: POISON,
     width_growth: POISON,
     height_growth: POISON,
-    padding: 0x7fc0_bad1,
+    lean: Turn(0x7fc0_bad1),
 };
 
 /// An index that was never written; no chunk has so many vertices.

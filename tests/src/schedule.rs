@@ -12,7 +12,8 @@ use crate::registry::names;
 #[must_use]
 pub fn beyond(device: &DeviceInfo, yarns: &Yarns, settings: &Settings) -> bool {
     device.schedule == Schedule::PerYarn
-        && (settings.frame != Frame::Upright
+        && (yarns.layout().leans()
+            || settings.frame != Frame::Upright
             || settings.caps
             || yarns.layout().yarns().iter().any(|yarn| yarn.closed || yarn.twist != 0.0)
             || (0..yarns.layout().yarns().len()).any(|yarn| yarns.layout().is_steep(yarn)))

@@ -1,10 +1,12 @@
 //! Yarns moved, put together and taken apart.
 
+use glam::Vec3;
+
 use crate::{ControlPoint, Layout, Material, Section, Yarn, YarnError, Yarns};
 
 /// Where a cloth goes: it is scaled, then turned, then moved.
 ///
-/// It is turned in its own plane alone. Flattened yarns lie level, and would not if cloth were tilted.
+/// It is turned in its own plane alone: [`Yarns::mapped`] turns it any way, and bends it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// Turn about z, from x towards y, rad.
@@ -57,7 +59,15 @@ impl Yarns {
         let yarns = layout.yarns().iter().map(|yarn| Yarn { twist: twist(yarn.twist), ..*yarn }).collect();
         let layout = Layout::new(yarns, layout.offsets().to_vec(), layout.sections().to_vec())?;
         let placed = Self::new(layout, self.materials().to_vec(), self.points().iter().map(place).collect())?;
-        placed.with_sources_of([self])
+        let placed = placed.with_sources_of([self])?;
+        let turned = |up: &Vec3| {
+            let [x, y] = [up.x, up.y].map(f64::from);
+            [(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, up.z]
+        };
+        match self.ups() {
+            Some(ups) => placed.with_ups(ups.iter().map(turned).collect()),
+            None => Ok(placed),
+        }
     }
 
     /// All yarns of several cloths, one after the other. Materials and sections that are equal are kept once; sources are kept where all
@@ -95,7 +105,17 @@ impl Yarns {
             offsets.extend(layout.offsets()[1..].iter().map(|offset| before + offset));
             points.extend_from_slice(cloth.points());
         }
-        Self::new(Layout::new(yarns, offsets, sections)?, materials, points)?.with_sources_of(cloths)
+        let merged = Self::new(Layout::new(yarns, offsets, sections)?, materials, points)?;
+        let merged = merged.with_sources_of(cloths.iter().copied())?;
+        if cloths.iter().all(|cloth| cloth.ups().is_none()) {
+            return Ok(merged);
+        }
+        // Beside a cloth that leaves its plane all others say that theirs point along z.
+        let ups = cloths.iter().flat_map(|cloth| match cloth.ups() {
+            Some(ups) => ups.to_vec(),
+            None => cloth.uprights(),
+        });
+        merged.with_ups(ups.map(|up| up.to_array()).collect())
     }
 
     /// Some of the yarns, in the order in which they are named. Materials and sections keep their numbers.
@@ -103,22 +123,27 @@ impl Yarns {
     /// **Errors**: [`YarnError::UnknownYarn`], and [`YarnError::NoYarns`] where none is named.
     pub fn only(&self, yarns: impl IntoIterator<Item = usize>) -> Result<Self, YarnError> {
         let (mut table, mut offsets) = (Vec::new(), vec![0]);
-        let (mut points, mut sources) = (Vec::new(), Vec::new());
+        let (mut points, mut sources, mut ups) = (Vec::new(), Vec::new(), Vec::new());
         for yarn in yarns {
             let all = self.layout().yarns();
             let range = self.range(yarn).ok_or(YarnError::UnknownYarn { yarn, yarns: all.len() })?;
             table.push(all[yarn]);
             points.extend_from_slice(&self.points()[range.clone()]);
             offsets.push(points.len() as u64);
+            ups.extend(self.ups().iter().flat_map(|ups| &ups[range.clone()]).map(Vec3::to_array));
             sources.extend_from_slice(self.sources().map_or(&[], |sources| &sources[range]));
         }
         let layout = Layout::new(table, offsets, self.layout().sections().to_vec())?;
         let only = Self::new(layout, self.materials().to_vec(), points)?;
+        let only = if self.ups().is_some() { only.with_ups(ups)? } else { only };
         if self.sources().is_some() { only.with_sources(sources) } else { Ok(only) }
     }
 
     /// The sources of several cloths' points, one after the other, where all have some.
-    fn with_sources_of<'a>(self, cloths: impl IntoIterator<Item = &'a Self>) -> Result<Self, YarnError> {
+    pub(crate) fn with_sources_of<'a>(
+        self,
+        cloths: impl IntoIterator<Item = &'a Self>,
+    ) -> Result<Self, YarnError> {
         let sources: Option<Vec<_>> = cloths.into_iter().map(Self::sources).collect();
         match sources {
             Some(sources) => self.with_sources(sources.concat()),

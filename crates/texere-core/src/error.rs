@@ -100,6 +100,24 @@ pub enum YarnError {
         /// Needed.
         points: usize,
     },
+    /// Up directions must be one per control point.
+    #[error("{ups} up directions for {points} control points")]
+    UpCount {
+        /// Given.
+        ups: usize,
+        /// Needed.
+        points: usize,
+    },
+    /// An up direction must have one.
+    #[error("the up direction of point {point} of yarn {yarn} is {up:?}, which points nowhere")]
+    Up {
+        /// The yarn, from 0.
+        yarn: usize,
+        /// The point of the yarn, from 0.
+        point: usize,
+        /// Given.
+        up: [f32; 3],
+    },
     /// There is no such yarn.
     #[error("no yarn {yarn}; there are {yarns}")]
     UnknownYarn {

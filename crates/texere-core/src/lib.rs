@@ -25,7 +25,9 @@ mod engine;
 mod error;
 mod frame;
 mod half;
+mod lean;
 mod live;
+mod mapped;
 mod material;
 mod mesh;
 mod null;
@@ -60,6 +62,7 @@ pub use error::{
     BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,
 };
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
+pub use lean::up_between;
 pub use live::{Change, LiveMesh};
 pub use material::{HAIRINESS_LIMIT, Material};
 pub use mesh::{ChunkDraw, Draw, Mesh, MeshMut, MeshPiece};

@@ -10,8 +10,8 @@ use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot
 use crate::steep::is_steep;
 use crate::yarns::check_points;
 use crate::{
-    Backend, BackendError, Chunk, ControlPoint, Limits, PaddedPoints, Part, Plan, SessionError, Topology,
-    Traffic, Vertex, Yarn,
+    Backend, BackendError, Chunk, ControlPoint, Limits, PaddedPoints, Part, Plan, PlanError, SessionError,
+    Topology, Traffic, Vertex, Yarn,
 };
 
 /// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and made again.
@@ -165,16 +165,14 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
             let [_, sent] = self.plan.layout().points_of(yarn, &(first..end));
             check_points(yarn, &points[sent])?;
         }
-        self.points.upload(&self.plan, first, points);
-        let (plan, padded) = (&self.plan, &self.points);
-        let steep: Vec<_> =
-            yarns.clone().into_par_iter().map(|yarn| runs_steeply(plan, padded, yarn)).collect();
-        for (yarn, steep) in yarns.clone().zip(steep) {
-            if steep != self.plan.layout().is_steep(yarn) {
-                let own = &self.plan.layout().offsets()[yarn..yarn + 2];
-                self.replan(yarn, self.plan.edited_to(yarn, *self.plan.yarn(yarn), own[1] - own[0], steep)?)?;
-                self.note(yarn, 0..self.plan.rings(yarn));
+        match self.plan.layout().leaning() {
+            // How outlines lean belongs to the plan's own points.
+            Some(leaning) if leaning.points[first as usize..end as usize] != *points => {
+                let what = "moved, where yarns have up directions of their own";
+                return Err(PlanError::OtherPlan { yarn: yarns.start, what }.into());
             }
+            Some(_) => {}
+            None => self.note_steepness(first, points, yarns.clone())?,
         }
         for yarn in yarns {
             let [own, _] = self.plan.layout().points_of(yarn, &(first..end));
@@ -194,7 +192,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
             return Err(SessionError::NoYarn { yarn, yarns });
         }
         check_points(yarn, points)?;
-        let steep = points.len() as u64 >= what.points_least() && is_steep(points, what.closed);
+        let steep = points.len() as u64 >= what.points_least() && is_steep(points, what.closed, None);
         let plan = self.plan.edited_to(yarn, what, points.len() as u64, steep)?;
         if *plan.layout() != *self.plan.layout() {
             self.replan(yarn, plan)?;
@@ -203,6 +201,27 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         let first = self.plan.layout().offsets()[yarn];
         self.points.upload(&self.plan, first, points);
         self.traffic.uploaded += self.engine.upload(first, points)?;
+        Ok(())
+    }
+
+    /// Takes control points of some yarns, and notes which of them have become steep, or lie flat again.
+    fn note_steepness(
+        &mut self,
+        first: u64,
+        points: &[ControlPoint],
+        yarns: Range<usize>,
+    ) -> Result<(), SessionError> {
+        self.points.upload(&self.plan, first, points);
+        let (plan, padded) = (&self.plan, &self.points);
+        let steep: Vec<_> =
+            yarns.clone().into_par_iter().map(|yarn| runs_steeply(plan, padded, yarn)).collect();
+        for (yarn, steep) in yarns.clone().zip(steep) {
+            if steep != self.plan.layout().is_steep(yarn) {
+                let own = &self.plan.layout().offsets()[yarn..yarn + 2];
+                self.replan(yarn, self.plan.edited_to(yarn, *self.plan.yarn(yarn), own[1] - own[0], steep)?)?;
+                self.note(yarn, 0..self.plan.rings(yarn));
+            }
+        }
         Ok(())
     }
 
@@ -408,7 +427,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
 fn runs_steeply(plan: &Plan, points: &PaddedPoints, yarn: usize) -> bool {
     let offsets = plan.layout().offsets();
     let count = (offsets[yarn + 1] - offsets[yarn]) as usize;
-    is_steep(&points.yarn(plan, yarn)[1..=count], plan.yarn(yarn).closed)
+    is_steep(&points.yarn(plan, yarn)[1..=count], plan.yarn(yarn).closed, None)
 }
 
 const _: () = {

@@ -18,20 +18,21 @@ use crate::{Basis, Sample, SectionPoint, Turn, Vertex};
 pub struct Ring {
     /// Centre, mm.
     pub centre: [f32; 3],
-    /// Half the yarn's width, along the side of the upright frame, mm.
+    /// Half the yarn's width, along the side of the upright frame turned by the lean, mm.
     pub half_width: f32,
     /// Unit tangent, the spline's own derivative.
     pub tangent: [f32; 3],
     /// Turn of the section about the tangent, against the upright frame.
     pub roll: Turn,
-    /// Half the yarn's height, along the up of the upright frame, mm.
+    /// Half the yarn's height, along the up of the upright frame turned by the lean, mm.
     pub half_height: f32,
     /// Growth of the half width along the yarn.
     pub width_growth: f32,
     /// Growth of the half height along the yarn.
     pub height_growth: f32,
-    /// Unused, 0: keeps the ring a multiple of 16 bytes.
-    pub padding: u32,
+    /// Turn of the outline of a flattened yarn about the tangent, against the upright frame: 0 but where yarns have up
+    /// directions of their own.
+    pub lean: Turn,
 }
 
 const _: () = assert!(
@@ -40,7 +41,7 @@ const _: () = assert!(
         && std::mem::offset_of!(Ring, tangent) == 16
         && std::mem::offset_of!(Ring, roll) == 28
         && std::mem::offset_of!(Ring, half_height) == 32
-        && std::mem::offset_of!(Ring, padding) == 44
+        && std::mem::offset_of!(Ring, lean) == 44
 );
 
 impl Ring {
@@ -56,7 +57,7 @@ impl Ring {
             half_height: sample.half_height,
             width_growth: sample.width_growth,
             height_growth: sample.height_growth,
-            padding: 0,
+            lean: Turn::ZERO,
         }
     }
 
@@ -76,8 +77,9 @@ impl Ring {
             let basis = if self.roll == Turn::ZERO { upright } else { upright.rolled(self.roll) };
             Stance::Round { basis }
         } else {
-            let (sin, cos) = self.roll.sin_cos();
-            Stance::Flattened { basis: upright, sin, cos }
+            let basis = if self.lean == Turn::ZERO { upright } else { upright.rolled(self.lean) };
+            let (sin, cos) = (self.roll - self.lean).sin_cos();
+            Stance::Flattened { basis, sin, cos }
         }
     }
 
@@ -105,8 +107,7 @@ impl Ring {
             Stance::Flattened { basis: Basis { side, up }, sin, cos } => {
                 let SectionPoint { x, y, normal_x, normal_y } = point.rolled(*sin, *cos);
                 let (wide, high) = (self.half_width, self.half_height);
-                // Sides of upright frames are level.
-                let at = |x: f32, y: f32| Vec3::new(side.x * x + up.x * y, side.y * x + up.y * y, up.z * y);
+                let at = |x: f32, y: f32| *side * x + *up * y;
                 // Each times the other's half: the inverse transpose, times the product of both halves.
                 let (normal_x, normal_y) = (normal_x * high, normal_y * wide);
                 let lean = self.width_growth * x * normal_x + self.height_growth * y * normal_y;
@@ -131,11 +132,11 @@ pub enum Stance {
     },
     /// Of a flattened yarn: the section turns inside an outline that does not.
     Flattened {
-        /// The upright frame.
+        /// The upright frame, turned by the lean.
         basis: Basis,
-        /// The sine of the roll.
+        /// The sine of the roll against that frame.
         sin: f32,
-        /// The cosine of the roll.
+        /// Its cosine.
         cos: f32,
     },
 }

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use crate::{ControlPoint, Frame, Segment};
+use crate::lean::IntervalLean;
+use crate::{ControlPoint, Frame, Segment, Turn};
 
 /// By how much an upright frame may turn about a yarn within one control interval, turns: 4 degrees.
 ///
@@ -19,20 +20,34 @@ const S: f32 = 0.5;
 
 /// Whether the upright frame of a yarn turns about it by more than [`UPRIGHT_TURN`] within an interval of `points`, against a frame that is
 /// carried along.
-pub(crate) fn is_steep(points: &[ControlPoint], closed: bool) -> bool {
-    let count = points.len();
-    let intervals = if closed { count } else { count - 1 };
-    let at = |interval: usize, further: usize| points[(interval + count + further - 1) % count];
+///
+/// `ups` are the up directions of the points, where they have their own: the frame then stands by these.
+pub(crate) fn is_steep(points: &[ControlPoint], closed: bool, ups: Option<&[Vec3]>) -> bool {
+    let intervals = if closed { points.len() } else { points.len() - 1 };
     (0..intervals).any(|interval| {
-        let mut window = [0, 1, 2, 3].map(|further| at(interval, further));
-        if !closed && interval == 0 {
-            window[0] = window[1].reflected(&window[2]);
+        let window = window(points, closed, interval);
+        match ups {
+            None => turn_at_most(&window) > UPRIGHT_TURN && turn(&window, |_| 0.0) > UPRIGHT_TURN,
+            Some(ups) => {
+                let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
+                let lean = IntervalLean::new(&window, ends, S);
+                turn(&window, |t| lean.at(t).turns()) > UPRIGHT_TURN
+            }
         }
-        if !closed && interval + 1 == intervals {
-            window[3] = window[2].reflected(&window[1]);
-        }
-        turn_at_most(&window) > UPRIGHT_TURN && turn(&window) > UPRIGHT_TURN
     })
+}
+
+/// The four control points that steer interval number `interval` of a yarn, virtual ends included.
+pub(crate) fn window(points: &[ControlPoint], closed: bool, interval: usize) -> [ControlPoint; 4] {
+    let count = points.len();
+    let mut window = [0, 1, 2, 3].map(|further| points[(interval + count + further - 1) % count]);
+    if !closed && interval == 0 {
+        window[0] = window[1].reflected(&window[2]);
+    }
+    if !closed && interval + 2 == count {
+        window[3] = window[2].reflected(&window[1]);
+    }
+    window
 }
 
 /// No less than the interval's turn, from its velocity's three Bézier points alone: infinite where they do not tell.
@@ -55,15 +70,17 @@ fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
     4.0 * swing / std::f32::consts::TAU * highest / (highest * highest + least * least).sqrt()
 }
 
-/// The turns between places along the interval, added up without regard to sign, in turns.
-fn turn(window: &[ControlPoint; 4]) -> f32 {
+/// The turns between places along the interval of a frame that stands so far, in turns, off the upright one, added up without regard to sign.
+fn turn(window: &[ControlPoint; 4], lean: impl Fn(f32) -> f32) -> f32 {
     let segment = Segment::new(window, S);
-    let mut here = segment.sample(0.0);
+    let mut here = (segment.sample(0.0), lean(0.0));
     (1..=PLACES).fold(0.0, |sum, place| {
-        let next = segment.sample(place as f32 / PLACES as f32);
-        let chord = next.offset - here.offset;
-        let step = Frame::RotationMinimizing.step(here.tangent, next.tangent, chord, 0.0);
+        let t = place as f32 / PLACES as f32;
+        let next = (segment.sample(t), lean(t));
+        let chord = next.0.offset - here.0.offset;
+        let step = Frame::RotationMinimizing.step(here.0.tangent, next.0.tangent, chord, 0.0);
+        let turned = Turn::from_turns(step.turns() + here.1 - next.1);
         here = next;
-        sum + step.turns().abs()
+        sum + turned.turns().abs()
     })
 }

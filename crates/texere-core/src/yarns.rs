@@ -4,8 +4,10 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
+use glam::Vec3;
 use rayon::prelude::*;
 
+use crate::lean::Leaning;
 use crate::steep::is_steep;
 use crate::{
     COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section, YarnError,
@@ -81,6 +83,8 @@ pub struct Layout {
     sections: Vec<Section>,
     /// Which yarns run too steeply for upright frames.
     steep: Vec<bool>,
+    /// Where yarns leave the plane of their cloth.
+    leaning: Option<Arc<Leaning>>,
 }
 
 impl Layout {
@@ -123,7 +127,7 @@ impl Layout {
             }
         }
         let steep = vec![false; yarns.len()];
-        Ok(Self { offsets, yarns, sections, steep })
+        Ok(Self { offsets, yarns, sections, steep, leaning: None })
     }
 
     /// The same but that yarn number `yarn` is `what`, of `points` control points, and whether it is steep.
@@ -187,6 +191,17 @@ impl Layout {
         self.steep[yarn]
     }
 
+    /// Whether control points have up directions of their own: see [`Yarns::with_ups`].
+    #[must_use]
+    pub fn leans(&self) -> bool {
+        self.leaning.is_some()
+    }
+
+    /// The up directions, with their points.
+    pub(crate) fn leaning(&self) -> Option<&Leaning> {
+        self.leaning.as_deref()
+    }
+
     /// Control points of all yarns together.
     #[must_use]
     pub fn point_count(&self) -> u64 {
@@ -238,11 +253,12 @@ impl Yarns {
         let yarns = layout.offsets.par_windows(2).zip(&layout.yarns).enumerate();
         let steep = yarns.map(|(number, (bounds, yarn))| {
             let own = &points[bounds[0] as usize..bounds[1] as usize];
-            check_points(number, own).map(|()| is_steep(own, yarn.closed))
+            check_points(number, own).map(|()| is_steep(own, yarn.closed, None))
         });
         // Of several errors the first counts.
         let steep: Vec<_> = steep.collect();
         layout.steep = steep.into_iter().collect::<Result<_, _>>()?;
+        layout.leaning = None;
         Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, sources: None })
     }
 
@@ -255,6 +271,51 @@ impl Yarns {
         }
         self.sources = Some(sources);
         Ok(self)
+    }
+
+    /// Gives each control point an up direction: where the yarn's height points there, instead of along z. A cloth that was bent out of its plane
+    /// has them along its surface's normals, as [`Yarns::mapped`] gives them. What of it lies along the yarn does not count. Between two
+    /// points they go over into one another ([`up_between`](crate::up_between)).
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
+    /// // A ribbon along x that stands on edge: its height points along y.
+    /// let mut yarns = Yarns::builder();
+    /// let ribbon = [0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1).flattened(0.5, 0.125));
+    /// yarns.yarn(Yarn::default(), &ribbon);
+    /// let yarns = yarns.build()?.with_ups(vec![[0.0, 1.0, 0.0]; 3])?;
+    /// assert_eq!(yarns.ups().map(<[_]>::len), Some(3));
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    ///
+    /// **Errors**: [`YarnError::UpCount`] for another number than that of the control points, [`YarnError::Up`] for one that has no direction.
+    pub fn with_ups(mut self, ups: Vec<[f32; 3]>) -> Result<Self, YarnError> {
+        if ups.len() != self.points.len() {
+            return Err(YarnError::UpCount { ups: ups.len(), points: self.points.len() });
+        }
+        let unit = |(point, up): (usize, &[f32; 3])| {
+            let up = Vec3::from_array(*up);
+            up.try_normalize().ok_or_else(|| {
+                let yarn = self.layout.offsets.partition_point(|&start| start <= point as u64) - 1;
+                YarnError::Up { yarn, point: point - self.layout.offsets[yarn] as usize, up: up.to_array() }
+            })
+        };
+        let ups = ups.iter().enumerate().map(unit).collect::<Result<Vec<_>, _>>()?;
+        let layout = Arc::make_mut(&mut self.layout);
+        let yarns = layout.offsets.par_windows(2).zip(&layout.yarns);
+        let steep = yarns.map(|(bounds, yarn)| {
+            let own = bounds[0] as usize..bounds[1] as usize;
+            is_steep(&self.points[own.clone()], yarn.closed, Some(&ups[own]))
+        });
+        layout.steep = steep.collect();
+        layout.leaning = Some(Arc::new(Leaning { ups, points: self.points.clone() }));
+        Ok(self)
+    }
+
+    /// The up direction of each control point, of length 1, where they have [their own](Yarns::with_ups).
+    #[must_use]
+    pub fn ups(&self) -> Option<&[Vec3]> {
+        self.layout.leaning().map(|leaning| &leaning.ups[..])
     }
 
     /// Counts, offsets, sections, and each yarn's own data.
@@ -305,9 +366,15 @@ impl Yarns {
             return Err(YarnError::PointCount { points: points.len() as u64, planned: range.len() as u64 });
         }
         check_points(yarn, points)?;
-        let steep = is_steep(points, self.layout.yarns[yarn].closed);
+        let ups = self.ups().map(|ups| &ups[range.clone()]);
+        let steep = is_steep(points, self.layout.yarns[yarn].closed, ups);
         if steep != self.layout.steep[yarn] {
             Arc::make_mut(&mut self.layout).steep[yarn] = steep;
+        }
+        if self.layout.leans()
+            && let Some(leaning) = &mut Arc::make_mut(&mut self.layout).leaning
+        {
+            Arc::make_mut(leaning).points[range.clone()].copy_from_slice(points);
         }
         self.points[range].copy_from_slice(points);
         Ok(())

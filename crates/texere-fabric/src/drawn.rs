@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use texere_core::{PaddedPoints, Plan, Ring, Section, Settings, Turn, Yarns};
+use texere_core::{PaddedPoints, Plan, Ring, Sample, Section, Settings, Turn, Yarns};
 
 use crate::{FabricError, YarnPlace};
 
@@ -162,10 +162,10 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
     let (padded, rings, closed) = (points.yarn(plan, yarn), plan.rings(yarn), plan.yarn(yarn).closed);
     let (frame, twist) = (plan.frame(yarn), plan.turns_per_mm(yarn));
     let at = |ring| plan.sampling().sample(padded, ring, rings, closed);
-    let walk = |see: &mut dyn FnMut(u32, Ring)| {
+    let walk = |see: &mut dyn FnMut(u32, &Sample, Turn)| {
         let (mut here, mut roll) = (at(0), Turn::ZERO);
         for ring in 0..rings {
-            see(ring, Ring::new(&here.sample, roll));
+            see(ring, &here.sample, roll);
             if ring + 1 < rings {
                 let next = at(ring + 1);
                 roll =
@@ -176,14 +176,11 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
         roll
     };
     // A closed yarn gives back its whole turn, so that its last ring meets its first.
-    let whole = if closed && plan.turns(yarn) { walk(&mut |_, _| ()) } else { Turn::ZERO };
-    walk(&mut |number, ring| {
-        let roll = if number + 1 == rings && closed {
-            Turn::ZERO
-        } else {
-            ring.roll - whole.share(number, rings - 1)
-        };
-        see(number, &Ring { roll, ..ring });
+    let whole = if closed && plan.turns(yarn) { walk(&mut |_, _, _| ()) } else { Turn::ZERO };
+    walk(&mut |number, sample, roll| {
+        let roll =
+            if number + 1 == rings && closed { Turn::ZERO } else { roll - whole.share(number, rings - 1) };
+        see(number, &plan.ring(yarn, number, sample, roll));
     });
 }
 

@@ -2,7 +2,7 @@
 
 use texere_core::{Block, Limits, Plan, PlanError, SectionPoint, Turn, Vertex};
 
-use crate::tables::{CapRow, YarnRow, cap_pattern};
+use crate::tables::{CapRow, YarnRow, cap_pattern, lean_count};
 use crate::upload::Ends;
 
 /// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the mesh of all chunks of `plan` cut to
@@ -29,7 +29,7 @@ use crate::upload::Ends;
 pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str, u64)>, PlanError> {
     let bytes = |count: usize, each: usize| (count * each) as u64;
     let (settings, yarns) = (plan.settings(), plan.layout().yarns().len());
-    let turns = if plan.needs_scan() { plan.block_count() + yarns as u64 } else { 0 };
+    let turns = if plan.needs_scan() { plan.block_count() + yarns as u64 } else { 0 } + lean_count(plan);
     let caps = cap_pattern(plan).len();
     let mut buffers = vec![
         ("control points", plan.resident_bytes()),

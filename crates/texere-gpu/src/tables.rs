@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 
-use texere_core::{BLOCK_RINGS, Block, Cap, Chunk, End, Plan, RINGS_MAX, Topology};
+use texere_core::{BLOCK_RINGS, Block, Cap, Chunk, End, Plan, RINGS_MAX, Topology, Turn};
 
 /// A yarn as kernels see it.
 ///
@@ -72,8 +72,8 @@ pub struct Params {
     pub sides: u32,
     /// Points inserted between two control points.
     pub subdivisions: u32,
-    /// Unused, 0: keeps the row a multiple of 16 bytes.
-    pub padding: u32,
+    /// Where the leans of rings begin behind the rolls of blocks; 0 where no yarn leans.
+    pub leans: u32,
     /// 1 where indices are written, else 0.
     pub indexed: u32,
     /// 1 where rolls have been scanned, else 0: every roll is zero then.
@@ -155,7 +155,7 @@ impl Params {
             yarns: plan.layout().yarns().len() as u32,
             sides: settings.sides,
             subdivisions: settings.subdivisions,
-            padding: 0,
+            leans: plan.leans().map_or(0, |_| plan.block_count() as u32),
             indexed: (settings.topology == Topology::Indexed).into(),
             rolled: plan.needs_scan().into(),
             s: plan.sampling().s(),
@@ -163,6 +163,25 @@ impl Params {
             quanta_per_mm: settings.quantum.per_mm(),
         }
     }
+}
+
+/// The lean of each ring of `plan`, [`BLOCK_RINGS`] for each of its blocks, as kernels read them behind the rolls of blocks; empty where no
+/// yarn leans.
+#[must_use]
+pub fn lean_table(plan: &Plan) -> Vec<Turn> {
+    let Some(leans) = plan.leans() else { return Vec::new() };
+    let mut table = vec![Turn::ZERO; lean_count(plan) as usize];
+    for (bounds, first_block) in plan.ring_offsets().windows(2).zip(plan.block_offsets()) {
+        let own = &leans[bounds[0] as usize..bounds[1] as usize];
+        let first = (first_block * u64::from(BLOCK_RINGS)) as usize;
+        table[first..first + own.len()].copy_from_slice(own);
+    }
+    table
+}
+
+/// How many there are in [`lean_table`].
+pub(crate) fn lean_count(plan: &Plan) -> u64 {
+    plan.leans().map_or(0, |_| plan.block_count() * u64::from(BLOCK_RINGS))
 }
 
 /// The block table of `chunk`, one of `plan`'s, for a schedule with a lane a part: one row a part, or a few where it has

@@ -1,7 +1,7 @@
 //! What stays on the device for a session's whole life.
 
 use texere_core::{BackendError, Limits, Plan, Turn, index_pattern};
-use texere_gpu::{YarnRow, cap_pattern};
+use texere_gpu::{YarnRow, cap_pattern, lean_table};
 
 use crate::buffers::Buffer;
 use crate::opened::Opened;
@@ -48,7 +48,11 @@ impl Tables {
     pub(crate) fn reserve_rolls(&mut self, opened: &Opened, plan: &Plan) -> Result<(), BackendError> {
         if plan.needs_scan() {
             let turns = |count: u64| count * size_of::<Turn>() as u64;
-            self.rolls.reserve(opened, "rolls", turns(plan.block_count()))?;
+            // Behind the rolls of blocks lie the leans of rings, which nothing changes.
+            let leans = lean_table(plan);
+            let blocks = turns(plan.block_count());
+            self.rolls.reserve(opened, "rolls", blocks + size_of_val(&leans[..]) as u64)?;
+            self.rolls.write(opened, &opened.queue, blocks, &leans, None)?;
             self.yarn_turns.reserve(opened, "whole turns", turns(plan.counts().yarns))?;
         }
         Ok(())

@@ -35,7 +35,7 @@ const _: () = assert!(size_of::<Sweep>() == 32);
 const BLOCKS_MOST: u64 = 1 << 20;
 
 /// Bytes of a ring's roll.
-const ROLL_BYTES: u64 = 4;
+const ROLL_BYTES: u64 = 8;
 
 /// Bytes of a block in the three lists of `Listed`, and of their counts.
 const LISTED_BYTES: u64 = 12;

@@ -294,7 +294,13 @@ fn settled_yarns_are_drawn_where_they_rest() {
 #[test]
 fn pictures_are_those_of_the_mesh() {
     let renderer = renderer().lock().unwrap();
-    for (cloth, yarns) in [("twill", TWILL.yarns()), ("flattened", flattened(&TWILL.yarns()))] {
+    let flat = flattened(&TWILL.yarns());
+    // Bent down to either side, as over an arm.
+    let bent = flat.mapped(|[x, y, z]| {
+        let (sin, cos) = ((x - 5.0) / 6.0).sin_cos();
+        [5.0 + (6.0 + z) * sin, y, (6.0 + z) * cos - 6.0]
+    });
+    for (cloth, yarns) in [("twill", TWILL.yarns()), ("flattened", flat), ("bent", bent.unwrap())] {
         let extent = Extent::of(&yarns);
         // Threads of one and a half pixels, and less: a dozen triangles for each sample. And some triangles of many pixels.
         let small = [0.6, 1.1].map(|scale| ("small", Camera::true_scale(&extent, scale).unwrap()));

@@ -1,7 +1,7 @@
 //! What stays on the device for as long as its engine: control points, the plan's tables and the rolls.
 
 use texere_core::{ArcLength, BackendError, Plan, index_pattern};
-use texere_gpu::{Params, YarnRow, cap_pattern};
+use texere_gpu::{Params, YarnRow, cap_pattern, lean_table};
 use wgpu::BufferUsages;
 
 use crate::buffer::Buffer;
@@ -38,7 +38,7 @@ impl Tables {
             // Read where a part of settled points is edited.
             points: gpu.buffer("control points", plan.resident_bytes(), input | BufferUsages::COPY_SRC)?,
             yarns: table("yarns", bytemuck::cast_slice(&YarnRow::all(plan)))?,
-            rolls: Buffer::new(gpu, "rolls", BufferUsages::STORAGE)?,
+            rolls: Buffer::new(gpu, "rolls", input)?,
             lengths: Buffer::new(gpu, "lengths along yarns", BufferUsages::STORAGE)?,
             outlines: table("outlines", bytemuck::cast_slice(plan.outlines()))?,
             pattern: table("the index pattern", bytemuck::cast_slice(&index_pattern(plan.settings().sides)))?,
@@ -52,7 +52,13 @@ impl Tables {
     /// Makes room for rolls where any yarn turns.
     pub(crate) fn reserve_rolls(&mut self, gpu: &Gpu, plan: &Plan) -> Result<(), BackendError> {
         if plan.needs_scan() {
-            self.rolls.reserve(gpu, 4 * (plan.layout().yarns().len() as u64 + plan.block_count()))?;
+            // Behind the rolls of blocks lie the leans of rings, which nothing changes.
+            let leans = lean_table(plan);
+            let blocks = 4 * (plan.layout().yarns().len() as u64 + plan.block_count());
+            let rolls = self.rolls.reserve(gpu, blocks + size_of_val(&leans[..]) as u64)?;
+            if !leans.is_empty() {
+                gpu.write(rolls, blocks, bytemuck::cast_slice(&leans))?;
+            }
         }
         Ok(())
     }

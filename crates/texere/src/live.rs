@@ -235,7 +235,19 @@ impl Live {
         }
         let layout = texere_core::Layout::new(table, offsets, yarns.layout().sections().to_vec())?;
         let all = Yarns::new(layout, self.materials.clone(), points)?;
-        Ok(if sources.len() == all.points().len() { all.with_sources(sources)? } else { all })
+        let all = if sources.len() == all.points().len() { all.with_sources(sources)? } else { all };
+        let Some(ups) = yarns.ups() else { return Ok(all) };
+        // A yarn that was set to more points or fewer says no more where its height points: along z.
+        let mut all_ups = Vec::with_capacity(all.points().len());
+        for yarn in 0..all.layout().yarns().len() {
+            let (own, before) = (all.range(yarn).unwrap_or_default(), yarns.range(yarn).unwrap_or_default());
+            if own.len() == before.len() {
+                all_ups.extend(ups[before].iter().map(|up| up.to_array()));
+            } else {
+                all_ups.extend(own.map(|_| [0.0, 0.0, 1.0]));
+            }
+        }
+        Ok(all.with_ups(all_ups)?)
     }
 
     /// Yarn number `yarn`, from 0, alone as it is now, with its sources: what a place on it is called needs no other yarn.

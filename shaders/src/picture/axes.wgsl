@@ -1,7 +1,7 @@
 // Rings in screen space. After fabric.wgsl and cover.wgsl.
 
-// The roll of each ring of the chunk, for what is seen of it.
-@group(1) @binding(5) var<storage, read_write> ring_rolls: array<u32>;
+// The roll and the lean of each ring of the chunk, for what is seen of it.
+@group(1) @binding(5) var<storage, read_write> ring_rolls: array<vec2<u32>>;
 
 // What a section is in screen space: its centre, and what its x and its y are there.
 struct Axes {

@@ -10,7 +10,7 @@ fn held_axes(ring: u32) -> Axes {
 fn project_block(block: Block, lane: u32) -> Axes {
     var own: Axes;
     if lane <= block.quads {
-        own = axes_of(stance_of_sample(ring_sample(yarns[block.yarn], block, lane).sample, 0u));
+        own = axes_of(stance_of_sample(ring_sample(yarns[block.yarn], block, lane).sample, vec2(0u)));
         held[lane] = own;
     }
     return own;

@@ -10,7 +10,7 @@ fn project_block(block: Block, lane: u32) -> Axes {
     var own: Axes;
     block_rings(yarns[block.yarn], block, lane);
     if lane < rings_made(block) {
-        ring_rolls[block.chunk_ring + lane] = standing.roll[lane];
+        ring_rolls[block.chunk_ring + lane] = vec2(standing.roll[lane], lean_of(yarns[block.yarn], block.first_ring + lane));
         own = axes_of(stance_of(lane));
         standing.centre[lane] = own.centre;
         standing.tangent[lane] = own.x;

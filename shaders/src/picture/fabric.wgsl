@@ -61,16 +61,17 @@ fn key_at(x: u32, row: u32, sample: u32) -> u32 {
     return (row * u32(view.size.x) + x) * 4u + sample;
 }
 
-// How the section stands at the end that `cap` closes, whose ring has this roll.
-fn cap_stance(cap: CapRow, roll: u32) -> Stance {
+// How the section stands at the end that `cap` closes, whose ring has this roll and this lean.
+fn cap_stance(cap: CapRow, roll: vec2<u32>) -> Stance {
     let segment = segment_new(cap.first_point, params.s);
     let sample = segment_sample(segment, select(1.0, 0.0, cap.end == 0u));
     return stance_of_sample(sample, roll);
 }
 
-fn stance_of_sample(sample: Sample, roll: u32) -> Stance {
+// `roll` is the roll of its ring and the lean.
+fn stance_of_sample(sample: Sample, roll: vec2<u32>) -> Stance {
     let centre = vec4(sample.centre, sample.half_width);
     let tangent = vec4(sample.tangent, sample.width_growth);
     let height = vec2(sample.half_height, sample.height_growth);
-    return stance_new(centre, tangent, side_of(sample.tangent, roll), height, turn_sin_cos(roll));
+    return stance_new(centre, tangent, side_of(sample.tangent, roll.x, roll.y), height, turn_sin_cos(roll.x - roll.y));
 }

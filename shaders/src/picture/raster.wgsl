@@ -279,7 +279,7 @@ fn raster_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
         return;
     }
     let cap = cap_rows[number];
-    var roll = 0u;
+    var roll = vec2(0u);
     if params.rolled != 0u {
         roll = ring_rolls[cap.ring_vertex / params.sides];
     }

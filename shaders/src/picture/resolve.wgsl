@@ -5,7 +5,7 @@
 @group(0) @binding(11) var<storage, read> cap_pattern: array<u32>;
 // The triangle and the nearness of each sample: complements, 0 where there is none.
 @group(1) @binding(4) var<storage, read> keys: array<vec2<u32>>;
-@group(1) @binding(5) var<storage, read> ring_rolls: array<u32>;
+@group(1) @binding(5) var<storage, read> ring_rolls: array<vec2<u32>>;
 @group(1) @binding(6) var depths: texture_storage_2d_array<r32float, read_write>;
 @group(1) @binding(7) var directions: texture_storage_2d_array<rg32uint, write>;
 @group(1) @binding(8) var places: texture_storage_2d_array<rg32uint, write>;
@@ -21,10 +21,10 @@ fn vertex_at(stance: Stance, point: vec4<f32>) -> Vertex {
     return Vertex(clip_of(position), position, normal_at(stance, point));
 }
 
-// The roll of a ring of the chunk.
-fn roll_of(chunk_ring: u32) -> u32 {
+// The roll and the lean of a ring of the chunk.
+fn roll_of(chunk_ring: u32) -> vec2<u32> {
     if params.rolled == 0u {
-        return 0u;
+        return vec2(0u);
     }
     return ring_rolls[chunk_ring];
 }

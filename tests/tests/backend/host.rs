@@ -51,7 +51,7 @@ impl HostEngine {
     fn ring(&self, yarn: u32, ring: u32) -> Ring {
         let sample = self.sample(yarn as usize, ring).sample;
         let roll = self.rolls.get(self.plan.ring_offsets()[yarn as usize] as usize + ring as usize);
-        Ring::new(&sample, roll.copied().unwrap_or(Turn::ZERO))
+        self.plan.ring(yarn as usize, ring, &sample, roll.copied().unwrap_or(Turn::ZERO))
     }
 }
 

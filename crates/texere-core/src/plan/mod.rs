@@ -26,7 +26,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::{
-    Frame, Layout, PlanError, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sampling, Section, SectionPoint,
+    Frame, Layout, PlanError, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Section, SectionPoint,
     TWIST_LIMIT, Topology, Turn, Yarn, triangulate,
 };
 
@@ -92,6 +92,8 @@ pub struct Plan {
     /// The blocks that it makes, in order: all, unless it is of a [region](Plan::within).
     runs: Arc<[Range<u64>]>,
     needs_scan: bool,
+    /// The lean of each ring; none where no control point has an up direction of its own.
+    leans: Option<Arc<[Turn]>>,
     outlines: Vec<SectionPoint>,
     cap_triangles: Vec<Vec<[u32; 3]>>,
     counts: Counts,
@@ -156,6 +158,7 @@ impl Plan {
             id: PlanId::next(),
             runs: std::iter::once(0..blocks).collect(),
             needs_scan: false,
+            leans: layout.leaning().map(|leaning| leaning.rings(&layout, &sampling, &offsets.rings).into()),
             layout,
             settings,
             sampling,
@@ -211,6 +214,12 @@ impl Plan {
         }
         if points < what.points_least() {
             return Err(PlanError::TooFewPoints { yarn, points, least: what.points_least() });
+        }
+        if self.leans.is_some() {
+            return Err(PlanError::OtherPlan {
+                yarn,
+                what: "edited, where yarns have up directions of their own",
+            });
         }
         let turns = !self.settings.frame.is_level(what.twist);
         for (holds, what) in [
@@ -342,7 +351,31 @@ impl Plan {
     /// **Panics** past the last yarn.
     #[must_use]
     pub fn turns(&self, yarn: usize) -> bool {
-        !self.frame(yarn).is_level(self.yarn(yarn).twist)
+        self.leans.is_some() || !self.frame(yarn).is_level(self.yarn(yarn).twist)
+    }
+
+    /// The lean of each ring, in the order of [`Plan::ring_offsets`]; none where no control point has [an up direction of its
+    /// own](crate::Yarns::with_ups).
+    #[must_use]
+    pub fn leans(&self) -> Option<&[Turn]> {
+        self.leans.as_deref()
+    }
+
+    /// Ring number `ring` of `yarn`, at `sample`, with the roll that the scan gives it.
+    ///
+    /// **Panics** past the last yarn, and past the last ring where yarns lean.
+    #[must_use]
+    #[inline]
+    pub fn ring(&self, yarn: usize, ring: u32, sample: &Sample, scanned: Turn) -> Ring {
+        let Some(leans) = &self.leans else { return Ring::new(sample, scanned) };
+        let first = self.offsets.rings[yarn] as usize;
+        let lean = leans[first + ring as usize];
+        // An upright section leans with its outline; one that is carried along starts so.
+        let start = match self.frame(yarn) {
+            Frame::Upright => lean,
+            Frame::RotationMinimizing => leans[first],
+        };
+        Ring { lean, ..Ring::new(sample, scanned + start) }
     }
 
     /// All outlines, section after section, `sides` points each.
@@ -387,7 +420,8 @@ impl Plan {
         let rings = self.offsets.rings.last().copied().unwrap_or(0);
         let rolls = if self.needs_scan() { rings * size_of::<Turn>() as u64 } else { 0 };
         let blocks = self.block_count() * size_of::<Block>() as u64;
-        self.counts.bytes() + blocks + self.resident_bytes() + rolls
+        let leans = self.leans().map_or(0, |leans| size_of_val(leans) as u64);
+        self.counts.bytes() + blocks + self.resident_bytes() + rolls + leans
     }
 
     /// Bytes of all rings.

@@ -7,6 +7,7 @@ mod avx2;
 mod avx512;
 mod crossings;
 mod instruction_set;
+mod leaning;
 mod lines;
 mod packed;
 mod planar;
@@ -206,6 +207,9 @@ struct RingJob<'a> {
 impl Job for RingJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
+        if self.maker.work.plan.leans().is_some() {
+            return leaning::rings(self.maker.work, self.run);
+        }
         let Self { maker, run: RingRun { blocks, first_ring, rings } } = self;
         for blocks in blocks.chunk_by(|block, next| block.is_before(next)) {
             let count: usize = blocks.iter().map(|block| block.rings as usize).sum();
@@ -263,6 +267,9 @@ impl Job for MeshJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
         let Self { maker, table, streams, run } = self;
+        if maker.work.plan.leans().is_some() {
+            return leaning::mesh(maker.work, table.is_some(), run);
+        }
         let sides = maker.work.plan.settings().sides as usize;
         let floats = sides * VERTEX;
         let room = VertexLines::scratch(floats).max(TileLines::scratch(floats));

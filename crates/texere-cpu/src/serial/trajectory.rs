@@ -24,7 +24,7 @@ pub(crate) fn rings(work: &Work, yarn: usize, first_ring: u32, out: &mut [Ring])
     let count = out.len() as u32;
     for (k, place) in (0..count).zip(out) {
         let ring = first_ring + k;
-        *place = Ring::new(&here.sample, work.rolls.closed_up(plan, yarn, ring, roll));
+        *place = plan.ring(yarn, ring, &here.sample, work.rolls.closed_up(plan, yarn, ring, roll));
         if k + 1 < count {
             let next = at(ring + 1);
             if !level {

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::interval::Cubic;
-use super::support::{Support, upright};
+use super::support::Support;
 
 /// The share by which a yarn may bend tighter somewhere than where it is said to bend tightest.
 const ACCURACY: f64 = 1e-3;
@@ -130,6 +130,7 @@ struct Place {
 
 /// The search for an interval's tightest bend.
 struct Search<'a> {
+    cubic: &'a Cubic,
     support: &'a Support,
     turning: bool,
     floors: DVec2,
@@ -190,7 +191,7 @@ impl Search<'_> {
         }
         let velocity = place.velocity;
         let inwards = velocity.cross(place.acceleration).cross(velocity).normalize_or_zero();
-        let [side, up] = upright(velocity.normalize_or_zero());
+        let [side, up] = self.cubic.frame(place.t, velocity.normalize_or_zero());
         if self.turning {
             // It turns within the circle round it, and then it is flattened.
             let across = DVec2::new(inwards.dot(side), inwards.dot(up)) * sizes;
@@ -217,7 +218,7 @@ pub(super) fn tightest(cubic: &Cubic, support: &Support, turning: bool, within: 
     // Rounding of a straight line's derivatives is no bend.
     let straight = whole.turn().iter().all(|turn| turn.length() <= 1e-9 * whole.size());
     let floors = DVec2::from_array(cubic.floors());
-    let mut search = Search { support, turning, floors, straight, best: (within, None) };
+    let mut search = Search { cubic, support, turning, floors, straight, best: (within, None) };
     search.visit(&whole);
     search.best.1.map(|t| (search.best.0, t))
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::interval::Cubic;
-use super::support::{Support, upright};
+use super::support::Support;
 
 /// Sections that stand for an interval's: at its beginning, its middle and its end.
 const STATIONS: [f64; 3] = [0.0, 0.5, 1.0];
@@ -26,7 +26,7 @@ impl Extent {
         let axes = STATIONS.map(|t| {
             let [_, velocity, _] = cubic.path(t);
             let sizes = cubic.sizes(t) * support.extent();
-            let [side, up] = upright(velocity.normalize_or(DVec3::X));
+            let [side, up] = cubic.frame(t, velocity.normalize_or(DVec3::X));
             [side * sizes.x, up * sizes.y]
         });
         Self { hull: cubic.hull(), middle: cubic.position(0.5), halves: cubic.sizes(0.5).to_array(), axes }

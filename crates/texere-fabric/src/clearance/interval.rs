@@ -1,7 +1,11 @@
 //! One control interval of a yarn: the cubic in double precision, and chords along it.
 
-use glam::{DVec2, DVec3};
-use texere_core::{ControlPoint, RADIUS_FLOOR};
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3, Vec3};
+use texere_core::{ControlPoint, RADIUS_FLOOR, up_between};
+
+use super::support::upright;
 
 /// The most chords that stand for an interval.
 const CHORDS_MAX: usize = 12;
@@ -17,6 +21,8 @@ pub(super) struct Cubic {
     /// Half width and half height.
     halves: [[f64; 4]; 2],
     floors: [f64; 2],
+    /// The up directions of both ends, and the tangents there, where yarns leave the plane of their cloth.
+    ups: Option<[[DVec3; 2]; 2]>,
 }
 
 /// The cubic at one parameter: position, first and second derivative, and half width and half height with theirs.
@@ -55,7 +61,32 @@ impl Cubic {
                 [q, m0, 3.0 * (r - q) - 2.0 * m0 - m1, 2.0 * (q - r) + m0 + m1]
             }),
             floors: sizes.map(|[_, start, end, _]| start.min(end) * f64::from(RADIUS_FLOOR)),
+            ups: None,
         }
+    }
+
+    /// The same with the up directions of both ends.
+    pub(super) fn with_ups(self, ups: [Vec3; 2]) -> Self {
+        let tangents = [0.0, 1.0].map(|t| self.path(t)[1].normalize_or(DVec3::X));
+        Self { ups: Some([ups.map(Vec3::as_dvec3), tangents]), ..self }
+    }
+
+    /// Side and up of the frame that a yarn is flattened along at `t`, where it has this `tangent`.
+    pub(super) fn frame(&self, t: f64, tangent: DVec3) -> [DVec3; 2] {
+        let up = self.ups.map(|[ups, tangents]| up_between(ups, tangents, tangent, t.clamp(0.0, 1.0)));
+        match up.filter(|up| *up != DVec3::ZERO) {
+            Some(up) => [up.cross(tangent), up],
+            None => upright(tangent),
+        }
+    }
+
+    /// By how much that frame is turned against the upright one, turns.
+    pub(super) fn lean(&self, t: f64, tangent: DVec3) -> f64 {
+        if self.ups.is_none() {
+            return 0.0;
+        }
+        let ([side, up], [own, _]) = (upright(tangent), self.frame(t, tangent));
+        own.dot(up).atan2(own.dot(side)) / TAU
     }
 
     pub(super) fn position(&self, t: f64) -> DVec3 {

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 
-use glam::{DVec3, Vec3A, Vec4};
+use glam::{DVec3, Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
 use texere_core::{ControlPoint, Yarns};
 
@@ -28,6 +28,8 @@ pub(super) struct Line<'a> {
     /// Number of the first control point.
     first: usize,
     points: &'a [ControlPoint],
+    /// Their up directions, where they have their own.
+    ups: Option<&'a [Vec3]>,
     closed: bool,
     /// The factor of the spline's tangents.
     s: f64,
@@ -60,10 +62,12 @@ pub(super) struct Span<'a> {
 impl<'a> Line<'a> {
     /// Yarn `yarn`, whose section reaches as far as `support` says; `ways` are the fabric's.
     pub(super) fn new(yarns: &'a Yarns, yarn: usize, support: &'a Support, s: f64, ways: &'a [f64]) -> Self {
+        let own = yarns.range(yarn).unwrap_or_default();
         Self {
             yarn,
             support,
-            first: yarns.range(yarn).map_or(0, |range| range.start),
+            first: own.start,
+            ups: yarns.ups().map(|ups| &ups[own]),
             points: yarns.yarn_points(yarn).unwrap_or(&[]),
             closed: yarns.layout().yarns()[yarn].closed,
             s,
@@ -107,7 +111,10 @@ impl<'a> Line<'a> {
     }
 
     pub(super) fn cubic(&self, point: usize) -> Cubic {
-        Cubic::new(self.window(point), self.s)
+        let cubic = Cubic::new(self.window(point), self.s);
+        let Some(ups) = self.ups else { return cubic };
+        let own = point - self.first;
+        cubic.with_ups([own, (own + 1) % ups.len()].map(|point| ups[point]))
     }
 
     /// The box that holds whatever lies within `margin` times the section's reach of an interval.

@@ -84,7 +84,9 @@ impl Rolls {
         }
         let intervals = if closed { points.len() } else { points.len().saturating_sub(1) };
         let window = |interval: usize| neighbours(points, closed, interval);
-        let mut roll = Turn::ZERO;
+        // A carried section starts as its outline stands.
+        let first = self.starts_at(yarns, yarn, window(0));
+        let mut roll = first;
         for (interval, start) in starts.iter_mut().enumerate().take(intervals) {
             *start = roll;
             let next = (closed || interval + 1 < intervals).then(|| window(interval + 1));
@@ -95,10 +97,22 @@ impl Rolls {
             return Ok(0.0);
         }
         let (per_interval, steps) = (self.sampling.subdivisions() + 1, (rings - 1) as u32);
+        let whole = roll - first;
         for (interval, start) in (0..).zip(&mut *starts) {
-            *start = *start - roll.share(interval * per_interval, steps);
+            *start = *start - whole.share(interval * per_interval, steps);
         }
-        Ok(f64::from(roll.turns()) / f64::from(steps))
+        Ok(f64::from(whole.turns()) / f64::from(steps))
+    }
+
+    /// The roll of a yarn's first ring, whose interval `window` steers.
+    fn starts_at(&self, yarns: &Yarns, yarn: usize, window: [ControlPoint; 4]) -> Turn {
+        let own = yarns.range(yarn).unwrap_or_default();
+        let carried = matches!(self.twists[yarn], Some((Frame::RotationMinimizing, _)));
+        let (Some(ups), true) = (yarns.ups().map(|ups| &ups[own]), carried) else { return Turn::ZERO };
+        let cubic =
+            Cubic::new(window, (1.0 - f64::from(self.sampling.tension())) / 2.0).with_ups([ups[0], ups[1]]);
+        let [_, velocity, _] = cubic.path(0.0);
+        Turn::from_turns(cubic.lean(0.0, velocity.normalize_or_zero()) as f32)
     }
 
     /// By how much each ring of an interval is turned against the one before, and the first one of the interval that `next` steers;
@@ -156,6 +170,11 @@ impl IntervalRolls {
     /// Whether rolls don't matter.
     pub(super) fn is_empty(&self) -> bool {
         self.at_rings.is_empty()
+    }
+
+    /// Whether they are those of a section that is carried along, against the upright frame, rather than turns inside the outline.
+    pub(super) fn is_carried(&self) -> bool {
+        self.minimizing.is_some()
     }
 
     /// By how much the yarn turns from the interval's beginning to its end, turns.

@@ -6,7 +6,6 @@ use glam::{DVec2, DVec3};
 
 use super::approach::Side;
 use super::rolls::IntervalRolls;
-use super::support::upright;
 
 /// Steps of Newton's method to the place of an interval that is level with a point.
 const STEPS: usize = 8;
@@ -66,11 +65,13 @@ impl Surface<'_> {
     pub(super) fn stand(&self, t: f64) -> Option<Stand> {
         let [centre, velocity, _] = self.side.cubic.path(t);
         let tangent = velocity.try_normalize()?;
-        let (frame, sizes) = (upright(tangent), self.side.cubic.sizes(t));
+        let (frame, sizes) = (self.side.cubic.frame(t, tangent), self.side.cubic.sizes(t));
         let roll = if self.rolls.is_empty() {
             DVec2::X
         } else {
-            DVec2::from_angle(self.rolls.at(self.side.cubic, t) * TAU)
+            let cubic = self.side.cubic;
+            let lean = if self.rolls.is_carried() { cubic.lean(t, tangent) } else { 0.0 };
+            DVec2::from_angle((self.rolls.at(cubic, t) - lean) * TAU)
         };
         Some(Stand { centre, tangent, frame, sizes, roll })
     }

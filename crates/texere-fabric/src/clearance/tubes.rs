@@ -8,7 +8,6 @@ use glam::{DVec2, DVec3};
 use super::approach::{MARGIN, SHORT, STEPS, STRIDE, Side, refine};
 use super::contact::CLEARANCE_NEAR;
 use super::interval::At;
-use super::support::upright;
 
 /// The sine of the angle below which two tangents count as parallel: a crossing so flat is found by its neighbours.
 const PARALLEL: f64 = 0.02;
@@ -100,7 +99,8 @@ impl<'a> Meeting<'a> {
     fn new(one: Side<'a>, other: Side<'a>, place: DVec2) -> Option<Self> {
         let at = [one.cubic.at(place.x), other.cubic.at(place.y)];
         let tangents = [at[0].velocity.try_normalize()?, at[1].velocity.try_normalize()?];
-        Some(Self { sides: [one, other], at, tangents, frames: tangents.map(upright) })
+        let frames = [one.cubic.frame(place.x, tangents[0]), other.cubic.frame(place.y, tangents[1])];
+        Some(Self { sides: [one, other], at, tangents, frames })
     }
 
     fn apart(&self) -> DVec3 {

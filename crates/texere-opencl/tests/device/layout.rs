@@ -78,7 +78,7 @@ fn tables() -> Vec<Table> {
             yarns,
             sides,
             subdivisions,
-            padding,
+            leans,
             indexed,
             rolled,
             s,
@@ -109,7 +109,7 @@ fn tables() -> Vec<Table> {
             "values[5].x" = half_height,
             "values[5].y" = width_growth,
             "values[5].z" = height_growth,
-            "values[5].w" = padding
+            "values[5].w" = lean
         }),
         vectors!("float", Vertex {
             "values[6]" = position,

@@ -1,0 +1,103 @@
+//! Yarns that leave the plane of their cloth: the up direction of each control point, and how far outlines lean with it.
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use crate::steep::window;
+use crate::{Basis, ControlPoint, Layout, Sampling, Segment, Turn, atan2_turns};
+
+/// The up directions of all control points of a fabric, with the points that they belong to.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Leaning {
+    /// Unit vectors.
+    pub(crate) ups: Vec<Vec3>,
+    pub(crate) points: Vec<ControlPoint>,
+}
+
+/// Where the height of a yarn points at `t`, from 0 to 1, of a control interval: `ups` are the up directions of its two control points, `tangents` the
+/// yarn's there, `tangent` the one at `t`; all of length 1. Gives a unit vector at right angles to `tangent`; zero where there is none.
+///
+/// Each of the two is carried to the tangent by the smallest rotation, and they are mixed there.
+///
+/// ```
+/// use glam::DVec3;
+/// use texere_core::up_between;
+/// // Half way along a quarter of a turn to the right, an up that stands on the plane of the turn stays, and one in it turns along.
+/// let (tangents, tangent) = ([DVec3::X, -DVec3::Y], DVec3::new(0.5, -0.5, 0.0).normalize());
+/// assert!((up_between([DVec3::Z; 2], tangents, tangent, 0.5) - DVec3::Z).length() < 1e-12);
+/// let along = up_between([DVec3::Y, DVec3::X], tangents, tangent, 0.5);
+/// assert!((along - DVec3::new(0.5, 0.5, 0.0).normalize()).length() < 1e-12);
+/// ```
+#[must_use]
+pub fn up_between(ups: [DVec3; 2], tangents: [DVec3; 2], tangent: DVec3, t: f64) -> DVec3 {
+    let [one, other] = [0, 1].map(|end| across(carried(ups[end], tangents[end], tangent), tangent));
+    let mixed = across(one * (1.0 - t) + other * t, tangent);
+    // Of two that are opposite the nearer one counts.
+    match () {
+        () if mixed != DVec3::ZERO => mixed,
+        () if t < 0.5 => one,
+        () => other,
+    }
+}
+
+/// `v` turned by the smallest rotation from one unit vector to another.
+fn carried(v: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+    let (middle, along) = (from + to, 1.0 + from.dot(to));
+    // Straight back there is no smallest one.
+    if along < 1e-9 { v } else { v - middle * (middle.dot(v) / along) + to * (2.0 * from.dot(v)) }
+}
+
+/// The part of `v` at right angles to `tangent`, of length 1; zero where there is none.
+fn across(v: DVec3, tangent: DVec3) -> DVec3 {
+    let part = v - tangent * v.dot(tangent);
+    if part.length_squared() > 1e-12 { part.normalize() } else { DVec3::ZERO }
+}
+
+/// How far outlines lean along one interval.
+pub(crate) struct IntervalLean {
+    segment: Segment,
+    ups: [DVec3; 2],
+    tangents: [DVec3; 2],
+}
+
+impl IntervalLean {
+    pub(crate) fn new(window: &[ControlPoint; 4], ups: [Vec3; 2], s: f32) -> Self {
+        let segment = Segment::new(window, s);
+        let tangents = [0.0, 1.0].map(|t| segment.sample(t).tangent.as_dvec3());
+        Self { segment, ups: ups.map(|up| up.as_dvec3()), tangents }
+    }
+
+    /// The turn from the upright frame's up to the yarn's own at `t`, about the tangent.
+    pub(crate) fn at(&self, t: f32) -> Turn {
+        let tangent = self.segment.sample(t).tangent;
+        let up = up_between(self.ups, self.tangents, tangent.as_dvec3(), f64::from(t)).as_vec3();
+        let upright = Basis::upright(tangent);
+        Turn::from_turns(atan2_turns(-up.dot(upright.side), up.dot(upright.up)))
+    }
+}
+
+impl Leaning {
+    /// The lean of each ring of the fabric, where `ring_offsets` says; zero where there is only room.
+    pub(crate) fn rings(&self, layout: &Layout, sampling: &Sampling, ring_offsets: &[u64]) -> Vec<Turn> {
+        let per_interval = sampling.subdivisions() + 1;
+        let of_yarn = |yarn: usize| {
+            let own = layout.offsets()[yarn] as usize..layout.offsets()[yarn + 1] as usize;
+            let (points, ups, closed) =
+                (&self.points[own.clone()], &self.ups[own], layout.yarns()[yarn].closed);
+            let intervals = if closed { points.len() } else { points.len() - 1 };
+            let room = (ring_offsets[yarn + 1] - ring_offsets[yarn]) as usize;
+            let mut rings = Vec::with_capacity(room);
+            for interval in 0..intervals {
+                let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
+                let lean = IntervalLean::new(&window(points, closed, interval), ends, sampling.s());
+                rings.extend((0..per_interval).map(|part| lean.at(part as f32 * sampling.step())));
+                if interval + 1 == intervals {
+                    rings.push(if closed { rings[0] } else { lean.at(1.0) });
+                }
+            }
+            rings.resize(room, Turn::ZERO);
+            rings
+        };
+        (0..layout.yarns().len()).into_par_iter().flat_map_iter(of_yarn).collect()
+    }
+}

@@ -1,0 +1,289 @@
+//! Yarns that leave the plane of their cloth: turned any way and bent, with up directions of their own.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use glam::{DMat3, DVec3};
+use texere_conformance::schedule::able_devices;
+use texere_core::{
+    ControlPoint, Frame, LiveMesh, Material, Mesh, MeshPiece, Pipeline, Placement, Plan, Ray, Section,
+    Settings, Topology, Vertex, Yarn, YarnError, Yarns,
+};
+use texere_cpu::{ParallelBackend, Picker, SerialBackend};
+use texere_fabric::{Thread, Weave, Woven, clearance};
+
+/// A plain weave of flat threads that lie close, in `section`.
+fn cloth(section: Section, twist: f32) -> Yarns {
+    let plain = Weave::parse("plain").unwrap().drawdown(6, 6).unwrap();
+    let thread = Thread { flatness: 1.6, twist, ..Thread::new(0.55, 0.125) };
+    let (warp, weft) = (vec![thread; 6], vec![thread; 6]);
+    Woven::new(plain, warp, weft, vec![Material::default()], vec![section]).unwrap().yarns().unwrap()
+}
+
+/// Turns about x, then about z, rad.
+fn turned(yarns: &Yarns, [x, z]: [f64; 2]) -> (Yarns, DMat3) {
+    let turn = DMat3::from_rotation_z(z) * DMat3::from_rotation_x(x);
+    (yarns.mapped(|place| (turn * DVec3::from_array(place)).to_array()).unwrap(), turn)
+}
+
+fn least(yarns: &Yarns) -> f64 {
+    clearance(yarns, &Settings::default()).unwrap().min
+}
+
+/// Round a cylinder of this radius, mm, whose axis lies this way in the plane.
+fn cylinder(yarns: &Yarns, radius: f64, way: f64) -> Yarns {
+    let (sin, cos) = way.sin_cos();
+    let map = |[x, y, z]: [f64; 3]| {
+        let (across, along) = (cos * x + sin * y, cos * y - sin * x);
+        let (out, up) =
+            ((across / radius).sin() * (radius + z), (across / radius).cos() * (radius + z) - radius);
+        [cos * out - sin * along, sin * out + cos * along, up]
+    };
+    yarns.mapped(map).unwrap()
+}
+
+/// Over a saddle that bends down along x and up along y, with this radius, mm, in the middle of the cloth.
+fn saddle(yarns: &Yarns, radius: f64) -> Yarns {
+    let map = |[x, y, z]: [f64; 3]| {
+        let (u, v) = (x - 1.65, y - 1.65);
+        let normal = DVec3::new(u / radius, -v / radius, 1.0).normalize();
+        (DVec3::new(u, v, (v * v - u * u) / (2.0 * radius)) + normal * z).to_array()
+    };
+    yarns.mapped(map).unwrap()
+}
+
+#[test]
+fn a_cloth_that_is_turned_any_way_keeps_its_clearance() {
+    for section in [Section::Circle, Section::Lenticular { aspect: 1.5, distortion: 0.0 }] {
+        let flat = cloth(section, 0.0);
+        let before = least(&flat);
+        for degrees in [30.0_f64, 60.0, 90.0, 137.0] {
+            for z in [0.0, 0.7] {
+                let after = least(&turned(&flat, [degrees.to_radians(), z]).0);
+                assert!((after - before).abs() < 0.003, "{degrees} degrees, {z}: {after} for {before}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_cloth_on_a_cylinder_or_a_saddle_keeps_its_clearance() {
+    let flat = cloth(Section::Circle, 0.0);
+    let before = least(&flat);
+    for radius in [8.0, 20.0] {
+        for way in [0.0, 0.5, 1.571] {
+            let after = least(&cylinder(&flat, radius, way));
+            assert!((after - before).abs() < 0.01, "cylinder of {radius} mm, {way}: {after} for {before}");
+        }
+        let after = least(&saddle(&flat, radius));
+        assert!((after - before).abs() < 0.01, "saddle of {radius} mm: {after} for {before}");
+    }
+}
+
+fn mesh(yarns: &Yarns, device: &dyn texere_core::Backend, settings: Settings) -> Mesh {
+    Pipeline::new(yarns).settings(settings).mesh(device).unwrap()
+}
+
+/// The vertices of all rings, whatever chunks they lie in.
+fn by_ring(mesh: &Mesh) -> Vec<Vertex> {
+    let sides = mesh.plan.settings().sides;
+    let mut rings = BTreeMap::new();
+    for chunk in &mesh.chunks {
+        for part in chunk.parts() {
+            for ring in 0..part.rings {
+                let first = chunk.first_vertex() as usize + (part.first_vertex + ring * sides) as usize;
+                rings.insert((part.yarn, part.first_ring + ring), &mesh.vertices[first..][..sides as usize]);
+            }
+        }
+    }
+    rings.into_values().flatten().copied().collect()
+}
+
+/// Every device draws the turned cloth as the cloth that it draws flat, turned.
+#[test]
+fn the_mesh_of_a_turned_cloth_is_the_turned_mesh() {
+    let flats = [cloth(Section::Circle, 0.0), cloth(Section::Lobed { plies: 2 }, 1.5)];
+    for flat in &flats {
+        for frame in [Frame::Upright, Frame::RotationMinimizing] {
+            let settings = Settings {
+                frame,
+                subdivisions: 3,
+                sides: 8,
+                topology: Topology::None,
+                ..Settings::default()
+            };
+            let before = mesh(flat, &SerialBackend::default(), settings);
+            for angles in [[0.9, 0.0], [1.5708, 0.4], [2.5, -1.0]] {
+                let (tilted, turn) = turned(flat, angles);
+                for device in able_devices(&tilted, &settings) {
+                    let after = mesh(&tilted, &*device, settings);
+                    for (number, (one, other)) in by_ring(&before).iter().zip(&by_ring(&after)).enumerate() {
+                        let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+                        let off = (turn * wide(one.position)).distance(wide(other.position));
+                        let leans = (turn * wide(one.normal)).distance(wide(other.normal));
+                        let name = &device.info().name;
+                        // Halves are rounded to eleven bits.
+                        assert!(
+                            off < 3e-4 && leans < 8e-3,
+                            "{name}, {frame:?}, {angles:?}, {number}: {off}, {leans}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn all_cores_make_the_bits_of_one() {
+    for (yarns, closed) in [(saddle(&cloth(Section::Lobed { plies: 3 }, 2.0), 6.0), false), (ring(), true)] {
+        for frame in [Frame::Upright, Frame::RotationMinimizing] {
+            for sides in [6, 7] {
+                let settings =
+                    Settings { frame, subdivisions: 5, sides, caps: !closed, ..Settings::default() };
+                let (one, all) = (SerialBackend::default(), ParallelBackend::open().unwrap());
+                let [serial, parallel] =
+                    [&one as &dyn texere_core::Backend, &all].map(|device| mesh(&yarns, device, settings));
+                assert!(serial.vertices == parallel.vertices && serial.indices == parallel.indices);
+                let pipeline = || Pipeline::new(&yarns).settings(settings);
+                assert!(pipeline().trajectory(&one).unwrap() == pipeline().trajectory(&all).unwrap());
+                assert!(pipeline().packed(&one).unwrap() == pipeline().packed(&all).unwrap());
+            }
+        }
+    }
+}
+
+/// A closed ribbon that stands on end and turns over once on its way round.
+fn ring() -> Yarns {
+    let at = |step: usize| std::f64::consts::TAU * step as f64 / 16.0;
+    let points: Vec<_> = (0..16)
+        .map(|step| {
+            let (sin, cos) = at(step).sin_cos();
+            ControlPoint::new(cos as f32, 0.0, sin as f32, 0.1).flattened(0.2, 0.05)
+        })
+        .collect();
+    let ups = (0..16).map(|step| {
+        let ((sin, cos), (over_sin, over_cos)) = (at(step).sin_cos(), at(step).sin_cos());
+        [(cos * over_cos) as f32, over_sin as f32, (sin * over_cos) as f32]
+    });
+    let mut yarns = Yarns::builder();
+    yarns.yarn(Yarn { closed: true, ..Yarn::default() }, &points);
+    let ups: Vec<_> = ups.collect();
+    yarns.build().unwrap().with_ups(ups).unwrap()
+}
+
+/// The outline at each control point has its height along the up that was asked for, what of that lies along the yarn left out.
+#[test]
+fn outlines_stand_along_their_ups() {
+    let ring = ring();
+    for device in able_devices(&ring, &Settings::default()) {
+        let settings =
+            Settings { sides: 4, subdivisions: 2, topology: Topology::None, ..Settings::default() };
+        let (mesh, rings) = (
+            mesh(&ring, &*device, settings),
+            Pipeline::new(&ring).settings(settings).trajectory(&*device).unwrap().rings,
+        );
+        for (point, up) in ring.ups().unwrap().iter().enumerate() {
+            let number = 3 * point;
+            let [centre, tangent] = [rings[number].centre, rings[number].tangent].map(glam::Vec3::from_array);
+            let up = (*up - tangent * up.dot(tangent)).normalize();
+            // Whichever way the section is turned inside, its corners lie on an ellipse with the up as its short axis.
+            let side = up.cross(tangent);
+            let corners: Vec<_> = mesh.vertices[4 * number..][..4]
+                .iter()
+                .map(|vertex| {
+                    let arm = glam::Vec3::from_array(vertex.position) - centre;
+                    (arm.dot(side) / 0.2).hypot(arm.dot(up) / 0.05)
+                })
+                .collect();
+            let name = &device.info().name;
+            corners.iter().for_each(|at| {
+                assert!((at / corners[0] - 1.0).abs() < 2e-3, "{name}, point {point}: {corners:?}")
+            });
+        }
+    }
+}
+
+#[test]
+fn ups_go_along_with_their_yarns() {
+    let tilted = turned(&cloth(Section::Circle, 0.0), [1.0, 0.0]).0;
+    let placed = tilted.placed(&Placement { turn: 0.5, scale: 2.0, at: [1.0, 2.0, 3.0] }).unwrap();
+    assert!((least(&placed) - least(&tilted)).abs() < 0.003);
+    let only = tilted.only([3, 1]).unwrap();
+    assert_eq!(only.ups().unwrap()[0], tilted.ups().unwrap()[tilted.range(3).unwrap().start]);
+    let flat = cloth(Section::Circle, 0.0);
+    let both = Yarns::merged([&flat, &tilted]).unwrap();
+    let ups = both.ups().unwrap()[flat.points().len()..].iter().zip(tilted.ups().unwrap());
+    ups.for_each(|(up, own)| assert!(up.distance(*own) < 1e-6, "{up} for {own}"));
+    let merged = both.only(0..flat.layout().yarns().len()).unwrap();
+    assert!((least(&merged) - least(&flat)).abs() < 1e-6);
+    assert!(Yarns::merged([&flat, &flat]).unwrap().ups().is_none());
+}
+
+#[test]
+fn ups_that_are_none_are_named() {
+    let flat = cloth(Section::Circle, 0.0);
+    let count = flat.points().len();
+    assert_eq!(
+        flat.clone().with_ups(vec![[0.0, 0.0, 1.0]; 3]).unwrap_err(),
+        YarnError::UpCount { ups: 3, points: count }
+    );
+    let mut ups = vec![[0.0, 0.0, 1.0]; count];
+    for bad in [[0.0; 3], [f32::NAN, 0.0, 0.0], [f32::INFINITY, 0.0, 1.0]] {
+        ups[1] = bad;
+        let refused = flat.clone().with_ups(ups.clone()).unwrap_err();
+        assert!(matches!(refused, YarnError::Up { yarn: 0, point: 1, .. }), "{refused}");
+    }
+    assert!(flat.mapped(|_| [f64::NAN; 3]).is_err());
+    assert!(flat.mapped(|[x, _, _]| [x, x, x]).is_err());
+}
+
+/// A live mesh of a bent cloth is that of a fresh one, what moves in it takes another plan, and a ray from outside hits what lies there.
+#[test]
+fn bent_cloth_is_kept_live_and_picked() {
+    let bent = saddle(&cloth(Section::Circle, 0.0), 6.0);
+    let settings = Settings { sides: 8, ..Settings::default() };
+    let device = ParallelBackend::open().unwrap();
+    let plan = Arc::new(Plan::new(bent.layout().clone(), settings).unwrap());
+    let mut live = LiveMesh::new(&device, plan.clone()).unwrap();
+    live.upload(0, bent.points()).unwrap();
+    live.update().unwrap();
+    let fresh = mesh(&bent, &device, settings);
+    let mut kept = Vec::new();
+    let _ = live
+        .read_mesh(0, &mut |piece| {
+            if let MeshPiece::Vertices { vertices, .. } = piece {
+                kept.extend_from_slice(vertices);
+            }
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert!(kept == fresh.vertices);
+    let moved: Vec<_> = bent
+        .yarn_points(0)
+        .unwrap()
+        .iter()
+        .map(|point| ControlPoint { z: point.z + 1.0, ..*point })
+        .collect();
+    assert!(live.upload(0, &moved).is_err());
+    assert!(live.set_yarn(0, *plan.yarn(0), &moved).is_err());
+
+    let mut picker = Picker::new(plan, bent.points()).unwrap();
+    for triangle in fresh.indices.chunks_exact(3).step_by(97) {
+        let corners = [0, 1, 2].map(|corner| {
+            DVec3::from_array(fresh.vertices[triangle[corner] as usize].position.map(f64::from))
+        });
+        let (middle, normal) = (
+            (corners[0] + corners[1] + corners[2]) / 3.0,
+            (corners[1] - corners[0]).cross(corners[2] - corners[0]),
+        );
+        let origin = middle + normal.normalize() * 0.01;
+        let hit = picker
+            .pick(&Ray { origin: origin.to_array(), direction: (-normal.normalize()).to_array() })
+            .expect("a hit");
+        let yarn = hit.place.yarn;
+        // From so near the first thing hit is the triangle itself, or what pierces it.
+        assert!(hit.distance <= 0.0101, "yarn {yarn}: {}", hit.distance);
+    }
+}

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Cure, Design, Diagnosis, FabricError, Faults, Pieces, Settings, Structure};
+use texere::{Cure, Design, Diagnosis, FabricError, Faults, Pieces, Settings, Structure, counted};
 
 use crate::args::CheckArgs;
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, DrawnReport, place};
@@ -252,7 +252,10 @@ impl Report {
         if let Some(pierces) = &self.faults.pierces {
             let (count, listed) = (pierces.worst.len(), clearance.worst.len());
             let more = if count == listed && count > 1 { " or more" } else { "" };
-            line("pierces", format!("{count}{more} contacts nearer than {} of touching", self.touching));
+            line(
+                "pierces",
+                format!("{}{more} nearer than {} of touching", counted(count, "contact"), self.touching),
+            );
             for contact in pierces.worst.iter().take(3) {
                 let [one, other] = &contact.yarns;
                 line("", format!("{one} and {other}, {:.4}, at {}", contact.ratio, place(contact.place_mm)));
@@ -271,7 +274,7 @@ impl Report {
             line(sett, said);
         }
         if let Some(jams) = &self.faults.jams {
-            line("jams", format!("{} ends and {} picks", jams.ends, jams.picks));
+            line("jams", format!("{} and {}", counted(jams.ends, "end"), counted(jams.picks, "pick")));
             for jam in jams.threads.iter().take(3) {
                 let Jammed { thread, pitch_mm, pitch_min_mm, .. } = jam;
                 line(

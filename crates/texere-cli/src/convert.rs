@@ -1,6 +1,6 @@
 //! `texere convert`
 
-use texere::Output;
+use texere::{Output, counted};
 
 use crate::args::ConvertArgs;
 use crate::fail::Fail;
@@ -21,5 +21,10 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Fail> {
     }
     let size = design.structure.woven().map(|woven| woven.cloth().drawdown());
     let (ends, picks) = size.map_or((0, 0), |drawdown| (drawdown.ends(), drawdown.picks()));
-    print::text(&format!("{}: {ends} ends, {picks} picks\n", line(args.output.display())))
+    print::text(&format!(
+        "{}: {}, {}\n",
+        line(args.output.display()),
+        counted(ends, "end"),
+        counted(picks, "pick")
+    ))
 }

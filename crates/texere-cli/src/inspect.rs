@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use serde::Serialize;
 use texere::warp::{Bar, WarpKnitted};
 use texere::weft::Knitted;
-use texere::{Counts, Design, Plan, Settings, Structure, Yarns};
+use texere::{Counts, Design, Plan, Settings, Structure, Yarns, counted};
 
 use crate::args::InspectArgs;
 use crate::at::{self, YarnUnder};
@@ -232,7 +232,9 @@ impl ClothReport {
                     measures.thickness_mm,
                     self.woven
                         .iter()
-                        .map(|woven| format!(", {} ends by {} picks", woven.ends, woven.picks))
+                        .map(|woven| {
+                            format!(", {} by {}", counted(woven.ends, "end"), counted(woven.picks, "pick"))
+                        })
                         .collect::<String>()
                 ),
             ),
@@ -303,7 +305,10 @@ impl Report {
             ("mesh, bytes", size.bytes.to_string()),
         ];
         if let Some(KnitReport { loops, courses, wales, bars }) = &self.knit {
-            lines.push(("loops", format!("{loops} in {courses} courses of {wales} wales")));
+            lines.push((
+                "loops",
+                format!("{loops} in {} of {}", counted(*courses, "course"), counted(*wales, "wale")),
+            ));
             let named = (0..)
                 .zip(bars)
                 .map(|(number, bar)| (if number == 0 { "guide bars" } else { "" }, bar.to_string()));

@@ -33,6 +33,7 @@
 //! ```
 
 mod clearance;
+mod counted;
 mod diagnosis;
 mod drawn;
 mod error;
@@ -58,6 +59,7 @@ pub use clearance::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
+pub use counted::counted;
 pub use diagnosis::{
     ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
     StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,

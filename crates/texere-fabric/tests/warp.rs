@@ -104,6 +104,15 @@ fn wrong_notation_is_refused_with_its_column() {
         let error = Chain::parse(text, step).unwrap_err();
         assert_eq!(error.column, column, "{text}: {error}");
     }
+    for (dash, name) in [
+        ('\u{2010}', "a typographic hyphen (U+2010)"),
+        ('\u{2013}', "an en dash (U+2013)"),
+        ('\u{2212}', "a minus sign (U+2212)"),
+    ] {
+        let error = Chain::parse(&format!("1-0/1{dash}2//"), 1).unwrap_err().to_string();
+        let said = format!("chain, column 6: found \"{dash}\", {name}, not a hyphen, expected \"-\"");
+        assert_eq!(error, said);
+    }
     assert_eq!(
         Chain::parse("1-2/13D-0//", 1).unwrap_err().to_string(),
         "chain, column 7: found \"D\", expected \"-\""

@@ -149,7 +149,7 @@ pub use texere_fabric::{
     KnitMeasures, LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pieces, Pitch,
     Relief, Remedy, Repeat, Sett, Settled, Shape, Shedding, StitchPlace, Stretch, Structure, Thread,
     ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Tightness, WRUNG, Weave, Woven,
-    WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, drawn, finer, length_mm,
+    WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, counted, drawn, finer, length_mm,
     lengths_mm, linking, linking_with_progress, settle, turns_per_m, twist_from_turns_per_m, warp, weft,
     yarns_under,
 };

@@ -252,3 +252,27 @@ fn risky_cast_ons_are_told() {
         assert_eq!(told(usual), [], "{usual}");
     }
 }
+
+#[test]
+fn one_is_no_plural() {
+    let said = |text: &str| -> String {
+        let Knit { faults, .. } = knit(&program(text));
+        faults.iter().map(|fault| format!("{fault}\n")).collect()
+    };
+    assert!(said("in 1\nknit + f3 1").contains("at the end 1 loop hangs on needle f3\n"));
+    assert!(
+        said("in 1\nknit + f3 1\nknit + f5 1")
+            .contains("at the end 2 loops hang on needles, the first on f3\n")
+    );
+    let machine = Machine { float_max: 0, ..Machine::default() };
+    let Knit { faults, .. } = machine.knit(&program("in 1\nknit + f1 1\nknit + f3 1")).expect("a knit");
+    let float = "carrier 1 floats past 1 needle; more than 0 are a long float";
+    assert!(faults.iter().any(|fault| fault.to_string() == float), "{faults:?}");
+    let pairs = |needles: u32| {
+        said(&(1..=needles).fold("in 1".into(), |text: String, at| format!("{text}\nknit + f{at} 1")))
+    };
+    assert!(
+        pairs(3).contains("; 1 more pair like that\n") && pairs(4).contains("; 2 more pairs like that\n")
+    );
+    assert!(!pairs(2).contains("like that"));
+}

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::super::Needle;
+use crate::counted;
 
 /// What is wrong.
 #[derive(Debug, Clone, PartialEq)]
@@ -137,13 +138,16 @@ impl fmt::Display for Fault {
             FaultKind::Dropped(loops) => {
                 write!(f, "{loops} loops fall off needle{needle} without being knitted")
             }
+            FaultKind::LeftOnNeedles(1) => write!(f, "at the end 1 loop hangs on needle{needle}"),
             FaultKind::LeftOnNeedles(loops) => {
                 write!(f, "at the end {loops} loops hang on needles, the first on{needle}")
             }
             FaultKind::LongFloat { needles, limit } => {
                 write!(
                     f,
-                    "carrier {carrier} floats past {needles} needles; more than {limit} are a long float"
+                    "carrier {carrier} floats past {}; more than {limit} {} a long float",
+                    counted(*needles, "needle"),
+                    if *limit == 1 { "is" } else { "are" }
                 )
             }
             FaultKind::Loose => {
@@ -155,18 +159,22 @@ impl fmt::Display for Fault {
                     "needles {beside} and{needle} hold nothing and take the yarn of carrier {carrier} one after the other, \
                      straight through their hooks: it may slip off; every other needle first, and the rest on the way \
                      back, hold it{}",
-                    more(*others, "pair like that", "pairs like that")
+                    more(*others, "more pair")
                 )
             }
             FaultKind::OnlyLoop { others } => {
                 write!(
                     f,
                     "carrier {carrier} is taken out after a single loop, from which its yarn may slip{}",
-                    more(*others, "carrier like that", "carriers like that")
+                    more(*others, "more carrier")
                 )
             }
             FaultKind::Piled { loops, limit } => {
-                write!(f, "needle{needle} holds {loops} loops; more than {limit} may not knit well")
+                write!(
+                    f,
+                    "needle{needle} holds {}; more than {limit} may not knit well",
+                    counted(*loops, "loop")
+                )
             }
             FaultKind::Tangled(other) => {
                 write!(f, "the yarn of carrier {carrier} is caught behind that of carrier {other}")
@@ -176,10 +184,6 @@ impl fmt::Display for Fault {
 }
 
 /// How many more of a kind there are.
-fn more(others: u32, one: &str, several: &str) -> String {
-    match others {
-        0 => String::new(),
-        1 => format!(" (1 more {one})"),
-        _ => format!(" ({others} more {several})"),
-    }
+fn more(others: u32, one: &str) -> String {
+    if others == 0 { String::new() } else { format!("; {} like that", counted(others, one)) }
 }

@@ -3,12 +3,12 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use texere_fabric::{FabricError, Weave, hyphen_look_alike};
+use texere_fabric::{FabricError, Weave};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::value::{Any, Node, Value};
-use crate::read::error::{said, shown};
+use crate::read::error::{no_hyphen, said, shown};
 use crate::read::{Place, ReadError};
 
 /// Most threads of a warp or weft.
@@ -149,10 +149,4 @@ impl<'a> Source<'a> {
     pub(super) fn fabric(&self, source: FabricError) -> ReadError {
         ReadError::fabric(self.path, source)
     }
-}
-
-/// What an error adds where a text has a sign that looks like a hyphen or a minus and is none.
-fn no_hyphen(text: &str) -> String {
-    let sign = text.chars().find_map(hyphen_look_alike);
-    sign.map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
 }

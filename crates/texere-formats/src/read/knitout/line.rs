@@ -7,7 +7,7 @@ use texere_fabric::weft::{Bed, Direction, Needle};
 
 use super::NEEDLE_MAX;
 use crate::read::ReadError;
-use crate::read::error::shown;
+use crate::read::error::{no_hyphen, shown};
 
 /// A line of a file.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +34,8 @@ impl<'a> Line<'a> {
         let before = (word.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let column = self.text.get(..before).unwrap_or_default().chars().count() + 1;
         let (file, line, value) = (self.file.into(), self.number, shown(word));
-        ReadError::Word { file, line, column, value, expected: expected.into() }
+        let expected = expected.into() + &no_hyphen(word);
+        ReadError::Word { file, line, column, value, expected }
     }
 }
 
@@ -113,7 +114,10 @@ impl<'a> Words<'a> {
     /// Passes by `D N` that older writers put before the carriers of `in` and its like. Gives back whether they were there.
     pub(super) fn pass_place(&mut self) -> Result<bool, ReadError> {
         let mut ahead = self.rest.clone();
-        if !matches!(ahead.next(), Some("+" | "-")) {
+        let is_direction = |word: &str| {
+            matches!(word, "+" | "-") || word.chars().count() == 1 && !no_hyphen(word).is_empty()
+        };
+        if !ahead.next().is_some_and(is_direction) {
             return Ok(false);
         }
         self.direction()?;

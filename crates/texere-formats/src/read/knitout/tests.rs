@@ -141,6 +141,50 @@ fn what_is_no_operation_is_refused_with_its_place() {
     assert_eq!(refusal(";;Carriers: 1 2 1\n"), "a.k, line 1, column 17: \"1\", expected each carrier once");
 }
 
+/// What word processors make of a hyphen is named wherever one belongs.
+#[test]
+fn dashes_for_hyphens_are_named() {
+    for (dash, name) in [
+        ('\u{2010}', "a typographic hyphen (U+2010)"),
+        ('\u{2011}', "a non-breaking hyphen (U+2011)"),
+        ('\u{2012}', "a figure dash (U+2012)"),
+        ('\u{2013}', "an en dash (U+2013)"),
+        ('\u{2014}', "an em dash (U+2014)"),
+        ('\u{2212}', "a minus sign (U+2212)"),
+    ] {
+        for line in [
+            "knit - f1 1",
+            "knit + f-1 1",
+            "tuck - f1 1",
+            "miss + b-3 1",
+            "split - f1 b1 1",
+            "xfer f-2 b0",
+            "drop f-2",
+            "rack -1",
+            "rack -0.75",
+            "stitch 10 -7.5",
+            "x-stitch-number -3",
+            "inhook - f10 1",
+            "amiss f-1",
+        ] {
+            let line = if line.starts_with("x-") {
+                line.replace(" -", &format!(" {dash}"))
+            } else {
+                line.replace('-', &dash.to_string())
+            };
+            for head in [HEAD, ";!knitout-2\n"] {
+                let refusal = refusal(&format!("{head}{line}\n"));
+                assert!(refusal.contains(name) && refusal.contains("not a hyphen"), "{line}: {refusal}");
+            }
+        }
+    }
+    // Names of carriers are free.
+    assert_eq!(
+        read(";!knitout-2\n;;Carriers: a\u{2013}b\nin a\u{2013}b\n").unwrap().program.carriers,
+        ["a\u{2013}b"]
+    );
+}
+
 #[test]
 fn what_is_not_standard_is_warned_of_once() {
     let one = |text: String, said: &str| {

@@ -1,0 +1,15 @@
+//! Counts in words.
+
+use std::fmt::Display;
+
+/// A count and what is counted, as a person writes it. The plural is that with an s.
+///
+/// ```
+/// use texere_fabric::counted;
+/// assert_eq!((counted(1, "loop").as_str(), counted(2, "loop").as_str()), ("1 loop", "2 loops"));
+/// ```
+#[must_use]
+pub fn counted(count: impl Display + PartialEq + From<u8>, one: &str) -> String {
+    let s = if count == 1.into() { "" } else { "s" };
+    format!("{count} {one}{s}")
+}

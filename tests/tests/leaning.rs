@@ -269,7 +269,7 @@ fn bent_cloth_is_kept_live_and_picked() {
     assert!(live.upload(0, &moved).is_err());
     assert!(live.set_yarn(0, *plan.yarn(0), &moved).is_err());
 
-    let mut picker = Picker::new(plan, bent.points()).unwrap();
+    let picker = Picker::new(plan, bent.points()).unwrap();
     for triangle in fresh.indices.chunks_exact(3).step_by(97) {
         let corners = [0, 1, 2].map(|corner| {
             DVec3::from_array(fresh.vertices[triangle[corner] as usize].position.map(f64::from))

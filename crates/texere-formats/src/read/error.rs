@@ -4,9 +4,9 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use texere_core::SectionError;
-use texere_fabric::FabricError;
 use texere_fabric::warp::ChainError;
 use texere_fabric::weft::ChartError;
+use texere_fabric::{FabricError, hyphen_look_alike};
 use thiserror::Error;
 
 /// A place in a design file.
@@ -72,6 +72,12 @@ fn plain(text: &str) -> String {
         }
     }
     plain
+}
+
+/// What an error adds where a text has a sign that looks like a hyphen or a minus and is none.
+pub(super) fn no_hyphen(text: &str) -> String {
+    let sign = hyphen_look_alike(text);
+    sign.map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
 }
 
 /// The first few names of a list that may be long, separated by commas.

@@ -3,12 +3,12 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use texere_fabric::{FabricError, Weave, hyphen_look_alike};
+use texere_fabric::{FabricError, Weave};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::value::{Any, Node, Value};
-use crate::read::error::{said, shown};
+use crate::read::error::{no_hyphen, said, shown};
 use crate::read::keys::Keys;
 use crate::read::{Place, ReadError};
 
@@ -166,11 +166,6 @@ impl<'a> Source<'a> {
     pub(super) fn fabric(&self, source: FabricError) -> ReadError {
         ReadError::fabric(self.path, source)
     }
-}
-
-/// What an error adds where a text has a sign that looks like a hyphen or a minus and is none.
-fn no_hyphen(text: &str) -> String {
-    hyphen_look_alike(text).map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
 }
 
 /// Adds the keys of a table, which `above` leads to, and where each begins.

@@ -3,12 +3,11 @@
 use std::path::Path;
 use std::str::SplitWhitespace;
 
-use texere_fabric::hyphen_look_alike;
 use texere_fabric::weft::{Bed, Direction, Needle};
 
 use super::NEEDLE_MAX;
 use crate::read::ReadError;
-use crate::read::error::shown;
+use crate::read::error::{no_hyphen, shown};
 
 /// A line of a file.
 #[derive(Debug, Clone, Copy)]
@@ -35,10 +34,7 @@ impl<'a> Line<'a> {
         let before = (word.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let column = self.text.get(..before).unwrap_or_default().chars().count() + 1;
         let (file, line, value) = (self.file.into(), self.number, shown(word));
-        let expected = match hyphen_look_alike(word) {
-            Some(sign) => format!("{} (there is {sign}, not a hyphen)", expected.into()),
-            None => expected.into(),
-        };
+        let expected = expected.into() + &no_hyphen(word);
         ReadError::Word { file, line, column, value, expected }
     }
 }
@@ -119,7 +115,7 @@ impl<'a> Words<'a> {
     pub(super) fn pass_place(&mut self) -> Result<bool, ReadError> {
         let mut ahead = self.rest.clone();
         let is_direction = |word: &str| {
-            matches!(word, "+" | "-") || word.chars().count() == 1 && hyphen_look_alike(word).is_some()
+            matches!(word, "+" | "-") || word.chars().count() == 1 && !no_hyphen(word).is_empty()
         };
         if !ahead.next().is_some_and(is_direction) {
             return Ok(false);

@@ -42,6 +42,18 @@ fn numbers(cloth: &Woven, measures: &Measures) -> [f64; 6] {
 }
 
 #[test]
+fn two_ends_of_an_uneven_sett_have_the_numbers_of_two_hundred() {
+    let [one, many] = [2, 200].map(|size| {
+        let cloth = woven("plain", [size; 2], &[0.9, 0.3], &[1]);
+        let [width, height] = cloth.size_mm();
+        assert!(close(width, 0.6 * size as f64, 1e-9) && close(height, size as f64, 1e-9));
+        numbers(&cloth, &Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap())
+    });
+    assert!(close(one[4], 10.0 / 0.6, 1e-9), "{one:?}");
+    assert!(one.iter().zip(many).all(|(one, many)| close(*one, many, 2e-4)), "{one:?} {many:?}");
+}
+
+#[test]
 fn straight_threads_weigh_what_they_are() {
     // All ends on the face: 20 ends of 30 tex and 10 picks of 20 tex to the cm, none of them crimped.
     for size in [1, 2, 3, 7] {

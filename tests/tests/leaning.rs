@@ -114,7 +114,7 @@ fn the_mesh_of_a_turned_cloth_is_the_turned_mesh() {
                 ..Settings::default()
             };
             let before = mesh(flat, &SerialBackend::default(), settings);
-            for angles in [[0.9, 0.0], [1.5708, 0.4], [2.5, -1.0]] {
+            for angles in [[0.9, 0.0], [1.57, 0.4], [2.5, -1.0]] {
                 let (tilted, turn) = turned(flat, angles);
                 for device in able_devices(&tilted, &settings) {
                     let after = mesh(&tilted, &*device, settings);

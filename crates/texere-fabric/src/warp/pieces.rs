@@ -91,10 +91,10 @@ fn crossed(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
 }
 
 /// The spaces that a yarn passes behind the needles on its way from a loop to the next one. Space n lies between the needles n - 1 and n.
-fn spaces(lap: &Laid, next: &Laid) -> std::ops::RangeInclusive<i32> {
+fn spaces(lap: &Laid, next: &Laid) -> std::ops::Range<i32> {
     let [one, other] = [lap, next].map(|lap| lap.lap.needle());
     if lap.kind() == LapKind::Inlay || next.kind() == LapKind::Inlay {
-        return 1..=0;
+        return 0..0;
     }
-    one.min(other) + 1..=one.max(other)
+    one.min(other) + 1..one.max(other) + 1
 }

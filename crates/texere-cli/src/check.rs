@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 use texere::{Cure, Design, Diagnosis, FabricError, Faults, Pieces, Settings, Structure, counted};
 
-use crate::args::CheckArgs;
+use crate::args::{CheckArgs, undersampled};
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, DrawnReport, place};
 use crate::cures::{CureReport, gives_room, phrase};
 use crate::fail::Fail;
@@ -24,6 +24,9 @@ struct Report {
     #[serde(flatten)]
     faults: FaultsReport,
     drawn: DrawnReport,
+    /// What no number of rings that is usual shows of twist.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undersampled: Option<String>,
     /// Of woven cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     setts: Option<Sets<SettReport>>,
@@ -124,9 +127,10 @@ struct Jammed {
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let mut design = texere::read(&args.design)?;
-    let settings = Settings::default();
+    let tension = Settings::default().tension;
     let (yarns, mut settling) =
-        settling::yarns(&mut design, &args.settling, settings.tension, || texere::open("cpu"))?;
+        settling::yarns(&mut design, &args.settling, tension, || texere::open("cpu"))?;
+    let settings = Settings::of(&yarns);
     let clearance = progress::during("measuring how near yarns come", |bar| {
         design.structure.clearance(&yarns, &settings, progress::share(bar))
     })?;
@@ -156,6 +160,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         touching: diagnosis.touching,
         faults: FaultsReport::from(&diagnosis.faults),
         drawn: DrawnReport::from(&diagnosis.clearance.drawn),
+        undersampled: undersampled(&yarns, &settings),
         setts: design.structure.woven().map(|woven| setts(woven.cloth())),
         machine,
         empty_needles,
@@ -288,6 +293,9 @@ impl Report {
         }
         if let Some(apart) = &self.faults.apart {
             line("apart", apart.said.clone());
+        }
+        if let Some(undersampled) = &self.undersampled {
+            line("warning", undersampled.clone());
         }
         if let Some(empty) = &self.empty_needles {
             line("warning", empty.said.clone());

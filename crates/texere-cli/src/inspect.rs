@@ -7,7 +7,7 @@ use texere::warp::{Bar, WarpKnitted};
 use texere::weft::Knitted;
 use texere::{ClothClearance, Counts, Design, Plan, Settings, Structure, Yarns, counted};
 
-use crate::args::InspectArgs;
+use crate::args::{InspectArgs, undersampled};
 use crate::at::{self, YarnUnder};
 use crate::clearance::{ClearanceReport, CurvatureReport};
 use crate::fail::Fail;
@@ -110,12 +110,12 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
 }
 
 fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
-    let settings = args.settings.settings();
     let (yarns, mut settling) = if args.counts {
         (design.yarns().map_err(|error| design.refused(error))?, None)
     } else {
-        settling::yarns(&mut design, &args.settling, settings.tension, || texere::open("cpu"))?
+        settling::yarns(&mut design, &args.settling, args.settings.tension, || texere::open("cpu"))?
     };
+    let settings = args.settings.of(&yarns);
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let counts = *Plan::new(yarns.layout().clone(), settings)?.counts();
     let cloth = if args.counts {
@@ -136,6 +136,7 @@ fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let at = args.at.map(|point| at::under(&design, &yarns, point, settings.tension));
     let mut warnings = settling::warnings(&design, settling.as_ref());
     warnings.extend(knit.iter().flat_map(KnitReport::missed));
+    warnings.extend(undersampled(&yarns, &settings));
     Ok(Report { warnings, name: design.name, size: Size::new(&counts), knit, cloth, at, settling })
 }
 

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use texere::{Output, Pipeline};
 
-use crate::args::MeshArgs;
+use crate::args::{MeshArgs, undersampled};
 use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{drivers, print, progress, settling};
@@ -16,14 +16,16 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     }
     let output = Output::to(&args.output).sparing(design.files());
     output.check()?;
-    let settings = args.settings.settings();
     let device = drivers::quietly(|| texere::open(&args.device))?;
-    let (yarns, settling) = settling::yarns(&mut design, &args.settling, settings.tension, || Ok(&*device))?;
+    let (yarns, settling) =
+        settling::yarns(&mut design, &args.settling, args.settings.tension, || Ok(&*device))?;
+    let settings = args.settings.of(&yarns);
     let bar = progress::bar(std::io::stderr().is_terminal());
     let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::reporter(&bar));
     let written = texere::stream(pipeline, &*device, output)?;
     bar.finish_and_clear();
-    for warning in settling::warnings(&design, settling.as_ref()) {
+    let warnings = settling::warnings(&design, settling.as_ref());
+    for warning in warnings.into_iter().chain(undersampled(&yarns, &settings)) {
         print::text(&format!("warning: {}\n", line(warning)))?;
     }
     if let Some(settling) = settling {

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use texere::{Background, Camera, Cut, Design, Extent, Output, Quality, Renderer};
 
-use crate::args::{RenderArgs, View};
+use crate::args::{RenderArgs, View, undersampled};
 use crate::fail::Fail;
 use crate::settling::SettlingReport;
 use crate::terminal::line;
@@ -35,17 +35,20 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
         design.structure.set_section(section.clone())?;
     }
     let outputs = outputs(args, &design)?;
-    let mut settings = args.settings.settings();
     let open = || texere::open(&args.device);
     let (yarns, settling) =
-        stages.time("yarns", || settling::yarns(&mut design, &args.settling, settings.tension, open))?;
+        stages.time("yarns", || settling::yarns(&mut design, &args.settling, args.settings.tension, open))?;
     let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
-    settings.sides = args.settings.sides.unwrap_or_else(|| texere::picture_sides(&yarns, lies_close));
+    let settings = args.settings.of_picture(&yarns, lies_close);
     let mut scene = stages.time("upload", || renderer.scene(&yarns, &settings))?;
     scene.set_background(args.background);
     let cameras = cameras(args, &design, scene.extent())?;
     let quality = Quality { supersampling: args.supersampling, ..Quality::default() };
     let mut text = settling.map(|settling| format!("settling: {}\n", line(settling))).unwrap_or_default();
+    if let Some(warning) = undersampled(&yarns, &settings) {
+        // Writing to a string can't fail.
+        let _ = writeln!(text, "warning: {}", line(warning));
+    }
     for (output, camera) in outputs.into_iter().zip(cameras) {
         let picture = scene.picture(&camera, quality)?;
         stages.add("screen", picture.timings.screen);

@@ -13,6 +13,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
         device: args.device.clone(),
         settings: args.settings.settings(),
         sides: args.settings.sides,
+        subdivisions: args.settings.subdivisions,
         section: args.settings.section.clone(),
         settle: args.rest.settles(),
         size: args.size,

@@ -46,6 +46,7 @@ mod spline;
 mod steep;
 mod topology;
 mod turn;
+mod twist;
 mod vertex;
 mod yarns;
 
@@ -88,5 +89,6 @@ pub use spline::{
 pub use steep::UPRIGHT_TURN;
 pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};
+pub use twist::{TWIST_STEP, TWIST_SUBDIVISIONS_MAX, Undersampled};
 pub use vertex::Vertex;
 pub use yarns::{Layout, Origin, TWIST_LIMIT, Yarn, Yarns, YarnsBuilder, check_material, check_points};

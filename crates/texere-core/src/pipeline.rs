@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::{
     Attribute, Backend, Bounds, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PackedVertex, PaddedPoints,
     PipelineError, Plan, Quantum, Ring, Session, SessionError, Settings, Settler, Topology, Trajectory,
-    Yarns, zeroed,
+    Undersampled, Yarns, zeroed,
 };
 
 /// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed in between.
@@ -35,6 +35,8 @@ type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Send + 'a>;
 pub struct Pipeline<'a> {
     yarns: &'a Yarns,
     settings: Settings,
+    /// Whether there are as many subdivisions as the twist of the yarns needs, since nobody chose others.
+    follows_twist: bool,
     limits: Limits,
     within: Option<Bounds>,
     /// Rings handed over so far.
@@ -53,12 +55,14 @@ impl std::fmt::Debug for Pipeline<'_> {
 }
 
 impl<'a> Pipeline<'a> {
-    /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, tension 0, upright, indexed, no caps.
+    /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, tension 0, upright, indexed, no caps. Where that undersamples twist, K
+    /// is as large as [`Settings::following`] says, unless it is chosen.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
         Self {
             yarns,
             settings: Settings::default(),
+            follows_twist: true,
             limits: Limits::default(),
             within: None,
             done: 0,
@@ -67,10 +71,11 @@ impl<'a> Pipeline<'a> {
         }
     }
 
-    /// Takes all settings at once.
+    /// Takes all settings at once, also the subdivisions: those of [`Settings::of`] follow twist.
     #[must_use]
     pub fn settings(mut self, settings: Settings) -> Self {
         self.settings = settings;
+        self.follows_twist = false;
         self
     }
 
@@ -81,10 +86,11 @@ impl<'a> Pipeline<'a> {
         self
     }
 
-    /// Points inserted between two control points (K).
+    /// Points inserted between two control points (K), whatever twist needs: [`Pipeline::undersampled`] tells.
     #[must_use]
     pub fn subdivisions(mut self, subdivisions: u32) -> Self {
         self.settings.subdivisions = subdivisions;
+        self.follows_twist = false;
         self
     }
 
@@ -187,11 +193,23 @@ impl<'a> Pipeline<'a> {
         self.yarns
     }
 
+    /// The settings that the mesh is made with.
+    #[must_use]
+    pub fn chosen(&self) -> Settings {
+        if self.follows_twist { self.settings.following(self.yarns) } else { self.settings }
+    }
+
+    /// What the mesh will not show of the twist of the yarns, if anything: a warning, written out.
+    #[must_use]
+    pub fn undersampled(&self) -> Option<Undersampled> {
+        Undersampled::of(self.yarns, &self.chosen())
+    }
+
     /// The plan for these settings.
     ///
     /// **Errors**: those of [`Plan::new`], and [`PipelineError::Backend`] where there is no memory to find what lies within a box.
     pub fn plan(&self) -> Result<Plan, PipelineError> {
-        let plan = Plan::new(self.yarns.layout().clone(), self.settings)?;
+        let plan = Plan::new(self.yarns.layout().clone(), self.chosen())?;
         let Some(bounds) = &self.within else { return Ok(plan) };
         let mut points = PaddedPoints::new(&plan)?;
         points.upload(&plan, 0, self.yarns.points());

@@ -2,17 +2,16 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use texere_core::{PaddedPoints, Plan, Ring, Sample, Section, Settings, Turn, Yarns};
+use texere_core::{
+    PaddedPoints, Plan, Ring, Sample, Section, Settings, TWIST_SUBDIVISIONS_MAX, Turn, Yarns,
+};
 
 use crate::{FabricError, YarnPlace};
 
 /// A tube is wrung where it is narrower than this between two rings, in radii: they are turned against one another by more than 120
-/// degrees, or two thirds of the way to a tube of no width. Twisted yarns of the usual settings come to 0.6: hard-twisted singles are drawn
-/// with few rings.
+/// degrees, or two thirds of the way to a tube of no width. Twisted yarns of the usual settings come to 0.7, since a mesh has rings enough for
+/// [that](texere_core::Settings::following).
 pub const WRUNG: f64 = 0.5;
-
-/// The most points between control points that [`Drawn`] is tried with to find how many cure it.
-const FINER_MOST: u32 = 63;
 
 /// How the tubes of a fabric come out between neighbouring rings of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,14 +85,14 @@ impl Drawn {
 }
 
 /// The fewest points between control points, more than those of `settings`, with which a mesh of `yarns` is [sound](Drawn::is_sound), and
-/// what it comes to. None where no number up to 63 helps.
+/// what it comes to. None where no number up to [`TWIST_SUBDIVISIONS_MAX`] helps.
 ///
 /// **Errors**: those of [`drawn`].
 pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, FabricError> {
     let mut subdivisions = settings.subdivisions;
-    while subdivisions < FINER_MOST {
+    while subdivisions < TWIST_SUBDIVISIONS_MAX {
         // So many that steps are half as long.
-        subdivisions = 2 * subdivisions + 1;
+        subdivisions = (2 * subdivisions + 1).min(TWIST_SUBDIVISIONS_MAX);
         let found = drawn(yarns, &Settings { subdivisions, ..*settings })?;
         if found.is_sound() {
             return Ok(Some((subdivisions, found)));

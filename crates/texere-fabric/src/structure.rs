@@ -289,7 +289,8 @@ impl Structure {
         match self {
             Self::Woven(design) => design.cloth().diagnose(touching, progress),
             Self::Weft(_) | Self::Warp(_) => {
-                let clearance = self.clearance(&self.yarns()?, &Settings::default(), progress)?;
+                let yarns = self.yarns()?;
+                let clearance = self.clearance(&yarns, &Settings::of(&yarns), progress)?;
                 Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
             }
         }

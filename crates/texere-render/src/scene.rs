@@ -120,7 +120,7 @@ pub struct DevicePicture {
 
 impl Renderer {
     /// Sends a fabric to the device, or several: [`Yarns::placed`] says where each is, [`Yarns::merged`] makes one of them. The settings' topology and caps are ignored: pictures list their own triangles, and
-    /// show yarns solid, also where they end or are cut.
+    /// show yarns solid, also where they end or are cut. Those of [`Settings::following_fibres`] have rings enough for the yarns' twist.
     ///
     /// **Errors**: [`RenderError::Plan`], [`RenderError::Backend`].
     pub fn scene(&self, yarns: &Yarns, settings: &Settings) -> Result<Scene, RenderError> {

@@ -32,10 +32,12 @@ pub struct View {
     pub design: PathBuf,
     /// The device that draws, as [`texere::open_renderer`] takes it, and on which yarns settle.
     pub device: String,
-    /// Subdivisions, tension and frames of the mesh; its sides count only in `sides`.
+    /// Tension and frames of the mesh; its sides and subdivisions count only in `sides` and `subdivisions`.
     pub settings: Settings,
     /// Sides of the tubes; if none as many as [`texere::picture_sides`] says.
     pub sides: Option<u32>,
+    /// Points inserted between two control points; if none as many as [`Settings::following_fibres`] says.
+    pub subdivisions: Option<u32>,
     /// One section for all yarns of the design.
     pub section: Option<Section>,
     /// Whether yarns settle; if none, what the design says.
@@ -52,6 +54,7 @@ impl View {
             device: "auto".into(),
             settings: Settings::default(),
             sides: None,
+            subdivisions: None,
             section: None,
             settle: None,
             size: [1280, 800],

@@ -1,7 +1,7 @@
 //! What stands beside the cloth: its name, what can be chosen, and how long a picture takes.
 
 use eframe::egui::{Button, Panel, ProgressBar, ScrollArea, Slider, Ui};
-use texere::Settings;
+use texere::{Settings, TWIST_SUBDIVISIONS_MAX};
 
 use crate::Event;
 use crate::orbit::Side;
@@ -59,11 +59,14 @@ impl<T: FnMut(&Event)> Window<T> {
         let Settings { mut sides, mut subdivisions, mut tension, .. } = cloth.settings;
         let changed = [
             ui.add(Slider::new(&mut sides, 3..=32).text("sides")),
-            ui.add(Slider::new(&mut subdivisions, 0..=12).text("subdivisions")),
+            ui.add(Slider::new(&mut subdivisions, 0..=TWIST_SUBDIVISIONS_MAX).text("subdivisions")),
             ui.add(Slider::new(&mut tension, 0.0..=0.95).text("tension")),
         ];
         if changed.iter().any(|slider| slider.changed()) {
             self.order(Order::Settings(Settings { sides, subdivisions, tension, ..cloth.settings }));
+        }
+        if let Some(undersampled) = cloth.undersampled {
+            ui.label(undersampled.to_string());
         }
     }
 

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use texere::{
     Camera, Design, FinishError, Finished, Output, Quality, RenderError, Renderer, Scene, Settings,
-    Structure, Yarns,
+    Structure, Undersampled, Yarns,
 };
 
 use crate::error::said;
@@ -58,6 +58,8 @@ pub(crate) struct Cloth {
     pub(crate) is_edited: bool,
     /// That it does not hang together, if so.
     pub(crate) apart: Vec<String>,
+    /// What the mesh does not show of twist.
+    pub(crate) undersampled: Option<Undersampled>,
 }
 
 /// What the window is told.
@@ -162,6 +164,7 @@ impl Workshop {
                 let other_splines = settings.tension.to_bits() != self.view.settings.tension.to_bits();
                 self.view.settings = settings;
                 self.view.sides = Some(settings.sides);
+                self.view.subdivisions = Some(settings.subdivisions);
                 // Yarns rest by their splines.
                 if other_splines && self.settles() { Change::Yarns } else { Change::Scene }
             }
@@ -326,6 +329,10 @@ impl Workshop {
         let mut settings = self.view.settings;
         let lies_close = *is_settled && self.design.structure.woven().is_some();
         settings.sides = self.view.sides.unwrap_or_else(|| texere::picture_sides(yarns, lies_close));
+        settings = match self.view.subdivisions {
+            Some(subdivisions) => Settings { subdivisions, ..settings },
+            None => settings.following_fibres(yarns),
+        };
         match scene(&self.renderer, yarns, &settings) {
             Ok(scene) => {
                 self.tell(News::Cloth(Box::new(Cloth {
@@ -336,6 +343,7 @@ impl Workshop {
                     is_settled: *is_settled,
                     is_edited: !self.lifts.is_empty(),
                     apart: self.design.structure.pieces().said(),
+                    undersampled: Undersampled::of(yarns, &settings),
                 })));
             }
             Err(error) => self.fail(said(&error)),

@@ -16,7 +16,7 @@
 //! let design = texere::read(&design_path)?; // .wif or .toml
 //! let yarns = design.yarns()?;
 //! let device = texere::open("auto")?;
-//! let mesh = texere::Pipeline::new(&yarns).subdivisions(1).sides(6).mesh(&*device)?;
+//! let mesh = texere::Pipeline::new(&yarns).sides(6).mesh(&*device)?;
 //! texere::write(&mesh, &mesh_path)?; // .glb or .ply
 //! # std::fs::remove_dir_all(&folder)?;
 //! # Ok(())
@@ -65,6 +65,7 @@
 //! | have vertices in half the memory, 12 bytes each | [`Pipeline::packed`], [`Session::packed`], [`Quantum`] |
 //! | know yarn, angle and length along the yarn of each vertex | [`Pipeline::attributes`], [`Live::keep_attributes`] |
 //! | make pictures | `Renderer`, `Scene`, `Camera` (feature `render`) |
+//! | know how many rings twist needs | [`Settings::of`], [`Pipeline::undersampled`] |
 //! | say what is wrong with a cloth | [`clearance`], [`Diagnosis`], [`Measures`] |
 //!
 //! # Features
@@ -134,8 +135,9 @@ pub use texere_core::{
     Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace,
     NullBackend, Origin, PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError,
     Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section,
-    SectionError, SectionPoint, Settings, SettlingError, TWIST_LIMIT, TablesId, Topology, Trajectory, Vertex,
-    YARN_RINGS_MAX, Yarn, YarnError, Yarns, YarnsBuilder, crossings, settling,
+    SectionError, SectionPoint, Settings, SettlingError, TWIST_LIMIT, TWIST_STEP, TWIST_SUBDIVISIONS_MAX,
+    TablesId, Topology, Trajectory, Undersampled, Vertex, YARN_RINGS_MAX, Yarn, YarnError, Yarns,
+    YarnsBuilder, crossings, settling,
 };
 pub use texere_core::{
     Draw, End, Engine, Layout, MeshMut, Part, ScanChunks, Session, SessionError, Slot, StageTimings, Traffic,

@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let design = texere::read(format!("{designs}/herringbone.wif"))?;
     let yarns = design.yarns()?;
     let device = texere::open("auto")?;
-    let mesh = Pipeline::new(&yarns).subdivisions(1).sides(6).mesh(&*device)?;
+    let mesh = Pipeline::new(&yarns).sides(6).mesh(&*device)?;
     let folder = std::env::temp_dir().join(format!("texere-consumer-{}", std::process::id()));
     std::fs::create_dir(&folder)?;
     let written = texere::write(&mesh, folder.join("herringbone.glb"));

@@ -14,7 +14,7 @@ use clap::{Parser, Subcommand};
 use path::{file_of, mesh_file};
 use render::point;
 pub(crate) use render::{RenderArgs, View};
-pub(crate) use settings::SettingsArgs;
+pub(crate) use settings::{SettingsArgs, undersampled};
 pub(crate) use settling::SettlingArgs;
 #[cfg(feature = "view")]
 pub(crate) use view::ViewArgs;

@@ -1,20 +1,21 @@
 //! What can be chosen about a mesh.
 
 use clap::ValueEnum;
-use texere::{Frame, Section, Settings, Topology};
+use texere::{Frame, Section, Settings, Topology, Undersampled, Yarns};
 
 /// What can be chosen about a mesh.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SettingsArgs {
-    /// Points inserted between two control points
-    #[arg(long, value_name = "K", default_value_t = Settings::default().subdivisions)]
-    subdivisions: u32,
+    /// Points inserted between two control points; if left out 1, or up to 63 where twist would turn a section by more than 30 degrees from
+    /// ring to ring: of plies, ellipses and polygons, and in pictures of every yarn. Round yarns in meshes may turn by 90
+    #[arg(long, value_name = "K")]
+    pub(crate) subdivisions: Option<u32>,
     /// Sides of the tube; if left out 6, or 16 in a picture of woven cloth at rest of up to four million control points
     #[arg(long, value_name = "NC")]
     pub(crate) sides: Option<u32>,
     /// Tension of the spline, 0 to below 1
     #[arg(long, value_name = "U", default_value_t = Settings::default().tension)]
-    tension: f32,
+    pub(crate) tension: f32,
     /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT, power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
@@ -45,10 +46,11 @@ enum TopologyArg {
 }
 
 impl SettingsArgs {
+    /// The settings before anything is known of the yarns.
     pub(crate) fn settings(&self) -> Settings {
         Settings {
             tension: self.tension,
-            subdivisions: self.subdivisions,
+            subdivisions: self.subdivisions.unwrap_or(Settings::default().subdivisions),
             sides: self.sides.unwrap_or(Settings::default().sides),
             frame: match self.frame {
                 FrameArg::Upright => Frame::Upright,
@@ -64,6 +66,24 @@ impl SettingsArgs {
             ..Settings::default()
         }
     }
+
+    /// The settings for a mesh of `yarns`.
+    pub(crate) fn of(&self, yarns: &Yarns) -> Settings {
+        let settings = self.settings();
+        if self.subdivisions.is_some() { settings } else { settings.following(yarns) }
+    }
+
+    /// The settings for a picture of `yarns`; `lies_close` is as [`texere::picture_sides`] takes it.
+    pub(crate) fn of_picture(&self, yarns: &Yarns, lies_close: bool) -> Settings {
+        let sides = self.sides.unwrap_or_else(|| texere::picture_sides(yarns, lies_close));
+        let settings = Settings { sides, ..self.settings() };
+        if self.subdivisions.is_some() { settings } else { settings.following_fibres(yarns) }
+    }
+}
+
+/// The warning of what a mesh of `yarns` does not show of their twist, if anything.
+pub(crate) fn undersampled(yarns: &Yarns, settings: &Settings) -> Option<String> {
+    Undersampled::of(yarns, settings).map(|found| found.to_string())
 }
 
 /// A section from its name and its numbers, separated by colons.

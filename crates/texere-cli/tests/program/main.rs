@@ -11,6 +11,7 @@ mod inspect;
 mod knit;
 mod outputs;
 mod settling;
+mod twist;
 mod warp_knit;
 
 use std::path::PathBuf;

@@ -152,7 +152,8 @@ impl Woven {
         touching: f64,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Diagnosis, FabricError> {
-        let clearance = self.clearance(&self.yarns()?, &Settings::default(), progress)?;
+        let yarns = self.yarns()?;
+        let clearance = self.clearance(&yarns, &Settings::of(&yarns), progress)?;
         Ok(Diagnosis::new(touching, clearance, self.jams(), self.pieces()))
     }
 

@@ -2,9 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use texere_core::{
-    PaddedPoints, Plan, Ring, Sample, Section, Settings, TWIST_SUBDIVISIONS_MAX, Turn, Yarns,
-};
+use texere_core::{PaddedPoints, Plan, Ring, Sample, Section, Settings, TWIST_SUBDIVISIONS_MAX, Turn, Yarns};
 
 use crate::{FabricError, YarnPlace};
 

@@ -308,8 +308,9 @@ impl Structure {
         touching: f64,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Diagnosis, FabricError> {
-        let settings = Settings { tension, ..Settings::default() };
-        let clearance = self.clearance(finished.yarns(), &settings, progress)?;
+        let yarns = finished.yarns();
+        let settings = Settings { tension, ..Settings::default() }.following(yarns);
+        let clearance = self.clearance(yarns, &settings, progress)?;
         Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
     }
 

@@ -141,7 +141,7 @@ fn fixed_subdivisions_are_warned_of_by_the_step_and_by_what_helps() {
 #[test]
 fn hostile_twist_ends_in_a_bound_and_a_warning() {
     let folder = TempDir::new().unwrap();
-    let path = cloth(folder.path(), "plies = 2\ntwist_per_m = 159000");
+    let path = cloth(folder.path(), "plies = 2\ntwist_per_m = 100000");
     let small = inspect(&["--counts", path.to_str().unwrap()]);
     let text = std::fs::read_to_string(&path)
         .unwrap()

@@ -22,11 +22,24 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
     let mut printed = Ok(());
     // Drivers are loaded for the window, and again where yarns settle.
     drivers::quietly(|| {
-        view.open(|event: &Event| {
-            if printed.is_ok() {
-                printed = print::text(&format!("{}\n", line(event)));
-            }
+        view.open(|event: &Event| match event {
+            // What failed is said at the end.
+            Event::Closed if printed.is_ok() => leave(),
+            event if printed.is_ok() => printed = print::text(&format!("{}\n", line(event))),
+            _ => {}
         })
     })?;
     printed
+}
+
+/// Ends the program at once, whatever its threads and the device are at. Drivers may not be asked to go while they work, so the system takes
+/// all back.
+fn leave() -> ! {
+    #[cfg(unix)]
+    crate::signals::give_way();
+    texere::abandon();
+    #[cfg(unix)]
+    signal_hook::low_level::exit(0);
+    #[cfg(not(unix))]
+    std::process::exit(0)
 }

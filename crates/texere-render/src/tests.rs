@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 mod hairs;
+mod kept;
 mod mesh_path;
 mod scenes;
 mod spectrum;

@@ -1,10 +1,16 @@
 //! The part of the window that shows the cloth.
 
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{PoisonError, TryLockError};
+use std::thread;
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Color32, PointerButton, Pos2, Rect, Response, Sense, TextureId, Ui, pos2};
+use eframe::egui::{
+    Color32, ColorImage, PointerButton, Pos2, Rect, Response, Sense, TextureHandle, TextureId,
+    TextureOptions, Ui, pos2,
+};
 use eframe::{egui_wgpu, wgpu};
-use texere::{Camera, NamedPlace, PictureTimings, Quality, RenderError, Seen, YarnPlace};
+use texere::{DevicePicture, NamedPlace, Picture, PictureTimings, Quality, RenderError, Seen, YarnPlace};
 
 use crate::orbit::{Orbit, Side};
 use crate::workshop::Cloth;
@@ -64,15 +70,33 @@ impl Fineness {
     }
 }
 
+/// A picture that is made.
+enum Made {
+    /// On the window's device.
+    There(DevicePicture),
+    /// On another one, and copied.
+    Copied(Picture),
+}
+
+/// What the window shows.
+enum Shown {
+    /// A texture of the scene's, which is another where the picture has another size.
+    There(TextureId, wgpu::TextureView),
+    Copied(TextureHandle),
+}
+
 /// The picture in the window.
 pub(crate) struct Canvas {
     render: egui_wgpu::RenderState,
+    /// Whether cloth is on another device than the window.
+    is_apart: bool,
     /// None until a cloth has been shown.
     orbit: Option<Orbit>,
-    texture: Option<TextureId>,
-    /// The view's texture, which is another where the picture has another size.
-    view: Option<wgpu::TextureView>,
+    shown: Option<Shown>,
+    /// What the last picture shows, or the one that is under way.
     drawn: Option<Look>,
+    /// The picture that is under way: a thread of its own waits for the device, for the window could not hear that it is closed meanwhile.
+    under_way: Option<Receiver<Result<Made, RenderError>>>,
     /// How fine the last picture is, and the last one while the view moved.
     fineness: Fineness,
     fineness_moving: Fineness,
@@ -84,24 +108,27 @@ pub(crate) struct Canvas {
     pub(crate) failure: Option<String>,
     /// Where the pointer was when it was asked last what lies there, and what that was.
     pointed: Option<(Pos2, Option<NamedPlace>)>,
+    /// Where a click waits for the picture that it is on.
+    clicked: Option<Pos2>,
 }
 
-/// What a person does to the cloth.
+/// What a person points at.
 pub(crate) struct Pointed {
     /// What lies under the pointer.
     pub(crate) place: Option<NamedPlace>,
-    /// Whether it was clicked on.
-    pub(crate) is_clicked: bool,
+    /// What was clicked on.
+    pub(crate) clicked: Option<NamedPlace>,
 }
 
 impl Canvas {
-    pub(crate) fn new(render: egui_wgpu::RenderState) -> Self {
+    pub(crate) fn new(render: egui_wgpu::RenderState, is_apart: bool) -> Self {
         Self {
             render,
+            is_apart,
             orbit: None,
-            texture: None,
-            view: None,
+            shown: None,
             drawn: None,
+            under_way: None,
             fineness: Fineness::PLAIN,
             fineness_moving: Fineness::PLAIN,
             rests: true,
@@ -109,18 +136,20 @@ impl Canvas {
             timings: PictureTimings::default(),
             failure: None,
             pointed: None,
+            clicked: None,
         }
     }
 
     /// Looks at the whole cloth from `side` with the next picture.
     pub(crate) fn look_from(&mut self, cloth: &Cloth, side: Side) {
         let size = self.drawn.map_or([4, 3], |drawn| drawn.size);
-        self.orbit = Some(Orbit::whole(cloth.scene.extent(), side, size));
+        self.orbit = Some(Orbit::whole(&cloth.extent, side, size));
     }
 
     /// Draws another cloth with the next picture, in the same view.
     pub(crate) fn redraw(&mut self) {
         self.drawn = None;
+        self.under_way = None;
         self.pointed = None;
     }
 
@@ -137,26 +166,36 @@ impl Canvas {
     }
 
     /// Shows the cloth in what is left of the window, and lets a pointer move it.
-    pub(crate) fn show(&mut self, ui: &mut Ui, cloth: &mut Cloth) -> Pointed {
+    pub(crate) fn show(&mut self, ui: &mut Ui, cloth: &Cloth) -> Pointed {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         let scale = ui.pixels_per_point();
         let size = [rect.width(), rect.height()].map(|points| ((points * scale) as u32).max(1));
-        let extent = *cloth.scene.extent();
-        let orbit = self.orbit.get_or_insert_with(|| Orbit::whole(&extent, Side::Face, size));
+        let orbit = self.orbit.get_or_insert_with(|| Orbit::whole(&cloth.extent, Side::Face, size));
         steer(orbit, ui, &response, rect, size, cloth);
         let look = Look { orbit: *orbit, size };
         self.draw(ui, cloth, look);
-        if let Some(texture) = self.texture {
+        if let Some(shown) = &self.shown {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            let texture = match shown {
+                Shown::There(texture, _) => *texture,
+                Shown::Copied(texture) => texture.id(),
+            };
             ui.painter().image(texture, rect, whole, Color32::WHITE);
         }
         let at = response.hover_pos().filter(|_| !response.dragged());
         let place = at.and_then(|at| self.named(cloth, at, rect, scale));
-        Pointed { place, is_clicked: response.clicked() }
+        if response.clicked() {
+            self.clicked = response.interact_pointer_pos();
+        }
+        let clicked = self.clicked.take_if(|_| self.under_way.is_none());
+        Pointed { place, clicked: clicked.and_then(|at| self.named(cloth, at, rect, scale)) }
     }
 
     /// Draws the cloth where the last picture shows something else or could show it better.
-    fn draw(&mut self, ui: &Ui, cloth: &mut Cloth, look: Look) {
+    fn draw(&mut self, ui: &Ui, cloth: &Cloth, look: Look) {
+        if self.is_under_way(ui) {
+            return;
+        }
         let took = self.timings.draw + self.timings.shade;
         if self.drawn != Some(look) {
             // A picture of a view at rest says nothing of one that moves.
@@ -176,38 +215,86 @@ impl Canvas {
             }
             self.fineness = finest;
         }
-        (self.drawn, self.pointed) = (Some(look), None);
-        match self.picture(cloth, look) {
-            Ok(timings) => (self.timings, self.failure) = (timings, None),
-            Err(error) => self.failure = Some(crate::error::said(&error)),
+        self.drawn = Some(look);
+        if let Err(error) = self.begin(ui, cloth, look) {
+            self.failure = Some(error);
         }
-        ui.request_repaint_after(REST);
     }
 
-    fn camera(&self, cloth: &Cloth, look: Look) -> Result<Camera, RenderError> {
-        look.orbit
-            .camera(cloth.scene.extent(), look.size.map(|pixels| (pixels / self.fineness.coarseness).max(1)))
+    /// Has a thread make the picture and ask the window to show it.
+    fn begin(&mut self, ui: &Ui, cloth: &Cloth, look: Look) -> Result<(), String> {
+        let Fineness { supersampling, coarseness, hairs } = self.fineness;
+        let size = look.size.map(|pixels| (pixels / coarseness).max(1));
+        let camera = look.orbit.camera(&cloth.extent, size).map_err(|error| crate::error::said(&error))?;
+        let (scene, window, is_apart) = (cloth.scene.clone(), ui.ctx().clone(), self.is_apart);
+        let (done, picture) = channel();
+        let draw = move || {
+            let mut scene = scene.lock().unwrap_or_else(PoisonError::into_inner);
+            let quality = Quality { supersampling, hairs };
+            let picture = if is_apart {
+                scene.picture(&camera, quality).map(Made::Copied)
+            } else {
+                scene.frame(&camera, quality).map(Made::There)
+            };
+            drop(scene);
+            // Nobody waits for it where another cloth came.
+            let _ = done.send(picture);
+            window.request_repaint();
+        };
+        thread::Builder::new()
+            .name("picture".into())
+            .spawn(draw)
+            .map_err(|error| crate::error::said(&error))?;
+        self.under_way = Some(picture);
+        Ok(())
     }
 
-    fn picture(&mut self, cloth: &mut Cloth, look: Look) -> Result<PictureTimings, RenderError> {
-        let camera = self.camera(cloth, look)?;
-        let frame = cloth.scene.frame(
-            &camera,
-            Quality { supersampling: self.fineness.supersampling, hairs: self.fineness.hairs },
-        )?;
-        if self.view.as_ref() != Some(&frame.texture) {
-            let device = &self.render.device;
-            let mut renderer = self.render.renderer.write();
-            let filter = wgpu::FilterMode::Linear;
-            match self.texture {
-                Some(id) => {
-                    renderer.update_egui_texture_from_wgpu_texture(device, &frame.texture, filter, id)
-                }
-                None => self.texture = Some(renderer.register_native_texture(device, &frame.texture, filter)),
+    /// Whether a picture is under way. Takes one that is done.
+    fn is_under_way(&mut self, ui: &Ui) -> bool {
+        let Some(picture) = &self.under_way else { return false };
+        let done = match picture.try_recv() {
+            Ok(done) => done.map_err(|error| crate::error::said(&error)),
+            Err(TryRecvError::Empty) => return true,
+            Err(TryRecvError::Disconnected) => Err("the picture was not made".into()),
+        };
+        (self.under_way, self.pointed) = (None, None);
+        match done {
+            Ok(picture) => self.take(ui, picture),
+            Err(error) => self.failure = Some(error),
+        }
+        false
+    }
+
+    /// Shows a picture.
+    fn take(&mut self, ui: &Ui, made: Made) {
+        self.failure = None;
+        match made {
+            Made::There(DevicePicture { texture, timings }) => {
+                self.timings = timings;
+                let (device, filter) = (&self.render.device, wgpu::FilterMode::Linear);
+                let mut renderer = self.render.renderer.write();
+                let id = match &self.shown {
+                    Some(Shown::There(_, shown)) if *shown == texture => return,
+                    Some(Shown::There(id, _)) => {
+                        renderer.update_egui_texture_from_wgpu_texture(device, &texture, filter, *id);
+                        *id
+                    }
+                    _ => renderer.register_native_texture(device, &texture, filter),
+                };
+                self.shown = Some(Shown::There(id, texture));
             }
-            self.view = Some(frame.texture);
+            Made::Copied(Picture { size, rgb, timings, .. }) => {
+                self.timings = timings;
+                let image = ColorImage::from_rgb(size.map(|pixels| pixels as usize), &rgb);
+                match &mut self.shown {
+                    Some(Shown::Copied(texture)) => texture.set(image, TextureOptions::LINEAR),
+                    _ => {
+                        let texture = ui.ctx().load_texture("cloth", image, TextureOptions::LINEAR);
+                        self.shown = Some(Shown::Copied(texture));
+                    }
+                }
+            }
         }
-        Ok(frame.timings)
     }
 
     /// What lies under the pointer, in a designer's words.
@@ -217,8 +304,16 @@ impl Canvas {
         {
             return place.clone();
         }
+        let scene = match cloth.scene.try_lock() {
+            Ok(scene) => scene,
+            Err(TryLockError::Poisoned(scene)) => scene.into_inner(),
+            // Until the picture is made that is under way, what was there is.
+            Err(TryLockError::WouldBlock) => {
+                return self.pointed.as_ref().and_then(|(_, place)| place.clone());
+            }
+        };
         let pixel = (at - rect.min) * (scale / self.fineness.coarseness as f32);
-        let place = match cloth.scene.seen_at([pixel.x, pixel.y]) {
+        let place = match scene.seen_at([pixel.x, pixel.y]) {
             Ok(seen) => seen.and_then(|seen| place_of(cloth, &seen)),
             Err(error) => {
                 self.failure = Some(crate::error::said(&error));
@@ -247,7 +342,7 @@ fn steer(orbit: &mut Orbit, ui: &Ui, response: &Response, rect: Rect, size: [u32
         let factor = pinch * (scroll * NEARER).exp();
         if factor != 1.0 {
             let at = (at - rect.min) * scale;
-            orbit.zoom(factor, [at.x, at.y], size, cloth.scene.extent());
+            orbit.zoom(factor, [at.x, at.y], size, &cloth.extent);
         }
     }
 }

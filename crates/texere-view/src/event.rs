@@ -38,6 +38,9 @@ pub enum Event {
     },
     /// What was asked for could not be done, or the design's file is broken: the cloth is shown as it was.
     Failed(String),
+    /// The window was told to close. [`View::open`](crate::View::open) returns when the device has done what it is at, which may take
+    /// seconds; a program that has nothing else to do may end here.
+    Closed,
 }
 
 impl fmt::Display for Event {
@@ -56,6 +59,7 @@ impl fmt::Display for Event {
                 left_out.iter().try_for_each(|what| write!(f, "; {what}"))
             }
             Self::Failed(what) => write!(f, "failed: {what}"),
+            Self::Closed => write!(f, "closed"),
         }
     }
 }

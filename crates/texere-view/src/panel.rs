@@ -16,7 +16,7 @@ impl<T: FnMut(&Event)> Window<T> {
                 let Some(cloth) = self.cloth.take() else { return };
                 ui.heading(&cloth.design.name);
                 let yarns = cloth.yarns.layout().yarns().len();
-                ui.label(format!("{yarns} yarns, {} triangles", cloth.scene.plan().counts().triangles));
+                ui.label(format!("{yarns} yarns, {} triangles", cloth.triangles));
                 ui.separator();
                 let place = self
                     .place

@@ -8,9 +8,10 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Key, Modifiers, ViewportBuilder};
+use eframe::wgpu;
 use texere::{NamedPlace, Renderer, Schedule, WgpuBackend};
 
-use crate::canvas::Canvas;
+use crate::canvas::{Canvas, Pointed};
 use crate::orbit::Side;
 use crate::watch::Watch;
 use crate::workshop::{Cloth, News, Order, Workshop};
@@ -39,8 +40,15 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
     };
     let start = |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
         let render = context.wgpu_render_state.clone().ok_or("no device")?;
-        let device =
-            WgpuBackend::from_device(render.device.clone(), render.queue.clone(), Schedule::PerRing)?;
+        // A device takes one thing after the other, and a processor takes seconds for a cloth: the window would wait behind it, and not hear that it
+        // is closed. A copy costs next to nothing there.
+        let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let renderer = if is_apart {
+            texere::open_renderer(&view.device)?
+        } else {
+            let (device, queue) = (render.device.clone(), render.queue.clone());
+            Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?
+        };
         // The surface can't take another size while the workshop hands the device work, and what is drawn for the new size does not go with the
         // old one. Every call of ours is in a scope, so nothing else comes here. The next picture asks the surface anew.
         let window = context.egui_ctx.clone();
@@ -52,17 +60,18 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
             is_closing: is_closing.clone(),
             news,
             window: context.egui_ctx.clone(),
-            renderer: Renderer::new(device)?,
+            renderer,
             view,
             watch,
             design,
             colors: BTreeMap::new(),
             lifts: Vec::new(),
+            settler: None,
             yarns: None,
         };
         let workshop = thread::Builder::new().name("workshop".into()).spawn(|| workshop.run())?;
         Ok(Box::new(Window {
-            canvas: Canvas::new(render),
+            canvas: Canvas::new(render, is_apart),
             orders,
             is_closing,
             workshop,
@@ -100,9 +109,15 @@ pub(crate) struct Window<T> {
 }
 
 impl<T: FnMut(&Event)> eframe::App for Window<T> {
+    fn logic(&mut self, window: &egui::Context, _: &mut eframe::Frame) {
+        let is_closed = window.input(|input| input.viewport().close_requested());
+        if is_closed && !self.is_closing.swap(true, Ordering::Relaxed) {
+            (self.tell)(&Event::Closed);
+        }
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
-        if ui.input(|input| input.viewport().close_requested()) {
-            self.is_closing.store(true, Ordering::Relaxed);
+        if self.is_closing.load(Ordering::Relaxed) {
             // Nobody would see another picture.
             return;
         }
@@ -112,14 +127,15 @@ impl<T: FnMut(&Event)> eframe::App for Window<T> {
         self.keys(ui);
         self.panel(ui);
         egui::CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| {
-            let Some(cloth) = &mut self.cloth else {
-                ui.centered_and_justified(|ui| ui.spinner());
+            let Some(cloth) = &self.cloth else {
+                // Still: what turns would be drawn without end, behind what the workshop has the device do.
+                ui.centered_and_justified(|ui| ui.label("The cloth is being made."));
                 return;
             };
-            let pointed = self.canvas.show(ui, cloth);
-            self.place = pointed.place;
-            if pointed.is_clicked {
-                self.click();
+            let Pointed { place, clicked } = self.canvas.show(ui, cloth);
+            self.place = place;
+            if let Some(place) = clicked {
+                self.click(&place);
             }
         });
     }
@@ -145,7 +161,7 @@ impl<T: FnMut(&Event)> Window<T> {
                 let event = Event::Shown {
                     name: cloth.design.name.clone(),
                     yarns: cloth.yarns.layout().yarns().len(),
-                    triangles: cloth.scene.plan().counts().triangles,
+                    triangles: cloth.triangles,
                     settled: cloth.is_settled,
                 };
                 self.cloth = Some(cloth);
@@ -167,9 +183,9 @@ impl<T: FnMut(&Event)> Window<T> {
         }
     }
 
-    /// What lies under the pointer was clicked on.
-    fn click(&mut self) {
-        let (Some(place), Some(cloth)) = (&self.place, &self.cloth) else { return };
+    /// A place was clicked on.
+    fn click(&mut self, place: &NamedPlace) {
+        let Some(cloth) = &self.cloth else { return };
         (self.tell)(&Event::Picked(place.clone()));
         let (Some(crossing), Some(woven)) = (place.thread.crossing, cloth.design.structure.woven()) else {
             return;

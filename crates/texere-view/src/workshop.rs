@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
 use texere::{
-    Camera, Design, FinishError, Finished, Output, Quality, RenderError, Renderer, Scene, Settings,
-    Structure, Undersampled, Yarns,
+    Backend, Camera, Design, Extent, FinishError, Finished, Output, Quality, RenderError, Renderer, Scene,
+    Settings, Structure, Undersampled, Yarns,
 };
 
 use crate::error::said;
@@ -51,7 +51,10 @@ pub(crate) struct Cloth {
     pub(crate) design: Arc<Design>,
     pub(crate) yarns: Arc<Yarns>,
     pub(crate) settings: Settings,
-    pub(crate) scene: Scene,
+    /// Held while a picture is made.
+    pub(crate) scene: Arc<Mutex<Scene>>,
+    pub(crate) extent: Extent,
+    pub(crate) triangles: u64,
     /// Whether its yarns have settled.
     pub(crate) is_settled: bool,
     /// Whether lifts can be taken back.
@@ -96,6 +99,8 @@ pub(crate) struct Workshop {
     pub(crate) colors: BTreeMap<usize, [u8; 3]>,
     /// Lifts as they were before they were changed: end and pick from 0, and whether the warp was up.
     pub(crate) lifts: Vec<(usize, usize, bool)>,
+    /// Where yarns settle, once they have: drivers do not give back all that a device took.
+    pub(crate) settler: Option<Box<dyn Backend>>,
     /// The yarns that are shown, and whether they have settled.
     pub(crate) yarns: Option<(Arc<Yarns>, bool)>,
 }
@@ -269,15 +274,22 @@ impl Workshop {
             }
             // It was stopped, for there is something else to be done.
             Err(_) if order.is_some() || self.watch.is_stale() => self.tell(News::Settled(String::new())),
-            Err(error) => self.tell(News::Settled(said(&self.design.refused(error)))),
+            Err(error) => {
+                // It may be gone.
+                self.settler = None;
+                self.tell(News::Settled(said(&self.design.refused(error))));
+            }
         }
         order
     }
 
     /// Lets the yarns settle until an order comes, which is put into `order`, a file changes, or the window is closed.
     fn settled(&mut self, order: &mut Option<Order>) -> Result<Finished, FinishError> {
-        let Self { orders, is_closing, news, window, watch, view, design, .. } = self;
-        let device = texere::open(&view.device)?;
+        let Self { orders, is_closing, news, window, watch, view, design, settler, .. } = self;
+        let device = match settler {
+            Some(device) => device,
+            None => settler.insert(texere::open(&view.device)?),
+        };
         // Moved in, for a receiver can be sent to other threads but not shared with them.
         let mut progress = move |share| {
             let is_open = news.send(News::Settling(share)).is_ok() && !is_closing.load(Ordering::Relaxed);
@@ -294,9 +306,9 @@ impl Workshop {
         let tension = view.settings.tension;
         let (mut structure, mut finish) = (design.structure.clone(), design.finish);
         if let Some(stretch) = design.stretch {
-            finish = structure.stretch(&finish, stretch, tension, &*device, &mut progress)?;
+            finish = structure.stretch(&finish, stretch, tension, &**device, &mut progress)?;
         }
-        structure.settle(&finish, tension, &*device, progress)
+        structure.settle(&finish, tension, &**device, progress)
     }
 
     /// Shows other yarns, in the colours that were chosen.
@@ -339,7 +351,9 @@ impl Workshop {
                     design: Arc::new(self.design.clone()),
                     yarns: yarns.clone(),
                     settings,
-                    scene,
+                    extent: *scene.extent(),
+                    triangles: scene.plan().counts().triangles,
+                    scene: Arc::new(Mutex::new(scene)),
                     is_settled: *is_settled,
                     is_edited: !self.lifts.is_empty(),
                     apart: self.design.structure.pieces().said(),

@@ -329,6 +329,41 @@ fn a_file_that_changes_without_end_is_read_all_the_same() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
+/// Closing waits for nothing: neither for yarns that settle, nor for the device, which has a picture or a cloth to make.
+#[test]
+fn a_window_that_is_closed_is_gone_at_once_whatever_runs() {
+    /// A machine that has other work besides takes longer than a second. What runs would take many times as long.
+    const CLOSING: Duration = Duration::from_secs(5);
+    let folder = folder("closed");
+    let file = folder.join("cloth.toml");
+    let large = design("twill 2/2", 120).replace("ends = 4", "ends = 120");
+    let screen = Screen::open();
+    let reload: fn(&Path) = |file| fs::write(file, fs::read_to_string(file).unwrap() + "\n").unwrap();
+    let cases: [(&str, bool, fn(&Path), u64); 5] = [
+        ("at once", false, |_| {}, 0),
+        ("soon", false, |_| {}, 300),
+        ("while the first picture is made", true, |_| {}, 0),
+        ("while yarns settle", true, |_| {}, 700),
+        ("while it is read again", true, reload, 300),
+    ];
+    for (when, is_shown, change, delay) in cases {
+        fs::write(&file, &large).unwrap();
+        let mut viewer = Viewer::open(&file, &screen, "--settle");
+        let window = screen.window();
+        if is_shown {
+            viewer.says("shown: ");
+        }
+        change(&file);
+        thread::sleep(Duration::from_millis(delay));
+        let start = Instant::now();
+        screen.close(window);
+        viewer.ends();
+        let took = start.elapsed();
+        assert!(took < CLOSING, "closed {when}: {took:?}");
+    }
+    fs::remove_dir_all(&folder).unwrap();
+}
+
 /// What is wrong with the command line or the design is said before there is a window.
 #[test]
 fn what_can_t_be_shown_ends_the_program() {

@@ -521,3 +521,21 @@ fn bytes_that_are_not_text_are_refused() {
     let error = read(&path).unwrap_err().to_string();
     assert!(error.contains("line 2"), "{error}");
 }
+
+/// What a refusal names as a limit is within it.
+#[test]
+fn limits_themselves_are_taken() {
+    let limits = ["stiffness", "flatness", "hairiness"].map(|key| {
+        let outside = DENIM.replace("tex = 84.0", &format!("tex = 84.0\n{key} = 1e6"));
+        let Err(ReadError::OutOfRange { low, high, .. }) = read_text(&outside) else { panic!("{key}") };
+        (key, [low, high])
+    });
+    for (key, ends) in limits {
+        for limit in ends {
+            let told = read_text(&DENIM.replace("tex = 84.0", &format!("tex = 84.0\n{key} = {limit}")));
+            assert!(told.is_ok(), "{key} = {limit}: {}", told.unwrap_err());
+        }
+    }
+    let cloth = cloth(&DENIM.replace("tex = 84.0", "tex = 84.0\nflatness = 0.1"));
+    assert_eq!(cloth.warp()[0].flatness, 0.1);
+}

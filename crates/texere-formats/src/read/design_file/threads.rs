@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use texere_core::{Material, Section, SectionPoint};
-use texere_fabric::{COTTON_DENSITY, FLATNESS_MAX, FLATNESS_MIN, Thread};
+use texere_fabric::{COTTON_DENSITY, Thread};
 use toml::Spanned;
 
 use super::limits::{HAIRINESS, LENGTH_MM, TEX, TWIST_PER_M, hairiness_of};
@@ -22,6 +22,9 @@ const DENSITY: (f64, f64) = (0.05, 20.0);
 
 /// Limpest and stiffest yarn, in the stiffness of cotton.
 const STIFFNESS: (f64, f64) = (0.01, 100.0);
+
+/// Yarn that stands on edge, and the flattest ribbon, as people write it: 0.1 as a f32 is a little more than that.
+const FLATNESS: (f64, f64) = (0.1, 10.0);
 
 /// The most yarns in turn of a knit.
 const TURN_MAX: usize = 100_000;
@@ -81,10 +84,7 @@ impl YarnTable {
             let flatness = spec
                 .flatness
                 .as_ref()
-                .map(|flatness| {
-                    let (low, high) = (f64::from(FLATNESS_MIN), f64::from(FLATNESS_MAX));
-                    source.number(&field("flatness"), flatness, low, high)
-                })
+                .map(|flatness| source.number(&field("flatness"), flatness, FLATNESS.0, FLATNESS.1))
                 .transpose()?
                 .unwrap_or(1.0);
             let stiffness = spec

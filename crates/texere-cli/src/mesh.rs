@@ -15,8 +15,8 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
         design.structure.set_section(section.clone())?;
     }
     let output = Output::to(&args.output).sparing(design.files());
-    output.check()?;
     let device = drivers::quietly(|| texere::open(&args.device))?;
+    output.check()?;
     let (yarns, settling) =
         settling::yarns(&mut design, &args.settling, args.settings.tension, || Ok(&*device))?;
     let settings = args.settings.of(&yarns);

@@ -47,7 +47,7 @@ fn what_is_out_of_proportion_is_refused_in_little_memory() {
     let across = "[warp_knit]\nwales = 2000\ncourses = 2000\nwales_per_cm = 10\ncourses_per_cm = 13\n\
                   [[warp_knit.bars]]\nlapping = \"0-1/511-512//\"\nthreading = [\"2000 a\"]\n[yarns.a]\ndiameter_mm = 0.1\n";
     for (design, said) in [
-        (cable(200), "too many yarns lie in one place"),
+        (cable(200), "too long for their thickness"),
         (cable(300), "moves by 300 needles; 256 are taken at most"),
         (UNDERLAPS.into(), "too many yarns lie in one place"),
         (long.into(), "too long for their thickness"),

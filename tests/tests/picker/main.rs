@@ -116,7 +116,7 @@ fn yarns_that_are_edited_are_hit_where_they_are() {
                 }));
                 points.truncate(room(yarn) as usize);
             }
-            let plan = picker.plan().edited(yarn, *what, points.len() as u64).unwrap();
+            let plan = picker.plan().edited(yarn, *what, points).unwrap();
             picker.set_yarn(Arc::new(plan), yarn, points).unwrap();
         }
         let mut edited = Yarns::builder();
@@ -264,7 +264,8 @@ fn rays_that_are_none_hit_nothing_and_wrong_yarns_are_refused() {
     assert!(matches!(picker.set_yarn(plan.clone(), 1, &unsound[40..80]), Err(PickError::Points(_))));
     // Another plan of the same yarns, and one in which another yarn is edited as well.
     let other = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
-    let twice = plan.edited(0, *plan.yarn(0), 20).unwrap().edited(1, *plan.yarn(1), 40).unwrap();
+    let twice =
+        plan.edited(0, *plan.yarn(0), &points[..20]).unwrap().edited(1, *plan.yarn(1), points).unwrap();
     for plan in [other, Arc::new(twice)] {
         assert!(matches!(picker.set_yarn(plan, 1, points), Err(PickError::OtherPlan { yarn: 1 })));
     }

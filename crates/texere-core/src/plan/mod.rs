@@ -25,9 +25,10 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::steep::is_steep;
 use crate::{
-    Frame, Layout, PlanError, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Section, SectionPoint,
-    TWIST_LIMIT, Topology, Turn, Yarn, triangulate,
+    ControlPoint, Frame, Layout, PlanError, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Section,
+    SectionPoint, TWIST_LIMIT, Topology, Turn, Yarn, triangulate,
 };
 
 /// The choices that a mesh is made with.
@@ -117,10 +118,11 @@ impl Plan {
     /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
     /// # let yarns = yarns.build()?;
     /// let plan = Plan::with_room(yarns.layout().clone(), Settings::default(), |_| 10)?; // one yarn of three points
-    /// let longer = plan.edited(0, *plan.yarn(0), 7)?;
+    /// let points = |count| (0..count).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect::<Vec<_>>();
+    /// let longer = plan.edited(0, *plan.yarn(0), &points(7))?;
     /// assert_eq!((plan.rings(0), longer.rings(0)), (5, 13));
     /// assert_eq!(plan.padded_offsets(), longer.padded_offsets());
-    /// assert!(plan.edited(0, *plan.yarn(0), 11).is_err());
+    /// assert!(plan.edited(0, *plan.yarn(0), &points(11)).is_err());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -174,7 +176,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The same plan but that yarn number `yarn` is `what`, of `points` control points. Offsets stay, and so both plans own one another's
+    /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which say whether it is [steep](Layout::is_steep). Offsets stay, and so both plans own one another's
     /// chunks: of those, the ones that hold some of the yarn are out of date ([`Plan::recut`]).
     ///
     /// **Errors**: [`PlanError::NoRoom`] where there is [room](Plan::with_room) for fewer points, [`PlanError::TooFewPoints`], and
@@ -182,8 +184,10 @@ impl Plan {
     /// lacks, a twist that is not sound, or one where no yarn's rolls are scanned.
     ///
     /// **Panics** past the last yarn.
-    pub fn edited(&self, yarn: usize, what: Yarn, points: u64) -> Result<Self, PlanError> {
-        self.edited_to(yarn, what, points, self.layout.is_steep(yarn))
+    pub fn edited(&self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<Self, PlanError> {
+        let count = points.len() as u64;
+        self.check_edit(yarn, &what, count)?;
+        self.edited_to(yarn, what, count, is_steep(points, what.closed, None))
     }
 
     /// The same for a yarn that is [steep](Layout::is_steep) or not.
@@ -410,7 +414,7 @@ impl Plan {
     /// Bytes that the padded control points take, for as long as a session lives.
     #[must_use]
     pub fn resident_bytes(&self) -> u64 {
-        self.offsets.padded.last().copied().unwrap_or(0) * size_of::<crate::ControlPoint>() as u64
+        self.offsets.padded.last().copied().unwrap_or(0) * size_of::<ControlPoint>() as u64
     }
 
     /// Bytes of host memory that [`Pipeline::mesh`](crate::Pipeline::mesh) takes on a CPU at its peak: the mesh, the padded

@@ -102,7 +102,7 @@ pub enum PickError {
 ///
 /// // Yarn 0 is laid between the two.
 /// let moved = [0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.5, 0.0, 0.125));
-/// picker.set_yarn(Arc::new(plan.edited(0, *plan.yarn(0), 3)?), 0, &moved)?;
+/// picker.set_yarn(Arc::new(plan.edited(0, *plan.yarn(0), &moved)?), 0, &moved)?;
 /// assert_eq!(picker.pick(&down(1.75, 0.5)).map(|hit| hit.place.yarn), Some(0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

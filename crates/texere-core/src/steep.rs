@@ -47,7 +47,8 @@ pub(crate) fn is_steep(points: &[ControlPoint], closed: bool, ups: Option<&[Vec3
 /// threads are told by this alone, in some thirty instructions a control point instead of 450.
 ///
 /// It is the bound of [`turn_at_most`], with the tangent of the swing for the angle and 1 for the sine of the slope. In plan the middle one of
-/// an interval's Bézier velocities goes three times along the chord, less the two at its ends.
+/// an interval's Bézier velocities goes three times along the chord, less the two at its ends. Of a yarn that keeps to a plane it may go back, as it
+/// does beside a chord that is much longer, as long as the velocity itself does not.
 fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     let plan = |from: &ControlPoint, to: &ControlPoint| (to.position() - from.position()).truncate();
     let (first, last) = (&points[0], &points[points.len() - 1]);
@@ -61,10 +62,11 @@ fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     let further = points[1..].windows(2).map(|pair| plan(&pair[0], &pair[1]));
     further.chain(back).chain(once(beyond)).all(|next| {
         let (own, after) = (here.length_squared(), bend(here, next));
-        let least = (own + before.1).min(own + after.1).min(4.0 * own - before.1 - after.1);
+        let [first, middle, last] = [own + before.1, 4.0 * own - before.1 - after.1, own + after.1];
         let most = before.0 + after.0;
         (here, before) = (next, after);
-        least > 0.0 && most * (4.0 / TAU) <= UPRIGHT_TURN * least
+        let goes_on = first > 0.0 && last > 0.0 && (middle > 0.0 || middle * middle < first * last);
+        goes_on && most * (4.0 / TAU) <= UPRIGHT_TURN * first.min(middle).min(last).max(0.0)
     })
 }
 

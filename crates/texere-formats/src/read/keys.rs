@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use texere_core::{BackendError, CrossingsError, Origin, SettlingError};
 use texere_fabric::{FabricError, FinishError};
 
-use super::{Place, ReadError};
+use super::Place;
+#[cfg(feature = "toml")]
+use super::ReadError;
 
 /// What says how large a cloth is, and what it is made of, the first that a file has.
 const SIZE: &[&str] = &[

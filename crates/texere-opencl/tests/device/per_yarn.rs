@@ -5,7 +5,7 @@ use texere_conformance::{cases, check};
 use texere_core::{Backend, BackendError, ControlPoint, Settings, Topology, Yarn, Yarns};
 use texere_opencl::Schedule;
 
-/// Open, untwisted yarns of 2 to 200 points with slubs and bends.
+/// Open, untwisted yarns of 2 to 200 points with slubs and bends, none of them steep.
 fn open_yarns() -> Yarns {
     let mut yarns = Yarns::builder();
     for points in [2, 3, 33, 65, 200] {
@@ -15,7 +15,7 @@ fn open_yarns() -> Yarns {
                 ControlPoint::new(
                     k as f32,
                     points as f32 + sin,
-                    0.5 * cos,
+                    0.02 * cos,
                     0.2 + 0.1 * (1.3 * k as f32).sin(),
                 )
             })

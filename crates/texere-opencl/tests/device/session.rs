@@ -197,6 +197,7 @@ fn pieces_hold_vertices_first() {
         let chunk = &chunks(&plan, u64::MAX)[0];
         let mut session = Session::new(&device(Schedule::PerRing), plan).unwrap();
         session.upload(0, yarns.points()).unwrap();
+        session.scan().unwrap();
         session.mesh(chunk).unwrap();
         let _ = session
             .read_mesh(chunk, &mut |piece| {

@@ -35,7 +35,7 @@ const SETTINGS: Settings = Settings {
     tension: 0.0,
     subdivisions: 3,
     sides: 12,
-    frame: texere_core::Frame::Upright,
+    frame: Frame::Upright,
     topology: texere_core::Topology::Indexed,
     caps: false,
     quantum: texere_core::Quantum::USUAL,

@@ -147,7 +147,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     opencl(
         "kernels/src/rings.cl",
         "block_rings",
-        "rings->sin_cos[lane] = turn_sin_cos(roll);",
+        "rings->sin_cos[lane] = turn_sin_cos(roll - lean);",
         "rings->sin_cos[lane] = turn_sin_cos(0u);",
     ),
     // A flattened section's normals are stretched as its points are.

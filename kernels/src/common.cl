@@ -391,12 +391,19 @@ typedef struct {
     // Half height and its growth, sine and cosine of the roll: where yarns are FLATTENED.
     float2 height;
     float2 sin_cos;
+    bool round;
 } Stance;
 
-// The side that a section stands with. It turns with the roll, but where yarns are FLATTENED: there it leans with the outline, and
-// the section turns inside.
-float3 side_of(float3 tangent, uint roll, uint lean) {
-    return side_standing(tangent, FLATTENED ? lean : roll);
+// Whether a yarn is round and stays so: each of `width` and `height` is a half and its growth. Round rings are worked out
+// alike whether other yarns are FLATTENED or not, so that no vertex hangs on yarns elsewhere.
+bool is_round(float2 width, float2 height) {
+    return !FLATTENED || (width.x == height.x && width.y == height.y);
+}
+
+// The side that a section stands with. A round one turns with the roll. The outline of a flattened one leans, and the section
+// turns inside.
+float3 side_of(float3 tangent, uint roll, uint lean, bool round) {
+    return side_standing(tangent, round ? roll : lean);
 }
 
 // `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the roll's.
@@ -408,6 +415,7 @@ Stance stance_new(float4 centre, float4 tangent, float3 side, float2 height, flo
     stance.up = up_of(tangent.xyz, side);
     stance.height = height;
     stance.sin_cos = sin_cos;
+    stance.round = is_round((float2)(centre.w, tangent.w), height);
     return stance;
 }
 
@@ -418,7 +426,7 @@ float2 rolled(const Stance *stance, float2 q) {
 
 // Where the vertex at `point` of a section lies.
 float3 position_at(const Stance *stance, float4 point) {
-    if (FLATTENED) {
+    if (!stance->round) {
         float2 q = rolled(stance, point.xy);
         return stance->centre.xyz + (stance->side * (q.x * stance->centre.w) + stance->up * (q.y * stance->height.x));
     }
@@ -429,7 +437,7 @@ float3 position_at(const Stance *stance, float4 point) {
 // Its normal.
 float3 normal_at(const Stance *stance, float4 point) {
     float4 tangent = stance->tangent;
-    if (FLATTENED) {
+    if (!stance->round) {
         float2 q = rolled(stance, point.xy);
         // Each times the other's half: the inverse transpose, times the product of both halves.
         float2 normal = rolled(stance, point.zw) * (float2)(stance->height.x, stance->centre.w);

@@ -47,7 +47,7 @@ Stance stance_at(__global const uint4 *ring) {
     float4 centre = as_float4(ring[0]);
     float4 tangent = as_float4(ring[1]);
     float4 size = as_float4(ring[2]);
-    return stance_new(centre, (float4)(tangent.xyz, size.y), side_of(tangent.xyz, 0u, 0u), size.xz, (float2)(0.0f, 1.0f));
+    return stance_new(centre, (float4)(tangent.xyz, size.y), side_of(tangent.xyz, 0u, 0u, true), size.xz, (float2)(0.0f, 1.0f));
 }
 
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.

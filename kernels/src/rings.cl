@@ -73,10 +73,12 @@ void block_rings(__global const uint4 *points, const Params *params, const YarnR
     }
     if (lane < block->rings) {
         rings->centre[lane] = (float4)(here.sample.centre, here.sample.half_width);
-        rings->side[lane] = (float4)(side_of(here.sample.tangent, roll, lean), here.sample.half_height);
+        bool round = is_round((float2)(here.sample.half_width, here.sample.width_growth),
+                              (float2)(here.sample.half_height, here.sample.height_growth));
+        rings->side[lane] = (float4)(side_of(here.sample.tangent, roll, lean, round), here.sample.half_height);
         rings->height_growth[lane] = here.sample.height_growth;
         rings->roll[lane] = roll;
-        if (FLATTENED) {
+        if (!round) {
             rings->sin_cos[lane] = turn_sin_cos(roll - lean);
         }
     }

@@ -390,12 +390,19 @@ struct Stance {
     // Half height and its growth, sine and cosine of the roll: where yarns are FLATTENED.
     height: vec2<f32>,
     sin_cos: vec2<f32>,
+    round: bool,
 }
 
-// The side that a section stands with. It turns with the roll, but where yarns are FLATTENED: there it leans with the outline, and
-// the section turns inside.
-fn side_of(tangent: vec3<f32>, roll: u32, lean: u32) -> vec3<f32> {
-    return side_standing(tangent, select(roll, lean, FLATTENED));
+// Whether a yarn is round and stays so: each of `width` and `height` is a half and its growth. Round rings are worked out
+// alike whether other yarns are FLATTENED or not, so that no vertex hangs on yarns elsewhere.
+fn is_round(width: vec2<f32>, height: vec2<f32>) -> bool {
+    return !FLATTENED || all(width == height);
+}
+
+// The side that a section stands with. A round one turns with the roll. The outline of a flattened one leans, and the section
+// turns inside.
+fn side_of(tangent: vec3<f32>, roll: u32, lean: u32, round: bool) -> vec3<f32> {
+    return side_standing(tangent, select(lean, roll, round));
 }
 
 // `side` is as `side_of` gives it; `height` is the half height and its growth, `sin_cos` the roll's.
@@ -407,6 +414,7 @@ fn stance_new(centre: vec4<f32>, tangent: vec4<f32>, side: vec3<f32>, height: ve
     stance.up = up_of(tangent.xyz, side);
     stance.height = height;
     stance.sin_cos = sin_cos;
+    stance.round = is_round(vec2(centre.w, tangent.w), height);
     return stance;
 }
 
@@ -417,7 +425,7 @@ fn rolled(stance: Stance, q: vec2<f32>) -> vec2<f32> {
 
 // Where the vertex at `point` of a section lies.
 fn position_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
-    if FLATTENED {
+    if !stance.round {
         let q = rolled(stance, point.xy);
         return stance.centre.xyz + (stance.side * (q.x * stance.centre.w) + stance.up * (q.y * stance.height.x));
     }
@@ -428,7 +436,7 @@ fn position_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
 // Its normal.
 fn normal_at(stance: Stance, point: vec4<f32>) -> vec3<f32> {
     let tangent = stance.tangent;
-    if FLATTENED {
+    if !stance.round {
         let q = rolled(stance, point.xy);
         // Each times the other's half: the inverse transpose, times the product of both halves.
         let normal = rolled(stance, point.zw) * vec2(stance.height.x, stance.centre.w);

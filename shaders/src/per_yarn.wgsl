@@ -59,7 +59,7 @@ fn stance_at(at: u32) -> Stance {
     let centre = bitcast<vec4<f32>>(rings[at]);
     let size = bitcast<vec3<f32>>(rings[at + 2u].xyz);
     let tangent = bitcast<vec3<f32>>(rings[at + 1u].xyz);
-    return stance_new(centre, vec4(tangent, size.y), side_of(tangent, 0u, 0u), size.xz, vec2(0.0, 1.0));
+    return stance_new(centre, vec4(tangent, size.y), side_of(tangent, 0u, 0u, true), size.xz, vec2(0.0, 1.0));
 }
 
 // Algorithm 4: for each ring, `sides` vertices, and the triangles to the next ring.

@@ -93,10 +93,12 @@ fn block_rings(yarn: YarnRow, block: Block, lane: u32) {
     }
     if lane < rings {
         standing.centre[lane] = vec4(here.sample.centre, here.sample.half_width);
-        standing.side[lane] = vec4(side_of(here.sample.tangent, roll, lean), here.sample.half_height);
+        let round = is_round(vec2(here.sample.half_width, here.sample.width_growth),
+                             vec2(here.sample.half_height, here.sample.height_growth));
+        standing.side[lane] = vec4(side_of(here.sample.tangent, roll, lean, round), here.sample.half_height);
         standing.height_growth[lane] = here.sample.height_growth;
         standing.roll[lane] = roll;
-        if FLATTENED {
+        if !round {
             standing.sin_cos[lane] = turn_sin_cos(roll - lean);
         }
     }

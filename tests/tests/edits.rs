@@ -268,6 +268,30 @@ fn edited_yarns_end_as_a_fresh_mesh() {
     }
 }
 
+/// A round yarn is worked out alike whether another one is flattened or not: one that becomes flat, or round again, changes no vertex of it.
+#[test]
+fn a_round_yarn_does_not_hang_on_flattened_ones() {
+    let line = |wide: f32| -> Vec<_> {
+        let points = [(0.0, 0.0, 0.0), (1.0, 0.5, 0.4), (1.7, 1.4, -0.3), (2.9, 1.1, 0.2)];
+        points.map(|(x, y, z)| ControlPoint::new(x, y, z, 0.1).flattened(wide, 0.1)).into()
+    };
+    let yarn = Yarn { twist: 2.0, ..Yarn::default() };
+    let becomes = |wide| Edit::Yarn { yarn: 1, twist: 2.0, section: 0, points: line(wide) };
+    let settings = Settings { subdivisions: 3, frame: Frame::RotationMinimizing, ..Settings::default() };
+    for entry in REGISTRY {
+        let (devices, missing) = entry.devices();
+        assert!(missing.is_empty(), "{missing:?}");
+        let edits =
+            |device: &dyn Backend| entry.name != "deferred" && device.info().schedule != Schedule::PerYarn;
+        for device in devices.iter().filter(|device| edits(&***device)) {
+            for widths in [[0.1, 0.2], [0.2, 0.1]] {
+                let fabric = vec![(yarn, line(0.1)), (yarn, line(widths[0]))];
+                ends_as_fresh(&**device, fabric, settings, 6, &[Edit::Update, becomes(widths[1])]).unwrap();
+            }
+        }
+    }
+}
+
 /// Where blocks end, a point has a part in the rings of two of them.
 #[test]
 fn each_point_of_a_long_yarn_moves_alone() {

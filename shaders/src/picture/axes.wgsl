@@ -13,7 +13,7 @@ struct Axes {
 fn axes_of(stance: Stance) -> Axes {
     var x_axis = stance.side * stance.centre.w;
     var y_axis = stance.up * stance.centre.w;
-    if FLATTENED {
+    if !stance.round {
         let upward = stance.up * stance.height.x;
         y_axis = upward * stance.sin_cos.y - x_axis * stance.sin_cos.x;
         x_axis = x_axis * stance.sin_cos.y + upward * stance.sin_cos.x;

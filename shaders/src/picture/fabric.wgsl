@@ -73,5 +73,7 @@ fn stance_of_sample(sample: Sample, roll: vec2<u32>) -> Stance {
     let centre = vec4(sample.centre, sample.half_width);
     let tangent = vec4(sample.tangent, sample.width_growth);
     let height = vec2(sample.half_height, sample.height_growth);
-    return stance_new(centre, tangent, side_of(sample.tangent, roll.x, roll.y), height, turn_sin_cos(roll.x - roll.y));
+    let round = is_round(vec2(centre.w, tangent.w), height);
+    let side = side_of(sample.tangent, roll.x, roll.y, round);
+    return stance_new(centre, tangent, side, height, turn_sin_cos(roll.x - roll.y));
 }

@@ -12,5 +12,7 @@
 pub mod read;
 pub mod write;
 
-pub use read::{Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Structure, Told, read};
+pub use read::{
+    Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Structure, Told, read, read_from,
+};
 pub use write::WriteError;

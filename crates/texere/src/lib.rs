@@ -53,7 +53,8 @@
 //!
 //! | to | take |
 //! |---|---|
-//! | read a design, or make one in code | [`read()`], [`Woven`], [`weft::Knitted`], [`warp::WarpKnitted`], [`Design::of`] |
+//! | read a design from a file, or from memory with whatever it names | [`read()`], [`read_from`] |
+//! | make a design in code | [`Woven`], [`weft::Knitted`], [`warp::WarpKnitted`], [`Design::of`] |
 //! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`] |
 //! | let cloth come to rest | [`Structure::settle`] |
 //! | have a whole mesh in memory, write it | [`Pipeline::mesh`], [`write()`] |
@@ -172,7 +173,7 @@ pub use texere_formats::write::{toml as write_toml, toml_to as write_toml_to};
 #[cfg(feature = "wif")]
 pub use texere_formats::write::{wif as write_wif, wif_to as write_wif_to};
 pub use texere_formats::{
-    Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Told, WriteError, read,
+    Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Told, WriteError, read, read_from,
 };
 #[cfg(feature = "opencl")]
 pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};

@@ -1,7 +1,7 @@
 //! A design, read and checked.
 
 use std::fmt;
-use std::path::{self, Path, PathBuf};
+use std::path::{self, PathBuf};
 
 use texere_core::{BackendError, CrossingsError, Origin, SettlingError, Yarns};
 use texere_fabric::{FabricError, Finish, FinishError, Finished, Stretch, Structure, ThreadPlace, YarnPlace};
@@ -192,15 +192,15 @@ impl Design {
         materials.get(material as usize).map(|material| material.name.clone())
     }
 
-    /// Notes a file that it was read from.
-    pub(super) fn noting(mut self, file: &Path) -> Self {
+    /// The same design with the files that it was read from.
+    pub(super) fn read_from(self, files: &[PathBuf]) -> Self {
         // A program may change its folder. Where the present one is not known, the path stays as it is.
-        self.files.push(path::absolute(file).unwrap_or_else(|_| file.into()));
-        self
+        let absolute = |file: &PathBuf| path::absolute(file).unwrap_or_else(|_| file.clone());
+        Self { files: files.iter().map(absolute).collect(), ..self }
     }
 
-    /// The files that it was read from: the design's own, and the image or WIF draft that it names.
-    /// [`Output::sparing`](crate::write::Output::sparing) keeps a writer from replacing them.
+    /// The files that it was read from: the design's own, and the images, WIF draft or knitting program that it names; none where it was read
+    /// [from memory](super::read_from). [`Output::sparing`](crate::write::Output::sparing) keeps a writer from replacing them.
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {
         &self.files

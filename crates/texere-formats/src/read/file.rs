@@ -1,4 +1,4 @@
-//! Files as they are opened: regular ones alone, and no larger than any design of their kind.
+//! Files as readers get them: regular ones of a disk, or bytes that a program has. None is larger than any design of its kind.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::Read;
@@ -6,21 +6,43 @@ use std::path::Path;
 
 use super::ReadError;
 
+/// A file of a design, from its start on.
+#[derive(Debug)]
+pub(super) enum Opened {
+    /// One of a disk.
+    File(File),
+    /// One that a program has in memory.
+    Bytes(Vec<u8>),
+}
+
+/// What opens the file of a path, which may have so many bytes at most. The first that it is asked for is the design's own, all
+/// others are those that the design names.
+pub(super) type Files<'a> = dyn Fn(&Path, u64) -> Result<Opened, ReadError> + 'a;
+
 /// Opens a regular file of at most `limit` bytes. Reading a pipe that nothing writes to would never return, and a
 /// device has no end.
-pub(super) fn open(path: &Path, limit: u64) -> Result<File, ReadError> {
+pub(super) fn open(path: &Path, limit: u64) -> Result<Opened, ReadError> {
     let io = |source| ReadError::Io { file: path.into(), source };
     // Before it is opened, as opening alone can do something to a device. After it, as the name may stand for another
     // file by then.
     regular(path, &std::fs::metadata(path).map_err(io)?, limit)?;
     let file = options().open(path).map_err(io)?;
     regular(path, &file.metadata().map_err(io)?, limit)?;
-    Ok(file)
+    Ok(Opened::File(file))
 }
 
-/// A regular file's bytes, at most `limit` of them.
-pub(super) fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-    let file = open(path, limit)?;
+/// Takes the bytes of a file, at most `limit` of them.
+pub(super) fn held(path: &Path, bytes: Vec<u8>, limit: u64) -> Result<Opened, ReadError> {
+    small(path, bytes.len() as u64, limit)?;
+    Ok(Opened::Bytes(bytes))
+}
+
+/// A file's bytes, at most `limit` of them.
+pub(super) fn bytes_of(files: &Files<'_>, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let file = match files(path, limit)? {
+        Opened::Bytes(bytes) => return Ok(bytes),
+        Opened::File(file) => file,
+    };
     let mut bytes = Vec::new();
     // One byte more than the limit shows that the file has grown since.
     let count = file.take(limit + 1).read_to_end(&mut bytes).map_err(|source| match source.kind() {
@@ -29,9 +51,7 @@ pub(super) fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
         }
         _ => ReadError::Io { file: path.into(), source },
     })? as u64;
-    if count > limit {
-        return Err(ReadError::TooLarge { file: path.into(), bytes: count, limit });
-    }
+    small(path, count, limit)?;
     Ok(bytes)
 }
 
@@ -39,8 +59,12 @@ fn regular(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), ReadError
     if !metadata.is_file() {
         return Err(ReadError::NotAFile { file: path.into(), kind: kind(metadata) });
     }
-    if metadata.len() > limit {
-        return Err(ReadError::TooLarge { file: path.into(), bytes: metadata.len(), limit });
+    small(path, metadata.len(), limit)
+}
+
+fn small(path: &Path, bytes: u64, limit: u64) -> Result<(), ReadError> {
+    if bytes > limit {
+        return Err(ReadError::TooLarge { file: path.into(), bytes, limit });
     }
     Ok(())
 }

@@ -1,16 +1,16 @@
 //! Image files: PNG, BMP and TIFF.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::io::{self, BufRead, BufReader, Cursor, Seek, SeekFrom};
 use std::path::Path;
 
 use image::{ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use texere_fabric::THREADS_MAX;
 
 use super::error::said;
+use super::file::{Files, Opened};
 use super::memory::{filled, room};
 use super::point_paper::{Image, Orientation};
-use super::{ReadError, file, tiff_file};
+use super::{ReadError, tiff_file};
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
 const PIXELS_MAX: u64 = 1 << 28;
@@ -29,12 +29,24 @@ const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
 /// one bit. So a short file takes no memory for pixels that it can't have.
 const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
-pub(super) fn decode(path: &Path) -> Result<Image, ReadError> {
+/// What an image is decoded from.
+pub(super) trait Bytes: BufRead + Seek {}
+
+impl<T: BufRead + Seek> Bytes for T {}
+
+pub(super) fn decode(path: &Path, files: &Files<'_>) -> Result<Image, ReadError> {
     let io = |source| ReadError::Io { file: path.into(), source };
     let failed = |error: ImageError| undecodable(path, &error.to_string());
-    let file = file::open(path, FILE_LIMIT)?;
-    let file_bytes = file.metadata().map_err(io)?.len();
-    let file = BufReader::new(file);
+    let (file, file_bytes): (Box<dyn Bytes>, u64) = match files(path, FILE_LIMIT)? {
+        Opened::File(file) => {
+            let count = file.metadata().map_err(io)?.len();
+            (Box::new(BufReader::new(file)), count)
+        }
+        Opened::Bytes(bytes) => {
+            let count = bytes.len() as u64;
+            (Box::new(Cursor::new(bytes)), count)
+        }
+    };
     let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
     let format = reader.format();
     if format == Some(ImageFormat::Png) {
@@ -102,7 +114,7 @@ pub(super) fn check_size(path: &Path, width: u32, height: u32) -> Result<(), Rea
 }
 
 /// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder takes that for granted.
-fn broken_palette(file: &mut BufReader<File>) -> io::Result<Option<u32>> {
+fn broken_palette(file: &mut impl Bytes) -> io::Result<Option<u32>> {
     // Behind the signature each chunk has its length, its name, its data and a checksum.
     file.seek(SeekFrom::Start(8))?;
     let mut head = [0; 8];

@@ -28,17 +28,21 @@ mod image_file {
     use std::path::Path;
 
     use super::ReadError;
+    use super::file::Files;
     use super::point_paper::Image;
 
-    pub(super) fn decode(path: &Path) -> Result<Image, ReadError> {
+    pub(super) fn decode(path: &Path, _: &Files<'_>) -> Result<Image, ReadError> {
         Err(ReadError::Feature { file: path.into(), what: "images", feature: "images" })
     }
 }
 
+use std::cell::{Cell, RefCell};
+use std::io;
 use std::path::Path;
 
 pub use design::{Design, MachineFault, NamedPlace, Told};
 pub use error::{Place, ReadError};
+use file::Files;
 pub use refusal::Refusal;
 pub use texere_fabric::Structure;
 
@@ -56,24 +60,71 @@ pub(crate) use wif::{
 /// **Errors**: [`ReadError`], which names file, line, field, value and limit as far as they apply; [`ReadError::Feature`] for a kind of
 /// file that this build was made without.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
-    let path = path.as_ref();
+    let opened = RefCell::new(Vec::new());
+    let design = design(path.as_ref(), &|path, limit| {
+        let file = file::open(path, limit)?;
+        opened.borrow_mut().push(path.to_owned());
+        Ok(file)
+    })?;
+    Ok(design.read_from(&opened.into_inner()))
+}
+
+/// Reads a design that a program has in memory, such as a buffer of an editor or a row of a database. `name` says by its ending what kind of
+/// design `bytes` are, as a path does for [`read`], and errors call the design by it.
+///
+/// `files` gives the bytes of a file that the design names: a picture, a WIF draft or a knitting program. It is asked by the path of that file
+/// beside `name`: by `looms/twill.wif` where `looms/cloth.toml` names `twill.wif`. No file of a disk is opened.
+///
+/// **Errors**: those of [`read`]. What `files` refuses is [`ReadError::Io`] with the path that it was asked for. What it gives is taken up to the
+/// size that files of its kind may have.
+///
+/// ```
+/// use std::io::{Error, ErrorKind};
+/// use std::path::Path;
+/// let cloth = "weave.wif = \"twill.wif\"\nyarns.white.diameter_mm = 0.3\n";
+/// let twill = "[WARP]\nThreads=4\n[WEFT]\nThreads=4\n[THREADING]\n1=1\n2=2\n3=3\n4=4\n\
+///              [LIFTPLAN]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n";
+/// let design = texere_formats::read_from("looms/cloth.toml", cloth, |path| match path {
+///     path if path == Path::new("looms/twill.wif") => Ok(twill.into()),
+///     _ => Err(Error::from(ErrorKind::NotFound)),
+/// })?;
+/// assert_eq!(design.yarns()?.layout().yarns().len(), 8);
+/// // A design that names no other file.
+/// let draft = texere_formats::read_from("twill.wif", twill, |_| Err(ErrorKind::NotFound.into()))?;
+/// assert_eq!(draft.name, "twill");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_from(
+    name: impl AsRef<Path>,
+    bytes: impl Into<Vec<u8>>,
+    files: impl FnMut(&Path) -> io::Result<Vec<u8>>,
+) -> Result<Design, ReadError> {
+    let (own, files) = (Cell::new(Some(bytes.into())), RefCell::new(files));
+    design(name.as_ref(), &|path, limit| {
+        let refused = |source| ReadError::Io { file: path.into(), source };
+        let bytes = own.take().map_or_else(|| (files.borrow_mut())(path).map_err(refused), Ok)?;
+        file::held(path, bytes, limit)
+    })
+}
+
+/// The design in `path`, which `files` opens, by the reader of its kind.
+fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
         #[cfg(feature = "wif")]
-        Some("wif") => wif::design(path),
+        Some("wif") => wif::design(path, files),
         #[cfg(not(feature = "wif"))]
         Some("wif") => Err(ReadError::Feature { file: path.into(), what: "WIF drafts", feature: "wif" }),
         #[cfg(feature = "toml")]
-        Some("toml") => design_file::read(path),
+        Some("toml") => design_file::read(path, files),
         #[cfg(not(feature = "toml"))]
         Some("toml") => Err(ReadError::Feature { file: path.into(), what: "design files", feature: "toml" }),
         #[cfg(feature = "knitout")]
-        Some("k" | "knitout") => knitout::design(path),
+        Some("k" | "knitout") => knitout::design(path, files),
         #[cfg(not(feature = "knitout"))]
         Some("k" | "knitout") => {
             Err(ReadError::Feature { file: path.into(), what: "knitout files", feature: "knitout" })
         }
         _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml, .k, .knitout" }),
     }
-    .map(|design: Design| design.noting(path))
 }

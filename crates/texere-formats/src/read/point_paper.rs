@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+use super::file::Files;
 use super::memory::room;
 use super::{ReadError, image_file};
 
@@ -43,8 +44,8 @@ pub(super) struct PaperColor {
 }
 
 impl PointPaper {
-    pub(super) fn read(path: &Path, rows: RowOrder) -> Result<Self, ReadError> {
-        let image = image_file::decode(path)?;
+    pub(super) fn read(path: &Path, files: &Files<'_>, rows: RowOrder) -> Result<Self, ReadError> {
+        let image = image_file::decode(path, files)?;
         let [ends, picks] = image.size();
         let mut numbers: HashMap<[u8; 4], u8> = HashMap::new();
         let mut colors = Vec::new();

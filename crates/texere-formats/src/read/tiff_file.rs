@@ -1,8 +1,7 @@
 //! TIFF images of one channel, grey or numbers of a palette: these are read sample by sample, since the decoder of all
 //! images takes few of them. It is told that they are grey.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use tiff::TiffError;
@@ -10,7 +9,7 @@ use tiff::decoder::{Decoder, Limits};
 use tiff::tags::{ByteOrder, Tag};
 
 use super::ReadError;
-use super::image_file::{ASIDE_MAX, check_size, undecodable};
+use super::image_file::{ASIDE_MAX, Bytes, check_size, undecodable};
 use super::memory::filled;
 use super::point_paper::{Image, Orientation};
 
@@ -34,7 +33,7 @@ pub(super) struct Header {
 /// Looks at a TIFF's first page. `None` for one that the decoder of all images reads as it looks.
 ///
 /// **Source**: TIFF revision 6.0, Adobe 1992.
-pub(super) fn header(path: &Path, file: &mut BufReader<File>) -> Result<Option<Header>, ReadError> {
+pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header>, ReadError> {
     let refuse = |why: &str| Err(undecodable(path, why));
     match look(file) {
         Ok(Page { photometric: CMYK, .. }) => {
@@ -58,7 +57,7 @@ struct Page {
     header: Option<Header>,
 }
 
-fn look(file: &mut BufReader<File>) -> Result<Page, TiffError> {
+fn look(file: &mut impl Bytes) -> Result<Page, TiffError> {
     let mut decoder = Decoder::new(&mut *file)?.with_limits(limits(0));
     let photometric: u16 = decoder.get_tag_unsigned(Tag::PhotometricInterpretation)?;
     let fill_order = decoder.find_tag_unsigned(Tag::FillOrder)?.unwrap_or(1);
@@ -78,7 +77,7 @@ fn look(file: &mut BufReader<File>) -> Result<Page, TiffError> {
 }
 
 /// Where the value of a tag stands in the directory at `at`, as a SHORT; `None` where it is none.
-fn entry_at(file: &mut BufReader<File>, order: ByteOrder, at: u64, tag: u16) -> io::Result<Option<u64>> {
+fn entry_at(file: &mut impl Bytes, order: ByteOrder, at: u64, tag: u16) -> io::Result<Option<u64>> {
     let number = |bytes: &[u8]| {
         let digits = |number, byte: &u8| number << 8 | u64::from(*byte);
         match order {
@@ -115,7 +114,7 @@ fn limits(pixels: usize) -> Limits {
 }
 
 /// Reads the pixels of the first page, of which `header` has been told, as red, green, blue and opacity.
-pub(super) fn decode(path: &Path, file: BufReader<File>, header: &Header) -> Result<Image, ReadError> {
+pub(super) fn decode(path: &Path, file: impl Bytes, header: &Header) -> Result<Image, ReadError> {
     let failed = |error: TiffError| undecodable(path, &error.to_string());
     let mut decoder = Grey::new(file, header)
         .map_err(TiffError::from)
@@ -171,7 +170,7 @@ struct Samples {
 }
 
 impl Samples {
-    fn read(decoder: &mut Decoder<Grey>, header: &Header) -> Result<Self, TiffError> {
+    fn read(decoder: &mut Decoder<Grey<impl Bytes>>, header: &Header) -> Result<Self, TiffError> {
         let mut all = |tag| decoder.find_tag_unsigned_vec::<u16>(tag).map(Option::unwrap_or_default);
         let first = |values: Vec<u16>| values.first().copied();
         let count = first(all(Tag::SamplesPerPixel)?).unwrap_or(1).into();
@@ -237,15 +236,15 @@ impl Samples {
 
 /// A TIFF that says of its samples that they are grey from black on, whatever they are: what the decoder gives is then
 /// what the file holds.
-struct Grey {
-    file: BufReader<File>,
+struct Grey<F> {
+    file: F,
     /// Where in the file the next byte is.
     at: u64,
     told: [(u64, u8); 2],
 }
 
-impl Grey {
-    fn new(mut file: BufReader<File>, header: &Header) -> io::Result<Self> {
+impl<F: Bytes> Grey<F> {
+    fn new(mut file: F, header: &Header) -> io::Result<Self> {
         file.rewind()?;
         let [first, second] = match header.order {
             ByteOrder::LittleEndian => BLACK_IS_ZERO.to_le_bytes(),
@@ -256,7 +255,7 @@ impl Grey {
     }
 }
 
-impl Read for Grey {
+impl<F: Read> Read for Grey<F> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let read = self.file.read(buffer)?;
         for (at, told) in self.told {
@@ -272,7 +271,7 @@ impl Read for Grey {
     }
 }
 
-impl Seek for Grey {
+impl<F: Seek> Seek for Grey<F> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         self.at = self.file.seek(to)?;
         Ok(self.at)

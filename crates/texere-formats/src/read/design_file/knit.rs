@@ -102,7 +102,7 @@ impl Reader<'_> {
         let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
         let upside_down = rows == RowOrder::FirstPickFirst;
         let refused = |error: ReadError| error.named(source.place("knit.image", image.span()));
-        let paper = PointPaper::read(&path, rows).map_err(refused)?;
+        let paper = PointPaper::read(&path, source.files, rows).map_err(refused)?;
         let Some(colors) = &table.colors else {
             return Err(ReadError::MissingKey {
                 file: source.path.into(),
@@ -115,14 +115,14 @@ impl Reader<'_> {
             .map_err(refused)?;
         let meant: Vec<_> = meant.into_iter().map(|meant| meant.as_ref().clone()).collect();
         let (columns, rows) = (paper.ends, paper.picks);
-        let drawn = Drawn::Cells { file: path.clone(), columns, rows, upside_down };
+        let drawn = Drawn::Cells { file: path, columns, rows, upside_down };
         let fault = |error: ChartError| {
             // A chart counts rows from the top, which may be the bottom of the picture.
             let error = if upside_down { error.from_below(rows) } else { error };
             self.refused("knit.image", image.span(), error)
         };
         let is_yarn = |text: &String| self.yarns.thread(text).is_some();
-        let design = if meant.iter().all(is_yarn) {
+        if meant.iter().all(is_yarn) {
             if let Some(span) =
                 table.yarns.as_ref().map(Spanned::span).or(table.beds.as_ref().map(Spanned::span))
             {
@@ -139,7 +139,7 @@ impl Reader<'_> {
             let chart = Chart::jacquard(columns, rows, self.backing()?, yarn).map_err(fault)?;
             let named = |name: &&String| self.yarns.thread(name).map(|thread| (name.to_string(), thread));
             let yarns = names.iter().filter_map(named).collect();
-            self.charted(name, &chart, yarns, drawn, warnings)?
+            self.charted(name, &chart, yarns, drawn, warnings)
         } else {
             if let Some(backing) = &table.backing {
                 let place = source.place("knit.backing", backing.span());
@@ -163,9 +163,8 @@ impl Reader<'_> {
             let chart = Chart::from_symbols(columns, rows, self.beds()?, symbol).map_err(fault)?;
             let (turn, yarns) = self.yarns_in_turn()?;
             let chart = chart.with_yarns(&turn).map_err(fault)?;
-            self.charted(name, &chart, yarns, drawn, warnings)?
-        };
-        Ok(design.noting(&path))
+            self.charted(name, &chart, yarns, drawn, warnings)
+        }
     }
 
     /// A knit of one repeat.

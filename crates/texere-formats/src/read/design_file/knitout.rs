@@ -42,7 +42,7 @@ impl Reader<'_> {
             // An error of what it names may show a word of it: it is not to be any file.
             return Err(source.bad("knit.knitout", knitout, "the path of a .k or .knitout file"));
         }
-        let mut read = knitout::read(&path, &lengths)
+        let mut read = knitout::read(&path, source.files, &lengths)
             .map_err(|error| error.named(source.place("knit.knitout", knitout.span())))?;
         if !read.unused_sizes.is_empty() {
             let unused = first_few(read.unused_sizes.iter().cloned());
@@ -56,8 +56,8 @@ impl Reader<'_> {
         let carriers = read.used_carriers().into_iter().map(of_carrier);
         let threads = carriers.map(|yarn| yarns[yarn as usize].1).collect();
         let gauge = self.gauge(read.gauge)?;
-        let drawn = Drawn::Lines { file: path.clone() };
+        let drawn = Drawn::Lines { file: path };
         let knit = self.knit(gauge, threads)?;
-        Ok(knit.design(source.path, name, read.program, drawn, read.warnings)?.noting(&path))
+        knit.design(source.path, name, read.program, drawn, read.warnings)
     }
 }

@@ -157,7 +157,7 @@ use texere_fabric::weft::{Backing, Beds, Cells, Chart, Gauge};
 use texere_fabric::{Crimp, Finish, Relief, Shape, Weave};
 use texere_fabric::{Drawdown, Structure, Woven, WovenDesign};
 
-use super::file::{bytes_of, file_name};
+use super::file::{Files, bytes_of, file_name};
 use super::threads::only_used;
 use super::{Design, ReadError, wif};
 use cloth::Cloth;
@@ -165,9 +165,9 @@ use schema::DesignFile;
 use source::Source;
 use threads::YarnTable;
 
-pub(super) fn read(path: &Path) -> Result<Design, ReadError> {
-    let bytes = bytes_of(path, limits::FILE)?;
-    let source = Source::new(path, &bytes)?;
+pub(super) fn read(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
+    let bytes = bytes_of(files, path, limits::FILE)?;
+    let source = Source::new(path, &bytes, files)?;
     let keys = source.keys();
     match designed(&source) {
         Ok(design) => Ok(design.keyed(keys)),
@@ -216,11 +216,7 @@ fn designed(source: &Source<'_>) -> Result<Design, ReadError> {
     let name = file.name.clone().unwrap_or_else(|| file_name(path));
     let woven = WovenDesign::new(woven, None, laid.relief).map_err(|error| source.fabric(error))?;
     let design = Design::new(name, Structure::Woven(woven), warnings);
-    let design = design.remarking(unused(&file, rests)).finished(settle, finish, stretch);
-    Ok(match &weave.image {
-        Some(image) => design.noting(&source.beside(image)),
-        None => design,
-    })
+    Ok(design.remarking(unused(&file, rests)).finished(settle, finish, stretch))
 }
 
 /// What is said of the keys of woven cloth that count for nothing where it comes to rest.
@@ -273,7 +269,8 @@ fn from_wif(
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif")) {
         return Err(source.bad("weave.wif", wif, "the path of a .wif file"));
     }
-    let draft = wif::read(&path).map_err(|error| error.named(source.place("weave.wif", wif.span())))?;
+    let draft =
+        wif::read(&path, source.files).map_err(|error| error.named(source.place("weave.wif", wif.span())))?;
     let woven = &draft.woven;
     let drawdown = woven.drawdown().clone();
     // The draft's own materials and sections come first, so that its threads keep their numbers.
@@ -298,5 +295,5 @@ fn from_wif(
     laid.lay(source, &mut woven)?;
     let name = file.name.clone().unwrap_or(draft.name);
     let woven = WovenDesign::new(woven, Some(draft.draft), laid.relief).map_err(fabric)?;
-    Ok(Design::new(name, Structure::Woven(woven), draft.warnings).noting(&path))
+    Ok(Design::new(name, Structure::Woven(woven), draft.warnings))
 }

@@ -9,26 +9,27 @@ use toml::de::{DeTable, DeValue};
 
 use super::value::{Any, Node, Value};
 use crate::read::error::{no_hyphen, said, shown};
+use crate::read::file::Files;
 use crate::read::keys::Keys;
 use crate::read::{Place, ReadError};
 
 /// Most threads of a warp or weft.
 const THREAD_LIMIT: i64 = 1_000_000;
 
-/// A design file's text and where it came from.
-#[derive(Debug)]
+/// A design file's text, where it came from, and what opens the files that it names.
 pub(super) struct Source<'a> {
     pub(super) path: &'a Path,
     text: &'a str,
+    pub(super) files: &'a Files<'a>,
 }
 
 impl<'a> Source<'a> {
-    pub(super) fn new(path: &'a Path, bytes: &'a [u8]) -> Result<Self, ReadError> {
+    pub(super) fn new(path: &'a Path, bytes: &'a [u8], files: &'a Files<'a>) -> Result<Self, ReadError> {
         let text = std::str::from_utf8(bytes).map_err(|error| {
             let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
             ReadError::Syntax { file: path.into(), line, message: "not UTF-8".into() }
         })?;
-        Ok(Self { path, text })
+        Ok(Self { path, text, files })
     }
 
     /// The path of a file that the design names: it lies beside the design.

@@ -20,7 +20,6 @@ pub(super) trait Value: Sized {
 }
 
 /// A value of a design file and the keys that lead to it.
-#[derive(Debug)]
 pub(super) struct Node<'a> {
     source: &'a Source<'a>,
     /// The table that it stands in, and its key there. The file itself stands in none.

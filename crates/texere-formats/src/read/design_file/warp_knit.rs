@@ -1,7 +1,5 @@
 //! The `[warp_knit]` table: guide bars, the front one first, and how close their loops lie.
 
-use std::path::Path;
-
 use texere_fabric::warp::{Bar, Chain, ChainError, Displacements, LAPPINGS, Threading, WarpKnitted};
 use texere_fabric::weft::Gauge;
 use texere_fabric::{FabricError, SPACING_MAX, SPACING_MIN, Structure, Thread};
@@ -38,7 +36,7 @@ pub(super) fn read(
     yarns: &YarnTable,
 ) -> Result<Design, ReadError> {
     without_weaving(source, file)?;
-    let mut reader = Reader { source, yarns, threads: Vec::new(), images: Vec::new(), warnings: Vec::new() };
+    let mut reader = Reader { source, yarns, threads: Vec::new(), warnings: Vec::new() };
     let bars = (1..).zip(&table.bars).map(|(number, bar)| reader.bar(number, bar));
     let bars = bars.collect::<Result<Vec<_>, _>>()?;
     let size = [("wales", &table.wales), ("courses", &table.courses)];
@@ -61,8 +59,7 @@ pub(super) fn read(
         error => source.fabric(error),
     })?;
     let name = file.name.clone().unwrap_or_else(|| file_name(source.path));
-    let design = Design::new(name, Structure::Warp(knit.with_cells(cells)), reader.warnings);
-    Ok(reader.images.iter().fold(design, |design, image| design.noting(image)))
+    Ok(Design::new(name, Structure::Warp(knit.with_cells(cells)), reader.warnings))
 }
 
 /// How close loops lie.
@@ -93,7 +90,6 @@ struct Reader<'a> {
     yarns: &'a YarnTable,
     /// The yarns that bars hold, in the order in which they come.
     threads: Vec<(&'a str, Thread)>,
-    images: Vec<std::path::PathBuf>,
     warnings: Vec<String>,
 }
 
@@ -196,10 +192,10 @@ impl<'a> Reader<'a> {
                 });
             }
         };
-        let path = source.path.parent().unwrap_or(Path::new("")).join(image.as_ref());
+        let path = source.beside(image);
         let refused = |error: ReadError| error.named(source.place(&field("image"), image.span()));
         let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
-        let paper = PointPaper::read(&path, rows).map_err(refused)?;
+        let paper = PointPaper::read(&path, source.files, rows).map_err(refused)?;
         let meant =
             colors::of_paper(source, &paper, "warp_knit.bars.colors", colors.as_ref(), &mut self.warnings)?
                 .map_err(refused)?;
@@ -207,7 +203,6 @@ impl<'a> Reader<'a> {
         let palette = palette.collect::<Result<Vec<_>, _>>()?;
         let size = [paper.ends, paper.picks].map(|side| side as u32);
         let cell = |guide: u32, round: u32| paper.color(guide as usize, round as usize) as u8;
-        self.images.push(path);
         let displacements = Displacements::new(size, palette, cell);
         displacements.map(Some).ok_or_else(|| source.bad(&field("image"), image, "an image of fewer pixels"))
     }

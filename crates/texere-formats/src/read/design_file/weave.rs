@@ -101,7 +101,7 @@ pub(super) fn from_image(
     let path = source.beside(image);
     let rows = table.rows.as_ref().map(|rows| *rows.as_ref()).unwrap_or_default();
     let refused = |error: ReadError| error.named(source.place("weave.image", image.span()));
-    let paper = PointPaper::read(&path, rows).map_err(refused)?;
+    let paper = PointPaper::read(&path, source.files, rows).map_err(refused)?;
     // Drawdown refuses what is too large.
     let (ends, picks) = (paper.ends.saturating_mul(across), paper.picks.saturating_mul(along));
     for (field, given, size) in [("weave.ends", &table.ends, ends), ("weave.picks", &table.picks, picks)] {

@@ -7,7 +7,7 @@ use texere_fabric::Thread;
 use texere_fabric::weft::{Cells, Gauge};
 
 use super::LoopLengths;
-use crate::read::file::file_name;
+use crate::read::file::{Files, file_name};
 use crate::read::knit::{Drawn, Knit};
 use crate::read::{Design, ReadError};
 
@@ -30,8 +30,8 @@ const COLORS: [[u8; 3]; 8] = [
 ];
 
 /// The design of a knitout file alone: plain jersey's proportions, and yarns of different colours.
-pub(in crate::read) fn design(path: &Path) -> Result<Design, ReadError> {
-    let read = super::read(path, &LoopLengths::new())?;
+pub(in crate::read) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
+    let read = super::read(path, files, &LoopLengths::new())?;
     let gauge = Gauge::plain(read.gauge.unwrap_or(GAUGE));
     let materials: Vec<_> = read
         .program

@@ -22,7 +22,7 @@ use std::path::Path;
 use texere_fabric::weft::Program;
 
 use super::ReadError;
-use super::file::bytes_of;
+use super::file::{Files, bytes_of};
 use carriers::Carriers;
 pub(super) use design::design;
 use header::Header;
@@ -85,8 +85,8 @@ impl Knitout {
 }
 
 /// Reads the file in `path`. Sources of its operations are lines, from 1.
-pub(super) fn read(path: &Path, lengths: &LoopLengths) -> Result<Knitout, ReadError> {
-    parse(path, &bytes_of(path, FILE_LIMIT)?, lengths)
+pub(super) fn read(path: &Path, files: &Files<'_>, lengths: &LoopLengths) -> Result<Knitout, ReadError> {
+    parse(path, &bytes_of(files, path, FILE_LIMIT)?, lengths)
 }
 
 fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<Knitout, ReadError> {

@@ -22,7 +22,7 @@ use std::path::Path;
 use texere_core::Section;
 use texere_fabric::{Draft, Drawdown, Relief, Shedding, Structure, Woven, WovenDesign};
 
-use super::file::{bytes_of, file_name};
+use super::file::{Files, bytes_of, file_name};
 use super::threads::only_used;
 use super::{Design, ReadError};
 use ini::Ini;
@@ -49,15 +49,15 @@ pub(super) struct WifDraft {
 }
 
 /// The design of a draft alone. It says nothing of a finish.
-pub(super) fn design(path: &Path) -> Result<Design, ReadError> {
-    let wif = read(path)?;
+pub(super) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
+    let wif = read(path, files)?;
     let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
     let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
     Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings).left())
 }
 
-pub(super) fn read(path: &Path) -> Result<WifDraft, ReadError> {
-    let bytes = bytes_of(path, FILE_LIMIT)?;
+pub(super) fn read(path: &Path, files: &Files<'_>) -> Result<WifDraft, ReadError> {
+    let bytes = bytes_of(files, path, FILE_LIMIT)?;
     let text = ini::decode(&bytes);
     let ini = Ini::parse(path, &text);
     let mut warnings = Vec::new();

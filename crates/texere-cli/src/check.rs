@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Cure, Design, Diagnosis, FabricError, Faults, Pieces, Settings, Structure, counted};
+use texere::{Cure, Design, Diagnosis, FabricError, Faults, Pieces, Settings, counted};
 
 use crate::args::{CheckArgs, undersampled};
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, DrawnReport, place};
@@ -133,7 +133,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let settings = Settings::of(&yarns);
     let clearance = progress::during("measuring how near yarns come", |bar| {
         design.structure.clearance(&yarns, &settings, progress::share(bar))
-    })?;
+    })
+    .map_err(|error| design.refused(error))?;
     settling.iter_mut().for_each(|settling| settling.measured(&clearance));
     // Whether threads that settled have found room shows in their clearance, not in the pitches at which they started.
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
@@ -147,11 +148,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let said: Vec<_> = pierced.into_iter().chain(unknittable.then(|| "can't be knitted".into())).collect();
     let faulty = (!said.is_empty()).then(|| said.join(", "));
     let mut cures = match &faulty {
-        Some(_) => cures(&design.structure, &diagnosis, settled)?,
+        Some(_) => cures(&design, &diagnosis, settled)?,
         None => Vec::new(),
     };
     if diagnosis.faults.wrung.is_some() || diagnosis.faults.inside_out.is_some() {
-        let finer = texere::finer(&yarns, &settings)?;
+        let finer = texere::finer(&yarns, &settings).map_err(|error| design.refused(error))?;
         cures.extend(finer.map(|(subdivisions, _)| CureReport::finer(subdivisions, &diagnosis)));
     }
     let report = Report {
@@ -181,7 +182,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
 
 /// What would cure the faults of `diagnosis`. They are looked for in cloth as it is woven; of those that are found for cloth that has
 /// `settled` only wider spacings and thinner yarns count.
-fn cures(structure: &Structure, diagnosis: &Diagnosis, settled: bool) -> Result<Vec<CureReport>, Fail> {
+fn cures(design: &Design, diagnosis: &Diagnosis, settled: bool) -> Result<Vec<CureReport>, Fail> {
+    let structure = &design.structure;
     if settled && structure.woven().is_none() {
         return Ok(Vec::new());
     }
@@ -193,7 +195,8 @@ fn cures(structure: &Structure, diagnosis: &Diagnosis, settled: bool) -> Result<
         } else {
             Ok(structure.cures(diagnosis, progress))
         }
-    })?;
+    })
+    .map_err(|error| design.refused(error))?;
     let counts = |cure: &&Cure| !settled || (cure.leaves.is_empty() && gives_room(&cure.remedy));
     Ok(cures.iter().filter(counts).filter_map(CureReport::new).collect())
 }

@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use serde::Serialize;
 use texere::warp::{Bar, WarpKnitted};
 use texere::weft::Knitted;
-use texere::{ClothClearance, Counts, Design, Plan, Settings, Structure, Yarns, counted};
+use texere::{ClothClearance, Counts, Design, Plan, Settings, Yarns, counted};
 
 use crate::args::{InspectArgs, undersampled};
 use crate::at::{self, YarnUnder};
@@ -100,7 +100,7 @@ struct WovenReport {
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
     let mut design = texere::read(&args.design)?;
     if let Some(section) = &args.settings.section {
-        design.structure.set_section(section.clone())?;
+        design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }
     let report = report(design, args)?;
     if args.json {
@@ -123,9 +123,10 @@ fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     } else {
         let clearance = progress::during("measuring how near yarns come", |bar| {
             design.structure.clearance(&yarns, &settings, progress::share(bar))
-        })?;
+        })
+        .map_err(|error| design.refused(error))?;
         settling.iter_mut().for_each(|settling| settling.measured(&clearance));
-        Some(ClothReport::new(&design.structure, &yarns, &settings, settled, &clearance)?)
+        Some(ClothReport::new(&design, &yarns, &settings, settled, &clearance)?)
     };
     let weft = design.structure.knitted().map(KnitReport::new);
     let warp = || {
@@ -201,13 +202,14 @@ impl fmt::Display for BarReport {
 
 impl ClothReport {
     fn new(
-        structure: &Structure,
+        design: &Design,
         yarns: &Yarns,
         settings: &Settings,
         settled: bool,
         clearance: &ClothClearance,
     ) -> Result<Self, Fail> {
-        let measures = structure.measures(yarns, settings.tension)?;
+        let structure = &design.structure;
+        let measures = structure.measures(yarns, settings.tension).map_err(|error| design.refused(error))?;
         Ok(Self {
             woven: structure.woven().map(|woven| WovenReport {
                 ends: woven.cloth().warp().len(),

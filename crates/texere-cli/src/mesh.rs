@@ -12,7 +12,7 @@ use crate::{drivers, print, progress, settling};
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let mut design = texere::read(&args.design)?;
     if let Some(section) = &args.settings.section {
-        design.structure.set_section(section.clone())?;
+        design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }
     let output = Output::to(&args.output).sparing(design.files());
     let device = drivers::quietly(|| texere::open(&args.device))?;

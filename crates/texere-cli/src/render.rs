@@ -32,7 +32,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
 fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Result<String, Fail> {
     let mut design = stages.time("read", || texere::read(&args.design))?;
     if let Some(section) = &args.settings.section {
-        design.structure.set_section(section.clone())?;
+        design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }
     let outputs = outputs(args, &design)?;
     let open = || texere::open(&args.device);

@@ -44,6 +44,7 @@ mod session;
 pub mod settling;
 mod spline;
 mod steep;
+mod subject;
 mod topology;
 mod turn;
 mod twist;
@@ -87,6 +88,7 @@ pub use spline::{
     ZERO_VELOCITY,
 };
 pub use steep::UPRIGHT_TURN;
+pub use subject::Subject;
 pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};
 pub use twist::{TWIST_STEP, TWIST_SUBDIVISIONS_MAX, Undersampled};

@@ -68,6 +68,8 @@ pub enum FabricError {
         loops: u64,
         /// Most taken for so many loops.
         limit: u64,
+        /// The [source](crate::weft::Operation::source) of the operation after the longest way of a yarn between two loops; none of a warp knit.
+        told: Option<u32>,
     },
     /// A needle further out than any machine's, or outside what the machine's beds are racked to.
     #[error("needle {needle}; needles {} to {limit} are taken", -i64::from(*.limit))]

@@ -46,6 +46,7 @@ mod memory;
 mod reach;
 mod settling;
 mod structure;
+mod subject;
 mod under;
 mod warning;
 pub mod warp;

@@ -10,10 +10,16 @@ use texere_formats::read;
 
 const YARN: &str = "[yarns.a]\ndiameter_mm = 0.1\n";
 
-/// What is said of a design that is read, stretched and settled.
+/// What is said of a design file that is read, stretched and settled.
 fn said(design: &str) -> String {
+    said_of("design.toml", design, "")
+}
+
+/// The same of a design of any name, beside which lies `draft.wif`.
+fn said_of(name: &str, design: &str, draft: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("design.toml");
+    let path = folder.path().join(name);
+    std::fs::write(folder.path().join("draft.wif"), draft).unwrap();
     std::fs::write(&path, design).unwrap();
     image::GrayImage::from_pixel(1, 1, image::Luma([0])).save(folder.path().join("one.png")).unwrap();
     let said = |error: &(dyn Error + 'static)| {
@@ -116,4 +122,38 @@ fn refused_cloth_names_file_line_and_key() {
         let place = said.split_once("design.toml, ").map_or("", |(_, rest)| rest);
         assert!(place.contains(key) && said.contains(why), "{key}, {why}: {said}\n{design}");
     }
+}
+
+#[test]
+fn refused_drafts_name_line_section_and_key() {
+    let draft = |ends: u32, picks: u32, warp: &str, rest: &str| {
+        format!(
+            "[WARP]\nThreads={ends}\nUnits=cm\n{warp}\n[WEFT]\nThreads={picks}\nSpacing=0.06\n[THREADING]\n1=1\n2=2\n3=1\n4=2\n\
+             [LIFTPLAN]\n1=1\n2=2\n3=1\n4=2\n{rest}"
+        )
+    };
+    let close = "[WARP SPACING]\n1=0.0001\n2=0.0001\n3=0.0001\n4=0.0001";
+    let wide = "[WARP SPACING]\n1=100";
+    for (draft, key, why) in [
+        (draft(1_000_000, 1_000_000, "", ""), "line 2: [WARP] threads", "1000000"),
+        (draft(4, 4, "Spacing=100", ""), "line 4: [WARP] spacing", "pitch of end 1"),
+        (draft(4, 4, "Spacing=0.06", close), "line 7: [WEFT] spacing", "pitch of pick 1"),
+        (draft(4, 4, "Spacing=0.06", wide), "line 19: [WARP SPACING] 1", "pitch of end 1"),
+    ] {
+        let said = said_of("draft.wif", &draft, &draft);
+        assert!(said.contains(&format!("draft.wif, {key}")) && said.contains(why), "{key}: {said}");
+        // A design that names the draft says where in the draft that is, too.
+        let named = said_of("design.toml", &format!("weave.wif = \"draft.wif\"\n{YARN}"), &draft);
+        assert!(named.contains(&format!("draft.wif, {key}")) && named.contains(why), "{key}: {named}");
+    }
+}
+
+#[test]
+fn a_yarn_that_goes_too_far_names_its_line() {
+    let far = "knit + f60000 3\nknit - f1 3\n".repeat(3);
+    let knitout =
+        format!(";!knitout-2\n;;Carriers: 1 3\ninhook 3\nknit + f1 3\nknit + f2 3\n{far}outhook 3\n");
+    let said = said_of("design.k", &knitout, "");
+    // The first of the longest ways is from needle 60000 back to needle 1.
+    assert!(said.contains("design.k, line 7") && said.contains("yarns pass"), "{said}");
 }

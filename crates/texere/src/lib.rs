@@ -136,9 +136,9 @@ pub use texere_core::{
     Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace,
     NullBackend, Origin, PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError,
     Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section,
-    SectionError, SectionPoint, Settings, SettlingError, TWIST_LIMIT, TWIST_STEP, TWIST_SUBDIVISIONS_MAX,
-    TablesId, Topology, Trajectory, Undersampled, Vertex, YARN_RINGS_MAX, Yarn, YarnError, Yarns,
-    YarnsBuilder, crossings, settling,
+    SectionError, SectionPoint, Settings, SettlingError, Subject, TWIST_LIMIT, TWIST_STEP,
+    TWIST_SUBDIVISIONS_MAX, TablesId, Topology, Trajectory, Undersampled, Vertex, YARN_RINGS_MAX, Yarn,
+    YarnError, Yarns, YarnsBuilder, crossings, settling,
 };
 pub use texere_core::{
     Draw, End, Engine, Layout, MeshMut, Part, ScanChunks, Session, SessionError, Slot, StageTimings, Traffic,

@@ -115,7 +115,7 @@ pub(super) fn size(
     }
     let limit = passed_max(count);
     if passed > limit {
-        return Err(FabricError::KnitRuns { passed, loops: count, limit });
+        return Err(FabricError::KnitRuns { passed, loops: count, limit, told: None });
     }
     let whole = [0, 1].map(|axis| piece[axis] * copies[axis] / repeat[axis]);
     let tiles = settled_together(repeat, whole);

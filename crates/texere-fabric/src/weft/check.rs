@@ -3,7 +3,7 @@
 use texere_core::{Material, Origin, Section, Yarn};
 
 use super::layers::held_until;
-use super::{Fate, Gauge, KnitYarn, LoopRef, Step, Stitches};
+use super::{Fate, Gauge, KnitYarn, LoopRef, Step, Stitches, Strand};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN, yarn_check};
 
 /// The furthest that a needle lies from the first one, in wales.
@@ -112,7 +112,7 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     let (passed, loops) = (passed.saturating_add(held.saturating_mul(2)), stitches.loops.len() as u64);
     let limit = passed_max(loops);
     if passed > limit {
-        return Err(FabricError::KnitRuns { passed, loops, limit });
+        return Err(FabricError::KnitRuns { passed, loops, limit, told: furthest(stitches) });
     }
     let points = LOOP_POINTS * loops + PASSED_POINTS * passed;
     let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
@@ -142,10 +142,33 @@ pub(crate) fn tiled(tiles: [u32; 2], loops: u64) -> Result<(), FabricError> {
 }
 
 /// How many needles a yarn passes from loop to loop, and how many courses.
-fn passed(stitches: &Stitches, strand: &super::Strand) -> u64 {
-    let pairs = strand.steps.windows(2).map(|pair| {
+fn passed(stitches: &Stitches, strand: &Strand) -> u64 {
+    ways(stitches, strand).map(|(passed, _)| passed).sum()
+}
+
+/// How far a yarn goes from each step to the next, in needles and courses, and the source of that.
+fn ways(stitches: &Stitches, strand: &Strand) -> impl Iterator<Item = (u64, u32)> {
+    strand.steps.windows(2).map(|pair| {
         let [one, other] = [&pair[0], &pair[1]].map(|step| stitches.visit(step));
-        (one.at - other.at).abs() as u64 + u64::from(one.course.abs_diff(other.course))
-    });
-    pairs.sum()
+        let passed = (one.at - other.at).abs() as u64 + u64::from(one.course.abs_diff(other.course));
+        (passed, other.source)
+    })
+}
+
+/// The source of the loop after the longest way of a yarn from one to the next, whatever it floats past in between.
+fn furthest(stitches: &Stitches) -> Option<u32> {
+    let mut longest = (0, None);
+    for strand in &stitches.strands {
+        let mut way = 0;
+        for ((passed, source), step) in ways(stitches, strand).zip(strand.steps.iter().skip(1)) {
+            way += passed;
+            if matches!(step, Step::Loop { .. }) {
+                if way > longest.0 {
+                    longest = (way, Some(source));
+                }
+                way = 0;
+            }
+        }
+    }
+    longest.1
 }

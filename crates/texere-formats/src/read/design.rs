@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::{self, PathBuf};
 
-use texere_core::{BackendError, CrossingsError, Origin, SettlingError, Yarns};
+use texere_core::{Origin, Yarns};
 use texere_fabric::{FabricError, Finish, FinishError, Finished, Stretch, Structure, ThreadPlace, YarnPlace};
 
 use super::keys::Keys;
@@ -139,9 +139,10 @@ impl Design {
         Self { knitted_from: Some(from), faults, ..self }
     }
 
-    /// The same design with the keys of its file.
+    /// The same design with the keys of its file. Those that it has already are of the draft that this file names.
     pub(super) fn keyed(self, keys: Keys) -> Self {
-        Self { keys, ..self }
+        let named = (!self.keys.lines.is_empty()).then(|| Box::new(self.keys));
+        Self { keys: Keys { named, ..keys }, ..self }
     }
 
     /// An error of its structure, or of how that comes to rest, with the file, line and key that ask for it: what
@@ -158,14 +159,12 @@ impl Design {
     #[must_use]
     pub fn refused(&self, error: impl Into<FinishError>) -> Refusal {
         let source = error.into();
-        if is_of_the_world(&source) {
+        if source.subject().is_none() {
             return Refusal::Other(source);
         }
-        match (self.keys.place(&source, |thread| self.yarn_of(thread)), self.files.last()) {
+        match (self.keys.place(&source, |thread| self.yarn_of(thread)), self.keys.file()) {
             (Some(place), _) => Refusal::Key { place, source },
-            (None, Some(file)) => {
-                Refusal::File { file: self.keys.file().unwrap_or(file).to_path_buf(), source }
-            }
+            (None, Some(file)) => Refusal::File { file: file.into(), source },
             (None, None) => Refusal::Other(source),
         }
     }
@@ -281,15 +280,4 @@ impl Design {
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         self.structure.yarns()
     }
-}
-
-/// Whether an error is none of a design: memory, a device, a setting of the mesh, or somebody who asked to stop.
-const fn is_of_the_world(error: &FinishError) -> bool {
-    matches!(
-        error,
-        FinishError::Fabric(
-            FabricError::OutOfMemory { .. } | FabricError::Cancelled | FabricError::Settings(_)
-        ) | FinishError::Settling(SettlingError::OutOfMemory { .. })
-            | FinishError::Crossings(CrossingsError::OutOfMemory { .. })
-    ) || matches!(error, FinishError::Backend(error) if !matches!(error, BackendError::Crowded { .. }))
 }

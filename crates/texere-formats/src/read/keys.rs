@@ -1,14 +1,12 @@
-//! Which key of a design file an error of its cloth comes from: structures and settlings know threads, bars and sizes, and the
-//! design knows where it says them.
+//! Where a design says what an error of its cloth is about: structures and settlings know threads, bars and sizes, and a file has keys
+//! and lines for these.
 
 use std::path::{Path, PathBuf};
 
-use texere_core::{BackendError, CrossingsError, Origin, SettlingError};
-use texere_fabric::{FabricError, FinishError};
+use texere_core::{Origin, Subject};
+use texere_fabric::FinishError;
 
-use super::Place;
-#[cfg(feature = "toml")]
-use super::ReadError;
+use super::{Place, ReadError};
 
 /// What says how large a cloth is, and what it is made of, the first that a file has.
 const SIZE: &[&str] = &[
@@ -22,8 +20,9 @@ const SIZE: &[&str] = &[
     "knit.repeat",
     "warp_knit.repeat",
     "warp_knit.wales",
+    "[WARP] threads",
 ];
-const STITCHES: &[&str] = &[
+const STRUCTURE: &[&str] = &[
     "knit.chart",
     "knit.image",
     "knit.knitout",
@@ -32,6 +31,8 @@ const STITCHES: &[&str] = &[
     "weave.drawdown",
     "weave.image",
     "weave.wif",
+    "[TIEUP]",
+    "[LIFTPLAN]",
 ];
 const WALES: &[&str] = &[
     "knit.wales_per_cm",
@@ -40,20 +41,38 @@ const WALES: &[&str] = &[
     "warp_knit.needles_per_inch",
     "knit.loop_length_mm",
     "knit.knitout",
+    GAUGE,
 ];
 const COURSES: &[&str] =
-    &["knit.courses_per_cm", "warp_knit.courses_per_cm", "knit.loop_length_mm", "knit.knitout"];
-const LOOPS: &[&str] = &["knit.loop_length_mm", "knit.stitch_lengths_mm"];
-/// The tables of structures themselves.
-const TABLES: &[&str] = &["weave", "knit", "warp_knit"];
+    &["knit.courses_per_cm", "warp_knit.courses_per_cm", "knit.loop_length_mm", "knit.knitout", GAUGE];
+const LOOPS: &[&str] = &[
+    "knit.loop_length_mm",
+    "knit.stitch_lengths_mm",
+    "knit.wales_per_cm",
+    "knit.needles_per_inch",
+    "warp_knit.wales_per_cm",
+    "warp_knit.needles_per_inch",
+    "knit.knitout",
+    GAUGE,
+];
 /// What of a yarn says how thick it is.
 const THICKNESS: &[&str] = &["diameter_mm", "tex", "cotton_count"];
+/// The tables of structures themselves.
+const TABLES: &[&str] = &["weave", "knit", "warp_knit"];
+/// The header of a knitout file that says how close needles lie.
+pub(super) const GAUGE: &str = ";;Gauge";
 
-/// The keys of a design file in their order, as errors write them, and the line of each.
+/// The keys of a file in their order, as errors write them, and the line of each.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Keys {
     pub(super) file: PathBuf,
     pub(super) lines: Vec<(String, usize)>,
+    /// Sections of a WIF draft with a line for each thread, as `WARP SPACING`: the numbers of threads, rising, and their lines.
+    pub(super) numbered: Vec<(String, Vec<(u32, usize)>)>,
+    /// The operation of a knitout file that each carrier is in first, and its line.
+    pub(super) carriers: Vec<(Origin, String, usize)>,
+    /// The keys of the draft that the design names.
+    pub(super) named: Option<Box<Self>>,
 }
 
 impl Keys {
@@ -68,57 +87,121 @@ impl Keys {
         error: &FinishError,
         yarn: impl Fn(Origin) -> Option<String>,
     ) -> Option<Place> {
-        let about = match error {
-            FinishError::Fabric(error) => fabric(error),
-            FinishError::Settling(error) | FinishError::Thread { source: error, .. } => settling(error),
-            FinishError::Crossings(error) => crossings(error),
-            FinishError::Woven { asked } => About::Keys(match *asked {
-                "a length" => &["finish.length"],
-                "a press" => &["finish.press"],
-                _ => &[],
-            }),
-            FinishError::Stretch { along: "warp", .. } => About::Keys(&["finish.stretch_warp"]),
-            FinishError::Stretch { .. } => About::Keys(&["finish.stretch_weft"]),
-            FinishError::Backend(BackendError::Crowded { .. }) => About::Keys(STITCHES),
-            _ => return None,
+        let subject = error.subject()?;
+        let thread = match (error, subject) {
+            (FinishError::Thread { thread, .. }, _) => *thread,
+            (_, Subject::Thickness(thread) | Subject::Twist(thread)) => thread,
+            _ => Origin::Unknown,
         };
-        self.of(about, yarn)
+        if let Some((_, operation, line)) = self.carriers.iter().find(|(carrier, ..)| *carrier == thread) {
+            return Some(Place::new(&self.file, *line, operation));
+        }
+        let all = [Some(self), self.named.as_deref()].into_iter().flatten();
+        let mut found = all.filter_map(|keys| keys.of(subject, &yarn));
+        found.next().or_else(|| self.first(TABLES))
+    }
+
+    /// What came of a file, where it was refused for its cloth with the place that says so.
+    pub(super) fn placed<T>(&self, read: Result<T, ReadError>) -> Result<T, ReadError> {
+        read.map_err(|error| match error {
+            ReadError::Fabric { file, source } if file == self.file => {
+                match self.place(&source.clone().into(), |_| None) {
+                    Some(place) => ReadError::Cloth { place, source },
+                    None => ReadError::Fabric { file, source },
+                }
+            }
+            error => error,
+        })
     }
 
     /// Where the file says that.
-    fn of(&self, about: About, yarn: impl Fn(Origin) -> Option<String>) -> Option<Place> {
-        let found = match about {
-            About::Nothing => return None,
-            About::Keys(keys) => self.first(keys),
-            About::Set(set) => {
-                ["spacing_mm", "per_cm", "per_inch"].iter().find_map(|key| self.line(&format!("{set}.{key}")))
+    fn of(&self, subject: Subject, yarn: &impl Fn(Origin) -> Option<String>) -> Option<Place> {
+        let bar = |bar, key| self.line(&format!("warp_knit.bars, bar {bar}: {key}"));
+        let yarn = |thread, keys| self.yarn(thread, yarn(thread), keys);
+        match subject {
+            Subject::Size => self.first(SIZE),
+            Subject::Width => self.line("warp_knit.wales"),
+            Subject::Height => self.line("warp_knit.courses"),
+            Subject::Copies => self.first(&["knit.repeat", "warp_knit.repeat", "warp_knit.wales"]),
+            Subject::Structure => self.first(STRUCTURE),
+            Subject::Wales => self.first(WALES),
+            Subject::Courses => self.first(COURSES),
+            Subject::Loops => self.first(LOOPS),
+            Subject::Ends => self.spacings("warp"),
+            Subject::Picks => self.spacings("weft"),
+            Subject::Spacing(thread) => self.spacing(thread),
+            Subject::Thickness(thread) => self.thickness(thread).or_else(|| yarn(thread, THICKNESS)),
+            Subject::Flatness(thread) => {
+                yarn(thread, &[&["flatness"], THICKNESS].concat()).or_else(|| self.thickness(thread))
             }
-            About::Bar(bar, key) => self.line(&format!("warp_knit.bars, bar {bar}: {key}")),
-            About::Yarn(thread, keys) => self.yarn(thread, yarn(thread), keys),
-        };
-        let (field, line) = found.or_else(|| self.first(TABLES))?;
-        Some(Place::new(&self.file, *line, field))
-    }
-
-    /// The refusal of a file whose cloth can't be made.
-    #[cfg(feature = "toml")]
-    pub(super) fn refused(&self, source: FabricError) -> ReadError {
-        match self.of(fabric(&source), |_| None) {
-            Some(place) => ReadError::Cloth { place, source },
-            None => ReadError::fabric(&self.file, source),
+            Subject::Stiffness(thread) => yarn(thread, &["stiffness"]),
+            Subject::Twist(thread) => yarn(thread, &["twist_per_m"]),
+            Subject::Color(thread) => yarn(thread, &["color"]),
+            Subject::Section(thread) => yarn(thread, &["section"]),
+            Subject::Crimp => self.line("cloth.warp_crimp"),
+            Subject::Carriers => self.line("knit.yarns"),
+            Subject::Bars => self.line("warp_knit.bars"),
+            Subject::Threading(number) => bar(number, "threading"),
+            Subject::Offset(number) => bar(number, "offset"),
+            Subject::RunIn(number) => bar(number, "run_in_mm"),
+            Subject::Jacquard(number) => bar(number, "colors"),
+            Subject::Length => self.line("finish.length"),
+            Subject::Tension => self.line("finish.tension"),
+            Subject::Press => self.line("finish.press"),
+            Subject::WarpStretch => self.line("finish.stretch_warp"),
+            Subject::WeftStretch => self.line("finish.stretch_weft"),
+            Subject::WarpTension => self.line("finish.warp_tension"),
+            Subject::WeftTension => self.line("finish.weft_tension"),
+            Subject::Calender => self.line("finish.calender"),
         }
     }
 
-    fn line(&self, key: &str) -> Option<&(String, usize)> {
-        self.lines.iter().find(|(own, _)| own == key)
+    fn line(&self, key: &str) -> Option<Place> {
+        let (_, line) = self.lines.iter().find(|(own, _)| own == key)?;
+        Some(Place::new(&self.file, *line, key))
     }
 
-    fn first(&self, keys: &[&str]) -> Option<&(String, usize)> {
+    fn first(&self, keys: &[&str]) -> Option<Place> {
         keys.iter().find_map(|key| self.line(key))
     }
 
+    /// How close the threads of `warp` or `weft` lie.
+    fn spacings(&self, set: &str) -> Option<Place> {
+        let own = ["spacing_mm", "per_cm", "per_inch"];
+        let own = own.iter().find_map(|key| self.line(&format!("{set}.{key}")));
+        let section = set.to_uppercase();
+        own.or_else(|| self.line(&format!("[{section}] spacing")))
+            .or_else(|| self.line(&format!("[{section}] threads")))
+    }
+
+    fn spacing(&self, thread: Origin) -> Option<Place> {
+        let set = if matches!(thread, Origin::Pick(_)) { "weft" } else { "warp" };
+        self.numbered("SPACING", thread).or_else(|| self.spacings(set))
+    }
+
+    /// How thick a WIF draft has a thread: where it does not say, that comes from spacings.
+    fn thickness(&self, thread: Origin) -> Option<Place> {
+        let set = if matches!(thread, Origin::Pick(_)) { "WEFT" } else { "WARP" };
+        self.numbered("THICKNESS", thread)
+            .or_else(|| self.line(&format!("[{set}] thickness")))
+            .or_else(|| self.spacing(thread).filter(|_| self.line("[WARP] threads").is_some()))
+    }
+
+    /// The line of a WIF draft that says `what` of a thread.
+    fn numbered(&self, what: &str, thread: Origin) -> Option<Place> {
+        let (set, number) = match thread {
+            Origin::End(number) => ("WARP", number),
+            Origin::Pick(number) => ("WEFT", number),
+            _ => return None,
+        };
+        let section = format!("{set} {what}");
+        let (_, threads) = self.numbered.iter().find(|(own, _)| *own == section)?;
+        let found = threads.binary_search_by_key(&number, |(own, _)| *own).ok()?;
+        Some(Place::new(&self.file, threads[found].1, &format!("[{section}] {number}")))
+    }
+
     /// The first of `keys` of the yarn that a thread has, or else what threads it.
-    fn yarn(&self, thread: Origin, name: Option<String>, keys: &[&str]) -> Option<&(String, usize)> {
+    fn yarn(&self, thread: Origin, name: Option<String>, keys: &[&str]) -> Option<Place> {
         let only = || {
             let own =
                 |key: &str| key.strip_prefix("yarns.").filter(|name| !name.contains('.')).map(str::to_owned);
@@ -139,111 +222,10 @@ impl Keys {
     }
 }
 
-/// What an error is about.
-enum About {
-    /// Nothing that a design says.
-    Nothing,
-    /// One of these keys, the first that there is.
-    Keys(&'static [&'static str]),
-    /// How close the threads of `warp` or `weft` lie.
-    Set(&'static str),
-    /// A key of the guide bar of that number, from 1.
-    Bar(usize, &'static str),
-    /// One of these keys of the yarn that a thread has.
-    Yarn(Origin, &'static [&'static str]),
-}
-
-fn fabric(error: &FabricError) -> About {
-    use FabricError as E;
-    match *error {
-        E::OutOfMemory { .. } | E::Cancelled | E::Settings(_) => About::Nothing,
-        E::KnitSize { .. }
-        | E::KnitRuns { .. }
-        | E::KnitNeedle { .. }
-        | E::KnitCarriers { .. }
-        | E::Stitches { .. }
-        | E::NoLoops
-        | E::Notation { .. }
-        | E::SatinMove { .. }
-        | E::NoSatin { .. }
-        | E::TwillMove { .. }
-        | E::TieUp { .. } => About::Keys(STITCHES),
-        E::Laps { .. } | E::WarpRepeat { what: "wales", .. } => About::Keys(&["warp_knit.wales"]),
-        E::WarpRepeat { .. } => About::Keys(&["warp_knit.courses"]),
-        E::Copies { .. } => About::Keys(&["knit.repeat", "warp_knit.repeat", "warp_knit.wales"]),
-        E::Spacing { thread: Origin::Pick(_), .. } | E::Extent { set: "picks", .. } => About::Set("weft"),
-        E::Spacing { .. } | E::Extent { .. } => About::Set("warp"),
-        E::Radius { thread, .. } => About::Yarn(thread, THICKNESS),
-        E::Stiffness { thread, .. } => About::Yarn(thread, &["stiffness"]),
-        E::Flatness { thread, .. } => About::Yarn(thread, &["flatness"]),
-        E::Half { thread, .. } => About::Yarn(thread, &["flatness", "diameter_mm", "tex", "cotton_count"]),
-        E::Twist { thread, .. } => About::Yarn(thread, &["twist_per_m"]),
-        E::UnknownMaterial { thread, .. } => About::Yarn(thread, &["color"]),
-        E::UnknownSection { thread, .. } => About::Yarn(thread, &["section"]),
-        E::Section { .. } => About::Yarn(Origin::Unknown, &["section"]),
-        E::Crimp { .. } => About::Keys(&["cloth.warp_crimp"]),
-        E::Gauge { what: "wales", .. } => About::Keys(WALES),
-        E::Gauge { what: "courses", .. } => About::Keys(COURSES),
-        E::Gauge { .. } => About::Keys(LOOPS),
-        E::Carrier { .. } => About::Keys(&["knit.yarns"]),
-        E::Bars { .. } => About::Keys(&["warp_knit.bars"]),
-        E::GuideYarn { bar, .. } => About::Bar(bar, "threading"),
-        E::BarOffset { bar, .. } => About::Bar(bar, "offset"),
-        E::RunIn { bar, .. } => About::Bar(bar, "run_in_mm"),
-        E::JacquardCourses { bar, .. } | E::JacquardLap { bar, .. } => About::Bar(bar, "colors"),
-        // Sizes, counts, and what follows from them.
-        _ => About::Keys(SIZE),
-    }
-}
-
-fn settling(error: &SettlingError) -> About {
-    use SettlingError as E;
-    match *error {
-        E::OutOfMemory { .. } => About::Nothing,
-        E::ShortRepeat { axis: 'x', .. } => About::Keys(WALES),
-        E::ShortRepeat { .. } => About::Keys(COURSES),
-        E::LongYarns { .. } => About::Keys(&[
-            "knit.loop_length_mm",
-            "knit.wales_per_cm",
-            "knit.needles_per_inch",
-            "warp_knit.wales_per_cm",
-            "warp_knit.needles_per_inch",
-            "knit.knitout",
-        ]),
-        E::LongInterval { .. } => About::Keys(WALES),
-        E::Setting { setting: "the length", .. } => About::Keys(&["finish.length"]),
-        E::Setting { setting: "the tension", .. } => About::Keys(&["finish.tension"]),
-        E::Setting { setting: "the gap between the plates", .. } => About::Keys(&["finish.press"]),
-        E::Setting { .. } => About::Nothing,
-        _ => About::Keys(SIZE),
-    }
-}
-
-fn crossings(error: &CrossingsError) -> About {
-    use CrossingsError as E;
-    match *error {
-        E::OutOfMemory { .. } => About::Nothing,
-        E::Thread { set, setting: "pitch", .. } => About::Set(set),
-        E::Thread { setting: "level", .. } => About::Keys(STITCHES),
-        E::Thread { set, thread, setting, .. } => {
-            let number = thread as u32 + 1;
-            let thread = if set == "warp" { Origin::End(number) } else { Origin::Pick(number) };
-            About::Yarn(thread, if setting == "stiffness" { &["stiffness"] } else { THICKNESS })
-        }
-        E::Setting { setting, .. } => About::Keys(if setting.contains("weft") {
-            &["finish.weft_tension"]
-        } else if setting.contains("warp") {
-            &["finish.warp_tension"]
-        } else {
-            &["finish.calender"]
-        }),
-        _ => About::Keys(SIZE),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use texere_core::{SectionError, YarnError};
+    use texere_core::{BackendError, CrossingsError, SectionError, SettlingError, YarnError};
+    use texere_fabric::FabricError;
     use texere_fabric::warp::Lap;
 
     use super::*;
@@ -259,7 +241,7 @@ mod tests {
         let bars = ["threading", "offset", "run_in_mm", "colors"];
         let bars = bars.map(|key| format!("warp_knit.bars, bar 2: {key}"));
         let all = all.split_whitespace().map(str::to_owned).chain(bars);
-        Keys { file: "cloth.toml".into(), lines: all.zip(1..).collect() }
+        Keys { file: "cloth.toml".into(), lines: all.zip(1..).collect(), ..Keys::default() }
     }
 
     #[test]
@@ -278,7 +260,7 @@ mod tests {
             (FabricError::Repeat { ends: 9, picks: 9, limit: 1 }.into(), "weave.ends"),
             (FabricError::ThreadCount { set: "ends", threads: 1, planned: 2 }.into(), "weave.ends"),
             (FabricError::TieUp { treadles: 1, ends: 2, limit: 1 }.into(), "knit.chart"),
-            (FabricError::KnitRuns { passed: 9, loops: 1, limit: 1 }.into(), "knit.chart"),
+            (FabricError::KnitRuns { passed: 9, loops: 1, limit: 1, told: None }.into(), "knit.chart"),
             (FabricError::KnitSize { what: "loops", count: 9, limit: 1, operation: 0 }.into(), "knit.chart"),
             (FabricError::KnitCarriers { operation: 1 }.into(), "knit.chart"),
             (stitches().into(), "knit.chart"),
@@ -338,6 +320,8 @@ mod tests {
             (FabricError::WarpRepeat { what: "wales", size: 3, multiple: 2 }.into(), "warp_knit.wales"),
             (FabricError::WarpRepeat { what: "courses", size: 3, multiple: 2 }.into(), "warp_knit.courses"),
             (FabricError::Yarns(YarnError::NoYarns).into(), "weave.ends"),
+            (FabricError::NoWeave { text: "x".into(), position: 1, near: None }.into(), "knit.chart"),
+            (FabricError::Hyphen { text: "x".into(), position: 1, sign: "a dash" }.into(), "knit.chart"),
             (
                 SettlingError::ShortRepeat { axis: 'x', repeat: 1.0, diameter: 1.0, least: 2.0 }.into(),
                 "knit.wales_per_cm",
@@ -382,7 +366,13 @@ mod tests {
             let place = keys.place(&error, |_| Some("a".into()));
             assert_eq!(place, Some(Place::new(&keys.file, line, key)), "{error}");
         }
-        for error in [FabricError::Cancelled, FabricError::OutOfMemory { what: "loops", bytes: 1 }] {
+        // Calls that do not fit a cloth are no fault of its design.
+        for error in [
+            FabricError::Cancelled,
+            FabricError::OutOfMemory { what: "loops", bytes: 1 },
+            FabricError::OtherCloth { yarn: 1 },
+            FabricError::NoCrossing { end: 9, pick: 9, ends: 1, picks: 1 },
+        ] {
             assert_eq!(keys.place(&error.into(), |_| None), None);
         }
     }

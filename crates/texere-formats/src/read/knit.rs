@@ -128,9 +128,15 @@ impl Knit {
         if more > 0 {
             warnings.push(format!("{}: {more} more faults of the kinds that are told", named(file)));
         }
+        let refused = |error: FabricError| match (&error, &drawn) {
+            (FabricError::KnitRuns { told: Some(told), .. }, Drawn::Lines { .. }) => {
+                ReadError::Operation { place: drawn.place(*told), source: error }
+            }
+            _ => fabric(error),
+        };
         let knitted =
             Knitted::new(knit.stitches, self.gauge, self.yarns, self.materials, self.sections, self.copies)
-                .map_err(fabric)?
+                .map_err(refused)?
                 .with_cells(self.cells);
         let design = Design::new(name, Structure::Weft(knitted), warnings);
         Ok(design.knitted(KnittedFrom { drawn, program }, faults))

@@ -29,7 +29,8 @@ pub enum Refusal {
         /// Why.
         source: FinishError,
     },
-    /// Memory, a device, somebody who asked to stop: no fault of the design. Or the design is of no file.
+    /// Memory, a device, a setting of the mesh, somebody who asked to stop, a call that does not fit: no fault of the design. Or the design is of
+    /// no file.
     #[error(transparent)]
     Other(#[from] FinishError),
 }

@@ -169,11 +169,8 @@ pub(super) fn read(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> 
     let bytes = bytes_of(files, path, limits::FILE)?;
     let source = Source::new(path, &bytes, files)?;
     let keys = source.keys();
-    match designed(&source) {
-        Ok(design) => Ok(design.keyed(keys)),
-        Err(ReadError::Fabric { file, source }) if file == path => Err(keys.refused(source)),
-        Err(error) => Err(error),
-    }
+    let design = keys.placed(designed(&source))?;
+    Ok(design.keyed(keys))
 }
 
 fn designed(source: &Source<'_>) -> Result<Design, ReadError> {
@@ -295,5 +292,5 @@ fn from_wif(
     laid.lay(source, &mut woven)?;
     let name = file.name.clone().unwrap_or(draft.name);
     let woven = WovenDesign::new(woven, Some(draft.draft), laid.relief).map_err(fabric)?;
-    Ok(Design::new(name, Structure::Woven(woven), draft.warnings))
+    Ok(Design::new(name, Structure::Woven(woven), draft.warnings).keyed(draft.keys))
 }

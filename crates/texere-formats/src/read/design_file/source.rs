@@ -62,7 +62,7 @@ impl<'a> Source<'a> {
             from = at;
             (key, line)
         });
-        Keys { file: self.path.into(), lines: lines.collect() }
+        Keys { file: self.path.into(), lines: lines.collect(), ..Keys::default() }
     }
 
     /// A value as the file has it, without its quotes.

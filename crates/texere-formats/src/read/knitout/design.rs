@@ -50,5 +50,7 @@ pub(in crate::read) fn design(path: &Path, files: &Files<'_>) -> Result<Design, 
     let (yarns, materials, sections) = Knit::yarns_of(threads, 1.0, &materials, &[Section::Circle]);
     let knit =
         Knit { gauge, yarns, materials, sections, copies: [1, 1], cells: Cells::Round, float_max: None };
-    knit.design(path, file_name(path), read.program, Drawn::Lines { file: path.into() }, read.warnings)
+    let drawn = Drawn::Lines { file: path.into() };
+    let design = knit.design(path, file_name(path), read.program, drawn, read.warnings);
+    Ok(read.keys.placed(design)?.keyed(read.keys))
 }

@@ -52,8 +52,8 @@ pub(super) fn is_known(name: &str) -> bool {
 pub(super) struct Header<'a> {
     /// The carriers, front to back.
     pub(super) carriers: Option<Vec<&'a str>>,
-    /// Needles to the inch.
-    pub(super) gauge: Option<f64>,
+    /// Needles to the inch, and the line that says so.
+    pub(super) gauge: Option<(f64, usize)>,
     machine: Option<&'a str>,
     /// What is in each carrier, and the line that says so.
     yarns: HashMap<&'a str, (&'a str, usize)>,
@@ -86,7 +86,7 @@ impl<'a> Header<'a> {
                     let said = format!("Gauge \"{}\" is no number of needles to the inch", shown(value));
                     warnings.once("gauge", line.number, &said);
                 }
-                self.gauge = gauge;
+                self.gauge = gauge.map(|gauge| (gauge, line.number));
             }
             "Machine" => self.machine = Some(value),
             // The cloth is the same wherever on the bed it is knitted.

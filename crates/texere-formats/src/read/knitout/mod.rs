@@ -19,10 +19,12 @@ mod warnings;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use texere_fabric::weft::Program;
+use texere_core::Origin;
+use texere_fabric::weft::{CarrierSet, Program};
 
 use super::ReadError;
 use super::file::{Files, bytes_of};
+use super::keys::{GAUGE, Keys};
 use carriers::Carriers;
 pub(super) use design::design;
 use header::Header;
@@ -70,6 +72,7 @@ pub(super) struct Knitout {
     pub(super) warnings: Vec<String>,
     /// Stitch sizes that have a length, and that no operation names.
     pub(super) unused_sizes: Vec<String>,
+    pub(super) keys: Keys,
 }
 
 impl Knitout {
@@ -129,9 +132,26 @@ fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<Knitout, Re
         let said = "no header \";;Carriers: \", which knitout asks for; carriers are those that occur, in that order";
         warnings.once("carriers", 1, said);
     }
-    let gauge = header.gauge;
+    let gauge = header.gauge.map(|(gauge, _)| gauge);
+    let keys = keys(path, header.gauge.map(|(_, line)| line), &program);
     let yarns = header.yarns_of(&program.carriers, &mut warnings);
-    Ok(Knitout { program, gauge, yarns, warnings: warnings.list(), unused_sizes })
+    Ok(Knitout { program, gauge, yarns, warnings: warnings.list(), unused_sizes, keys })
+}
+
+/// What errors of the cloth name: the gauge, and where each carrier comes first.
+fn keys(path: &Path, gauge: Option<usize>, program: &Program) -> Keys {
+    let (mut carriers, mut seen) = (Vec::new(), vec![false; program.carriers.len()]);
+    for operation in &program.operations {
+        let CarrierSet(set) = operation.carriers;
+        for &carrier in program.carrier_sets.get(set as usize).into_iter().flatten() {
+            if !std::mem::replace(&mut seen[carrier as usize], true) {
+                let written = format!("{} {}", operation.instruction, program.carriers[carrier as usize]);
+                carriers.push((Origin::Carrier(carrier + 1), written, operation.source as usize));
+            }
+        }
+    }
+    let lines = gauge.map(|line| (GAUGE.to_owned(), line)).into_iter().collect();
+    Keys { file: path.into(), lines, carriers, ..Keys::default() }
 }
 
 /// Whether a line has no operation.

@@ -7,6 +7,8 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 
+use crate::read::keys::Keys;
+
 /// A `key=value` line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry<'a> {
@@ -70,6 +72,35 @@ impl<'a> Ini<'a> {
         // A section of nothing but empty values says nothing.
         sections.retain(|_, entries| entries.values().any(|entry| !entry.value.is_empty()));
         Self { file, sections }
+    }
+
+    /// What errors of its cloth name.
+    pub(super) fn keys(&self) -> Keys {
+        let single = ["threads", "spacing", "thickness"].into_iter().flat_map(|key| {
+            let of =
+                move |set: &str| Some((format!("[{}] {key}", set.to_uppercase()), self.get(set, key)?.line));
+            ["warp", "weft"].into_iter().filter_map(of)
+        });
+        let whole = ["tieup", "liftplan"].into_iter().filter_map(|section| {
+            let first = self.entries(section).map(|(_, entry)| entry.line).min()?;
+            Some((format!("[{}]", section.to_uppercase()), first))
+        });
+        let numbered = READ
+            .into_iter()
+            .filter(|section| section.ends_with(" spacing") || section.ends_with(" thickness"));
+        let numbered = numbered.map(|section| {
+            let said = self.entries(section).filter(|(_, entry)| !entry.value.is_empty());
+            let mut threads: Vec<(u32, usize)> =
+                said.filter_map(|(key, entry)| Some((key.parse().ok()?, entry.line))).collect();
+            threads.sort_unstable();
+            (section.to_uppercase(), threads)
+        });
+        Keys {
+            file: self.file.into(),
+            lines: single.chain(whole).collect(),
+            numbered: numbered.collect(),
+            ..Keys::default()
+        }
     }
 
     /// Whether a section says anything. `name` is in lower case.

@@ -23,6 +23,7 @@ use texere_core::Section;
 use texere_fabric::{Draft, Drawdown, Relief, Shedding, Structure, Woven, WovenDesign};
 
 use super::file::{Files, bytes_of, file_name};
+use super::keys::Keys;
 use super::threads::only_used;
 use super::{Design, ReadError};
 use ini::Ini;
@@ -46,27 +47,35 @@ pub(super) struct WifDraft {
     pub(super) woven: Woven,
     pub(super) draft: Draft,
     pub(super) warnings: Vec<String>,
+    pub(super) keys: Keys,
 }
 
 /// The design of a draft alone. It says nothing of a finish.
 pub(super) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
     let wif = read(path, files)?;
     let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
-    let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
-    Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings).left())
+    let woven = wif.keys.placed(woven.map_err(|source| ReadError::fabric(path, source)))?;
+    Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings).left().keyed(wif.keys))
 }
 
 pub(super) fn read(path: &Path, files: &Files<'_>) -> Result<WifDraft, ReadError> {
     let bytes = bytes_of(files, path, FILE_LIMIT)?;
     let text = ini::decode(&bytes);
     let ini = Ini::parse(path, &text);
+    let keys = ini.keys();
+    let wif = keys.placed(drafted(&ini))?;
+    Ok(WifDraft { keys, ..wif })
+}
+
+fn drafted(ini: &Ini<'_>) -> Result<WifDraft, ReadError> {
+    let path = ini.file;
     let mut warnings = Vec::new();
 
-    let ends = thread_count(&ini, "warp", "WARP")?;
-    let picks = thread_count(&ini, "weft", "WEFT")?;
-    let (draft, drawdown) = draft(&ini, ends, picks, &mut warnings)?;
-    let mut palette = colors::Palette::read(&ini, &mut warnings)?;
-    let (mut threads, stated) = threads::read(&ini, [ends, picks], &mut palette, &mut warnings)?;
+    let ends = thread_count(ini, "warp", "WARP")?;
+    let picks = thread_count(ini, "weft", "WEFT")?;
+    let (draft, drawdown) = draft(ini, ends, picks, &mut warnings)?;
+    let mut palette = colors::Palette::read(ini, &mut warnings)?;
+    let (mut threads, stated) = threads::read(ini, [ends, picks], &mut palette, &mut warnings)?;
     let [warp, weft] = &mut threads;
     let (materials, sections) = only_used([warp, weft], &palette.into_materials(), &[Section::Circle]);
     let woven = if stated {
@@ -77,7 +86,7 @@ pub(super) fn read(path: &Path, files: &Files<'_>) -> Result<WifDraft, ReadError
     };
     let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
     let name = ini.get("text", "title").map_or_else(|| file_name(path), |entry| entry.value.into());
-    Ok(WifDraft { name, woven, draft, warnings })
+    Ok(WifDraft { name, woven, draft, warnings, keys: Keys::default() })
 }
 
 fn thread_count(ini: &Ini<'_>, section: &str, name: &str) -> Result<u32, ReadError> {

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 use texere::{
     CLEAR, CLEARANCE_BESIDE, CLEARANCE_BIN, ClothClearance, ThreadBend, ThreadContact, ThreadCrowd,
-    ThreadDrawn, ThreadPlace,
+    ThreadDrawn, ThreadPlace, counted,
 };
 
 /// How near yarns come to one another.
@@ -177,7 +177,7 @@ impl fmt::Display for ClearanceReport {
         let [one, other] = &worst.yarns;
         let at = place(worst.place_mm);
         write!(f, "{:.4} of touching at the least: {one} and {other} at {at}; ", worst.ratio)?;
-        write!(f, "{} of {} contacts below {CLEAR}", self.piercing, self.contacts)?;
+        write!(f, "{} of {} below {CLEAR}", self.piercing, counted(self.contacts, "contact"))?;
         if self.crowd.is_some() { write!(f, " beside the crowd") } else { Ok(()) }
     }
 }
@@ -207,7 +207,8 @@ impl DrawnReport {
 
     /// How many triangles face inwards, and where the first is.
     pub(crate) fn turned(&self) -> String {
-        let count = format!("{} triangles face inwards", self.inwards);
+        let face = if self.inwards == 1 { "faces" } else { "face" };
+        let count = format!("{} {face} inwards", counted(self.inwards, "triangle"));
         self.inwards_at.as_ref().map_or(count.clone(), |at| format!("{count}, the first on {at}"))
     }
 }

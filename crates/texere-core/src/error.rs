@@ -1,5 +1,6 @@
 //! Errors: one enum for each boundary.
 
+use crate::counted;
 use thiserror::Error;
 
 /// A section with invalid parameters.
@@ -19,7 +20,7 @@ pub enum SectionError {
         high: f32,
     },
     /// A polygon with too few or too many corners.
-    #[error("polygon has {corners} corners, outside {low} to {high}")]
+    #[error("polygon has {corners}, outside {low} to {high}", corners = counted(*.corners, "corner"))]
     Corners {
         /// How many it has.
         corners: usize,
@@ -55,7 +56,7 @@ pub enum YarnError {
     #[error("no yarns")]
     NoYarns,
     /// Offsets must be one more than yarns.
-    #[error("{offsets} offsets for {yarns} yarns, which need one more than yarns")]
+    #[error("{offsets} for {yarns}, which need one more than yarns", offsets = counted(*.offsets, "offset"), yarns = counted(*.yarns, "yarn"))]
     OffsetCount {
         /// Offsets given.
         offsets: usize,
@@ -73,7 +74,7 @@ pub enum YarnError {
         end: u64,
     },
     /// An open yarn needs two control points, a closed one three.
-    #[error("yarn {yarn} has {points} control points, needs {least}{}", if *.closed { " since it is closed" } else { "" })]
+    #[error("yarn {yarn} has {points}, needs {least}{}", if *.closed { " since it is closed" } else { "" }, points = counted(*.points, "control point"))]
     TooFewPoints {
         /// The yarn.
         yarn: usize,
@@ -85,7 +86,7 @@ pub enum YarnError {
         closed: bool,
     },
     /// The control points don't match the offsets.
-    #[error("{points} control points where {planned} were planned")]
+    #[error("{points} where {planned} were planned", points = counted(*.points, "control point"))]
     PointCount {
         /// Given.
         points: u64,
@@ -93,7 +94,7 @@ pub enum YarnError {
         planned: u64,
     },
     /// Sources must be one per control point.
-    #[error("{sources} sources for {points} control points")]
+    #[error("{sources} for {points}", sources = counted(*.sources, "source"), points = counted(*.points, "control point"))]
     SourceCount {
         /// Given.
         sources: usize,
@@ -101,7 +102,7 @@ pub enum YarnError {
         points: usize,
     },
     /// Up directions must be one per control point.
-    #[error("{ups} up directions for {points} control points")]
+    #[error("{ups} for {points}", ups = counted(*.ups, "up direction"), points = counted(*.points, "control point"))]
     UpCount {
         /// Given.
         ups: usize,
@@ -233,7 +234,7 @@ pub enum BoundaryError {
         limit: f32,
     },
     /// Ends must be one per yarn.
-    #[error("ends of {ends} yarns where there are {yarns}")]
+    #[error("ends of {ends} where there are {yarns}", ends = counted(*.ends, "yarn"))]
     EndsCount {
         /// Given.
         ends: usize,
@@ -275,7 +276,7 @@ pub enum PlanError {
         tension: f32,
     },
     /// Too many inserted points.
-    #[error("{subdivisions} subdivisions, more than {limit}")]
+    #[error("{subdivisions}, more than {limit}", subdivisions = counted(*.subdivisions, "subdivision"))]
     Subdivisions {
         /// Given.
         subdivisions: u32,
@@ -283,7 +284,7 @@ pub enum PlanError {
         limit: u32,
     },
     /// Too few or too many sides.
-    #[error("{sides} sides, outside {low} to {high}")]
+    #[error("{sides}, outside {low} to {high}", sides = counted(*.sides, "side"))]
     Sides {
         /// Given.
         sides: u32,
@@ -294,8 +295,7 @@ pub enum PlanError {
     },
     /// A polygon section needs as many sides as it has corners.
     #[error(
-        "section {section} is a polygon of {corners} corners, but tubes have {sides} sides; set sides to {corners}"
-    )]
+        "section {section} is a polygon of {corners}, but tubes have {sides}; set sides to {}", .corners, corners = counted(*.corners, "corner"), sides = counted(*.sides, "side"))]
     PolygonSides {
         /// The section.
         section: usize,
@@ -305,7 +305,7 @@ pub enum PlanError {
         sides: u32,
     },
     /// One yarn has more rings than a `u32` counts.
-    #[error("yarn {yarn} has {rings} rings, more than {limit}")]
+    #[error("yarn {yarn} has {rings}, more than {limit}", rings = counted(*.rings, "ring"))]
     YarnRings {
         /// The yarn, from 0.
         yarn: usize,
@@ -315,7 +315,7 @@ pub enum PlanError {
         limit: u64,
     },
     /// All yarns together have more rings than any machine holds.
-    #[error("{rings} rings, more than {limit}")]
+    #[error("{rings}, more than {limit}", rings = counted(*.rings, "ring"))]
     Rings {
         /// All rings.
         rings: u64,
@@ -323,7 +323,7 @@ pub enum PlanError {
         limit: u64,
     },
     /// A yarn is to have more control points than the plan has room for.
-    #[error("yarn {yarn} of {points} control points, but the plan has room for {room}")]
+    #[error("yarn {yarn} of {points}, but the plan has room for {room}", points = counted(*.points, "control point"))]
     NoRoom {
         /// The yarn, from 0.
         yarn: usize,
@@ -333,7 +333,7 @@ pub enum PlanError {
         room: u64,
     },
     /// A yarn is to have too few control points.
-    #[error("yarn {yarn} of {points} control points, fewer than {least}")]
+    #[error("yarn {yarn} of {points}, fewer than {least}", points = counted(*.points, "control point"))]
     TooFewPoints {
         /// The yarn, from 0.
         yarn: usize,
@@ -351,7 +351,7 @@ pub enum PlanError {
         what: &'static str,
     },
     /// Not even one block fits the limits of memory.
-    #[error("one block of {rings} rings needs {needed} bytes for {what}, but the limit is {limit} bytes")]
+    #[error("one block of {rings} needs {needed} for {what}, but the limit is {limit}", rings = counted(*.rings, "ring"), needed = counted(*.needed, "byte"), limit = counted(*.limit, "byte"))]
     BlockTooLarge {
         /// Rings in the block.
         rings: u32,
@@ -363,7 +363,7 @@ pub enum PlanError {
         limit: u64,
     },
     /// Not even one block fits what a launch may count: see [`Limits::blocks`](crate::Limits::blocks).
-    #[error("one block of {rings} rings takes {needed} {what}, but the limit is {limit}")]
+    #[error("one block of {rings} takes {needed} {what}, but the limit is {limit}", rings = counted(*.rings, "ring"))]
     BlockOverCount {
         /// Rings in the block.
         rings: u32,
@@ -428,7 +428,7 @@ pub enum BackendError {
         name: String,
     },
     /// Memory could not be allocated.
-    #[error("out of memory: {bytes} bytes for {what}")]
+    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
     OutOfMemory {
         /// What for.
         what: &'static str,
@@ -437,8 +437,7 @@ pub enum BackendError {
     },
     /// Yarns that lie so thick over one another that a settling would have to look at too many pairs of them.
     #[error(
-        "more than {limit} pairs of neighbours among {chords} chords: too many yarns lie in one place to settle"
-    )]
+        "more than {limit} pairs of neighbours among {chords}: too many yarns lie in one place to settle", chords = counted(*.chords, "chord"))]
     Crowded {
         /// Chords of all yarns.
         chords: u64,

@@ -20,6 +20,7 @@ mod arrange;
 mod attribute;
 mod backend;
 mod boundary;
+mod counted;
 pub mod crossings;
 mod engine;
 mod error;
@@ -55,6 +56,7 @@ pub use arrange::Placement;
 pub use attribute::{ArcLength, Attribute, corner_angle};
 pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
 pub use boundary::{Boundary, Ends};
+pub use counted::counted;
 pub use crossings::{Crossings, CrossingsError, CrossingsPlan, CrossingsSettler};
 pub use engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,

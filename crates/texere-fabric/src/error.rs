@@ -1,5 +1,6 @@
 //! What can go wrong between a design and its yarns.
 
+use texere_core::counted;
 use texere_core::{BoundaryError, Origin, PlanError, SectionError, YarnError};
 use thiserror::Error;
 
@@ -12,7 +13,7 @@ use crate::woven::{TOLD, irregular_satin};
 #[non_exhaustive]
 pub enum FabricError {
     /// No threads at all in one direction, or more than are taken.
-    #[error("cloth of {ends} ends and {picks} picks; each must be 1 to {limit}")]
+    #[error("cloth of {ends} and {picks}; each must be 1 to {limit}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Size {
         /// Ends asked for.
         ends: usize,
@@ -22,7 +23,7 @@ pub enum FabricError {
         limit: usize,
     },
     /// More crossings than a `u32` counts.
-    #[error("{ends} ends and {picks} picks cross {crossings} times, more than {limit}")]
+    #[error("{ends} and {picks} cross {crossings} times, more than {limit}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Crossings {
         /// Ends asked for.
         ends: usize,
@@ -34,7 +35,7 @@ pub enum FabricError {
         limit: u64,
     },
     /// The cloth would have more control points than are taken.
-    #[error("{ends} ends and {picks} picks need {points} control points, more than {limit}")]
+    #[error("{ends} and {picks} need {points}, more than {limit}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"), points = counted(*.points, "control point"))]
     Points {
         /// Ends of the cloth.
         ends: usize,
@@ -59,8 +60,7 @@ pub enum FabricError {
     },
     /// A knit whose yarns run on, between its loops, further than any cloth's.
     #[error(
-        "yarns pass {passed} needles and courses between {loops} loops, or on loops that are held; {limit} are taken at most"
-    )]
+        "yarns pass {passed} needles and courses between {loops}, or on loops that are held; {limit} are taken at most", loops = counted(*.loops, "loop"))]
     KnitRuns {
         /// Needles that yarns float past, and courses that they rise or that loops are held.
         passed: u64,
@@ -88,7 +88,7 @@ pub enum FabricError {
         operation: u64,
     },
     /// Memory could not be had.
-    #[error("out of memory: {bytes} bytes for {what}")]
+    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
     OutOfMemory {
         /// What for.
         what: &'static str,
@@ -96,7 +96,7 @@ pub enum FabricError {
         bytes: u64,
     },
     /// A crossing outside the cloth.
-    #[error("no crossing of end {end} and pick {pick}; the cloth has {ends} ends and {picks} picks")]
+    #[error("no crossing of end {end} and pick {pick}; the cloth has {ends} and {picks}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     NoCrossing {
         /// The end, from 1.
         end: usize,
@@ -108,7 +108,7 @@ pub enum FabricError {
         picks: usize,
     },
     /// A tie-up too large to be worked out.
-    #[error("{treadles} treadles for {ends} ends; their product must be {limit} at most")]
+    #[error("{treadles} for {ends}; their product must be {limit} at most", treadles = counted(*.treadles, "treadle"), ends = counted(*.ends, "end"))]
     TieUp {
         /// Treadles in the tie-up.
         treadles: usize,
@@ -152,9 +152,8 @@ pub enum FabricError {
     },
     /// A satin's move that would show a twill line or leave ends without a binding point.
     #[error(
-        "weave \"{text}\", character {position}: a satin of {ends} ends can't have move {step}; \
-         it needs one from 2 to {} that shares no factor with {ends}", .ends.saturating_sub(2)
-    )]
+        "weave \"{text}\", character {position}: a satin of {ends} can't have move {step}; \
+         it needs one from 2 to {} that shares no factor with {}", .ends.saturating_sub(2), .ends, ends = counted(*.ends, "end"))]
     SatinMove {
         /// The text, cut short where it is long.
         text: String,
@@ -167,9 +166,8 @@ pub enum FabricError {
     },
     /// There is no regular satin on so many ends: none on fewer than 5, and none on 6.
     #[error(
-        "weave \"{text}\", character {position}: no regular satin has {ends} ends, for that takes 5, or 7 and more{}",
-        irregular_satin(*.ends)
-    )]
+        "weave \"{text}\", character {position}: no regular satin has {ends}, for that takes 5, or 7 and more{}",
+        irregular_satin(*.ends), ends = counted(*.ends, "end"))]
     NoSatin {
         /// The text, cut short where it is long.
         text: String,
@@ -191,7 +189,7 @@ pub enum FabricError {
         end: usize,
     },
     /// A repeat larger than is taken.
-    #[error("a repeat of {ends} ends and {picks} picks; each may be {limit} at most")]
+    #[error("a repeat of {ends} and {picks}; each may be {limit} at most", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Repeat {
         /// Ends in the repeat.
         ends: usize,
@@ -201,7 +199,7 @@ pub enum FabricError {
         limit: usize,
     },
     /// As many threads must be described as the drawdown has.
-    #[error("{threads} {set} described, but the drawdown has {planned}")]
+    #[error("{threads} described, but the drawdown has {planned}", threads = counted(*.threads, .set.trim_end_matches('s')))]
     ThreadCount {
         /// `ends` or `picks`.
         set: &'static str,
@@ -332,7 +330,7 @@ pub enum FabricError {
     #[error(transparent)]
     Settings(#[from] PlanError),
     /// More control points than clearance is measured for.
-    #[error("clearance of {points} control points; {limit} are measured at most")]
+    #[error("clearance of {points}; {limit} are measured at most", points = counted(*.points, "control point"))]
     ClearancePoints {
         /// Control points of all yarns.
         points: u64,
@@ -340,7 +338,7 @@ pub enum FabricError {
         limit: u64,
     },
     /// More control intervals than linking is compared for, with all their copies in a repeat that they reach into.
-    #[error("linking of {intervals} control intervals with their copies; {limit} are compared at most")]
+    #[error("linking of {intervals} with their copies; {limit} are compared at most", intervals = counted(*.intervals, "control interval"))]
     LinkingSize {
         /// Intervals of all yarns, with their copies.
         intervals: u64,
@@ -360,7 +358,7 @@ pub enum FabricError {
     #[error("cancelled")]
     Cancelled,
     /// Yarns that are not those that a repeat is laid with.
-    #[error("yarns of {points} control points; the repeat's have {planned}")]
+    #[error("yarns of {points}; the repeat's have {planned}", points = counted(*.points, "control point"))]
     OtherYarns {
         /// Control points of the yarns.
         points: u64,
@@ -411,8 +409,7 @@ pub enum FabricError {
     },
     /// Copies of a small repeat of a knit that have to settle together, for their number has no divisor up to 16.
     #[error(
-        "copies of a small repeat whose number has no divisor up to 16 settle as one, of {loops} loops; {limit} are taken at most: take multiples of 4"
-    )]
+        "copies of a small repeat whose number has no divisor up to 16 settle as one, of {loops}; {limit} are taken at most: take multiples of 4", loops = counted(*.loops, "loop"))]
     Copies {
         /// Loops, or laps of all bars, of the repeats that settle together.
         loops: u64,
@@ -428,7 +425,7 @@ pub enum FabricError {
         limit: u64,
     },
     /// A warp knit of more laps, before it is copied, than are taken.
-    #[error("wales, courses and guide bars make {laps} laps; {limit} are taken at most")]
+    #[error("wales, courses and guide bars make {laps}; {limit} are taken at most", laps = counted(*.laps, "lap"))]
     Laps {
         /// Wales times courses times bars.
         laps: u64,
@@ -436,7 +433,7 @@ pub enum FabricError {
         limit: u64,
     },
     /// Guide bars of a warp knit: none, or more than are taken.
-    #[error("{bars} guide bars; a warp knit has 1 to {limit}")]
+    #[error("{bars}; a warp knit has 1 to {limit}", bars = counted(*.bars, "guide bar"))]
     Bars {
         /// How many.
         bars: usize,
@@ -454,7 +451,7 @@ pub enum FabricError {
         yarns: usize,
     },
     /// A bar that stands further from the others than any does.
-    #[error("guide bar {bar} is offset by {offset} needles, beyond \u{b1}{limit}")]
+    #[error("guide bar {bar} is offset by {offset}, beyond \u{b1}{limit}", offset = counted(*.offset, "needle"))]
     BarOffset {
         /// The bar, from 1.
         bar: usize,
@@ -476,7 +473,7 @@ pub enum FabricError {
         high: f64,
     },
     /// A Jacquard whose colours are not for as many courses as its bar's chain has.
-    #[error("the Jacquard's colours have {courses} courses, but the chain of guide bar {bar} has {chain}")]
+    #[error("the Jacquard's colours have {courses}, but the chain of guide bar {bar} has {chain}", courses = counted(*.courses, "course"))]
     JacquardCourses {
         /// The bar, from 1.
         bar: usize,
@@ -501,7 +498,7 @@ pub enum FabricError {
         limit: i32,
     },
     /// Wales or courses of a warp knit that its bars don't repeat in.
-    #[error("{size} {what}, but bars begin again after {multiple}: take a multiple of that")]
+    #[error("{size}, but bars begin again after {multiple}: take a multiple of that", size = counted(*.size, .what.trim_end_matches('s')))]
     WarpRepeat {
         /// `wales` or `courses`.
         what: &'static str,

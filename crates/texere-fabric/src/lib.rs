@@ -33,7 +33,6 @@
 //! ```
 
 mod clearance;
-mod counted;
 mod diagnosis;
 mod drawn;
 mod error;
@@ -60,7 +59,6 @@ pub use clearance::{
     CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
     Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
 };
-pub use counted::counted;
 pub use diagnosis::{
     CLEAR, ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
     StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,

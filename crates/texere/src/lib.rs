@@ -138,7 +138,7 @@ pub use texere_core::{
     Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section,
     SectionError, SectionPoint, Settings, SettlingError, Subject, TWIST_LIMIT, TWIST_STEP,
     TWIST_SUBDIVISIONS_MAX, TablesId, Topology, Trajectory, Undersampled, Vertex, YARN_RINGS_MAX, Yarn,
-    YarnError, Yarns, YarnsBuilder, crossings, settling,
+    YarnError, Yarns, YarnsBuilder, counted, crossings, settling,
 };
 pub use texere_core::{
     Draw, End, Engine, Layout, MeshMut, Part, ScanChunks, Session, SessionError, Slot, StageTimings, Traffic,
@@ -152,10 +152,9 @@ pub use texere_fabric::{
     KnitMeasures, LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pieces, Pitch, Press,
     Relief, Remedy, Repeat, Sett, Settled, Shape, Shedding, StitchPlace, Stretch, Structure, Thread,
     ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Tightness, Verdict, WRUNG, Weave,
-    Woven, WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, counted, diameter_mm,
-    drawn, finer, length_mm, lengths_mm, linking, linking_with_progress, settle, tex_from_cotton_count,
-    tex_from_denier, tex_from_diameter, tex_from_metric_count, turns_per_m, twist_from_turns_per_m, warp,
-    weft, yarns_under,
+    Woven, WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, diameter_mm, drawn, finer,
+    length_mm, lengths_mm, linking, linking_with_progress, settle, tex_from_cotton_count, tex_from_denier,
+    tex_from_diameter, tex_from_metric_count, turns_per_m, twist_from_turns_per_m, warp, weft, yarns_under,
 };
 pub use texere_formats::write::{
     Format, Output, Written, abandon, file as write_file, mesh as write, mesh_to as write_to, stream,

@@ -62,7 +62,8 @@ impl fmt::Display for WovenRestReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { device, verdict, passes, repeat, clearance_before, clearance, rounds, area, .. } = self;
         let Sets { warp, weft } = repeat;
-        write!(f, "{verdict} after {passes} passes on {device}, {warp} by {weft} threads; ")?;
+        let s = if *passes == 1 { "" } else { "es" };
+        write!(f, "{verdict} after {passes} pass{s} on {device}, {warp} by {weft} threads; ")?;
         if clearance.is_finite() {
             write!(f, "clearance {clearance:.3}")?;
         } else {

@@ -1,5 +1,6 @@
 //! What may be wrong with a problem.
 
+use crate::counted;
 use thiserror::Error;
 
 /// A cloth whose crossings can't be settled as asked.
@@ -7,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum CrossingsError {
     /// A drawdown of another size than the threads'.
-    #[error("a drawdown of {ups} crossings does not fit {ends} ends and {picks} picks")]
+    #[error("a drawdown of {ups} does not fit {ends} and {picks}", ups = counted(*.ups, "crossing"), ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     Drawdown {
         /// Its crossings.
         ups: usize,
@@ -17,7 +18,7 @@ pub enum CrossingsError {
         picks: usize,
     },
     /// A set with too few threads.
-    #[error("{count} {what}, at least {least} are needed")]
+    #[error("{count}, at least {least} are needed", count = counted(*.count, .what.trim_end_matches('s')))]
     TooFew {
         /// `ends` or `picks`.
         what: &'static str,
@@ -65,7 +66,7 @@ pub enum CrossingsError {
         high: f32,
     },
     /// Memory could not be allocated.
-    #[error("out of memory: {bytes} bytes for {what}")]
+    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
     OutOfMemory {
         /// What for.
         what: &'static str,

@@ -1,5 +1,6 @@
 //! What may be wrong with a problem.
 
+use crate::counted;
 use thiserror::Error;
 
 use crate::BoundaryError;
@@ -26,7 +27,7 @@ pub enum SettlingError {
         least: f32,
     },
     /// A yarn with too few control points between its ends.
-    #[error("yarn {} has {points} control points, settling needs {least}", .yarn + 1)]
+    #[error("yarn {} has {points}, settling needs {least}", .yarn + 1, points = counted(*.points, "control point"))]
     TooFewPoints {
         /// The yarn's number, from 0.
         yarn: usize,
@@ -45,9 +46,8 @@ pub enum SettlingError {
     },
     /// A yarn so much longer than it is thick, from one control point to the next, that it takes too many chords.
     #[error(
-        "yarn {}: from one of its control points to the next {chords} chords are needed, more than {limit}: it is too long for its thickness",
-        .yarn + 1
-    )]
+        "yarn {}: from one of its control points to the next {chords} are needed, more than {limit}: it is too long for its thickness",
+        .yarn + 1, chords = counted(*.chords, "chord"))]
     LongInterval {
         /// The yarn's number, from 0.
         yarn: usize,
@@ -58,8 +58,7 @@ pub enum SettlingError {
     },
     /// Yarns that in all are so much longer than they are thick that they take too many chords for their control points.
     #[error(
-        "yarns of {points} control points need {chords} chords, more than {limit}: they are too long for their thickness"
-    )]
+        "yarns of {points} need {chords}, more than {limit}: they are too long for their thickness", points = counted(*.points, "control point"), chords = counted(*.chords, "chord"))]
     LongYarns {
         /// Control points.
         points: u64,
@@ -79,7 +78,7 @@ pub enum SettlingError {
         limit: u64,
     },
     /// Memory could not be allocated.
-    #[error("out of memory: {bytes} bytes for {what}")]
+    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
     OutOfMemory {
         /// What for.
         what: &'static str,

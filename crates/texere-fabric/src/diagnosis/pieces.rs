@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use texere_core::Origin;
+use texere_core::{Origin, counted};
 
 use super::joined::Joined;
 use crate::Drawdown;
@@ -74,9 +74,9 @@ impl Pieces {
         let size = |[ends, picks]: &[usize; 2]| match [*ends, *picks] {
             [1, 0] => "a loose end".to_owned(),
             [0, 1] => "a loose pick".to_owned(),
-            [ends, 0] => format!("{ends} loose ends"),
-            [0, picks] => format!("{picks} loose picks"),
-            [ends, picks] => format!("{ends} ends with {picks} picks"),
+            [ends, 0] => counted(ends, "loose end"),
+            [0, picks] => counted(picks, "loose pick"),
+            [ends, picks] => format!("{} with {}", counted(ends, "end"), counted(picks, "pick")),
         };
         // A cloth of one set alone has no crossings.
         let loose = if layers.len() > 1 { drawdown.loose(&layers) } else { Vec::new() };

@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use texere_core::SectionError;
+use texere_core::counted;
 use texere_fabric::warp::ChainError;
 use texere_fabric::weft::ChartError;
 use texere_fabric::{FabricError, hyphen_look_alike};
@@ -144,7 +145,7 @@ pub enum ReadError {
         kind: &'static str,
     },
     /// Memory could not be had.
-    #[error("out of memory: {bytes} bytes for {what}")]
+    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
     OutOfMemory {
         /// What for.
         what: &'static str,
@@ -152,7 +153,7 @@ pub enum ReadError {
         bytes: u64,
     },
     /// The file is larger than any design of its kind.
-    #[error("{} has {bytes} bytes, more than {limit}", named(.file))]
+    #[error("{} has {bytes}, more than {limit}", named(.file), bytes = counted(*.bytes, "byte"))]
     TooLarge {
         /// The file.
         file: PathBuf,

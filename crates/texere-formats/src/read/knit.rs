@@ -3,7 +3,7 @@
 use std::mem::{Discriminant, discriminant};
 use std::path::{Path, PathBuf};
 
-use texere_core::{Material, Section};
+use texere_core::{Material, Section, counted};
 use texere_fabric::weft::{
     CarrierSet, Cells, FaultKind, Gauge, Knit as Made, KnitYarn, Knitted, Machine, Operation, Program,
 };
@@ -126,7 +126,8 @@ impl Knit {
         let (faults, more) = told(&knit, &drawn);
         warnings.extend(faults.iter().map(|fault| fault.said.clone()));
         if more > 0 {
-            warnings.push(format!("{}: {more} more faults of the kinds that are told", named(file)));
+            let more = counted(more, "more fault");
+            warnings.push(format!("{}: {more} of the kinds that are told", named(file)));
         }
         let refused = |error: FabricError| match (&error, &drawn) {
             (FabricError::KnitRuns { told: Some(told), .. }, Drawn::Lines { .. }) => {

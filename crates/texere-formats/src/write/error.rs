@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use texere_core::PipelineError;
+use texere_core::counted;
 use thiserror::Error;
 
 /// A mesh or a draft that can't be written. After any of these there is no new file, and an old one is as it was.
@@ -141,8 +142,7 @@ pub enum WriteError {
     },
     /// A cloth of more threads than a picture has pixels for.
     #[error(
-        "draft of {ends} ends and {picks} picks takes {width} × {height} pixels; each side may have {limit} at most"
-    )]
+        "draft of {ends} and {picks} takes {width} × {height} pixels; each side may have {limit} at most", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     DraftTooLarge {
         /// Ends of the cloth.
         ends: usize,
@@ -157,8 +157,7 @@ pub enum WriteError {
     },
     /// A knit with more stitches than a chart has squares.
     #[error(
-        "a chart of {wales} wales and {courses} courses; {side} of each are drawn at most, and {squares} squares"
-    )]
+        "a chart of {wales} and {courses}; {side} of each are drawn at most, and {squares} squares", wales = counted(*.wales, "wale"), courses = counted(*.courses, "course"))]
     ChartTooLarge {
         /// Wales of the chart.
         wales: usize,

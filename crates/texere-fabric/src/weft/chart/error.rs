@@ -1,5 +1,6 @@
 //! What can be wrong with a chart.
 
+use texere_core::counted;
 use thiserror::Error;
 
 use crate::FabricError;
@@ -10,8 +11,7 @@ use crate::FabricError;
 pub enum ChartError {
     /// A cell outside the chart.
     #[error(
-        "wale {wale}, course {course}, both counted from 0, but the chart has {wales} wales and {courses} courses"
-    )]
+        "wale {wale}, course {course}, both counted from 0, but the chart has {wales} and {courses}", wales = counted(*.wales, "wale"), courses = counted(*.courses, "course"))]
     NoCell {
         /// The wale.
         wale: usize,
@@ -23,7 +23,7 @@ pub enum ChartError {
         courses: usize,
     },
     /// No stitches at all, or more in a direction than are taken.
-    #[error("a chart of {wales} wales and {rows} rows; each must be 1 to {limit}")]
+    #[error("a chart of {wales} and {rows}; each must be 1 to {limit}", wales = counted(*.wales, "wale"), rows = counted(*.rows, "row"))]
     Size {
         /// Its wales.
         wales: usize,
@@ -33,7 +33,7 @@ pub enum ChartError {
         limit: usize,
     },
     /// More cells of all courses than are taken.
-    #[error("a chart of {cells} cells in all its courses, more than {limit}")]
+    #[error("a chart of {cells} in all its courses, more than {limit}", cells = counted(*.cells, "cell"))]
     Cells {
         /// Wales times courses.
         cells: usize,
@@ -86,8 +86,7 @@ pub enum ChartError {
     },
     /// A loop that is moved over more needles than a chart's are.
     #[error(
-        "row {row}, column {column} of the chart: this loop moves by {by} needles; {limit} are taken at most"
-    )]
+        "row {row}, column {column} of the chart: this loop moves by {by}; {limit} are taken at most", by = counted(*.by, "needle"))]
     Moved {
         /// The row.
         row: usize,

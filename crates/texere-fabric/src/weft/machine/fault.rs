@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::super::Needle;
-use crate::counted;
+use texere_core::counted;
 
 /// What is wrong.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use texere_core::Material;
+use texere_core::{Material, counted};
 
 use super::ini::{Entry, Ini};
 use super::numbers::{bad, list, place};
@@ -46,7 +46,8 @@ impl Palette {
             });
         }
         if clamped > 0 {
-            warnings.push(format!("{clamped} values of [COLOR TABLE] lie outside the range {low} to {high}"));
+            let (values, lie) = (counted(clamped, "value"), if clamped == 1 { "lies" } else { "lie" });
+            warnings.push(format!("{values} of [COLOR TABLE] {lie} outside the range {low} to {high}"));
         }
         Ok(palette)
     }

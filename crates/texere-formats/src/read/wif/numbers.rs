@@ -1,5 +1,7 @@
 //! Numbers and lists of numbers in WIF sections.
 
+use texere_core::counted;
+
 use super::ini::{Entry, Ini};
 use crate::read::error::shown;
 use crate::read::memory::filled;
@@ -109,9 +111,10 @@ pub(super) fn numbered<'a>(
     }
     if others > 0 {
         let section = section.to_uppercase();
-        warnings.push(format!(
-            "[{section}] has {others} lines that are not numbered 1 to {count}; they are left out"
-        ));
+        let (are, they) = if others == 1 { ("is", "it is") } else { ("are", "they are") };
+        let lines = counted(others, "line");
+        warnings
+            .push(format!("[{section}] has {lines} that {are} not numbered 1 to {count}; {they} left out"));
     }
     Ok(lines)
 }

@@ -1,6 +1,6 @@
 //! Spacing, thickness and colour of each end and pick.
 
-use texere_core::{Material, Section};
+use texere_core::{Material, Section, counted};
 use texere_fabric::{Drawdown, FabricError, Thread, Woven};
 
 use super::PROGRAM;
@@ -186,6 +186,8 @@ impl Set {
         warnings: &mut Vec<String>,
     ) -> Result<Vec<Thread>, ReadError> {
         let count = self.material.len();
+        let threads = counted(count, "thread");
+        let have = |count| if count == 1 { "has" } else { "have" };
         // Drawn thicknesses still say how many times as thick as others a thread is.
         let scale = mean(&self.thickness_mm).filter(|_| drawn).map_or(1.0, |drawn| diameter / drawn);
         let thin = self.thickness_mm.iter().filter(|thickness| thickness.is_none()).count();
@@ -197,17 +199,18 @@ impl Set {
             ));
         } else if thin > 0 {
             warnings.push(format!(
-                "[{name}] {thin} of {count} threads have no thickness; {diameter:.4} mm is taken, half the mean spacing"
+                "[{name}] {thin} of {threads} {} no thickness; {diameter:.4} mm is taken, half the mean spacing", have(thin)
             ));
         }
         if plain > 0 {
-            warnings.push(format!("[{name}] {plain} of {count} threads have no colour; undyed is taken"));
+            warnings
+                .push(format!("[{name}] {plain} of {threads} {} no colour; undyed is taken", have(plain)));
         }
         // A thread without spacing among others that have one is set like their mean.
         let spacing = mean(&self.spacing_mm).unwrap_or(spacing);
-        let mut threads = room("threads", count)?;
+        let mut all = room("threads", count)?;
         let each = self.spacing_mm.into_iter().zip(self.thickness_mm).zip(self.material);
-        threads.extend(each.map(|((own_spacing, thickness), material)| Thread {
+        all.extend(each.map(|((own_spacing, thickness), material)| Thread {
             spacing_mm: own_spacing.unwrap_or(spacing),
             radius_mm: (thickness.map_or(diameter, |thickness| scale * thickness) / 2.0) as f32,
             flatness: 1.0,
@@ -216,7 +219,7 @@ impl Set {
             section: 0,
             twist: 0.0,
         }));
-        Ok(threads)
+        Ok(all)
     }
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Display;
 /// A count and what is counted, as a person writes it. The plural is that with an s.
 ///
 /// ```
-/// use texere_fabric::counted;
+/// use texere_core::counted;
 /// assert_eq!((counted(1, "loop").as_str(), counted(2, "loop").as_str()), ("1 loop", "2 loops"));
 /// ```
 #[must_use]

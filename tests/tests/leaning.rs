@@ -5,13 +5,14 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
+use texere_conformance::cases::design;
 use texere_conformance::schedule::able_devices;
 use texere_core::{
     ControlPoint, Frame, LiveMesh, Material, Mesh, MeshPiece, Pipeline, Placement, Plan, Ray, Section,
     Settings, Topology, Vertex, Yarn, YarnError, Yarns,
 };
 use texere_cpu::{ParallelBackend, Picker, SerialBackend};
-use texere_fabric::{Thread, Weave, Woven, clearance};
+use texere_fabric::{Finish, Thread, Weave, Woven, clearance};
 
 /// A plain weave of flat threads that lie close, in `section`.
 fn cloth(section: Section, twist: f32) -> Yarns {
@@ -43,10 +44,14 @@ fn cylinder(yarns: &Yarns, radius: f64, way: f64) -> Yarns {
     yarns.mapped(map).unwrap()
 }
 
-/// Over a saddle that bends down along x and up along y, with this radius, mm, in the middle of the cloth.
+/// Over a saddle that bends down along x and up along y, with this radius, mm, in the middle of the small cloth.
 fn saddle(yarns: &Yarns, radius: f64) -> Yarns {
+    saddle_about(yarns, radius, [1.65; 2])
+}
+
+fn saddle_about(yarns: &Yarns, radius: f64, middle: [f64; 2]) -> Yarns {
     let map = |[x, y, z]: [f64; 3]| {
-        let (u, v) = (x - 1.65, y - 1.65);
+        let (u, v) = (x - middle[0], y - middle[1]);
         let normal = DVec3::new(u / radius, -v / radius, 1.0).normalize();
         (DVec3::new(u, v, (v * v - u * u) / (2.0 * radius)) + normal * z).to_array()
     };
@@ -79,6 +84,30 @@ fn a_cloth_on_a_cylinder_or_a_saddle_keeps_its_clearance() {
         let after = least(&saddle(&flat, radius));
         assert!((after - before).abs() < 0.01, "saddle of {radius} mm: {after} for {before}");
     }
+}
+
+/// The poplin of the example designs, as it comes to rest: its threads are flattened and lie close.
+#[test]
+fn poplin_at_rest_keeps_its_clearance_wherever_it_goes() {
+    let (device, go_on) = (ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(()));
+    let finished = design("poplin.toml").structure.settle(&Finish::default(), 0.0, &device, go_on).unwrap();
+    let flat = finished.yarns();
+    let before = least(flat);
+    assert!(before > 0.98 && flat.points().iter().any(|point| !point.is_round()), "{before}");
+    for degrees in [30.0_f64, 60.0, 90.0] {
+        let after = least(&turned(flat, [degrees.to_radians(), 0.0]).0);
+        assert!((after - before).abs() < 0.003, "{degrees} degrees: {after} for {before}");
+    }
+    // Without its ups it would pierce.
+    let tilted = turned(flat, [1.0, 0.0]).0;
+    let layout = tilted.layout().as_ref().clone();
+    let upright = Yarns::new(layout, tilted.materials().to_vec(), tilted.points().to_vec()).unwrap();
+    assert!(least(&upright) < before - 0.1);
+    // A roll of cloth, and a saddle that rises by a tenth of the cloth's width.
+    let after = least(&cylinder(flat, 20.0, 0.3));
+    assert!((after - before).abs() < 0.01, "cylinder: {after} for {before}");
+    let after = least(&saddle_about(flat, 60.0, [11.5; 2]));
+    assert!((after - before).abs() < 0.01, "saddle: {after} for {before}");
 }
 
 fn mesh(yarns: &Yarns, device: &dyn texere_core::Backend, settings: Settings) -> Mesh {

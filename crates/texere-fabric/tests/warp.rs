@@ -338,3 +338,16 @@ proptest! {
 fn pillar() -> Chain {
     Chain::named("pillar").unwrap()
 }
+
+/// A guide far beyond the cloth laps where its number says, as far as a lap can tell.
+#[test]
+fn a_guide_of_any_number_laps_to_the_high_numbers() {
+    let bar = |offset| Bar { offset, ..Bar::new(Chain::parse("1-0/1-2//", 1).unwrap()) };
+    let lap = |offset, guide| bar(offset).lap(guide, 1);
+    assert_eq!(lap(0, 2_000_000_000), Lap { from: 2_000_000_001, to: 2_000_000_002 });
+    for guide in [1 << 31, u32::MAX - 1, u32::MAX] {
+        assert_eq!(lap(0, guide), Lap { from: i32::MAX, to: i32::MAX });
+    }
+    assert_eq!(lap(i32::MAX, 3), Lap { from: i32::MAX, to: i32::MAX });
+    assert_eq!(lap(i32::MIN, 1 << 31), Lap { from: 1, to: 2 });
+}

@@ -32,16 +32,19 @@ impl Bar {
     }
 
     /// The lap of a guide at a course, in spaces of the cloth: guide g of a bar without offset, whose chain says `a-b`, goes from
-    /// space g + a to space g + b.
+    /// space g + a to space g + b. Spaces that an `i32` can't count are the last that it can.
     #[must_use]
     pub fn lap(&self, guide: u32, course: u32) -> Lap {
         let lap = self.chain.lap(course as usize);
         let [from, to] = match &self.jacquard {
-            Some(jacquard) => jacquard.shifts(guide, course).map(i32::from),
+            Some(jacquard) => jacquard.shifts(guide, course).map(i64::from),
             None => [0, 0],
         };
-        let at = guide as i32 + self.offset;
-        Lap { from: at + lap.from + from, to: at + lap.to + to }
+        let at = i64::from(guide) + i64::from(self.offset);
+        let space = |own: i32, shift: i64| {
+            (at + i64::from(own) + shift).clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+        };
+        Lap { from: space(lap.from, from), to: space(lap.to, to) }
     }
 
     /// The laps that its Jacquard's colours make of its chain's, with their courses.

@@ -37,7 +37,8 @@ fn cloth(section: Section) -> Yarns {
 /// Yarns of random points in a box of 4 mm, thick and thin by turns or each of its own thickness: they come near one
 /// another, pierce, and bend sharply.
 fn tangles() -> impl Strategy<Value = Yarns> {
-    let point = [0.0..4.0f32, 0.0..4.0f32, 0.0..4.0f32, 0.1..0.2f32];
+    // The lower bound is a power of two: proptest 1.12 fails an assertion of its own, rarely, where one has digits finer than the upper bound.
+    let point = [0.0..4.0f32, 0.0..4.0f32, 0.0..4.0f32, 0.125..0.25f32];
     let yarn = (any::<bool>(), any::<bool>(), prop::collection::vec(point, 3..7));
     prop::collection::vec(yarn, 2..6).prop_map(|each| {
         let yarn = |(closed, even, mut points): (bool, bool, Vec<[f32; 4]>)| {

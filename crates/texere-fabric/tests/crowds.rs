@@ -223,7 +223,7 @@ fn extreme() -> impl Strategy<Value = f32> {
 }
 
 fn thick() -> impl Strategy<Value = f32> {
-    prop_oneof![Just(1e-4f32), Just(3e4), 0.01..1.0f32]
+    prop_oneof![Just(1e-4f32), Just(3e4), 0.0078125..1.0f32]
 }
 
 proptest! {

@@ -15,11 +15,11 @@ fn woven(drawdown: Drawdown, warp: Vec<Thread>, weft: Vec<Thread>) -> Woven {
 
 fn cloths() -> impl Strategy<Value = Woven> {
     let threads = || {
-        let thread = (0.3..2.0f64, 0.02..0.2f32, 0..2u32)
+        let thread = (0.3..2.0f64, 0.015625..0.2f32, 0..2u32)
             .prop_map(|(spacing, radius, material)| Thread { material, ..Thread::new(spacing, radius) });
         prop::collection::vec(thread, 1..10)
     };
-    (threads(), threads(), 0.05..0.95f32, any::<bool>()).prop_flat_map(|(warp, weft, share, selvedge)| {
+    (threads(), threads(), 0.0625..0.95f32, any::<bool>()).prop_flat_map(|(warp, weft, share, selvedge)| {
         prop::collection::vec(any::<bool>(), warp.len() * weft.len()).prop_map(move |up| {
             let (ends, picks) = (warp.len(), weft.len());
             let drawdown = Drawdown::from_fn(ends, picks, |end, pick| up[pick * ends + end]).unwrap();

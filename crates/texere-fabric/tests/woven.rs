@@ -12,7 +12,7 @@ fn woven(drawdown: Drawdown, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Wov
 }
 
 fn threads() -> impl Strategy<Value = Vec<Thread>> {
-    let thread = (0.3..2.0f64, 0.02..0.2f32, 0..2u32, 0..2u32, -5.0..5.0f32).prop_map(
+    let thread = (0.3..2.0f64, 0.015625..0.2f32, 0..2u32, 0..2u32, -5.0..5.0f32).prop_map(
         |(spacing_mm, radius_mm, material, section, twist)| Thread {
             material,
             section,

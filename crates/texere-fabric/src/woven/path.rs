@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::bend::{Bend, STRIDE};
+use super::bend::{Bend, STRIDE, too_long};
 use super::shape::Shape;
 
 /// The path of all threads of one height across those that they cross. What does not depend on the sides on which they lie
@@ -188,8 +188,6 @@ impl Float {
     fn walk(&self, ends: [(&Station, bool); 2], stop: &mut impl FnMut(Stop)) {
         let forward = (self.to - self.from).signum();
         let mut left = (self.to - self.from).abs();
-        // A share of 1e-3 more, so that rounding adds no point where threads are evenly spaced.
-        let too_long = |left: f32, step: f32| step > 0.0 && left > 1.001 * STRIDE * step;
         if !self.beside.into_iter().flatten().any(|step| too_long(left, step)) {
             return;
         }

@@ -8,8 +8,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use texere_conformance::REGISTRY;
 use texere_core::{
-    Attribute, Backend, BackendError, ControlPoint, End, Frame, Limits, LiveMesh, Mesh, MeshPiece, Pipeline,
-    PipelineError, Plan, Schedule, Section, SessionError, Settings, Topology, Vertex, Yarn, Yarns,
+    Attribute, Backend, BackendError, ControlPoint, DeviceKind, End, Frame, Limits, LiveMesh, Mesh,
+    MeshPiece, Pipeline, PipelineError, Plan, Schedule, Section, SessionError, Settings, Topology, Vertex,
+    Yarn, Yarns,
 };
 
 /// The most control points of a yarn: several blocks' rings.
@@ -281,8 +282,12 @@ fn a_round_yarn_does_not_hang_on_flattened_ones() {
     for entry in REGISTRY {
         let (devices, missing) = entry.devices();
         assert!(missing.is_empty(), "{missing:?}");
-        let edits =
-            |device: &dyn Backend| entry.name != "deferred" && device.info().schedule != Schedule::PerYarn;
+        // Whether multiplications and additions are fused WGSL leaves to the driver, which may do it otherwise in the program for round yarns
+        // alone. A driver that runs on the processor does not; of another one the last bits may differ.
+        let edits = |device: &dyn Backend| {
+            let fuses = entry.name == "wgpu" && device.info().kind != DeviceKind::Cpu;
+            entry.name != "deferred" && device.info().schedule != Schedule::PerYarn && !fuses
+        };
         for device in devices.iter().filter(|device| edits(&***device)) {
             for widths in [[0.1, 0.2], [0.2, 0.1]] {
                 let fabric = vec![(yarn, line(0.1)), (yarn, line(widths[0]))];
@@ -329,7 +334,7 @@ fn what_a_plan_has_no_room_for_is_named() {
     };
     let same = Yarn::default();
     assert_eq!(said(0, same, 5), "yarn 0 of 5 control points, but the plan has room for 4");
-    assert_eq!(said(0, same, 1), "yarn 0 of 1 control points, fewer than 2");
+    assert_eq!(said(0, same, 1), "yarn 0 of 1 control point, fewer than 2");
     assert_eq!(said(1, same, 3), "yarn 1, but there are 1, counted from 0");
     let closed = Yarn { closed: true, ..same };
     assert_eq!(said(0, closed, 3), "yarn 0 can't be closed or opened: that takes a new plan");

@@ -6,6 +6,7 @@ mod error;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use glam::Vec3;
 use texere_core::{
     Backend, Change, ControlPoint, LiveMesh, Material, Plan, Ray, SessionError, Settings, Yarn, Yarns,
 };
@@ -63,6 +64,8 @@ struct SetYarn {
     points: Vec<ControlPoint>,
     /// Where its control points come from, where it was said.
     sources: Option<Vec<u32>>,
+    /// Where its height points at each control point, where it was said.
+    ups: Option<Vec<Vec3>>,
     /// What the source's yarn was before.
     before: Yarn,
 }
@@ -236,18 +239,13 @@ impl Live {
         let layout = texere_core::Layout::new(table, offsets, yarns.layout().sections().to_vec())?;
         let all = Yarns::new(layout, self.materials.clone(), points)?;
         let all = if sources.len() == all.points().len() { all.with_sources(sources)? } else { all };
-        let Some(ups) = yarns.ups() else { return Ok(all) };
-        // A yarn that was set to more points or fewer says no more where its height points: along z.
-        let mut all_ups = Vec::with_capacity(all.points().len());
-        for yarn in 0..all.layout().yarns().len() {
-            let (own, before) = (all.range(yarn).unwrap_or_default(), yarns.range(yarn).unwrap_or_default());
-            if own.len() == before.len() {
-                all_ups.extend(ups[before].iter().map(|up| up.to_array()));
-            } else {
-                all_ups.extend(own.map(|_| [0.0, 0.0, 1.0]));
-            }
+        let numbers = 0..all.layout().yarns().len();
+        if !numbers.clone().any(|yarn| self.ups(yarn).is_some()) {
+            return Ok(all);
         }
-        Ok(all.with_ups(all_ups)?)
+        let ups = numbers.flat_map(|yarn| self.ups_or_z(yarn, all.range(yarn).unwrap_or_default().len()));
+        let ups = ups.collect();
+        Ok(all.with_ups(ups)?)
     }
 
     /// Yarn number `yarn`, from 0, alone as it is now, with its sources: what a place on it is called needs no other yarn.
@@ -267,11 +265,12 @@ impl Live {
             }
         };
         self.tell(yarn, told.as_deref(), points.len(), &mut sources);
-        let count = points.len() as u64;
-        let layout =
-            texere_core::Layout::new(vec![self.yarn(yarn)], vec![0, count], layout.sections().to_vec())?;
+        let (leans, count) = (layout.leans(), points.len());
+        let (table, offsets) = (vec![self.yarn(yarn)], vec![0, count as u64]);
+        let layout = texere_core::Layout::new(table, offsets, layout.sections().to_vec())?;
         let only = Yarns::new(layout, self.materials.clone(), points)?;
-        Ok(if sources.is_empty() { only } else { only.with_sources(sources)? })
+        let only = if sources.is_empty() { only } else { only.with_sources(sources)? };
+        Ok(if leans { only.with_ups(self.ups_or_z(yarn, count))? } else { only })
     }
 
     /// Adds to `sources` where the control points of yarn number `yarn`, `count` as it is now, come from. `told` is where those of the
@@ -303,6 +302,21 @@ impl Live {
                 points.extend_from_slice(yarns.yarn_points(yarn).unwrap_or_default());
             }
         }
+    }
+
+    /// Where the height of yarn number `yarn` points at each control point, where it says so.
+    fn ups(&self, yarn: usize) -> Option<&[Vec3]> {
+        match (self.set.get(&yarn), &self.source) {
+            (Some(set), _) => set.ups.as_deref(),
+            (None, Source::Loom(_)) => None,
+            (None, Source::Given(yarns)) => Some(&yarns.ups()?[yarns.range(yarn)?]),
+        }
+    }
+
+    /// The same for each of its `count` control points: along z where it does not say so.
+    fn ups_or_z(&self, yarn: usize, count: usize) -> Vec<[f32; 3]> {
+        let own = self.ups(yarn).map(|ups| ups.iter().map(Vec3::to_array).collect());
+        own.unwrap_or_else(|| vec![Vec3::Z.to_array(); count])
     }
 
     /// A mesh of other yarns, with attributes where this one has them.

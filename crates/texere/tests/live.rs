@@ -1,12 +1,13 @@
 //! A fabric that is edited: how often its mesh is planned, and what is still known of it afterwards.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use texere::{
-    Backend, BackendError, ControlPoint, DeviceInfo, Drawdown, Engine, Live, Material, Plan, Section,
-    Settings, Thread, Woven, Yarn, YarnPlace, Yarns, YarnsBuilder,
+    Backend, BackendError, ControlPoint, DeviceInfo, Drawdown, Engine, Live, Material, MeshPiece, Pipeline,
+    Plan, Section, Settings, Thread, Vertex, Woven, Yarn, YarnPlace, Yarns, YarnsBuilder,
 };
 
 /// A device that counts the meshes that are begun on it.
@@ -152,4 +153,117 @@ fn what_is_set_reaches_the_cloth() {
     live.set_lift(5, 0, !live.woven().unwrap().drawdown().up(5, 0)).unwrap();
     assert_eq!(live.woven().unwrap().warp()[5].material, 0);
     assert_eq!(live.yarns().unwrap().layout().yarns()[5], before);
+}
+
+/// Flat threads.
+fn ribbons() -> Woven {
+    let threads = |count| vec![Thread { flatness: 2.0, ..Thread::new(0.8, 0.1) }; count];
+    let plain = Drawdown::from_fn(5, 4, |end, pick| (end + pick) % 2 == 0).unwrap();
+    Woven::new(plain, threads(5), threads(4), vec![Material::default()], vec![Section::Circle]).unwrap()
+}
+
+/// The same points, but the height of the yarns that `turn` says is turned about the y axis, further along x by more.
+fn turned(yarns: &Yarns, turn: impl Fn(usize) -> bool) -> Yarns {
+    let mut ups = Vec::new();
+    for yarn in 0..yarns.layout().yarns().len() {
+        ups.extend(yarns.yarn_points(yarn).unwrap().iter().map(|point| {
+            let (sin, cos) = if turn(yarn) { (0.3 + 0.2 * point.x).sin_cos() } else { (0.0, 1.0) };
+            [sin, 0.0, cos]
+        }));
+    }
+    yarns.clone().with_ups(ups).unwrap()
+}
+
+/// Asserts that the live mesh is that of `yarns` made anew, to the bit, and that it knows them by the same ups.
+fn assert_fresh(live: &mut Live, yarns: &Yarns, what: &str) {
+    live.update().unwrap();
+    let now = live.yarns().unwrap();
+    assert_eq!(now.ups(), yarns.ups(), "{what}");
+    let mesh = live.mesh_mut();
+    let plan = mesh.plan().clone();
+    let mut vertices = vec![Vertex::default(); mesh.chunks()[0].vertices() as usize];
+    assert_eq!(mesh.chunks().len(), 1);
+    let _ = mesh
+        .read_mesh(0, &mut |piece| {
+            if let MeshPiece::Vertices { first, vertices: lent } = piece {
+                vertices[first as usize..][..lent.len()].copy_from_slice(lent);
+            }
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    let device = texere::open("cpu-serial").unwrap();
+    let settings = *plan.settings();
+    let fresh = Pipeline::new(yarns).settings(settings).mesh(&*device).unwrap();
+    let (own, mut first) = (Plan::new(yarns.layout().clone(), settings).unwrap(), 0);
+    for yarn in 0..yarns.layout().yarns().len() {
+        let count = (own.rings(yarn) * settings.sides) as usize;
+        let (_, part) = mesh.parts(yarn).next().unwrap();
+        let kept = &vertices[part.first_vertex as usize..][..count];
+        assert!(kept == &fresh.vertices[first..first + count], "{what}: yarn {yarn} lies otherwise");
+        first += count;
+    }
+}
+
+fn ups_of(yarns: &Yarns, yarn: usize) -> Option<Vec<glam::Vec3>> {
+    yarns.ups().map(|ups| ups[yarns.range(yarn).unwrap()].to_vec())
+}
+
+#[test]
+fn yarns_that_differ_in_their_ups_alone_are_made_again() {
+    let flat = ribbons().yarns().unwrap();
+    let (some, all) = (turned(&flat, |yarn| yarn == 2 || yarn == 6), turned(&flat, |_| true));
+    let moved = turned(&finer(&flat, 2), |yarn| yarn % 2 == 0);
+    let mut given = Live::given(device(), flat.clone(), Settings::default()).unwrap();
+    let mut woven = Live::weave(device(), ribbons(), Settings::default()).unwrap();
+    for (what, yarns) in
+        [("all", &all), ("some", &some), ("flat", &flat), ("some again", &some), ("moved", &moved)]
+    {
+        given.set_yarns(yarns.clone()).unwrap();
+        assert_fresh(&mut given, yarns, &format!("set_yarns, {what}"));
+        woven.set_rest(yarns).unwrap();
+        assert_fresh(&mut woven, yarns, &format!("set_rest, {what}"));
+        for yarn in [2, 3] {
+            let only = woven.only(yarn).unwrap();
+            assert_eq!(only.ups().map(<[_]>::to_vec), ups_of(yarns, yarn), "{what}: yarn {yarn} alone");
+        }
+    }
+    // What stays as it is is not made again.
+    given.set_yarns(moved.clone()).unwrap();
+    woven.set_rest(&moved).unwrap();
+    for live in [&mut given, &mut woven] {
+        let update = live.update().unwrap();
+        assert!(update.changes.is_empty() && !update.anew, "{update:?}");
+    }
+}
+
+/// A yarn that is moved keeps its ups, one of other points stands along z, and one that is lifted does, too.
+#[test]
+fn ups_stay_when_yarns_are_set() {
+    let (cloth, flat) = (ribbons(), ribbons().yarns().unwrap());
+    let rest = turned(&flat, |_| true);
+    let mut live = Live::weave(device(), cloth, Settings::default()).unwrap();
+    live.set_rest(&rest).unwrap();
+    let raised = |points: &[ControlPoint]| -> Vec<_> {
+        points.iter().map(|point| ControlPoint { z: point.z + 0.1, ..*point }).collect()
+    };
+    let moved = raised(rest.yarn_points(3).unwrap());
+    live.set_points(3, &moved).unwrap();
+    let mut wanted = rest.clone();
+    wanted.set_points(3, &moved).unwrap();
+    assert_fresh(&mut live, &wanted, "moved");
+
+    let fewer = &rest.yarn_points(6).unwrap()[1..];
+    live.set_points(6, fewer).unwrap();
+    assert_eq!(live.only(6).unwrap().ups().unwrap(), vec![glam::Vec3::Z; fewer.len()]);
+    live.set_lift(2, 1, !live.woven().unwrap().drawdown().up(2, 1)).unwrap();
+    let now = live.yarns().unwrap();
+    for (yarn, all) in [(2, false), (5 + 1, false), (1, true), (3, true)] {
+        let wanted = if all {
+            ups_of(&rest, yarn).unwrap()
+        } else {
+            vec![glam::Vec3::Z; now.range(yarn).unwrap().len()]
+        };
+        assert_eq!(ups_of(&now, yarn).unwrap(), wanted, "yarn {yarn}");
+    }
+    assert_fresh(&mut live, &now, "lifted");
 }

@@ -53,7 +53,8 @@ impl Live {
         self.show_all(&changed)
     }
 
-    /// Makes yarn number `yarn`, from 0, another one: its material, section and twist, and its control points, mm.
+    /// Makes yarn number `yarn`, from 0, another one: its material, section and twist, and its control points, mm. Where it has [up directions of
+    /// its own](Yarns::with_ups), as many control points as before keep them; the height of more or fewer points along z.
     ///
     /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], [`LiveError::Session`] for what no yarn can be and for a device that fails.
     pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), LiveError> {
@@ -66,7 +67,9 @@ impl Live {
             return Err(LiveError::NoMaterial { material, materials });
         }
         check_points(yarn, points).map_err(SessionError::from)?;
-        self.set_all([(yarn, what, points.to_vec(), None)])
+        let ups = self.ups(yarn).filter(|ups| ups.len() == points.len()).map(<[_]>::to_vec);
+        let (points, before) = (points.to_vec(), self.before(yarn));
+        self.set_all([(yarn, SetYarn { what, points, sources: None, ups, before })])
     }
 
     /// Moves yarn number `yarn`, from 0: gives it other control points, perhaps more or fewer.
@@ -107,7 +110,9 @@ impl Live {
             let mut old = Vec::new();
             let differs = |yarn: &usize| {
                 self.lay(*yarn, &mut old);
-                after.yarns()[*yarn] != self.yarn(*yarn) || yarns.yarn_points(*yarn) != Some(&old)
+                let ups = yarns.ups().map(|all| &all[yarns.range(*yarn).unwrap_or_default()]);
+                (self.yarn(*yarn), Some(&old[..]), self.ups(*yarn))
+                    != (after.yarns()[*yarn], yarns.yarn_points(*yarn), ups)
             };
             let changed: Vec<_> = (0..after.yarns().len()).filter(differs).collect();
             self.materials = yarns.materials().to_vec();
@@ -159,26 +164,30 @@ impl Live {
                 return Err(LiveError::NoMaterial { material, materials });
             }
             let range = rest.range(yarn).unwrap_or_default();
-            let (points, sources) =
-                (&rest.points()[range.clone()], rest.sources().map(|all| all[range].to_vec()));
+            let points = &rest.points()[range.clone()];
+            let ups = rest.ups().map(|all| &all[range.clone()]);
             self.lay(yarn, &mut old);
-            if (self.yarn(yarn), &old[..]) != (*what, points) {
-                changed.push((yarn, *what, points.to_vec(), sources));
+            if (self.yarn(yarn), &old[..], self.ups(yarn)) != (*what, points, ups) {
+                let sources = rest.sources().map(|all| all[range].to_vec());
+                let (points, ups) = (points.to_vec(), ups.map(<[_]>::to_vec));
+                let before = self.before(yarn);
+                changed.push((yarn, SetYarn { what: *what, points, sources, ups, before }));
             }
         }
         self.set_all(changed)
     }
 
+    /// What the source's yarn number `yarn` is.
+    fn before(&self, yarn: usize) -> Yarn {
+        self.set.get(&yarn).map_or_else(|| self.yarn(yarn), |set| set.before)
+    }
+
     /// Takes yarns in place of the source's: all of them, or none where it fails.
-    fn set_all(
-        &mut self,
-        yarns: impl IntoIterator<Item = (usize, Yarn, Vec<ControlPoint>, Option<Vec<u32>>)>,
-    ) -> Result<(), LiveError> {
+    fn set_all(&mut self, yarns: impl IntoIterator<Item = (usize, SetYarn)>) -> Result<(), LiveError> {
         let (mut numbers, mut replaced) = (Vec::new(), Vec::new());
-        for (yarn, what, points, sources) in yarns {
-            let before = self.set.get(&yarn).map_or_else(|| self.yarn(yarn), |set| set.before);
+        for (yarn, set) in yarns {
             numbers.push(yarn);
-            replaced.push(self.set.insert(yarn, SetYarn { what, points, sources, before }));
+            replaced.push(self.set.insert(yarn, set));
         }
         let shown = self.show_all(&numbers);
         for (yarn, replaced) in numbers.into_iter().zip(replaced) {
@@ -194,18 +203,20 @@ impl Live {
         shown
     }
 
-    /// Gives the mesh these yarns as they are now, or begins another mesh, once, where it has no room for one of them.
+    /// Gives the mesh these yarns as they are now, or begins another mesh, once, where it has no room for one of them or where outlines lean.
     fn show_all(&mut self, yarns: &[usize]) -> Result<(), LiveError> {
         let (plan, mut points) = (self.mesh.plan().clone(), Vec::new());
-        for &yarn in yarns {
+        let mut fits = |&yarn: &usize| {
             self.lay(yarn, &mut points);
-            if let Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }) =
-                plan.check_edit(yarn, &self.yarn(yarn), points.len() as u64)
-            {
-                self.mesh = self.another(&self.yarns()?)?;
-                (self.anew, self.picker) = (true, None);
-                return Ok(());
-            }
+            let edit = plan.check_edit(yarn, &self.yarn(yarn), points.len() as u64);
+            // A plan without leans takes no yarn that has some.
+            self.ups(yarn).is_none()
+                && !matches!(edit, Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }))
+        };
+        if !yarns.iter().all(&mut fits) {
+            self.mesh = self.another(&self.yarns()?)?;
+            (self.anew, self.picker) = (true, None);
+            return Ok(());
         }
         for &yarn in yarns {
             self.lay(yarn, &mut points);

@@ -39,6 +39,8 @@ pub enum Sabotage {
     MisplacedPiece,
     /// One ring's section is turned by a hundredth of a radian.
     RolledSection,
+    /// No outline leans, whatever the up directions of its yarn: a fault only of yarns that have some.
+    LevelOutlines,
     /// Two yarns of the same length have changed places, in the first chunk.
     SwappedYarns,
     /// One ring is a thousandth too wide.
@@ -123,6 +125,7 @@ impl Sabotage {
             // Nothing after the misplaced piece is taken.
             Self::MisplacedPiece => &[Fault::Count, Fault::Missing, Fault::Bits],
             Self::RolledSection => &[Fault::Position, Fault::Normal, Fault::Roll],
+            Self::LevelOutlines => &[Fault::Lean],
             Self::SwappedYarns => &[Fault::Position],
             Self::WideRing => &[Fault::Size],
             Self::ReversedTangent => &[Fault::Tangent],
@@ -190,6 +193,7 @@ impl SabotagedEngine {
             Sabotage::RolledSection if victim => {
                 rings[10].roll = rings[10].roll + Turn::from_turns((0.01 / TAU) as f32);
             }
+            Sabotage::LevelOutlines => rings.iter_mut().for_each(|ring| ring.lean = Turn::ZERO),
             Sabotage::WideRing if victim => rings[10].half_width *= 1.001,
             Sabotage::ReversedTangent if victim => {
                 rings[10].tangent = (-Vec3::from(rings[10].tangent)).into();

@@ -26,6 +26,7 @@ impl Table {
             "growth",
             "tangent, rad",
             "roll, rad",
+            "lean, rad",
             "vertex, radii",
             "normal, rad",
         ];

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use texere_conformance::cases::leaning;
 use texere_conformance::compare::{Fault, Report};
 use texere_conformance::{Entry, OpenAll, REGISTRY, Sabotage, SabotagedBackend, check, run};
 use texere_core::{Backend, BackendError, ControlPoint, Frame, Settings, Yarn, Yarns};
@@ -41,6 +42,7 @@ fn found(report: &Report) -> Vec<Fault> {
         Fault::Size,
         Fault::Tangent,
         Fault::Roll,
+        Fault::Lean,
         Fault::Index,
         Fault::Bits,
     ];
@@ -51,6 +53,21 @@ fn found(report: &Report) -> Vec<Fault> {
 fn an_honest_backend_passes() {
     let report = report(Sabotage::None, true);
     assert!(report.is_clean(), "{report}");
+}
+
+#[test]
+fn a_backend_that_ignores_leans_is_caught() {
+    // Half of them stay upright, so that both ways in which a section leans are there.
+    let steep: Vec<_> = (0..8).map(|yarn| leaning().layout().is_steep(yarn)).collect();
+    assert_eq!(steep, [false, false, false, false, true, true, true, true]);
+    for frame in [Frame::Upright, Frame::RotationMinimizing] {
+        let settings = Settings { frame, caps: true, ..Settings::default() };
+        let report = |sabotage| check(&leaning(), settings, &SabotagedBackend::new(sabotage), false).unwrap();
+        let honest = report(Sabotage::None);
+        assert!(honest.is_clean(), "{honest}");
+        let level = report(Sabotage::LevelOutlines);
+        assert_eq!(found(&level), Sabotage::LevelOutlines.faults(), "{level}");
+    }
 }
 
 #[test]

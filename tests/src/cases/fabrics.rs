@@ -84,6 +84,43 @@ pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Ya
     yarns.build().unwrap()
 }
 
+/// Flattened yarns, open and closed, long and short, twisted and not, whose up directions turn along them: so slowly that an upright frame
+/// goes along, and fast.
+pub(super) fn leaning() -> Yarns {
+    let mut yarns = Yarns::builder();
+    let section = yarns.section(Section::Lenticular { aspect: 1.5, distortion: 0.2 });
+    let mut ups = Vec::new();
+    for (number, fast) in
+        [false, true].into_iter().flat_map(|fast| (0..4u8).map(move |number| (number, fast)))
+    {
+        let closed = number > 1;
+        let count = [66_u8, 9, 40, 20][usize::from(number)];
+        let beside = 20.0 * f64::from(number) + if fast { 90.0 } else { 0.0 };
+        let (mut points, twist) = (Vec::new(), if number % 2 == 0 { 0.3 } else { 0.0 });
+        for k in (0..count).map(f64::from) {
+            let (sin, cos) = (std::f64::consts::TAU * k / f64::from(count)).sin_cos();
+            // An open yarn waves, a closed one is a level ring; `across` is level and at right angles to either.
+            let (place, across) = if closed {
+                ([6.0 * cos, 6.0 * sin, 0.0], [cos, sin])
+            } else {
+                ([k, 0.0, 0.4 * (0.5 * k).sin()], [0.0, 1.0])
+            };
+            let lean = match (closed, fast) {
+                (false, false) => 0.04 * k,
+                (false, true) => 0.5 * k,
+                (true, false) => 0.1 * sin,
+                (true, true) => 2.0 * std::f64::consts::TAU * k / f64::from(count),
+            };
+            ups.push([across[0] * lean.sin(), across[1] * lean.sin(), lean.cos()].map(|value| value as f32));
+            let thick = 1.0 + 0.2 * k.sin();
+            let point = ControlPoint::new(place[0] as f32, (place[1] + beside) as f32, place[2] as f32, 0.1);
+            points.push(point.flattened((0.3 * thick) as f32, (0.1 * thick) as f32));
+        }
+        yarns.yarn(Yarn { section, closed, twist, ..Yarn::default() }, &points);
+    }
+    yarns.build().unwrap().with_ups(ups).unwrap()
+}
+
 /// The corners of a wheel whose teeth are one corner each.
 pub(super) fn cog(corners: u32) -> Vec<[f32; 2]> {
     let corner = |k: u32| {

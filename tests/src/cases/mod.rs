@@ -85,6 +85,7 @@ impl Case {
 pub fn all() -> Vec<Case> {
     let mut cases = each_shape();
     cases.extend(settings_swept());
+    cases.extend(ups_swept());
     cases.extend(sections_swept());
     cases.extend(long_and_many());
     cases.extend(papers());
@@ -103,6 +104,12 @@ pub fn menagerie() -> Yarns {
 #[must_use]
 pub fn mixed() -> Yarns {
     fabrics::mixed()
+}
+
+/// Flattened yarns with up directions that turn along them.
+#[must_use]
+pub fn leaning() -> Yarns {
+    fabrics::leaning()
 }
 
 /// One open or closed yarn of `points` points without any difficulty.
@@ -147,6 +154,16 @@ fn settings_swept() -> Vec<Case> {
             let settings = Settings { topology, caps, ..USUAL };
             cases.extend(Case::framed(format!("{name}-{caps_name}"), settings, mixed));
         }
+    }
+    cases
+}
+
+/// Yarns with up directions, through the settings that rings depend on.
+fn ups_swept() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (subdivisions, tension) in [(0, 0.0), (3, 0.0), (8, 0.4)] {
+        let settings = Settings { subdivisions, tension, ..USUAL };
+        cases.extend(Case::framed(format!("ups-{subdivisions}"), settings, leaning));
     }
     cases
 }

@@ -14,7 +14,7 @@ pub use report::{Fault, Mismatch, Quantity, Report, RingPlace, Worst};
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use texere_core::{End, Frame, Plan, Ring, Vertex};
+use texere_core::{End, Frame, Plan, Ring, Turn, Vertex};
 
 use crate::oracle::{Oracle, OracleRing};
 use crate::poison::is_poison;
@@ -36,7 +36,9 @@ impl Allowance {
             position: POSITION * ring.thinnest() + COORDINATE_ULPS * ulp(ring.extent),
             roll: ROLL_FLOOR
                 + ROLL_DRIFT * (number as f64 + ring.twist)
-                + INTERVAL_TWIST * ring.interval_twist,
+                + INTERVAL_TWIST * ring.interval_twist
+                // A roll begins with a lean, or goes along with it.
+                + if ring.leans { DIRECTION } else { 0.0 },
             framed: !(SURELY_VERTICAL..NEAR_VERTICAL).contains(&tilt),
         }
     }
@@ -97,14 +99,15 @@ struct Gold<'a> {
 impl Expected for Gold<'_> {
     fn ring(&self, yarn: usize, number: usize) -> OracleRing {
         let gold = &self.output.rings[self.output.offsets[yarn] + number];
-        let (tangent, roll) = (wide(gold.tangent), turns(gold));
-        let side = side(tangent, roll);
+        let (tangent, roll) = (wide(gold.tangent), turns(gold.roll));
+        let [side, level] = [roll, turns(gold.lean)].map(|turn| side(tangent, turn));
         OracleRing {
             centre: wide(gold.centre),
             halves: [gold.half_width, gold.half_height].map(f64::from),
             growths: [gold.width_growth, gold.height_growth].map(f64::from),
             tangent,
             roll,
+            upright: [level, tangent.cross(level)],
             side,
             up: tangent.cross(side),
             ..self.oracle.yarns[yarn].rings[number]
@@ -201,25 +204,34 @@ fn compare_ring(
         // A roll about another tangent can't be compared.
         return;
     }
-    // Between two rings near the vertical the upright frame may turn either way round, and so may a roll against it. The
-    // direction that the two make together is defined, so that is compared. An upright yarn's roll is compared by itself.
-    let roll = turns(actual);
+    // Between two rings near the vertical the upright frame may turn either way round, and so may a roll or a lean against it.
+    // The direction that the two make together is defined, so that is compared. An upright yarn's roll is compared by itself,
+    // but where it leans.
+    let roll = turns(actual.roll);
+    let off = |turn: f64, [level, rising]: [DVec3; 2]| {
+        let side = side(tangent, turn);
+        side.dot(rising).atan2(side.dot(level))
+    };
     let turn = match frame {
-        Frame::Upright => (roll - expected.roll) * TAU,
-        Frame::RotationMinimizing if allowed.framed => {
-            let side = side(tangent, roll);
-            side.dot(expected.up).atan2(side.dot(expected.side))
-        }
-        Frame::RotationMinimizing => 0.0,
+        Frame::Upright if !expected.leans => (roll - expected.roll) * TAU,
+        _ if allowed.framed => off(roll, [expected.side, expected.up]),
+        _ => 0.0,
     };
     let turn = turn - (turn / TAU).round() * TAU;
     let values = ((expected.roll, expected.side), roll);
     report.check(Quantity::Roll, place, [turn.abs(), allowed.roll, 1.0], values);
+    let lean = turns(actual.lean);
+    if !expected.leans && lean != 0.0 {
+        report.note(Fault::Lean, place, "none", lean);
+    } else if expected.leans && allowed.framed {
+        let error = [off(lean, expected.upright).abs(), DIRECTION, 1.0];
+        report.check(Quantity::Lean, place, error, (expected.upright, lean));
+    }
 }
 
-/// A ring's roll, in turns.
-fn turns(ring: &Ring) -> f64 {
-    f64::from(ring.roll.0) / 4_294_967_296.0
+/// A roll or a lean, in turns.
+fn turns(turn: Turn) -> f64 {
+    f64::from(turn.0) / 4_294_967_296.0
 }
 
 /// The side that a tangent and a roll (in turns) make: of the upright frame, turned about the tangent.

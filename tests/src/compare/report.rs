@@ -25,6 +25,8 @@ pub enum Fault {
     Tangent,
     /// A ring's turn about the tangent.
     Roll,
+    /// The turn of a ring's outline about the tangent.
+    Lean,
     /// An index that makes another triangle, or a cap that does not close.
     Index,
     /// Two outputs that should be equal to the bit are not.
@@ -83,6 +85,8 @@ pub enum Quantity {
     Tangent,
     /// Turn about the tangent, rad.
     Roll,
+    /// Turn of the outline about the tangent, rad.
+    Lean,
     /// Vertex positions, in radii of the yarn.
     Vertex,
     /// Vertex normals, rad.
@@ -91,14 +95,22 @@ pub enum Quantity {
 
 impl Quantity {
     /// All of them, in the order of the table.
-    pub const ALL: [Self; 7] =
-        [Self::Centre, Self::Half, Self::Growth, Self::Tangent, Self::Roll, Self::Vertex, Self::Normal];
+    pub const ALL: [Self; 8] = [
+        Self::Centre,
+        Self::Half,
+        Self::Growth,
+        Self::Tangent,
+        Self::Roll,
+        Self::Lean,
+        Self::Vertex,
+        Self::Normal,
+    ];
 
     /// What is allowed in the quantity's unit where neither digits nor drift ask for more; no such bound for roll.
     const fn bound(self) -> f64 {
         match self {
             Self::Centre | Self::Vertex => POSITION,
-            Self::Half | Self::Growth | Self::Tangent | Self::Normal => DIRECTION,
+            Self::Half | Self::Growth | Self::Tangent | Self::Lean | Self::Normal => DIRECTION,
             Self::Roll => f64::INFINITY,
         }
     }
@@ -109,6 +121,7 @@ impl Quantity {
             Self::Half | Self::Growth => Fault::Size,
             Self::Tangent => Fault::Tangent,
             Self::Roll => Fault::Roll,
+            Self::Lean => Fault::Lean,
             Self::Normal => Fault::Normal,
         }
     }

@@ -25,6 +25,27 @@ pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) 
     (side - next * side.dot(next)).normalize()
 }
 
+/// Where the height of a yarn points between two control points, each with its up direction and its tangent, at `t` from 0 to 1, where the
+/// tangent is `tangent`; zero where it has no direction.
+///
+/// Each up is turned by the smallest rotation to the tangent, here as two reflections, and its part across the tangent is
+/// mixed with the other's. Of two that are opposite the nearer one counts.
+pub(super) fn up_between(one: (DVec3, DVec3), other: (DVec3, DVec3), tangent: DVec3, t: f64) -> DVec3 {
+    let across = |v: DVec3| {
+        let part = v - tangent * v.dot(tangent);
+        if part.length() > 1e-6 { part.normalize() } else { DVec3::ZERO }
+    };
+    let [one, other] = [one, other].map(|(up, from)| {
+        let middle = from + tangent;
+        // Straight back there is no smallest rotation: the up stays.
+        let turns = middle.length() > 4e-5;
+        across(if turns { mirror(mirror(up, from), middle.normalize()) } else { up })
+    });
+    let mixed = across(one.lerp(other, t));
+    let nearer = if t < 0.5 { one } else { other };
+    if mixed == DVec3::ZERO { nearer } else { mixed }
+}
+
 fn mirror(v: DVec3, normal: DVec3) -> DVec3 {
     v - normal * (2.0 * v.dot(normal))
 }
@@ -40,6 +61,22 @@ mod tests {
             assert!((side.cross(up) - tangent).length() < 1e-12, "{tangent}");
             assert_eq!(side.z, 0.0, "{tangent}");
         }
+    }
+
+    /// Ups of the same height stay so round an arc, and half way between two that differ by a right angle lies the middle.
+    #[test]
+    fn ups_go_over_into_one_another() {
+        let at = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let tangent = |angle: f64| DVec3::new(-angle.sin(), angle.cos(), 0.0);
+        for angle in [1e-6, 0.1, 1.0, 3.0] {
+            let tilted = |angle: f64| ((at(angle) + DVec3::Z).normalize(), tangent(angle));
+            let up = up_between(tilted(0.0), tilted(angle), tangent(0.3 * angle), 0.3);
+            assert!((up - tilted(0.3 * angle).0).length() < 1e-12, "{angle}: {up}");
+        }
+        let up = up_between((DVec3::Z, DVec3::X), (DVec3::Y, DVec3::X), DVec3::X, 0.5);
+        assert!((up - DVec3::new(0.0, 1.0, 1.0).normalize()).length() < 1e-12, "{up}");
+        let opposite = up_between((DVec3::Z, DVec3::X), (-DVec3::Z, DVec3::X), DVec3::X, 0.5);
+        assert_eq!(opposite, -DVec3::Z);
     }
 
     /// Along a circle, carried without turning, the part across the circle's plane stays, and the part in it follows

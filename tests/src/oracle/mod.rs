@@ -15,10 +15,10 @@ mod triangles;
 pub use section::{OutlinePoint, outline};
 pub use triangles::{Flaw, cap_flaw, quad_indices};
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use texere_core::{ControlPoint, Frame, Settings, Topology, Yarn, Yarns};
 
-use frame::{transport, upright};
+use frame::{transport, up_between, upright};
 use spline::Curve;
 
 /// One ring, exact.
@@ -26,7 +26,7 @@ use spline::Curve;
 pub struct OracleRing {
     /// Centre, mm.
     pub centre: DVec3,
-    /// Half width and half height, along the upright frame's side and up, mm.
+    /// Half width and half height, along [`OracleRing::upright`], mm.
     pub halves: [f64; 2],
     /// Unit tangent.
     pub tangent: DVec3,
@@ -41,8 +41,10 @@ pub struct OracleRing {
     /// The largest coordinate, without regard to sign, of the four control points that it comes from, mm, on which the
     /// rounding of f32 depends.
     pub extent: f64,
-    /// Side and up of the upright frame, along which flattening works.
+    /// Side and up of the upright frame, or of the one that leans, along which flattening works.
     pub upright: [DVec3; 2],
+    /// Whether its yarn has up directions of its own.
+    pub leans: bool,
     /// Where the section's x axis points before it is flattened.
     pub side: DVec3,
     /// Where the section's y axis points before it is flattened.
@@ -126,16 +128,17 @@ impl Oracle {
     #[must_use]
     pub fn new(yarns: &Yarns, settings: &Settings) -> Self {
         let layout = yarns.layout();
-        let all_points =
-            layout.offsets().windows(2).map(|bounds| &yarns.points()[bounds[0] as usize..bounds[1] as usize]);
+        let ranges = layout.offsets().windows(2).map(|bounds| bounds[0] as usize..bounds[1] as usize);
         Self {
             yarns: layout
                 .yarns()
                 .iter()
-                .zip(all_points)
+                .zip(ranges)
                 .enumerate()
-                .map(|(number, (yarn, points))| {
-                    follow(yarn, points, settings, settings.frame.of(layout.is_steep(number)))
+                .map(|(number, (yarn, own))| {
+                    let ups = yarns.ups().map(|ups| &ups[own.clone()]);
+                    let frame = settings.frame.of(layout.is_steep(number));
+                    follow(yarn, &yarns.points()[own], ups, settings, frame)
                 })
                 .collect(),
             outlines: layout.sections().iter().map(|section| outline(section, settings.sides)).collect(),
@@ -187,16 +190,34 @@ impl Oracle {
 }
 
 /// All rings of a yarn.
-fn follow(yarn: &Yarn, points: &[ControlPoint], settings: &Settings, frame: Frame) -> OracleYarn {
+fn follow(
+    yarn: &Yarn,
+    points: &[ControlPoint],
+    ups: Option<&[Vec3]>,
+    settings: &Settings,
+    frame: Frame,
+) -> OracleYarn {
     let curve = Curve::new(points, yarn.closed, settings);
+    // Side and up along which a ring is flattened.
+    let stance = |ring: usize, tangent: DVec3| {
+        let (side, up) = upright(tangent);
+        let Some(ups) = ups else { return [side, up] };
+        let (ends, t) = curve.ends(ring as u64);
+        let [one, other] = ends.map(|(point, tangent)| (ups[point].as_dvec3(), tangent));
+        let own = up_between(one, other, tangent, t);
+        if own == DVec3::ZERO { [side, up] } else { [own.cross(tangent), own] }
+    };
     let places: Vec<_> = (0..curve.ring_count()).map(|ring| curve.at(ring)).collect();
-    let (mut carried, mut turned, mut twisted) = (upright(places[0].tangent).0, 0.0, 0.0);
+    let (mut carried, mut turned, mut twisted) = (stance(0, places[0].tangent)[0], 0.0, 0.0);
     let mut rings = Vec::with_capacity(places.len());
     for (number, place) in places.iter().enumerate() {
         let (side, up) = upright(place.tangent);
+        let leaning = stance(number, place.tangent);
+        let against_upright = |v: DVec3| v.dot(up).atan2(v.dot(side)) / std::f64::consts::TAU;
         let own = match frame {
-            Frame::Upright => 0.0,
-            Frame::RotationMinimizing => carried.dot(up).atan2(carried.dot(side)) / std::f64::consts::TAU,
+            Frame::Upright if ups.is_none() => 0.0,
+            Frame::Upright => against_upright(leaning[0]),
+            Frame::RotationMinimizing => against_upright(carried),
         };
         rings.push(OracleRing {
             centre: place.centre,
@@ -207,7 +228,8 @@ fn follow(yarn: &Yarn, points: &[ControlPoint], settings: &Settings, frame: Fram
             twist: twisted,
             interval_twist: 0.0,
             extent: place.extent,
-            upright: [side, up],
+            upright: leaning,
+            leans: ups.is_some(),
             side,
             up,
         });
@@ -243,7 +265,7 @@ fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
 /// Spreads a closed yarn's excess over whole turns along it, and closes it with a copy of its first ring.
 fn close(rings: &mut [OracleRing]) -> f64 {
     let gaps = rings.len() - 1;
-    let whole = rings[gaps].roll;
+    let whole = rings[gaps].roll - rings[0].roll;
     let excess = whole - (whole + 0.5).floor();
     for (number, ring) in rings.iter_mut().enumerate() {
         ring.roll -= excess * number as f64 / gaps as f64;

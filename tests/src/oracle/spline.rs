@@ -175,6 +175,18 @@ impl<'a> Curve<'a> {
         }
     }
 
+    /// The two control points between which a ring lies, each by its number with the tangent there, and how far along it lies.
+    pub(super) fn ends(&self, ring: u64) -> ([(usize, DVec3); 2], f64) {
+        let (number, t) = self.locate(ring);
+        let interval = self.interval(number);
+        let end = |step: u8| {
+            let t = f64::from(step);
+            let point = (number as usize + usize::from(step)) % self.points.len();
+            (point, interval.tangent(weights(self.s, t), t))
+        };
+        ([end(0), end(1)], t)
+    }
+
     /// From a ring's centre to the next one's.
     pub(super) fn chord(&self, ring: u64) -> DVec3 {
         let (number, step) = (ring / self.per_interval, ring % self.per_interval);

@@ -143,6 +143,13 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "(float4)(sample.half_height, sample.width_growth, sample.height_growth, 0.0f)",
         "(float4)(sample.half_height, 0.0f, sample.height_growth, 0.0f)",
     ),
+    // Leans are those of the rings of the fabric's first yarn.
+    opencl(
+        "kernels/src/rings.cl",
+        "lean_of",
+        "rolls[params->leans + yarn->first_block * BLOCK_RINGS + ring];",
+        "rolls[params->leans + ring];",
+    ),
     // A flattened yarn's section does not turn.
     opencl(
         "kernels/src/rings.cl",
@@ -179,6 +186,13 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "block_rings",
         "let start = rolls[params.yarns + yarn.first_block + block.first_ring / BLOCK_RINGS];",
         "let start = 0u;",
+    ),
+    // Every ring leans as the one behind it.
+    wgpu(
+        "shaders/src/rings.wgsl",
+        "lean_of",
+        "yarn.first_block * BLOCK_RINGS + ring];",
+        "yarn.first_block * BLOCK_RINGS + ring + 1u];",
     ),
     // Every step is measured from the block's first ring.
     wgpu(

@@ -15,8 +15,14 @@ fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![6 => (-3i8..=3).prop_map(f32::from), 3 => -10.0f32..10.0, 1 => -1e6f32..1e6, 1 => Just(0.0)]
 }
 
+/// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every unit: proptest 1.12 fails an assertion of
+/// its own, rarely, where the lower bound has digits finer than those of the upper bound.
+fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
+    (0.0..most).prop_map(move |number| number.max(least))
+}
+
 fn point() -> impl Strategy<Value = ControlPoint> {
-    let radius = prop_oneof![3 => Just(0.25f32), 2 => 0.01f32..2.0, 1 => 1e-4f32..3e4];
+    let radius = prop_oneof![3 => Just(0.25f32), 2 => numbers(0.01, 2.0), 1 => numbers(1e-4, 3e4)];
     (coordinate(), coordinate(), coordinate(), radius)
         .prop_map(|(x, y, z, radius)| ControlPoint::new(x, y, z, radius))
 }
@@ -24,10 +30,10 @@ fn point() -> impl Strategy<Value = ControlPoint> {
 fn section() -> impl Strategy<Value = Section> {
     prop_oneof![
         Just(Section::Circle),
-        (0.05f32..20.0).prop_map(|aspect| Section::Ellipse { aspect }),
-        (0.05f32..20.0, -0.9f32..0.9)
+        numbers(0.05, 20.0).prop_map(|aspect| Section::Ellipse { aspect }),
+        (numbers(0.05, 20.0), -0.9f32..0.9)
             .prop_map(|(aspect, distortion)| Section::Lenticular { aspect, distortion }),
-        (0.05f32..20.0, 0.1f32..4.0)
+        (numbers(0.05, 20.0), numbers(0.1, 4.0))
             .prop_map(|(aspect, exponent)| Section::PowerEllipse { aspect, exponent }),
         (2u32..=12).prop_map(|plies| Section::Lobed { plies }),
     ]
@@ -53,7 +59,7 @@ fn settings() -> impl Strategy<Value = Settings> {
     let frame = prop_oneof![Just(Frame::Upright), Just(Frame::RotationMinimizing)];
     let topology = prop_oneof![Just(Topology::Indexed), Just(Topology::Shared), Just(Topology::None)];
     let tension = prop_oneof![Just(0.0f32), 0.0f32..1.0];
-    let quantum = prop_oneof![Just(Quantum::USUAL), (1e-2f32..1e7).prop_map(Quantum::reaching)];
+    let quantum = prop_oneof![Just(Quantum::USUAL), numbers(1e-2, 1e7).prop_map(Quantum::reaching)];
     (tension, 0u32..9, 3u32..20, frame, topology, any::<bool>(), quantum).prop_map(
         |(tension, subdivisions, sides, frame, topology, caps, quantum)| Settings {
             tension,

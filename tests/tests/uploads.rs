@@ -31,8 +31,10 @@ fn plan(yarns: &[(usize, bool)]) -> Plan {
 
 fn point() -> impl Strategy<Value = ControlPoint> {
     let number = -1e6f32..1e6;
-    let flatness = prop_oneof![9 => Just(1.0f32), 1 => 0.1f32..10.0];
-    (number.clone(), number.clone(), number, 1e-3f32..1e3, flatness).prop_map(|(x, y, z, r, flatness)| {
+    // From 0, a multiple of every unit: proptest 1.12 fails an assertion of its own, rarely, where the lower bound has finer digits.
+    let radius = (0.0f32..1e3).prop_map(|radius| radius.max(1e-3));
+    let flatness = prop_oneof![9 => Just(1.0f32), 1 => (0.0f32..10.0).prop_map(|flatness| flatness.max(0.1))];
+    (number.clone(), number.clone(), number, radius, flatness).prop_map(|(x, y, z, r, flatness)| {
         ControlPoint::new(x, y, z, r).flattened(r * flatness, r / flatness)
     })
 }

@@ -12,6 +12,11 @@ use super::topology::faults;
 /// Diameters, in wales: the paper's, and the most.
 const DIAMETERS: [f64; 2] = [0.08, 0.1];
 
+/// The least radius of curvature without a fold, in diameters. A tube closes up on the inside of a bend whose radius is half its thickness:
+/// so turns the head of a loop whose legs touch. What settling aims at is no bound for any figure: its passes are limited, and what comes
+/// back is the best by clearance, then by bends. Random figures end between 0.57 and 0.62.
+const FOLD: f64 = 0.5;
+
 /// The paper's bars of figure 7c: JB1 with a figure of thin, thick and open places, before GB2.
 fn cloth(size: [u32; 2], diameter: f64, colour: impl FnMut(u32, u32) -> u8) -> WarpKnitted {
     let palette = vec![vec![[0, 0], [0, 0]], vec![[0, 0], [1, 1]], vec![[1, 1], [0, 0]]];
@@ -34,7 +39,7 @@ fn every_colour_rests_between_all_others() {
     let size = [colours.len() as u32, 3];
     for diameter in DIAMETERS {
         let cloth = cloth(size, diameter, |wale, course| row(wale + 7 * course));
-        assert_eq!(fault("every run of three colours", &cloth, diameter), None);
+        assert_eq!(fault("every run of three colours", &cloth, diameter, FOLD), None);
     }
 }
 
@@ -42,13 +47,13 @@ fn every_colour_rests_between_all_others() {
 #[test]
 fn any_figure_rests() {
     let colours = prop::collection::vec(0_u8..3, 6 * 3);
-    let mut runner = TestRunner::new(Config { cases: 5, ..Config::default() });
+    let mut runner = TestRunner::new(Config { cases: 5, failure_persistence: None, ..Config::default() });
     let rests = |colours: Vec<u8>| {
         for diameter in DIAMETERS {
             let cloth = cloth([6, 3], diameter, |wale, course| colours[(wale + 6 * course) as usize]);
             let piece = cloth.piece().expect("a piece");
             prop_assert_eq!(faults(&cloth, &piece, &piece.yarns), Vec::<String>::new());
-            prop_assert_eq!(fault("any figure", &cloth, diameter), None);
+            prop_assert_eq!(fault("any figure", &cloth, diameter, FOLD), None);
         }
         Ok(())
     };

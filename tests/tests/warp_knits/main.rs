@@ -41,6 +41,10 @@ impl Design {
     }
 }
 
+/// The radius of curvature that settling aims at where it still has passes, in diameters: it goes on up to 0.594, and of all that it
+/// saw takes the best up to 0.585; the rest is what this check measures otherwise. The lappings here get there.
+const AIM: f64 = 0.58;
+
 /// Four wales and four courses of yarns of that diameter, wales 1 mm apart.
 fn cloth(bars: Vec<Bar>, diameter: f64) -> WarpKnitted {
     let yarns = vec![KnitYarn::new(diameter as f32 / 2.0)];
@@ -88,14 +92,20 @@ fn a_dropped_stitch_is_seen() {
     assert!(!topology::faults(&cloth, &piece, &yarns).is_empty());
 }
 
-/// Settles a cloth, and says what is wrong with its rest, if anything is.
-fn fault(name: &str, cloth: &WarpKnitted, diameter: f64) -> Option<String> {
-    rest(name, cloth, diameter, None).err()
+/// Settles a cloth, and says what is wrong with its rest, if anything is: in diameters, its bends shall have this radius at least.
+fn fault(name: &str, cloth: &WarpKnitted, diameter: f64, bend: f64) -> Option<String> {
+    rest(name, cloth, diameter, bend, None).err()
 }
 
 /// Settles a cloth, between plates so many diameters apart where they press, and gives its thickness in diameters; or says what is
 /// wrong with its rest.
-fn rest(name: &str, cloth: &WarpKnitted, diameter: f64, press: Option<f32>) -> Result<f64, String> {
+fn rest(
+    name: &str,
+    cloth: &WarpKnitted,
+    diameter: f64,
+    bend: f64,
+    press: Option<f32>,
+) -> Result<f64, String> {
     let device = ParallelBackend::open().expect("the CPU");
     let repeat = cloth.repeat().expect("a repeat");
     let press_mm = press.map(|plates| plates * diameter as f32);
@@ -114,8 +124,10 @@ fn rest(name: &str, cloth: &WarpKnitted, diameter: f64, press: Option<f32>) -> R
         100.0 * report.growth,
         settled.rest.passes
     );
-    let rests = report.clearance >= 0.98 && report.bend >= 0.58 && report.growth.abs() < 0.02;
-    let sound = rests && linked < CROSSED && settled.is_linked();
+    let rests = report.clearance >= 0.98 && report.bend >= bend && report.growth.abs() < 0.02;
+    // Whether surfaces as drawn fold, by the limit of the verdict. The verdict as a whole is of cut edges, too.
+    let folds = settled.clearance.curvature_min < 1.0;
+    let sound = rests && !folds && linked < CROSSED && settled.is_linked();
     if sound {
         Ok(report.thickness / diameter)
     } else {
@@ -126,7 +138,7 @@ fn rest(name: &str, cloth: &WarpKnitted, diameter: f64, press: Option<f32>) -> R
 #[test]
 fn warp_knits_come_to_rest() {
     let faults: Vec<_> = all()
-        .filter_map(|(design, diameter)| fault(design.name, &cloth(design.bars(), diameter), diameter))
+        .filter_map(|(design, diameter)| fault(design.name, &cloth(design.bars(), diameter), diameter, AIM))
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
@@ -136,7 +148,8 @@ fn warp_knits_come_to_rest() {
 fn plates_press_locknit_flat() {
     let locknit = DESIGNS.iter().find(|design| design.name == "locknit").expect("locknit");
     let cloth = cloth(locknit.bars(), 0.08);
-    let thickness = |press| rest("locknit", &cloth, 0.08, press).unwrap_or_else(|fault| panic!("{fault}"));
+    let thickness =
+        |press| rest("locknit", &cloth, 0.08, AIM, press).unwrap_or_else(|fault| panic!("{fault}"));
     let (free, pressed) = (thickness(None), thickness(Some(2.8)));
     assert!(free > 6.5 && pressed < 3.6, "{free} {pressed}");
 }

@@ -302,6 +302,17 @@ fn threads_as_thick_as_their_spacing_stay_so() {
 }
 
 #[test]
+fn sizes_that_no_unit_holds_to_the_bit_have_the_same_text_again() {
+    // Each unit is off in two of these, and decipoints have the fewest digits. What is read of them has as many in centimeters, which come first.
+    let sizes = [(819.4922889486355, 214.85893), (10.0 / 12.0, 305.75195), (232.13929242082267, 159.15794)];
+    let warp = sizes.map(|(spacing_mm, radius_mm)| Thread::new(spacing_mm, radius_mm)).to_vec();
+    let drawdown = Weave::parse("plain").unwrap().drawdown(3, 2).unwrap();
+    let weft = vec![Thread::new(0.5, 0.1); 2];
+    let cloth = Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]);
+    check_wif(&design(cloth.unwrap()));
+}
+
+#[test]
 fn what_no_reader_takes_is_refused_by_name() {
     let plain = || Weave::parse("plain").unwrap().drawdown(4, 4).unwrap();
     for (thread, said) in [

@@ -27,21 +27,27 @@ const NAMES: [&str; 12] = [
     "Wolle, grün [é]",
 ];
 
+/// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every unit: proptest 1.12 fails an assertion of
+/// its own, rarely, where the lower bound has digits finer than those of the upper bound.
+fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
+    (0.0..most).prop_map(move |number| number.max(least))
+}
+
 fn section() -> impl Strategy<Value = Section> {
     let corners = vec![[1.3_f32, 0.1], [0.0, 0.7], [-1.1, -0.2], [0.3, -0.9]];
     prop_oneof![
         4 => Just(Section::Circle),
-        1 => (0.06_f32..19.0).prop_map(|aspect| Section::Ellipse { aspect }),
-        1 => (0.06_f32..19.0, -0.89_f32..0.89)
+        1 => numbers(0.06, 19.0).prop_map(|aspect| Section::Ellipse { aspect }),
+        1 => (numbers(0.06, 19.0), -0.89_f32..0.89)
             .prop_map(|(aspect, distortion)| Section::Lenticular { aspect, distortion }),
-        1 => (0.06_f32..19.0, 0.11_f32..3.9).prop_map(|(aspect, exponent)| Section::PowerEllipse { aspect, exponent }),
+        1 => (numbers(0.06, 19.0), numbers(0.11, 3.9)).prop_map(|(aspect, exponent)| Section::PowerEllipse { aspect, exponent }),
         1 => (2_u32..=12).prop_map(|plies| Section::Lobed { plies }),
         1 => Just(Section::Polygon(corners)),
     ]
 }
 
 fn material() -> impl Strategy<Value = Material> {
-    let tex = prop_oneof![Just(None), (0.002_f32..9e6).prop_map(Some), Just(Some(30.0))];
+    let tex = prop_oneof![Just(None), numbers(0.002, 9e6).prop_map(Some), Just(Some(30.0))];
     let hairiness = prop_oneof![Just(0.0_f32), Just(5.0), 0.0_f32..30.0];
     let named = (prop::sample::select(&NAMES[..]), any::<[u8; 3]>(), tex, hairiness);
     prop_oneof![
@@ -53,10 +59,10 @@ fn material() -> impl Strategy<Value = Material> {
 /// Threads of one kind, and how many of them lie side by side.
 fn run() -> impl Strategy<Value = (Thread, usize)> {
     let spacing = prop_oneof![0.002_f64..900.0, Just(0.5), Just(10.0 / 12.0), Just(25.4 / 72.0)];
-    let one = || prop_oneof![Just(1.0_f32), 0.11_f32..9.9];
+    let one = || prop_oneof![Just(1.0_f32), numbers(0.11, 9.9)];
     let twist = prop_oneof![Just(0.0_f32), -600.0_f32..600.0, Just(500.0 * std::f32::consts::TAU / 1000.0)];
-    let numbers = (0_u32..4, 0_u32..3, 1_usize..5);
-    (spacing, 0.0006_f32..400.0, one(), one(), twist, numbers).prop_map(
+    let kinds = (0_u32..4, 0_u32..3, 1_usize..5);
+    (spacing, numbers(0.0006, 400.0), one(), one(), twist, kinds).prop_map(
         |(spacing_mm, radius_mm, flatness, stiffness, twist, (material, section, times))| {
             (Thread { spacing_mm, radius_mm, flatness, stiffness, material, section, twist }, times)
         },

@@ -139,17 +139,10 @@ pub(super) struct Set {
 
 impl Set {
     pub(super) fn new(name: &'static str, threads: &[Thread], colors: &Colors) -> Result<Self, WriteError> {
-        let key = |thread: &Thread| (thread.spacing_mm.to_bits(), thread.radius_mm.to_bits());
-        let sizes = Kinds::new(threads.len(), |thread| key(&threads[thread]));
-        let sizes: Vec<_> = sizes.firsts.iter().map(|first| threads[*first]).collect();
-        // The unit that holds most sizes to the bit, and these with the fewest digits.
-        let cost = |(_, mm): &&(&str, f64)| {
-            let values = sizes.iter().flat_map(|thread| [spacing(thread, *mm), thickness(thread, *mm)]);
-            values.fold((0, 0), |(odd, digits), (value, exact)| {
-                (odd + usize::from(!exact), digits + value.to_string().len())
-            })
-        };
-        let (unit, mm) = WIF_UNITS_MM.iter().min_by_key(cost).copied().unwrap_or(("Centimeters", 10.0));
+        // Some spacings can be told to the bit in no unit. What a reader has of them may take fewer digits in another unit, so that is
+        // chosen for what will be read: written again, it has the same text.
+        let threads = &held(threads, unit(threads).1);
+        let (unit, mm) = unit(threads);
         let limits = WIF_LENGTH_MM.map(|limit| limit / mm);
         let length = |what: &'static str, first: usize, value: f64| {
             let field = || format!("[{name} {what}] {}, in {unit}", first + 1);
@@ -211,13 +204,57 @@ impl Set {
     }
 }
 
+/// The kinds of sizes that threads have.
+fn sizes(threads: &[Thread]) -> Kinds {
+    let size = |thread: &Thread| (thread.spacing_mm.to_bits(), thread.radius_mm.to_bits());
+    Kinds::new(threads.len(), |thread| size(&threads[thread]))
+}
+
+/// The unit that holds most sizes of threads to the bit, and these with the fewest digits, and its mm.
+fn unit(threads: &[Thread]) -> (&'static str, f64) {
+    let firsts = sizes(threads).firsts;
+    let cost = |(_, mm): &&(&str, f64)| {
+        let sizes = firsts.iter().map(|first| &threads[*first]);
+        let values = sizes.flat_map(|thread| [spacing(thread, *mm), thickness(thread, *mm)]);
+        values.fold((0, 0), |(odd, digits), (value, exact)| {
+            (odd + usize::from(!exact), digits + value.to_string().len())
+        })
+    };
+    WIF_UNITS_MM.iter().min_by_key(cost).copied().unwrap_or(("Centimeters", 10.0))
+}
+
+/// The threads as they are read again from a unit of so many mm.
+fn held(threads: &[Thread], mm: f64) -> Vec<Thread> {
+    let sizes = sizes(threads);
+    let held = |first: &usize| {
+        let thread = &threads[*first];
+        (spacing_mm(spacing(thread, mm).0, mm), radius_mm(thickness(thread, mm).0, mm))
+    };
+    let held: Vec<_> = sizes.firsts.iter().map(held).collect();
+    let resized = |(thread, kind): (&Thread, &u32)| {
+        let (spacing_mm, radius_mm) = held[*kind as usize];
+        Thread { spacing_mm, radius_mm, ..*thread }
+    };
+    threads.iter().zip(&sizes.of).map(resized).collect()
+}
+
 /// A thread's spacing in a unit of so many mm, and whether it is read again to the bit.
 fn spacing(thread: &Thread, mm: f64) -> (f64, bool) {
-    nearest(thread.spacing_mm / mm, |value| value * mm == thread.spacing_mm)
+    nearest(thread.spacing_mm / mm, |value| spacing_mm(value, mm) == thread.spacing_mm)
 }
 
 /// A thread's thickness, likewise.
 fn thickness(thread: &Thread, mm: f64) -> (f64, bool) {
     let diameter = 2.0 * f64::from(thread.radius_mm);
-    nearest(diameter / mm, |value| (value * mm / 2.0) as f32 == thread.radius_mm)
+    nearest(diameter / mm, |value| radius_mm(value, mm) == thread.radius_mm)
+}
+
+/// What is read of a spacing in a unit of so many mm.
+fn spacing_mm(value: f64, mm: f64) -> f64 {
+    value * mm
+}
+
+/// What is read of a thickness.
+fn radius_mm(value: f64, mm: f64) -> f32 {
+    (value * mm / 2.0) as f32
 }

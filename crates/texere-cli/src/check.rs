@@ -12,7 +12,7 @@ use crate::fail::Fail;
 use crate::measures::Sets;
 use crate::settling::SettlingReport;
 use crate::setts::{SettReport, setts};
-use crate::{print, progress, settling, terminal};
+use crate::{print, progress, reading, settling, terminal};
 
 /// What is said of a cloth. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -126,7 +126,7 @@ struct Jammed {
 }
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
-    let mut design = texere::read(&args.design)?;
+    let mut design = reading::design(&args.design)?;
     let tension = Settings::default().tension;
     let (yarns, mut settling) =
         settling::yarns(&mut design, &args.settling, tension, || texere::open("cpu"))?;

@@ -4,18 +4,15 @@ use texere::{Output, counted};
 
 use crate::args::ConvertArgs;
 use crate::fail::Fail;
-use crate::print;
 use crate::terminal::line;
+use crate::{print, reading};
 
 pub(crate) fn run(args: &ConvertArgs) -> Result<(), Fail> {
-    let design = texere::read(&args.design)?;
+    let design = reading::design(&args.design)?;
     let output = Output::to(&args.output).sparing(design.files());
     let is_wif = args.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif"));
     let left_out =
         if is_wif { texere::write_wif(&design, output)? } else { texere::write_toml(&design, output)? };
-    for remark in design.remarks() {
-        print::text(&format!("warning: {}\n", line(remark)))?;
-    }
     for what in left_out {
         print::text(&format!("left out: {}\n", line(what)))?;
     }

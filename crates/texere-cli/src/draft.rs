@@ -5,14 +5,14 @@ use texere::{Drawdown, Output, Side};
 
 use crate::args::DraftArgs;
 use crate::fail::Fail;
-use crate::print;
 use crate::terminal::line;
+use crate::{print, reading};
 
 /// Bytes of rows that are gathered before they are printed: calls cost nothing beside the copying from here on.
 const GATHERED: usize = 1 << 16;
 
 pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
-    let design = texere::read(&args.design)?;
+    let design = reading::design(&args.design)?;
     let side = if args.back { Side::Back } else { Side::Face };
     let (woven, knit) = (design.structure.woven(), design.structure.knitted());
     let warp = design.structure.warp_knitted();

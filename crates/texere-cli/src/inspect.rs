@@ -15,7 +15,7 @@ use crate::measures::{JamsReport, MeasuresReport, Sets};
 use crate::settling::SettlingReport;
 use crate::setts::{SettReport, setts};
 use crate::terminal::line;
-use crate::{print, progress, settling};
+use crate::{print, progress, reading, settling};
 
 /// How far the yarn of a guide bar may be off what the design asks for.
 const RUN_IN_MISS: f64 = 0.02;
@@ -98,7 +98,7 @@ struct WovenReport {
 }
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
-    let mut design = texere::read(&args.design)?;
+    let mut design = reading::design(&args.design)?;
     if let Some(section) = &args.settings.section {
         design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }

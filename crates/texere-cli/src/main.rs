@@ -19,6 +19,7 @@ mod measures;
 mod mesh;
 mod print;
 mod progress;
+mod reading;
 mod render;
 mod settling;
 mod setts;

@@ -7,10 +7,10 @@ use texere::{Output, Pipeline};
 use crate::args::{MeshArgs, undersampled};
 use crate::fail::Fail;
 use crate::terminal::line;
-use crate::{drivers, print, progress, settling};
+use crate::{drivers, print, progress, reading, settling};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
-    let mut design = texere::read(&args.design)?;
+    let mut design = reading::design(&args.design)?;
     if let Some(section) = &args.settings.section {
         design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }
@@ -24,7 +24,9 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::reporter(&bar));
     let written = texere::stream(pipeline, &*device, output)?;
     bar.finish_and_clear();
-    let warnings = settling::warnings(&design, settling.as_ref());
+    let mut warnings = settling::warnings(&design, settling.as_ref());
+    // The reader's have been said.
+    warnings.retain(|warning| !design.remarks().contains(warning));
     for warning in warnings.into_iter().chain(undersampled(&yarns, &settings)) {
         print::text(&format!("warning: {}\n", line(warning)))?;
     }

@@ -13,7 +13,7 @@ use crate::args::{RenderArgs, View, undersampled};
 use crate::fail::Fail;
 use crate::settling::SettlingReport;
 use crate::terminal::line;
-use crate::{drivers, print, settling};
+use crate::{drivers, print, reading, settling};
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
     let start = Instant::now();
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
 
 /// From the design file to the picture. Gives a line for what was written.
 fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Result<String, Fail> {
-    let mut design = stages.time("read", || texere::read(&args.design))?;
+    let mut design = stages.time("read", || reading::design(&args.design))?;
     if let Some(section) = &args.settings.section {
         design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }

@@ -424,6 +424,14 @@ pub enum FabricError {
         /// Most taken.
         limit: u64,
     },
+    /// A knit whose repeat, which settles as one before it is copied, has more control points than are taken.
+    #[error("a repeat of {points} control points or more, before it is copied; {limit} are taken at most")]
+    KnitRepeat {
+        /// Control points of the repeat, about; of a knit without one, those of all of it.
+        points: u64,
+        /// Most taken.
+        limit: u64,
+    },
     /// A warp knit of more laps, before it is copied, than are taken.
     #[error("wales, courses and guide bars make {laps}; {limit} are taken at most", laps = counted(*.laps, "lap"))]
     Laps {

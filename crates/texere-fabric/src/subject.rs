@@ -37,7 +37,8 @@ impl FabricError {
             | Self::ThreadCount { .. }
             | Self::ClearancePoints { .. }
             | Self::LinkingSize { .. }
-            | Self::KnitPoints { .. } => Subject::Size,
+            | Self::KnitPoints { .. }
+            | Self::KnitRepeat { .. } => Subject::Size,
             Self::KnitSize { .. }
             | Self::KnitRuns { .. }
             | Self::KnitNeedle { .. }

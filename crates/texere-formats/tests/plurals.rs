@@ -75,6 +75,7 @@ fn errors_say_one_of_one() {
         Fabric::OtherYarns { points: 1, planned: 2 },
         Fabric::Copies { loops: 1, limit: 0 },
         Fabric::KnitPoints { points: 9, limit: 1 },
+        Fabric::KnitRepeat { points: 9, limit: 1 },
         Fabric::Laps { laps: 1, limit: 0 },
         Fabric::Bars { bars: 1, limit: 0 },
         Fabric::BarOffset { bar: 2, offset: 1, limit: 0 },

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology};
 use texere_cpu::ParallelBackend;
-use texere_fabric::{Finish, Structure, clearance};
+use texere_fabric::{FabricError, Finish, FinishError, Structure, clearance};
 use texere_formats::write::{self, Side};
 use texere_formats::{Design, WriteError, read};
 
@@ -99,6 +99,9 @@ fn sinks(design: &Design) {
 const SETTLING_POINTS: usize = 300;
 const PASSES: u32 = 3;
 
+/// The passes after which stretching is broken off: to its end it settles a cloth up to 49 times, which takes seconds.
+const STRETCHING: u32 = 100;
+
 /// `outcome`, after the cloth has begun to settle as its design says. What refuses it names the design's file.
 fn finished(design: &Design, outcome: Outcome) -> Outcome {
     let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
@@ -109,9 +112,15 @@ fn finished(design: &Design, outcome: Outcome) -> Outcome {
     let finish = Finish { passes: PASSES, ..design.finish };
     let on = |_| ControlFlow::Continue(());
     let mut structure = design.structure.clone();
+    let mut passes = 0..STRETCHING;
+    let some = |_| passes.next().map_or(ControlFlow::Break(()), |_| ControlFlow::Continue(()));
     let stretched = match design.stretch {
-        Some(stretch) => structure.stretch(&finish, stretch, 0.0, &backend, on).map(|_| finish),
-        None => Ok(finish),
+        Some(stretch) => structure.stretch(&finish, stretch, 0.0, &backend, some).map(drop),
+        None => Ok(()),
+    };
+    let stretched = match stretched {
+        Err(FinishError::Fabric(FabricError::Cancelled)) => Ok(finish),
+        stretched => stretched.map(|()| finish),
     };
     if let Err(error) = stretched.and_then(|finish| structure.settle(&finish, 0.0, &backend, on)) {
         let said = chain(&design.refused(error));

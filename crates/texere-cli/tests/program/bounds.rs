@@ -2,6 +2,7 @@
 #![cfg(target_os = "linux")]
 
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Output};
 
 use crate::{stderr, texere};
@@ -12,8 +13,12 @@ pub(crate) const UNDERLAPS: &str = "[warp_knit]\nwales = 4\ncourses = 4\nwales_p
 
 /// What the program says of a design with so many kB of memory.
 fn within(kilobytes: u32, command: &str, design: &str) -> Output {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("design.toml");
+    within_in(tempfile::tempdir().unwrap().path(), kilobytes, command, design)
+}
+
+/// The same of a design in a folder that has what it names.
+fn within_in(folder: &Path, kilobytes: u32, command: &str, design: &str) -> Output {
+    let path = folder.join("design.toml");
     fs::write(&path, design).unwrap();
     // Threads have stacks of their own.
     Command::new("sh")
@@ -59,6 +64,65 @@ fn what_is_out_of_proportion_is_refused_in_little_memory() {
         let error = stderr(&output);
         assert_eq!(output.status.code(), Some(3), "{said}: {error}");
         assert!(error.contains(said) && error.contains("design.toml, line "), "{said}: {error}");
+    }
+}
+
+/// Designs whose pictures have so many pixels a side, which are one black one in white: a Jacquard of either kind, and a chart.
+fn pictured(side: usize) -> [String; 3] {
+    let sett = "wales_per_cm = 9\ncourses_per_cm = 13\n";
+    let yarns = "[yarns.a]\ndiameter_mm = 0.1\n[yarns.b]\ndiameter_mm = 0.1\n";
+    let knit = |black: &str, white: &str, more: &str| {
+        format!(
+            "[knit]\nimage = \"motif.png\"\n{more}{sett}[knit.colors]\n\"#000000\" = \"{black}\"\n\"#ffffff\" = \"{white}\"\n{yarns}"
+        )
+    };
+    let warp = format!(
+        "[warp_knit]\nwales = {side}\ncourses = {}\n{sett}[[warp_knit.bars]]\nlapping = \"1-0/1-2//\"\nthreading = [\"a\"]\n\
+         image = \"motif.png\"\n[warp_knit.bars.colors]\n\"#000000\" = \"0-0/0-0\"\n\"#ffffff\" = \"0-0/1-1\"\n{yarns}",
+        2 * side
+    );
+    [knit("a", "b", ""), knit("p", "k", "yarns = [\"a\"]\n"), warp]
+}
+
+/// A folder with a picture of so many pixels a side, a black one in white.
+fn picture(side: usize) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mut pixels = vec![255; 3 * side * side];
+    pixels[..3].fill(0);
+    let output = texere::Output::to(folder.path().join("motif.png"));
+    texere::write_picture([side as u32; 2], &pixels, output).unwrap();
+    folder
+}
+
+#[test]
+fn a_repeat_that_no_gigabyte_holds_is_refused_before_it_is_laid() {
+    for side in [1448, 2048, 4096] {
+        let folder = picture(side);
+        for design in pictured(side) {
+            let output = within_in(folder.path(), 1_000_000, "inspect --counts", &design);
+            let error = stderr(&output);
+            assert_eq!(output.status.code(), Some(3), "{error}");
+            let named = error.contains("a repeat of ") || error.contains("a chart of ");
+            assert!(error.contains("design.toml, line ") && named, "{error}");
+        }
+    }
+    // Without any picture: guides that are threaded alike after 4,096, and a chain as long.
+    let chain = "1-0/1-2/".repeat(2048);
+    let long = format!(
+        "[warp_knit]\nwales = 4096\ncourses = 4096\nwales_per_cm = 9\ncourses_per_cm = 13\n[[warp_knit.bars]]\nlapping = \"{chain}/\"\n\
+         threading = [\"4095 a\", \"b\"]\n[yarns.a]\ndiameter_mm = 0.1\n[yarns.b]\ndiameter_mm = 0.1\n"
+    );
+    let output = within(1_000_000, "inspect --counts", &long);
+    let error = stderr(&output);
+    assert!(output.status.code() == Some(3) && error.contains("a repeat of "), "{error}");
+}
+
+#[test]
+fn pictures_of_400_wales_and_courses_are_knitted() {
+    let folder = picture(400);
+    for design in pictured(400) {
+        let output = within_in(folder.path(), 1_000_000, "inspect --counts", &design);
+        assert!(output.status.success(), "{}", stderr(&output));
     }
 }
 

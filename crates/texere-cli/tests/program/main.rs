@@ -10,6 +10,7 @@ mod hostile;
 mod inspect;
 mod knit;
 mod outputs;
+mod reading;
 mod settling;
 mod twist;
 mod warp_knit;

@@ -5,7 +5,7 @@ use texere_core::Origin;
 use super::laps::laps;
 use super::{Bar, LapKind, NEEDLES_MOST};
 use crate::settling::settled_together;
-use crate::weft::check::{passed_max, tiled};
+use crate::weft::check::{passed_max, repeat_points, tiled};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
 
 /// The most guide bars.
@@ -104,18 +104,21 @@ pub(super) fn size(
     if copies.contains(&0) {
         return Err(FabricError::Stitches { what: "no copy of the repeat" });
     }
-    let (mut loops, mut passed, mut count) = (false, 0_u64, 0_u64);
+    let (mut loops, mut inlays, mut passed) = (0_u64, 0_u64, 0_u64);
     for laid in laps(bars, repeat[0], repeat[1]) {
-        loops |= laid.kind() != LapKind::Inlay;
+        loops += u64::from(laid.lap.overlap().unsigned_abs());
+        inlays += u64::from(laid.kind() == LapKind::Inlay);
         passed += u64::from(laid.underlap.unsigned_abs());
-        count += 1;
+        // An inlay has a course to rise, which is about as much as a needle to pass.
+        repeat_points(loops, passed + inlays)?;
     }
-    if !loops {
+    if loops == 0 {
         return Err(FabricError::NoLoops);
     }
-    let limit = passed_max(count);
+    let laps = loops + inlays;
+    let limit = passed_max(laps);
     if passed > limit {
-        return Err(FabricError::KnitRuns { passed, loops: count, limit, told: None });
+        return Err(FabricError::KnitRuns { passed, loops: laps, limit, told: None });
     }
     let whole = [0, 1].map(|axis| piece[axis] * copies[axis] / repeat[axis]);
     let tiles = settled_together(repeat, whole);

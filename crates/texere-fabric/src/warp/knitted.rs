@@ -51,8 +51,8 @@ impl WarpKnitted {
     /// **Errors**: [`FabricError::Bars`], [`FabricError::GuideYarn`], [`FabricError::BarOffset`], [`FabricError::RunIn`] and
     /// [`FabricError::JacquardCourses`] for bars that none are, [`FabricError::WarpRepeat`] for wales and courses that are no multiples
     /// of those after which the bars begin again, [`FabricError::NoLoops`], [`FabricError::Gauge`] for distances that no
-    /// cloth has, [`FabricError::KnitPoints`] for more control points than are taken, and errors of the yarns' radius, twist, material
-    /// and section.
+    /// cloth has, [`FabricError::KnitPoints`] and [`FabricError::KnitRepeat`] for more control points than are taken, and errors of the
+    /// yarns' radius, twist, material and section.
     #[allow(clippy::too_many_arguments, reason = "each is a fact of its own about the cloth")]
     pub fn new(
         bars: Vec<Bar>,

@@ -22,6 +22,10 @@ const TILED_MAX: u64 = 1 << 16;
 const LOOP_POINTS: u64 = 10;
 const PASSED_POINTS: u64 = 3;
 
+/// The most control points of a repeat, which is laid and settles as one: a gigabyte, for laying takes up to 70 bytes for each. That is a picture
+/// of 1,060 × 1,060 stitches, or of 870 × 870 with two yarns.
+const REPEAT_POINTS_MAX: u64 = 14 << 20;
+
 /// The most needles and courses that yarns pass: so many, and so many more for each loop. All of them take memory.
 const PASSED_MAX: u64 = 1 << 16;
 const PASSED_BESIDE_A_LOOP: u64 = 64;
@@ -114,7 +118,7 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     if passed > limit {
         return Err(FabricError::KnitRuns { passed, loops, limit, told: furthest(stitches) });
     }
-    let points = LOOP_POINTS * loops + PASSED_POINTS * passed;
+    let points = repeat_points(loops, passed)?;
     let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
     if sides.into_iter().any(|(size, copies)| u64::from(size) * u64::from(copies) > u64::from(SIDE_MAX)) {
         return Err(FabricError::Stitches { what: "too many wales or courses" });
@@ -125,6 +129,16 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
         return Err(FabricError::Stitches { what: "no copy of the repeat" });
     }
     if points > POINTS_MAX { Err(FabricError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
+}
+
+/// Control points of a repeat of so many loops whose yarns pass so many needles and courses, about, unless they are too many to be laid as
+/// one.
+pub(crate) fn repeat_points(loops: u64, passed: u64) -> Result<u64, FabricError> {
+    let points = LOOP_POINTS.saturating_mul(loops).saturating_add(PASSED_POINTS.saturating_mul(passed));
+    if points > REPEAT_POINTS_MAX {
+        return Err(FabricError::KnitRepeat { points, limit: REPEAT_POINTS_MAX });
+    }
+    Ok(points)
 }
 
 /// How many needles and courses yarns may pass between so many loops or laps.

@@ -62,8 +62,8 @@ impl Knitted {
     /// side along x and y; else `copies` counts for nothing.
     ///
     /// **Errors**: [`FabricError::Gauge`] for distances that no cloth has, [`FabricError::Stitches`] for stitches that refer to
-    /// what there is not, [`FabricError::Carrier`] for a carrier without a yarn, [`FabricError::KnitPoints`] for more control points
-    /// than are taken, and errors of the yarns' radius, twist, material and section.
+    /// what there is not, [`FabricError::Carrier`] for a carrier without a yarn, [`FabricError::KnitPoints`] and
+    /// [`FabricError::KnitRepeat`] for more control points than are taken, and errors of the yarns' radius, twist, material and section.
     pub fn new(
         stitches: Stitches,
         gauge: Gauge,

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use texere_core::crossings::Set;
 use texere_cpu::ParallelBackend;
-use texere_fabric::{Finish, FinishError, Stretch, Woven};
+use texere_fabric::{FabricError, Finish, FinishError, Stretch, Woven};
 
 use crate::surfaces::Surfaces;
 use crate::{cloths, finished};
@@ -57,4 +57,27 @@ fn straight_threads_stretch_no_further() {
         let refused = stretched(&sheeting, Set::Warp, by).unwrap_err().to_string();
         assert!(refused.contains("straight at 1.06"), "{refused}");
     }
+}
+
+/// Long before the cloth has come to rest for the first time of many, and never backwards.
+#[test]
+fn stretching_tells_its_progress_and_ends_within_a_pass() {
+    let sheeting = cloths().swap_remove(2).woven;
+    let device = ParallelBackend::open().unwrap();
+    let pull = Stretch { along: Set::Warp, by: 1.03 };
+    let mut shares = Vec::new();
+    let refused = sheeting.stretched(&Finish::default(), pull, 0.0, &device, |share| {
+        shares.push(share);
+        if shares.len() == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(matches!(refused, Err(FinishError::Fabric(FabricError::Cancelled))), "{refused:?}");
+    assert_eq!(shares.len(), 5);
+    assert!(shares[0] > 0.0 && shares[4] < 0.01 && shares.is_sorted(), "{shares:?}");
+    let mut last = 0.0;
+    let whole = sheeting.stretched(&Finish::default(), pull, 0.0, &device, |share| {
+        assert!((last..=1.0 + 1e-9).contains(&share), "{share} after {last}");
+        last = share;
+        ControlFlow::Continue(())
+    });
+    whole.unwrap();
 }

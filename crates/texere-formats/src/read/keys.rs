@@ -298,6 +298,7 @@ mod tests {
             ),
             (FabricError::Carrier { carrier: 1, yarns: 0 }.into(), "knit.yarns"),
             (FabricError::KnitPoints { points: 9, limit: 1 }.into(), "weave.ends"),
+            (FabricError::KnitRepeat { points: 9, limit: 1 }.into(), "weave.ends"),
             (FabricError::ClearancePoints { points: 9, limit: 1 }.into(), "weave.ends"),
             (FabricError::LinkingSize { intervals: 9, limit: 1 }.into(), "weave.ends"),
             (FabricError::Copies { loops: 9, limit: 1 }.into(), "knit.repeat"),

@@ -17,8 +17,9 @@ use crate::memory::{filled, room_for};
 /// The most wales or rows of a chart.
 pub const CHART_SIDE_MAX: usize = 1 << 16;
 
-/// The most cells of all courses of a chart.
-pub const CHART_CELLS_MAX: usize = 1 << 24;
+/// The most cells of all courses of a chart. Before a machine has knitted them it is not known how many loops they make, and knitting takes up
+/// to 160 bytes a cell, until a repeat of more than a million loops is refused.
+pub const CHART_CELLS_MAX: usize = 1 << 22;
 
 /// The most yarns of a chart: each has a carrier of its own.
 pub const CHART_YARNS_MAX: u32 = CARRIERS_MAX as u32 - 1;

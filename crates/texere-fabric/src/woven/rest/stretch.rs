@@ -6,7 +6,7 @@ use texere_core::Backend;
 use texere_core::crossings::Set;
 
 use super::certificate::crop;
-use crate::{FabricError, Finish, FinishError, Woven, lengths_mm};
+use crate::{Finish, FinishError, Woven, lengths_mm};
 
 /// The least crimp that is left of threads that are pulled straight.
 const STRAIGHT: f64 = 0.002;
@@ -34,7 +34,7 @@ impl Woven {
     /// The cloth stretched along one set of its threads, and `finish` with tensions such that all threads keep the length that they have where the
     /// cloth comes to rest as `finish` has it: those that are pulled straighten, those that cross them take their crimp, and the cloth becomes
     /// narrower. Then [`Woven::at_rest`] lets it come to rest. `tension` is that of the splines; `progress` gets the share of the work that
-    /// is done, and `Break` ends it.
+    /// is done, and `Break` ends it within one pass.
     ///
     /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or jammed, and those of [`Woven::at_rest`].
     ///
@@ -65,7 +65,14 @@ impl Woven {
     ) -> Result<(Self, Finish), FinishError> {
         let Stretch { along, by } = stretch;
         let [pulled, crossed] = [along as usize, along.other() as usize];
-        let first = self.crimps(finish, tension, backend)?;
+        // Of each course of settling its own share, so that the first says something, too, and each pass hears that it is to end.
+        let (mut courses, share) = (0.0, 1.0 / f64::from(1 + HALVINGS * GIVES));
+        let mut crimps_of = |cloth: &Self, finish: &Finish| {
+            let crimps = cloth.crimps(finish, tension, backend, |done| progress((courses + done) * share));
+            courses += 1.0;
+            crimps
+        };
+        let first = crimps_of(self, finish)?;
         let wanted = (1.0 + first[pulled]) / by - 1.0;
         let most = (1.0 + first[pulled]) / (1.0 + STRAIGHT);
         let refused = || FinishError::Stretch { along: ["warp", "weft"][pulled], by, most };
@@ -73,7 +80,7 @@ impl Woven {
             return Err(refused());
         }
         let (mut narrower, mut range) = (1.0, [-TAUTER, TAUTER]);
-        for halving in 0..HALVINGS {
+        for _ in 0..HALVINGS {
             let tauter = f64::midpoint(range[0], range[1]);
             let pull = |set: usize, by: f64| (f64::from(finish.taut[set]) * by.exp()).clamp(0.0, 10.0) as f32;
             let mut taut = finish.taut;
@@ -85,11 +92,8 @@ impl Woven {
                 let mut times = [by; 2];
                 times[crossed] = narrower;
                 cloth = self.spaced([times[1], times[0]])?;
-                crimps = cloth.crimps(&finish, tension, backend)?;
+                crimps = crimps_of(&cloth, &finish)?;
                 narrower = (1.0 + first[crossed]) / (1.0 + crimps[crossed]);
-            }
-            if progress(f64::from(halving + 1) / f64::from(HALVINGS)).is_break() {
-                return Err(FabricError::Cancelled.into());
             }
             if (crimps[pulled] - wanted).abs() < NEAR {
                 return Ok((cloth, finish));
@@ -100,8 +104,14 @@ impl Woven {
     }
 
     /// The crimp of warp and weft where the cloth comes to rest.
-    fn crimps(&self, finish: &Finish, tension: f32, backend: &dyn Backend) -> Result<[f64; 2], FinishError> {
-        let (lies, _) = self.lies(finish, backend, |_| ControlFlow::Continue(()))?;
+    fn crimps(
+        &self,
+        finish: &Finish,
+        tension: f32,
+        backend: &dyn Backend,
+        progress: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<[f64; 2], FinishError> {
+        let (lies, _) = self.lies(finish, backend, progress)?;
         let piece = crop(self, lies.repeat())?;
         let lengths = lengths_mm(&lies.yarns(&piece)?, tension);
         let (size, ends) = (piece.size_mm(), piece.warp().len());

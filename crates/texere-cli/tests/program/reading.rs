@@ -1,0 +1,56 @@
+//! What readers had to assume or leave out is said by every command that reads a design, on standard error.
+
+use std::fs;
+
+use crate::{stderr, texere};
+
+/// A lift plan beside `Treadles=0`, with colours whose range is one number.
+const LIFTED: &str = "[WIF]\nVersion=1.1\n[WEAVING]\nShafts=2\nTreadles=0\nRising Shed=1\n[WARP]\nThreads=4\nColor=1\n\
+                      Units=Centimeters\nSpacing=0.1\nThickness=0.04\n[WEFT]\nThreads=4\nColor=1\nUnits=Centimeters\nSpacing=0.1\n\
+                      Thickness=0.04\n[COLOR PALETTE]\nEntries=1\nRange=255\n[COLOR TABLE]\n1=32,32,32\n[THREADING]\n1=1\n2=2\n3=1\n\
+                      4=2\n[TIEUP]\n1=1\n[TREADLING]\n1=1\n[LIFTPLAN]\n1=1\n2=2\n3=1\n4=2\n";
+
+/// A needle in the middle that never has a loop.
+const EMPTY: &str = "[knit]\nchart = \"\"\"\nkmk\nkmk\n\"\"\"\nrepeat = [2, 2]\nwales_per_cm = 8\ncourses_per_cm = 10\n[yarns.a]\n\
+                     diameter_mm = 0.1\n";
+
+#[test]
+fn every_command_says_what_a_reader_warns_of_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    fs::write(at("lifted.wif"), LIFTED).unwrap();
+    fs::write(at("empty.toml"), EMPTY).unwrap();
+    let (lifted, empty) = (at("lifted.wif"), at("empty.toml"));
+    let (cloth, made, picture) = (at("cloth.ply"), at("made.toml"), at("draft.png"));
+    for (design, words) in
+        [(&lifted, vec!["range", "treadles"]), (&empty, vec!["needles that never have a loop"])]
+    {
+        let mut commands = vec![
+            vec!["inspect", design, "--counts"],
+            vec!["inspect", design, "--counts", "--json"],
+            vec!["check", design, "--no-settle"],
+            vec!["mesh", design, "--no-settle", "-o", &cloth],
+            vec!["draft", design, "--text"],
+            vec!["draft", design, "-o", &picture],
+        ];
+        if design == &lifted {
+            commands.push(vec!["convert", design, &made]);
+        }
+        for command in commands {
+            let output = texere(&command);
+            assert!(matches!(output.status.code(), Some(0 | 4)), "{command:?}: {}", stderr(&output));
+            let said = stderr(&output).to_lowercase();
+            for word in &words {
+                let lines = said.lines().filter(|line| line.starts_with("warning: ") && line.contains(word));
+                assert_eq!(lines.count(), 1, "{command:?}, {word}: {said}");
+            }
+        }
+    }
+    // Standard output is what was asked for, without a word more.
+    let rows = texere(&["draft", &lifted, "--text"]);
+    assert_eq!(String::from_utf8(rows.stdout).unwrap(), "0101\n1010\n0101\n1010\n");
+    // A report for programs is whole by itself.
+    let report = crate::stdout(&texere(&["inspect", &lifted, "--counts", "--json"]));
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["warnings"].as_array().unwrap().len(), 2, "{report}");
+}

@@ -37,11 +37,8 @@ const FALL_OUT: f32 = 0.2;
 /// that it bends sharply where it slows down, from five on so that it turns back.
 pub(super) const STRIDE: f32 = 3.34;
 
-/// Whether a step of this length is too long beside one of `step`. A share of 1e-3 more is not, so that rounding decides nothing where threads
-/// are evenly spaced: a shoulder may lie just a stride away.
-pub(super) fn too_long(length: f32, step: f32) -> bool {
-    step > 0.0 && length > 1.001 * STRIDE * step
-}
+/// The share by which lengths differ from a stride where rounding is not to decide: a shoulder may lie just a stride away.
+pub(super) const ROUNDING: f32 = 1e-3;
 
 /// Threads of one height, and what they cross.
 #[derive(Clone, Copy)]
@@ -115,7 +112,9 @@ impl Bend<'_> {
         if both {
             return z.max(self.shoulder(number, pitch).1);
         }
-        let step = if too_long(pitch, aside) { (STRIDE - 1.0) * aside } else { pitch };
+        // Just a stride away it falls less: with `pitch` there threads of unlike spacing came to 0.9896 of touching, not 0.99.
+        let far = pitch > (1.0 - ROUNDING) * STRIDE * aside;
+        let step = if far { (STRIDE - 1.0) * aside } else { pitch };
         z.max(self.depth(number) - TILT * (step + aside))
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::bend::{Bend, STRIDE, too_long};
+use super::bend::{Bend, ROUNDING, STRIDE};
 use super::shape::Shape;
 
 /// The path of all threads of one height across those that they cross. What does not depend on the sides on which they lie
@@ -188,6 +188,8 @@ impl Float {
     fn walk(&self, ends: [(&Station, bool); 2], stop: &mut impl FnMut(Stop)) {
         let forward = (self.to - self.from).signum();
         let mut left = (self.to - self.from).abs();
+        // No point is added where threads are evenly spaced.
+        let too_long = |left: f32, step: f32| step > 0.0 && left > (1.0 + ROUNDING) * STRIDE * step;
         if !self.beside.into_iter().flatten().any(|step| too_long(left, step)) {
             return;
         }

@@ -144,7 +144,8 @@ impl Woven {
     /// let (warp, weft) = (vec![Thread::new(0.4, 0.15); 20], vec![Thread::new(0.66, 0.15); 16]);
     /// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
     /// let diagnosis = cloth.diagnose(0.985, |_| ControlFlow::Continue(()))?;
-    /// assert_eq!(diagnosis.faults.kinds(), [FaultKind::Pierces, FaultKind::Folds, FaultKind::Jams]);
+    /// let kinds = [FaultKind::Pierces, FaultKind::Folds, FaultKind::Jams, FaultKind::InsideOut];
+    /// assert_eq!(diagnosis.faults.kinds(), kinds); // where threads fold, their surface turns inside out
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     pub fn diagnose(

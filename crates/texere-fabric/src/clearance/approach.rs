@@ -1,11 +1,12 @@
 //! Where two intervals of round yarns come nearest to one another, refined on the spline.
 
-use glam::{DMat2, DVec2};
+use glam::{DMat2, DVec2, Vec2Swizzles};
 
 use super::interval::{At, Cubic};
+use super::passing::LEVEL;
 use super::support::Support;
 
-/// A parameter this near to an interval's beginning is at it; this near to its end it is the next interval's.
+/// A parameter this near to a knot is at it.
 const AT_KNOT: f64 = 1e-6;
 
 /// How far, in intervals, refinement may stray out of an interval before the approach is another's.
@@ -22,6 +23,11 @@ pub(super) const SHORT: f64 = 1e-5;
 
 /// A step so short that it leads nowhere, in intervals.
 const CLOSE: f64 = 1e-7;
+
+/// The least curvature, of straight lines 1 less the cosine between them, of an approach that is taken for the only one thereabouts.
+///
+/// At 0.06 `it_agrees_with_brute_force` is red in one of 30,000 tangles: an approach nearer by 0.0024 lay in a valley of less than 0.1.
+const VALLEY: f64 = 0.2;
 
 /// One interval of a yarn, and what it is to its yarn.
 #[derive(Debug, Clone, Copy)]
@@ -57,22 +63,52 @@ impl Side<'_> {
     }
 }
 
-/// The nearest approach of two round yarns close to parameters `start`: its parameters, and the distance over the sum of the
-/// radii. None where it belongs to other intervals.
-pub(super) fn refine(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
-    let (place, ratio) = nearest(one, other, start)?;
-    Some((DVec2::new(one.own(place.x)?, other.own(place.y)?), ratio))
+/// Where two round yarns come nearest to one another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Approach {
+    /// The distance over the sum of the radii.
+    pub(super) ratio: f64,
+    /// Its parameters; none where it belongs to other intervals, to which the way was followed only a little.
+    pub(super) own: Option<DVec2>,
+    /// Whether it lies in a valley: the distance hardly rises along it, and may fall further on.
+    pub(super) valley: bool,
+}
+
+/// The nearest approach of two round yarns close to parameters `start`.
+pub(super) fn refine(one: Side<'_>, other: Side<'_>, start: DVec2) -> Approach {
+    let (place, ratio, curved) = nearest(one, other, start);
+    let own = own(one, other, place, ratio).zip(own(other, one, place.yx(), ratio)).map(DVec2::from);
+    Approach { ratio, own, valley: curved < VALLEY }
+}
+
+/// The first parameter of an approach, if it is its interval's.
+///
+/// At a knot within a yarn the earlier interval has it where the distance falls clearly before the knot, as
+/// [`Passing::leaves_to_neighbours`](super::passing::Passing::leaves_to_neighbours) has it: an interval that is left out there has no approach either way.
+fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64> {
+    let knot = place.x.round();
+    if (place.x - knot).abs() >= AT_KNOT || side.cut[usize::from(knot > 0.0)] {
+        return side.own(place.x);
+    }
+    let (at, beside) = (side.cubic.at(knot), other.cubic.at(place.y));
+    let (apart, radii) = (at.position - beside.position, at.radius()[0] + beside.radius()[0]);
+    let slope = apart.dot(at.velocity) - ratio * ratio * radii * at.radius()[1];
+    let rises = slope > LEVEL * apart.length() * at.velocity.length();
+    (rises == (knot > 0.0)).then_some(knot)
 }
 
 /// Newton's method on (distance / sum of radii)², by way of |Δ|² - λ² (r₁ + r₂)², whose least value at the least λ is 0
-/// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967).
-fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)> {
+/// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967): the parameters, the ratio, and its least
+/// curvature there.
+fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
     let ratio = |a: &At, b: &At| (a.position - b.position).length() / (a.radius()[0] + b.radius()[0]);
     let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
     let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));
     let mut place = held_at(start);
     let (mut a, mut b) = at(place);
     let mut lambda = ratio(&a, &b);
+    // The least curvature of half the squared distance, by the same measure that is used below: 1 - |cos| of straight lines.
+    let mut curved = f64::INFINITY;
     for _ in 0..STEPS {
         let (apart, radii) = (a.position - b.position, a.radius()[0] + b.radius()[0]);
         let held = lambda * lambda;
@@ -91,17 +127,13 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)>
         // Where the distance is not convex, enough is added on the diagonal, by the measure of the straight lines through
         // both places, that it becomes so. A little more keeps parallel lines where they are.
         let scale = DVec2::new(flat_a, flat_b) + f64::MIN_POSITIVE;
-        let short = if bent_a > 0.0 && bent_a * bent_b > across * across {
-            0.0
-        } else {
-            let (own, across) = (DVec2::new(bent_a, bent_b) / scale, across / (scale.x * scale.y).sqrt());
-            let least = own.x + own.y - (own.x - own.y).hypot(2.0 * across);
-            (-least).max(0.0)
-        };
+        let (own, along) = (DVec2::new(bent_a, bent_b) / scale, across / (scale.x * scale.y).sqrt());
+        curved = (own.x + own.y - (own.x - own.y).hypot(2.0 * along)) / 2.0;
+        let short = (-2.0 * curved).max(0.0);
         let added = scale * (short + 1e-9);
         let (aa, bb) = (bent_a + added.x, bent_b + added.y);
         if one.is_gone(place.x, -gradient.x) || other.is_gone(place.y, -gradient.y) {
-            return None;
+            break;
         }
         // A parameter that is held where it would go on stays; the other one goes on alone.
         let held_from = |towards: DVec2| {
@@ -125,7 +157,12 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)>
             }
             fixed => alone(fixed),
         };
-        // A yarn that stands still at a place has no way to go there.
+        // A yarn that stands still at a place has no way to go there. The other one goes on alone.
+        let step = if step.is_finite() {
+            step
+        } else {
+            alone([flat_a, flat_b].map(|flat| flat < f64::MIN_POSITIVE))
+        };
         let step = if step.is_finite() { step } else { DVec2::ZERO };
         let mut step = step * (STRIDE / step.abs().max_element()).min(1.0);
         // It leads downhill, but it may lead too far: round a sharp bend it would go back and forth without end.
@@ -145,5 +182,5 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<(DVec2, f64)>
             break;
         }
     }
-    Some((place, lambda))
+    (place, lambda, curved)
 }

@@ -15,8 +15,7 @@ pub const CLEARANCE_NEAR: f64 = 1.1;
 /// such a yarn bends as sharply as it is thick and meets itself there, more than that. Of their ratios below 0.25 no smaller one is
 /// looked for. Where a section reaches four times as far as its control points lie apart it counts by its hull, untwisted.
 ///
-/// Of two approaches side by side on one pair of sharply bent intervals the nearer may stay unseen: once in some
-/// 30,000 tangles of random yarns that was 0.003.
+/// Of two approaches side by side on one pair of sharply bent intervals of flattened yarns the nearer may stay unseen.
 pub const CLEARANCE_ACCURACY: f64 = 1e-3;
 
 /// The most contacts that are listed one by one.

@@ -230,8 +230,14 @@ pub(super) struct Chords {
 
 impl Chords {
     /// Calls `start` with the parameters of two intervals at which their chords come nearest to one another, and those of the
-    /// chords' middles, for each pair of chords nearer than all pairs beside it, and nearer than `within`.
-    pub(super) fn approaches(&self, other: &Self, within: f64, mut start: impl FnMut([DVec2; 2])) {
+    /// chords' middles, for each pair of chords nearer than all pairs beside it, and nearer than `within`. With `edges` also for those at an
+    /// end of one interval that are nearer than the pairs beside them there: they may lead in to an approach.
+    pub(super) fn approaches(
+        &self,
+        other: &Self,
+        (within, edges): (f64, bool),
+        mut start: impl FnMut([DVec2; 2]),
+    ) {
         /// A row of pairs, and one place more on each side.
         const ROW: usize = CHORDS_MAX + 2;
         let (rows, columns) = (self.count, other.count);
@@ -255,10 +261,15 @@ impl Chords {
                 // Of two alike the first counts.
                 let before = [own - ROW - 1, own - ROW, own - ROW + 1, own - 1];
                 let after = [own + 1, own + ROW - 1, own + ROW, own + ROW + 1];
-                if here <= within * within
-                    && before.iter().all(|place| near[*place] > here)
-                    && after.iter().all(|place| near[*place] >= here)
-                {
+                let least_of = |before: &[usize], after: &[usize]| {
+                    before.iter().all(|place| near[*place] > here)
+                        && after.iter().all(|place| near[*place] >= here)
+                };
+                let on_edge = |at: usize, count: usize| edges && (at == 0 || at + 1 == count);
+                let least = least_of(&before, &after)
+                    || (on_edge(row, rows) && least_of(&[own - 1], &[own + 1]))
+                    || (on_edge(column, columns) && least_of(&[own - ROW], &[own + ROW]));
+                if here <= within * within && least {
                     let (_, s, t) = closest(self.chord(row), other.chord(column));
                     let at = |s: f64, t: f64| {
                         DVec2::new((row as f64 + s) / rows as f64, (column as f64 + t) / columns as f64)

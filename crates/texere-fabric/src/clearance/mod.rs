@@ -8,6 +8,7 @@ mod extent;
 mod found;
 mod interval;
 mod line;
+mod nearer;
 mod part;
 mod passing;
 mod rolls;
@@ -80,7 +81,7 @@ pub struct Clearance {
 /// the roll that they have on its rings, flattened as the yarn is. A ply that lies in another yarn's furrow touches where the
 /// surfaces do, not where their hulls would. Of each pair of yarn parts within [`CLEARANCE_NEAR`] the nearest approach is found.
 /// Two places of one yarn count
-/// from an arc length of π/2 times the sum of their radii on: nearer ones can only meet in a bend tighter than the yarn
+/// from an arc length of π/2 times the sum of their radii on, by the chords between control points: nearer ones can only meet in a bend tighter than the yarn
 /// is thick (Schur's theorem: no curve with that curvature brings its ends closer than the circle does), which shows in
 /// the curvature. So does a loop within one control interval, which is no contact.
 ///

@@ -9,7 +9,7 @@ use super::interval::Cubic;
 /// At a knot where the distance is level the later interval has it. So the earlier one may be left out where it is no
 /// further than this from level, the later one where it rises by twice as much at least: rounding can't lose it between
 /// the two.
-const LEVEL: f64 = 1e-12;
+pub(super) const LEVEL: f64 = 1e-12;
 
 /// An interval as Bernstein coefficients, relative to where it begins so that nothing is lost far from the origin.
 #[derive(Debug, Clone, Copy)]

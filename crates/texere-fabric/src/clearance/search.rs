@@ -1,6 +1,6 @@
 //! The search: which intervals meet in a cell, and where two of them come nearest to one another.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
@@ -8,13 +8,14 @@ use glam::{DVec2, Vec3A};
 use texere_core::{Sampling, Yarns};
 
 use super::approach::{Side, refine};
-use super::contact::{CLEARANCE_BESIDE, Contact, YarnPlace};
+use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BESIDE, Contact, YarnPlace};
 use super::crowd::Crowd;
 use super::curvature;
 use super::extent::Extent;
 use super::found::Found;
 use super::interval::{Chords, Cubic, SAGITTA, closest};
 use super::line::{self, Line, Span};
+use super::nearer::nearer;
 use super::part::Part;
 use super::passing::Passing;
 use super::rolls::{IntervalRolls, Rolls};
@@ -297,7 +298,7 @@ impl<'a> Probe<'a> {
         if !discs && surfaces.iter().any(|surface| !surface.is_simple()) {
             // Surfaces that have lobes or turn may come near in many places, whatever the centrelines do.
             let mut all = Vec::new();
-            chords[0].approaches(chords[1], within, |starts| all.push(starts[0]));
+            chords[0].approaches(chords[1], (within, false), |starts| all.push(starts[0]));
             let touching = if all.is_empty() { None } else { touch(surfaces, &all, apart) };
             if let Some((place, ratio)) = touching {
                 add(place, ratio, found);
@@ -313,23 +314,46 @@ impl<'a> Probe<'a> {
             }
         }
         let mut seen: Vec<DVec2> = Vec::new();
-        chords[0].approaches(chords[1], within, |starts| {
+        let least = Cell::new(f64::INFINITY);
+        let valley = Cell::new(false);
+        let refined = |start: DVec2| {
+            let approach = refine(sides[0], sides[1], start);
+            least.set(approach.ratio.min(least.get()));
+            valley.set(valley.get() || approach.valley);
+            approach.own.map(|place| (place, approach.ratio))
+        };
+        let mut keep = |(place, ratio): (DVec2, f64)| {
+            let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
+            if ratio <= self.near && !again && apart(place) {
+                seen.push(place);
+                add(place, ratio, found);
+            }
+        };
+        // Of a yarn with itself, what lies beside the knot that two intervals share hides an approach further along.
+        chords[0].approaches(chords[1], (within, same && round), |starts| {
             // The first may lead out of the interval to an approach beside this one's own.
-            let refined = starts.into_iter().find_map(|start| match round {
-                true => refine(sides[0], sides[1], start),
+            let reached = starts.into_iter().find_map(|start| match round {
+                true => refined(start),
                 false if discs => {
                     let near = tubes::nearest(sides[0], sides[1], start)?;
                     Some((DVec2::new(sides[0].own(near.place.x)?, sides[1].own(near.place.y)?), near.ratio))
                 }
                 false => touch_near(surfaces, self.near, tubes::nearest(sides[0], sides[1], start)?),
             });
-            let Some((place, ratio)) = refined else { return };
-            let again = seen.iter().any(|other| (*other - place).abs().max_element() < 0.01);
-            if ratio <= self.near && !again && apart(place) {
-                seen.push(place);
-                add(place, ratio, found);
+            if let Some(approach) = reached {
+                keep(approach);
             }
         });
+        // Approaches that lie in one valley may be one to the chords.
+        while !discs && valley.get() {
+            let known = least.get();
+            let nearer = nearer(&a.cubic, &b.cubic, known.min(self.near) - CLEARANCE_ACCURACY);
+            let Some(start) = nearer else { break };
+            refined(start).into_iter().for_each(&mut keep);
+            if least.get() >= known {
+                break;
+            }
+        }
         Ok(())
     }
 

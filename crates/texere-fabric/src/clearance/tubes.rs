@@ -81,7 +81,7 @@ pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Ne
 
 /// Where two tubes that run nearly side by side are nearest to one another: where their centrelines are.
 pub(super) fn nearest_beside(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
-    let (place, _) = refine(one, other, start)?;
+    let place = refine(one, other, start).own?;
     let Touch { ratio, normal, .. } = Meeting::new(one, other, place)?.beside();
     Some(Nearest { place, ratio, normal, ended: true })
 }

@@ -228,6 +228,26 @@ fn knits_have_the_same_numbers_small_and_large() {
 }
 
 #[test]
+fn yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large() {
+    // An inlay has two points a course: fewer in its repeat than it goes on by beyond the cloth.
+    let net = |copies: [u32; 2]| {
+        let bars = ["1-0/0-1//", "0-0/1-1//", "0-0//"]
+            .map(|chain| Bar::new(Chain::parse(chain, 1).unwrap()))
+            .to_vec();
+        let (yarns, sections) = (vec![KnitYarn::new(0.05)], vec![Section::Circle]);
+        let gauge = Gauge::new(1.0, 0.75);
+        let knit = WarpKnitted::new(bars, gauge, 1, 2, yarns, materials(), sections, copies).unwrap();
+        let yarns = knit.yarns().unwrap();
+        let run_ins: Vec<_> = knit.run_ins(&yarns, 0.0).iter().map(|bar| bar.reached_mm).collect();
+        let measures = knit.measures(&yarns, 0.0);
+        (run_ins, measures.areal_weight.unwrap())
+    };
+    let (one, many) = (net([1, 1]), net([6, 6]));
+    assert!(close(one.1, many.1, 1e-4), "{one:?} {many:?}");
+    assert!(one.0.iter().zip(&many.0).all(|(one, many)| close(*one, *many, 1e-4)), "{one:?} {many:?}");
+}
+
+#[test]
 fn stripes_of_a_knit_count_by_their_own_courses() {
     // Two courses of 20 tex, one of 30: loops are alike, so that they weigh as if all were of the mean, 70/3 tex.
     let knit = |yarns: Vec<u32>, copies: [u32; 2]| {

@@ -2,17 +2,17 @@
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use texere::{
-    CLEAR, CLEARANCE_BESIDE, CLEARANCE_BIN, ClothClearance, ThreadBend, ThreadContact, ThreadCrowd,
-    ThreadDrawn, ThreadPlace, counted,
+    CLEAR, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, ClothClearance, ThreadBend, ThreadContact,
+    ThreadCrowd, ThreadDrawn, ThreadPlace, counted,
 };
 
 /// How near yarns come to one another.
 #[derive(Debug, Serialize)]
 pub(crate) struct ClearanceReport {
-    /// The least ratio of all contacts, 1 where yarns just touch; null where none comes within 1.1. Where it is crowded it is
-    /// no more than this.
+    /// The least ratio of all contacts, 1 where yarns just touch. Where it is crowded it is no more than this; null where crowds are all there is.
+    #[serde(serialize_with = "as_near_as_looked")]
     min: f64,
     contacts: u64,
     below_one: u64,
@@ -99,10 +99,20 @@ impl Crossing {
     }
 }
 
+/// The least clearance; no number where only crowds were found, which are not measured.
+pub(crate) const fn least(found: &ClothClearance) -> f64 {
+    if found.crowd.is_some() && found.min.is_infinite() { f64::NAN } else { found.min }
+}
+
+/// A least clearance as JSON has it: that of no contact is as near as is looked.
+pub(crate) fn as_near_as_looked<S: Serializer>(least: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(if *least == f64::INFINITY { CLEARANCE_NEAR } else { *least })
+}
+
 impl From<&ClothClearance> for ClearanceReport {
     fn from(found: &ClothClearance) -> Self {
         Self {
-            min: found.min,
+            min: least(found),
             contacts: found.contacts,
             below_one: found.below_one,
             piercing: found.piercing,
@@ -231,4 +241,39 @@ impl fmt::Display for CurvatureReport {
 /// `x 3.250, y 1.000, z -0.125 mm`
 pub(crate) fn place([x, y, z]: [f64; 3]) -> String {
     format!("x {x:.3}, y {y:.3}, z {z:.3} mm")
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json, to_value};
+    use texere::Origin;
+
+    use super::*;
+
+    /// What JSON has of a cloth whose nearest contact is so near, beside a crowd or none.
+    fn min(min: f64, crowd: Option<ThreadCrowd>) -> Value {
+        let found = ClothClearance {
+            min,
+            contacts: 0,
+            below_one: 0,
+            piercing: 0,
+            worst: Vec::new(),
+            histogram: vec![0; 110],
+            crowd,
+            bend: ThreadBend { radii: f64::INFINITY, place: None },
+            drawn: ThreadDrawn { width: 1.0, width_at: None, inwards: 0, inwards_at: None },
+        };
+        to_value(ClearanceReport::from(&found)).unwrap()["min"].clone()
+    }
+
+    #[test]
+    fn cloth_whose_yarns_do_not_meet_is_as_clear_as_is_looked() {
+        assert_eq!(min(f64::INFINITY, None), json!(CLEARANCE_NEAR));
+        assert_eq!(min(0.5, None), json!(0.5));
+        let place =
+            ThreadPlace { thread: Origin::End(1), position_mm: [0.0; 3], crossing: None, stitch: None };
+        let crowd = ThreadCrowd { place, thickness_mm: 1.0, pitch_mm: None, intervals: 2000, fill: 0.5 };
+        assert_eq!(min(f64::INFINITY, Some(crowd)), Value::Null);
+        assert_eq!(min(0.7, Some(crowd)), json!(0.7));
+    }
 }

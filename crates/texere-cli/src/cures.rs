@@ -6,6 +6,8 @@ use std::ops::RangeInclusive;
 use serde::Serialize;
 use texere::{Cure, Diagnosis, FaultKind, JamReport, Relief, Remedy, Shape};
 
+use crate::clearance::{as_near_as_looked, least};
+
 /// Spacings and diameters that a design file may have, mm.
 const LENGTHS_MM: RangeInclusive<f64> = 0.001..=1000.0;
 
@@ -19,6 +21,7 @@ pub(crate) struct CureReport {
     /// What that comes to.
     effect: String,
     /// The least clearance and the tightest bend with it, at what were the worst places.
+    #[serde(serialize_with = "as_near_as_looked")]
     clearance: f64,
     curvature: f64,
     /// What it does not cure.
@@ -50,7 +53,7 @@ impl CureReport {
             key: "--subdivisions",
             value: subdivisions.to_string(),
             effect: "rings closer together in meshes and pictures".into(),
-            clearance: diagnosis.clearance.min,
+            clearance: least(&diagnosis.clearance),
             curvature: diagnosis.clearance.bend.radii,
             leaves: phrase(&leaves),
         }

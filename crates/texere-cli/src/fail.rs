@@ -216,7 +216,7 @@ impl From<texere_view::ViewError> for Fail {
         use texere_view::ViewError;
         match error {
             ViewError::Read(error) => error.into(),
-            ViewError::Fabric(error) => error.into(),
+            ViewError::Refused(error) => error.into(),
             ViewError::Backend(error) => error.into(),
             _ => Self { code: WORLD, source: error.into() },
         }
@@ -230,6 +230,55 @@ mod tests {
     use texere::Place;
 
     use super::*;
+
+    /// What a design file asks for is its fault; memory, devices and the command line's settings are not, whoever comes upon them.
+    #[test]
+    fn refusals_have_the_code_of_their_cause() {
+        let place = || Place { file: "a.k".into(), line: 3, field: "knit + f1 1".into() };
+        let crowded = || FinishError::Backend(BackendError::Crowded { chords: 2, limit: 1 });
+        let short = || FabricError::OutOfMemory { what: "control points", bytes: 1 << 40 };
+        let other = |error: FinishError| Refusal::Other(error);
+        let settings = FabricError::Settings(PlanError::Tension { tension: 2.0 });
+        let none = BackendError::NoDevice { wanted: "abacus".into(), found: vec!["cpu".into()] };
+        let cases = [
+            (Refusal::Key { place: place(), source: crowded() }, DESIGN),
+            (Refusal::File { file: "a.k".into(), source: crowded() }, DESIGN),
+            (other(crowded()), DESIGN),
+            (other(short().into()), WORLD),
+            (
+                other(FinishError::Settling(SettlingError::OutOfMemory { what: "chords", bytes: 1 << 40 })),
+                WORLD,
+            ),
+            (
+                other(FinishError::Crossings(CrossingsError::OutOfMemory { what: "chords", bytes: 1 << 40 })),
+                WORLD,
+            ),
+            (other(settings.into()), USAGE),
+            (other(none.into()), USAGE),
+            (other(FinishError::Woven { asked: "a course" }), DESIGN),
+        ];
+        for (refusal, code) in cases {
+            let said = refusal.to_string();
+            assert_eq!(Fail::from(refusal).code, code, "{said}");
+        }
+        #[cfg(feature = "view")]
+        {
+            use texere_view::ViewError;
+            let fail = Fail::from(ViewError::Refused(Refusal::Key { place: place(), source: crowded() }));
+            assert_eq!(fail.code, DESIGN);
+            assert!(fail.to_string().contains("a.k, line 3: knit + f1 1"), "{fail}");
+            assert_eq!(Fail::from(ViewError::Refused(other(short().into()))).code, WORLD);
+            assert_eq!(
+                Fail::from(ViewError::Read(ReadError::Io {
+                    file: "a.k".into(),
+                    source: ErrorKind::NotFound.into()
+                }))
+                .code,
+                WORLD
+            );
+            assert_eq!(Fail::from(ViewError::Window("no display".into())).code, WORLD);
+        }
+    }
 
     #[test]
     fn memory_devices_and_files_are_no_fault_of_the_design_or_the_command_line() {

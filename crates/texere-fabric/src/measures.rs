@@ -124,7 +124,8 @@ impl Measures {
     }
 
     /// Measures a woven `cloth`, whose yarns are `yarns`, as they are woven or at rest, with splines of `tension`. One repeat has the numbers
-    /// that many have: what is measured is whole repeats, as they lie among others.
+    /// that many have: what is measured is whole repeats, as they lie among others. What depends on tex is measured in repeats of the weave and
+    /// of the yarns' tex, or in the whole cloth where that is no longer.
     ///
     /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, FabricError> {
@@ -142,8 +143,9 @@ impl Measures {
             ratios[set][..count].iter().sum::<f64>() / count as f64 - 1.0
         };
         // tex is g/km, so that a thread of one tex in each mm weighs a gram in each m².
+        let by_weight = cloth.whole_by_weight();
         let weights = [0, 1].map(|set| {
-            let (count, extent) = whole[set];
+            let (count, extent) = by_weight[set];
             let threads = sets[set].iter().zip(&ratios[set]).take(count);
             let tex = |thread: &Thread| yarns.materials()[thread.material as usize].tex.map(f64::from);
             threads.map(|(thread, ratio)| Some(tex(thread)? * ratio / extent)).sum::<Option<f64>>()
@@ -228,14 +230,17 @@ impl Cover {
         }
         let fraction = [0, 1].map(|set| f64::min(taken[set] / sets[set].1, 1.0));
         // n / √N added up thread by thread: each has its own count.
-        let factors = sets.map(|(threads, across)| {
-            let root = |thread: &Thread| {
-                let tex = f64::from(cloth.materials()[thread.material as usize].tex?);
-                Some(1.0 / (tex_from_cotton_count(1.0) / tex).sqrt())
-            };
-            let sum: Option<f64> = threads.iter().map(root).sum();
-            sum.map(|sum| sum / (across / INCH_MM))
-        });
+        let by_weight = cloth.whole_by_weight();
+        let factors =
+            [(cloth.warp(), by_weight[0]), (cloth.weft(), by_weight[1])].map(|(set, (count, across))| {
+                let threads = &set[..count];
+                let root = |thread: &Thread| {
+                    let tex = f64::from(cloth.materials()[thread.material as usize].tex?);
+                    Some(1.0 / (tex_from_cotton_count(1.0) / tex).sqrt())
+                };
+                let sum: Option<f64> = threads.iter().map(root).sum();
+                sum.map(|sum| sum / (across / INCH_MM))
+            });
         let factor = if let [Some(warp), Some(weft)] = factors { Some([warp, weft]) } else { None };
         Ok(Self {
             factor,

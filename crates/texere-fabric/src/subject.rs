@@ -37,10 +37,10 @@ impl FabricError {
             | Self::ThreadCount { .. }
             | Self::ClearancePoints { .. }
             | Self::LinkingSize { .. }
-            | Self::KnitPoints { .. }
-            | Self::KnitRepeat { .. } => Subject::Size,
+            | Self::KnitPoints { .. } => Subject::Size,
             Self::KnitSize { .. }
             | Self::KnitRuns { .. }
+            | Self::KnitRepeat { .. }
             | Self::KnitNeedle { .. }
             | Self::KnitCarriers { .. }
             | Self::TieUp { .. }

@@ -79,8 +79,83 @@ fn a_pattern_of_thick_and_thin_counts_by_whole_repeats() {
     assert!(close(one, more, 1e-5), "{one} {more}");
 }
 
+/// Straight ends of yarns in this order over and over again, 2 to the mm, below straight picks of 20 tex, 1 to the mm.
+fn straight(tex: &[f32], order: &[u32], ends: usize) -> Measures {
+    let materials = [20.0].iter().chain(tex).map(|tex| Material { tex: Some(*tex), ..Material::default() });
+    let warp =
+        (0..ends).map(|end| Thread { material: 1 + order[end % order.len()], ..Thread::new(0.5, 0.1) });
+    let cloth = Woven::new(
+        Drawdown::new(ends, 4).unwrap(),
+        warp.collect(),
+        vec![Thread::new(1.0, 0.1); 4],
+        materials.collect(),
+        vec![Section::Circle],
+    )
+    .unwrap();
+    Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap()
+}
+
+#[test]
+fn yarns_that_repeat_over_more_threads_than_the_weave_count_by_their_own_repeat() {
+    // The mean tex of an end, 2 ends to the mm, beside the picks. Peirce's cover factor: ends to the inch over √Ne, with Ne = 590.5 / tex.
+    let factor = |tex: f64| 50.8 * (tex / 590.5).sqrt();
+    let orders: [(&[u32], f64, f64); 3] = [
+        (&[0, 1, 2], 40.0, (factor(10.0) + factor(30.0) + factor(80.0)) / 3.0),
+        (&[0, 0, 0, 2], 27.5, factor(10.0) * 0.75 + factor(80.0) * 0.25),
+        (&[0, 0, 0, 0, 0, 1, 2], 160.0 / 7.0, (factor(10.0) * 5.0 + factor(30.0) + factor(80.0)) / 7.0),
+    ];
+    for (order, tex, factor) in orders {
+        for ends in [order.len(), 2 * order.len(), 2 * order.len() + 1, 3 * order.len()] {
+            let measures = straight(&[10.0, 30.0, 80.0], order, ends);
+            let weight = measures.areal_weight.unwrap();
+            assert!(close(weight, 2.0 * tex + 20.0, 1e-6), "{order:?} on {ends} ends: {weight}");
+            let found = measures.cover.unwrap().factor.unwrap()[0];
+            assert!(close(found, factor, 1e-3), "{order:?} on {ends} ends: {found} for {factor}");
+        }
+    }
+}
+
+#[test]
+fn flat_threads_among_round_ones_are_part_of_the_repeat() {
+    // Threads of one radius, every third of them three times as wide as high: it rises less than the others and passes them lower.
+    let cloth = |size: usize| {
+        let thread = |number: usize| Thread {
+            flatness: if number.is_multiple_of(3) { 3.0 } else { 1.0 },
+            ..Thread::new(0.8, 0.1)
+        };
+        let threads: Vec<_> = (0..size).map(thread).collect();
+        let drawdown = Weave::parse("plain").unwrap().drawdown(size, size).unwrap();
+        Woven::new(drawdown, threads.clone(), threads, materials(), vec![Section::Circle]).unwrap()
+    };
+    let [one, many] = [cloth(6), cloth(36)]
+        .map(|cloth| numbers(&cloth, &Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap()));
+    assert!(one.iter().zip(many).all(|(one, many)| close(*one, many, 2e-4)), "{one:?} {many:?}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 24, ..ProptestConfig::default() })]
+    #[test]
+    fn yarns_of_one_repeat_have_the_weight_of_many(
+        notation in prop::sample::select(vec!["plain", "2/1", "2/2", "satin 5"]),
+        yarns in prop::sample::subsequence(vec![0, 1, 2, 3, 4, 5], 2..6).prop_shuffle(),
+        times in [1_usize..4, 1..4],
+    ) {
+        let tex: Vec<_> = [10.0, 15.0, 30.0, 45.0, 80.0, 200.0].iter()
+            .map(|tex| Material { tex: Some(*tex), ..Material::default() }).collect();
+        let repeat = Weave::parse(notation).unwrap().repeat().0 * yarns.len();
+        let cloth = |size: [usize; 2]| {
+            let thread = |number: usize| Thread { material: yarns[number % yarns.len()], ..Thread::new(0.8, 0.1) };
+            let drawdown = Weave::parse(notation).unwrap().drawdown(size[0], size[1]).unwrap();
+            let [warp, weft] = size.map(|size| (0..size).map(thread).collect());
+            Woven::new(drawdown, warp, weft, tex.clone(), vec![Section::Circle]).unwrap()
+        };
+        // A few threads more than whole repeats, but for the first.
+        let [one, many] = [[repeat; 2], times.map(|times| times * repeat + times - 1)].map(cloth).map(|cloth| {
+            Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap().areal_weight.unwrap()
+        });
+        prop_assert!(close(one, many, 2e-4), "{} {}", one, many);
+    }
+
     #[test]
     fn a_weave_of_one_repeat_has_the_numbers_of_many(
         notation in prop::sample::select(vec!["plain", "2/1", "2/2", "3/1", "satin 5"]),
@@ -149,6 +224,48 @@ fn knits_have_the_same_numbers_small_and_large() {
         });
         let pairs = one.iter().flatten().zip(many.iter().flatten());
         assert!(pairs.into_iter().all(|(one, many)| close(*one, *many, 1e-4)), "{one:?} {many:?}");
+    }
+}
+
+#[test]
+fn yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large() {
+    // An inlay has two points a course: fewer in its repeat than it goes on by beyond the cloth.
+    let net = |copies: [u32; 2]| {
+        let bars = ["1-0/0-1//", "0-0/1-1//", "0-0//"]
+            .map(|chain| Bar::new(Chain::parse(chain, 1).unwrap()))
+            .to_vec();
+        let (yarns, sections) = (vec![KnitYarn::new(0.05)], vec![Section::Circle]);
+        let gauge = Gauge::new(1.0, 0.75);
+        let knit = WarpKnitted::new(bars, gauge, 1, 2, yarns, materials(), sections, copies).unwrap();
+        let yarns = knit.yarns().unwrap();
+        let run_ins: Vec<_> = knit.run_ins(&yarns, 0.0).iter().map(|bar| bar.reached_mm).collect();
+        let measures = knit.measures(&yarns, 0.0);
+        (run_ins, measures.areal_weight.unwrap())
+    };
+    let (one, many) = (net([1, 1]), net([6, 6]));
+    assert!(close(one.1, many.1, 1e-4), "{one:?} {many:?}");
+    assert!(one.0.iter().zip(&many.0).all(|(one, many)| close(*one, *many, 1e-4)), "{one:?} {many:?}");
+}
+
+#[test]
+fn stripes_of_a_knit_count_by_their_own_courses() {
+    // Two courses of 20 tex, one of 30: loops are alike, so that they weigh as if all were of the mean, 70/3 tex.
+    let knit = |yarns: Vec<u32>, copies: [u32; 2]| {
+        let chart = Chart::parse("k", Beds::One).unwrap().with_yarns(&yarns).unwrap();
+        let program = chart.program().unwrap();
+        let stitches = Machine::default().knit(&program).unwrap().stitches;
+        let yarns = [0, 1].map(|material| KnitYarn { material, ..KnitYarn::new(0.09) }).to_vec();
+        let (gauge, sections) = (Gauge::munden(3.5), vec![Section::Circle]);
+        let yarns = yarns[..program.carriers.len().min(2)].to_vec();
+        let knit = Knitted::new(stitches, gauge, yarns, materials(), sections, copies).unwrap();
+        knit.measures(&knit.yarns().unwrap(), 0.0).unwrap()
+    };
+    let plain = knit(vec![0], [6, 6]);
+    for copies in [[1, 1], [2, 3], [7, 5]] {
+        let striped = knit(vec![0, 0, 1], copies);
+        let by_hand = plain.areal_weight.unwrap() * (70.0 / 60.0);
+        assert!(close(striped.areal_weight.unwrap(), by_hand, 1e-4), "{copies:?}: {striped:?} {by_hand}");
+        assert!(close(striped.length_mm[0], 2.0 * striped.length_mm[1], 1e-4), "{copies:?}: {striped:?}");
     }
 }
 

@@ -157,3 +157,46 @@ fn a_yarn_that_goes_too_far_names_its_line() {
     // The first of the longest ways is from needle 60000 back to needle 1.
     assert!(said.contains("design.k, line 7") && said.contains("yarns pass"), "{said}");
 }
+
+/// A cable of 40 loops over 40: the lines that knit its crossing are named, whether the file is a design or a design names it.
+#[test]
+fn a_knitout_file_that_is_too_crowded_to_settle_names_its_line() {
+    let row = |way: char| {
+        let needles: Vec<i32> = if way == '+' { (1..=80).collect() } else { (1..=80).rev().collect() };
+        needles.iter().map(|needle| format!("knit {way} f{needle} 1\n")).collect::<String>()
+    };
+    let moved = |needles: std::ops::RangeInclusive<i32>, by: i32| {
+        let moved = needles.map(|needle| format!("xfer b{needle} f{}\n", needle + by));
+        format!("rack {by}\n{}", moved.collect::<String>())
+    };
+    let back: String = (1..=80).map(|needle| format!("xfer f{needle} b{needle}\n")).collect();
+    let knitout = format!(
+        ";!knitout-2\n;;Carriers: 1\nin 1\n{0}{1}{back}{2}{3}rack 0\n{0}{1}",
+        row('+'),
+        row('-'),
+        moved(1..=40, 40),
+        moved(41..=80, -40)
+    );
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cable.k"), &knitout).unwrap();
+    let design = "[knit]\nknitout = \"cable.k\"\nwales_per_cm = 5\ncourses_per_cm = 7\n[yarns.a]\ndiameter_mm = 0.35\n";
+    std::fs::write(folder.path().join("cable.toml"), design).unwrap();
+    for name in ["cable.k", "cable.toml"] {
+        let design = read(folder.path().join(name)).unwrap();
+        let on = |_| ControlFlow::Continue(());
+        let error = design.structure.settle(&design.finish, 0.0, &ParallelBackend::open().unwrap(), on);
+        let error = design.refused(error.unwrap_err());
+        let said = error.to_string();
+        let line = said.split_once("cable.k, line ").and_then(|(_, rest)| rest.split_once(": "));
+        let (line, rest) = line.unwrap_or_else(|| panic!("{name}: {said}"));
+        let text = knitout.lines().nth(line.parse::<usize>().unwrap() - 1).unwrap();
+        assert!(rest.starts_with(text) && text.starts_with("knit"), "{name}: {said}, where {text} stands");
+        assert!(error.source().unwrap().to_string().contains("too many yarns lie in one place"));
+    }
+}
+
+#[test]
+fn a_knitout_file_without_loops_names_a_line() {
+    let said = said_of("design.k", ";!knitout-2\n;;Carriers: 1\nin 1\nmiss + f3 1\nout 1\n", "");
+    assert!(said.contains("design.k, line 3: in 1") && said.contains("no loops"), "{said}");
+}

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::iter::successors;
 
-use texere::{BackendError, FabricError, ReadError};
+use texere::{BackendError, ReadError, Refusal};
 use thiserror::Error;
 
 /// Why no window can be opened.
@@ -13,9 +13,9 @@ pub enum ViewError {
     /// The design can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The section that was asked for does not go with the design.
+    /// The section that was asked for does not go with the design; with the file, line and key that it does not go with.
     #[error(transparent)]
-    Fabric(#[from] FabricError),
+    Refused(#[from] Refusal),
     /// The device.
     #[error(transparent)]
     Backend(#[from] BackendError),

@@ -79,7 +79,7 @@ impl View {
     fn read(&self) -> Result<Design, ViewError> {
         let mut design = texere::read(&self.design)?;
         if let Some(section) = &self.section {
-            design.structure.set_section(section.clone())?;
+            design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
         }
         Ok(design)
     }

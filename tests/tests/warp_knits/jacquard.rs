@@ -1,8 +1,12 @@
 //! Jacquards of any figure come to rest: loops of guides that share a needle lie side by side from the start.
 
+use std::ops::ControlFlow;
+
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use texere_core::{Material, Section};
+use texere_cpu::ParallelBackend;
+use texere_fabric::Finish;
 use texere_fabric::warp::{Bar, Chain, Displacements, WarpKnitted};
 use texere_fabric::weft::{Gauge, KnitYarn};
 
@@ -43,7 +47,30 @@ fn every_colour_rests_between_all_others() {
     }
 }
 
-/// And its loops are drawn through those below from the start.
+/// The least clearance of all the cloth at rest, with its cut edges.
+fn clear(cloth: &WarpKnitted) -> f64 {
+    let device = ParallelBackend::open().expect("the CPU");
+    let settled = cloth.settle(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(()));
+    settled.expect("a settling").clearance.min
+}
+
+/// Thick places in every second column: neighbours share needles all the way up to the cut edge, where they once met.
+#[test]
+fn figures_are_as_clear_where_they_are_cut_off() {
+    for (size, figure) in [([12, 8], "bars"), ([6, 5], "checks"), ([8, 6], "figure")] {
+        let colour = |wale: u32, row: u32| match figure {
+            "bars" => (wale / 2 % 3) as u8,
+            "checks" => ((wale / 2 + row / 2) % 3) as u8,
+            _ => ((wale * wale + 3 * row + wale * row) % 3) as u8,
+        };
+        for diameter in DIAMETERS {
+            let clear = clear(&cloth(size, diameter, colour));
+            assert!(clear >= 0.98, "{figure} {diameter}: {clear}");
+        }
+    }
+}
+
+/// And its loops are drawn through those below from the start; its cut edges are clear, too.
 #[test]
 fn any_figure_rests() {
     let colours = prop::collection::vec(0_u8..3, 6 * 3);
@@ -54,6 +81,8 @@ fn any_figure_rests() {
             let piece = cloth.piece().expect("a piece");
             prop_assert_eq!(faults(&cloth, &piece, &piece.yarns), Vec::<String>::new());
             prop_assert_eq!(fault("any figure", &cloth, diameter, FOLD), None);
+            let clear = clear(&cloth);
+            prop_assert!(clear >= 0.98, "{} with its cut edges", clear);
         }
         Ok(())
     };

@@ -6,7 +6,7 @@ use serde::Serialize;
 use texere::settling::Length;
 use texere::{Design, Passage, Press, Settled, Verdict};
 
-use crate::clearance::place;
+use crate::clearance::{as_near_as_looked, place};
 
 /// How yarns have settled. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]
@@ -22,7 +22,8 @@ pub(crate) struct KnitRestReport {
     /// Passes in all, and those of the block form among them.
     passes: u32,
     block_passes: u32,
-    /// The least clearance of surfaces as drawn: 1 where they touch; null where none comes near another.
+    /// The least clearance of surfaces as drawn: 1 where they touch.
+    #[serde(serialize_with = "as_near_as_looked")]
     pub(super) clearance: f64,
     /// The least radius of curvature.
     radius_diameters: f32,

@@ -13,6 +13,7 @@ use texere::{
 };
 
 use crate::args::SettlingArgs;
+use crate::clearance::least;
 use crate::fail::Fail;
 use crate::{drivers, progress};
 use knit::KnitRestReport;
@@ -114,8 +115,8 @@ impl SettlingReport {
     /// cloth alone, and no further than yarns that touch.
     pub(crate) const fn measured(&mut self, clearance: &ClothClearance) {
         match self {
-            Self::Knit(report) => report.clearance = clearance.min,
-            Self::Woven(report) => report.clearance = clearance.min,
+            Self::Knit(report) => report.clearance = least(clearance),
+            Self::Woven(report) => report.clearance = least(clearance),
             Self::Refused { .. } => {}
         }
     }

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::Serialize;
 use texere::{Verdict, WovenRest};
 
+use crate::clearance::as_near_as_looked;
 use crate::measures::Sets;
 
 /// How woven cloth has come to rest. The keys of the JSON are these fields.
@@ -20,7 +21,9 @@ pub(crate) struct WovenRestReport {
     /// Ends and picks of what has settled.
     repeat: Sets<usize>,
     /// The least clearance of surfaces as drawn: before threads were made thinner where they lacked it, and after.
+    #[serde(serialize_with = "as_near_as_looked")]
     clearance_before: f64,
+    #[serde(serialize_with = "as_near_as_looked")]
     pub(super) clearance: f64,
     /// How many times threads were made thinner.
     rounds: u32,

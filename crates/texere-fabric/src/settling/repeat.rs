@@ -106,17 +106,25 @@ impl Repeat {
                     sources.extend(all[part].iter().map(|own| source(*own, round)));
                 }
             };
-            let [before, beyond] = beyond.map(|beyond| (beyond as usize).min(range.len()));
+            let ([mut before, mut beyond], length) =
+                (beyond.map(|points| points as usize), range.len().max(1));
             if let Some(onward) = onward {
-                lay([cell[0] - onward[0], cell[1] - onward[1]], range.end - before..range.end);
+                for rounds in (1..=before.div_ceil(length)).rev() {
+                    let own = before - (rounds - 1) * length;
+                    let round = [0, 1].map(|axis| cell[axis] - rounds as i64 * onward[axis]);
+                    lay(round, range.end - own..range.end);
+                    before -= own;
+                }
             }
             let mut last = cell;
             for round in std::iter::successors(Some(cell), next).take_while(|cell| self.holds(*cell)) {
                 lay(round, range.clone());
                 last = round;
             }
-            if let Some(after) = next(&last) {
-                lay(after, range.start..range.start + beyond);
+            while let Some(after) = next(&last).filter(|_| beyond > 0) {
+                let own = beyond.min(length);
+                lay(after, range.start..range.start + own);
+                (last, beyond) = (after, beyond - own);
             }
             let own = layout.yarns()[yarn];
             table.push(Yarn { origin: origin(own.origin, cell), ..own });

@@ -41,7 +41,7 @@ pub struct WarpKnitted {
     materials: Vec<Material>,
     sections: Vec<Section>,
     copies: [u32; 2],
-    cells: Cells,
+    pub(super) cells: Cells,
 }
 
 impl WarpKnitted {
@@ -174,16 +174,7 @@ impl WarpKnitted {
         let last = i64::from(self.size()[1]);
         let source =
             |own: u32, [_, y]: [i64; 2]| (i64::from(own) + y * i64::from(courses)).clamp(1, last) as u32;
-        repeat.laid_as(yarns, self.beyond(), origin, source)
-    }
-
-    /// How many control points yarns go on beyond the cloth at their beginning and at their end, where that does not spoil their count: down
-    /// into the last loop below, and up the leg of the next loop above until beyond the heads that hold it.
-    pub(super) const fn beyond(&self) -> [u32; 2] {
-        match self.cells {
-            Cells::Round => [3, 4],
-            Cells::Even => [0, 0],
-        }
+        self.ended(repeat.laid_as(yarns, self.beyond(), origin, source)?)
     }
 
     /// One repeat of the cloth, and what holds it: see [`WarpKnitted::repeat`].

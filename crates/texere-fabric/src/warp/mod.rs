@@ -12,6 +12,7 @@
 mod bar;
 mod chain;
 mod check;
+mod cut;
 mod knitted;
 mod laps;
 mod library;

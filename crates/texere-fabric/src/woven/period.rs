@@ -21,9 +21,18 @@ pub(crate) struct Sample<'a> {
 }
 
 impl Woven {
-    /// As many threads of either set as whole repeats of the cloth have, and what these take, mm.
+    /// As many threads of either set as whole repeats of how they lie and cross have, and what these take, mm.
     pub(crate) fn whole(&self) -> [(usize, f64); 2] {
-        let (repeat, middles, size) = (self.repeat(), self.middles_mm(), self.size_mm());
+        self.whole_of(self.repeat())
+    }
+
+    /// Those of whole repeats of their yarns' weights as well.
+    pub(crate) fn whole_by_weight(&self) -> [(usize, f64); 2] {
+        self.whole_of(self.repeat_by_weight())
+    }
+
+    fn whole_of(&self, repeat: [usize; 2]) -> [(usize, f64); 2] {
+        let (middles, size) = (self.middles_mm(), self.size_mm());
         [0, 1].map(|set| {
             let count = middles[set].len();
             let whole = if count < repeat[set] { count } else { count / repeat[set] * repeat[set] };

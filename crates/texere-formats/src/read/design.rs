@@ -3,9 +3,12 @@
 use std::fmt;
 use std::path::{self, PathBuf};
 
-use texere_core::{Origin, Yarns};
-use texere_fabric::{FabricError, Finish, FinishError, Finished, Stretch, Structure, ThreadPlace, YarnPlace};
+use texere_core::{BackendError, Origin, Settings, Yarns};
+use texere_fabric::{
+    FabricError, Finish, FinishError, Finished, Stretch, Structure, ThreadPlace, YarnPlace, clearance,
+};
 
+use super::Place;
 use super::keys::Keys;
 use super::knit::KnittedFrom;
 use super::refusal::Refusal;
@@ -162,11 +165,24 @@ impl Design {
         if source.subject().is_none() {
             return Refusal::Other(source);
         }
-        match (self.keys.place(&source, |thread| self.yarn_of(thread)), self.keys.file()) {
+        let crowded = match &source {
+            FinishError::Backend(BackendError::Crowded { .. }) => self.crowded(),
+            _ => None,
+        };
+        let place = crowded.or_else(|| self.keys.place(&source, |thread| self.yarn_of(thread)));
+        match (place, self.keys.file()) {
             (Some(place), _) => Refusal::Key { place, source },
             (None, Some(file)) => Refusal::File { file: file.into(), source },
             (None, None) => Refusal::Other(source),
         }
+    }
+
+    /// The line of a knitout file whose yarn lies where it is most crowded.
+    fn crowded(&self) -> Option<Place> {
+        let (from, yarns) = (self.knitted_from.as_ref()?, self.yarns().ok()?);
+        let found = clearance(&yarns, &Settings::of(&yarns)).ok()?;
+        let nearest = || found.worst.first().map(|contact| contact.places[0]);
+        from.line(found.crowd.map(|crowd| crowd.place).or_else(nearest)?.source?)
     }
 
     /// The name of a thread's yarn.

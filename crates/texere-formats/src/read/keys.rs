@@ -71,6 +71,8 @@ pub(super) struct Keys {
     pub(super) numbered: Vec<(String, Vec<(u32, usize)>)>,
     /// The operation of a knitout file that each carrier is in first, and its line.
     pub(super) carriers: Vec<(Origin, String, usize)>,
+    /// The last operation of a knitout file that makes a loop, and its line: by there its cloth has grown so large.
+    pub(super) last: Option<(String, usize)>,
     /// The keys of the draft that the design names.
     pub(super) named: Option<Box<Self>>,
 }
@@ -119,11 +121,11 @@ impl Keys {
         let bar = |bar, key| self.line(&format!("warp_knit.bars, bar {bar}: {key}"));
         let yarn = |thread, keys| self.yarn(thread, yarn(thread), keys);
         match subject {
-            Subject::Size => self.first(SIZE),
+            Subject::Size => self.first(SIZE).or_else(|| self.last()),
             Subject::Width => self.line("warp_knit.wales"),
             Subject::Height => self.line("warp_knit.courses"),
             Subject::Copies => self.first(&["knit.repeat", "warp_knit.repeat", "warp_knit.wales"]),
-            Subject::Structure => self.first(STRUCTURE),
+            Subject::Structure => self.first(STRUCTURE).or_else(|| self.last()),
             Subject::Wales => self.first(WALES),
             Subject::Courses => self.first(COURSES),
             Subject::Loops => self.first(LOOPS),
@@ -163,6 +165,10 @@ impl Keys {
 
     fn first(&self, keys: &[&str]) -> Option<Place> {
         keys.iter().find_map(|key| self.line(key))
+    }
+
+    fn last(&self) -> Option<Place> {
+        self.last.as_ref().map(|(operation, line)| Place::new(&self.file, *line, operation))
     }
 
     /// How close the threads of `warp` or `weft` lie.
@@ -298,7 +304,7 @@ mod tests {
             ),
             (FabricError::Carrier { carrier: 1, yarns: 0 }.into(), "knit.yarns"),
             (FabricError::KnitPoints { points: 9, limit: 1 }.into(), "weave.ends"),
-            (FabricError::KnitRepeat { points: 9, limit: 1 }.into(), "weave.ends"),
+            (FabricError::KnitRepeat { points: 9, limit: 1 }.into(), "knit.chart"),
             (FabricError::ClearancePoints { points: 9, limit: 1 }.into(), "weave.ends"),
             (FabricError::LinkingSize { intervals: 9, limit: 1 }.into(), "weave.ends"),
             (FabricError::Copies { loops: 9, limit: 1 }.into(), "knit.repeat"),

@@ -12,7 +12,7 @@ use texere_fabric::{FabricError, Structure, Thread};
 use super::design::{MachineFault, Told};
 use super::error::named;
 use super::threads::only_used;
-use super::{Design, ReadError};
+use super::{Design, Place, ReadError};
 
 /// How many faults of a kind are told.
 const FAULTS_TOLD: usize = 3;
@@ -62,6 +62,12 @@ pub(super) struct KnittedFrom {
 }
 
 impl KnittedFrom {
+    /// The line of a knitout file that a source is. None of a chart, which errors name as a whole.
+    pub(super) fn line(&self, source: u32) -> Option<Place> {
+        let Drawn::Lines { file } = &self.drawn else { return None };
+        Some(Place::new(file, source as usize, &self.told(source).instructions.join("; ")))
+    }
+
     /// Where operations come from, and what they do.
     pub(super) fn told(&self, source: u32) -> Told {
         let carriers = |CarrierSet(set): CarrierSet| {

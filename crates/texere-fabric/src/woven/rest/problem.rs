@@ -68,13 +68,23 @@ impl Woven {
             .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels())
     }
 
-    /// After how many ends and picks all threads and crossings are as those before; all of them where nothing repeats, two at least.
+    /// After how many ends and picks all threads lie and cross as those before; all of them where nothing repeats, two at least.
     pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
+        self.period_of(|_| None)
+    }
+
+    /// After how many ends and picks all threads weigh what those before do as well: a pattern of yarns may be longer than the weave's repeat.
+    pub(in crate::woven) fn repeat_by_weight(&self) -> [usize; 2] {
+        self.period_of(|thread| self.materials()[thread.material as usize].tex)
+    }
+
+    /// After how many ends and picks threads are as those before in this, too.
+    fn period_of(&self, weight: impl Fn(&Thread) -> Option<f32>) -> [usize; 2] {
         let (rooms, drawdown) = (rooms(self), self.drawdown());
         let [ends, picks] = [self.warp().len(), self.weft().len()];
         [
-            period(&kinds(self.warp(), &rooms[0], |end| bits(picks, |pick| drawdown.up(end, pick)))),
-            period(&kinds(self.weft(), &rooms[1], |pick| bits(ends, |end| drawdown.up(end, pick)))),
+            period(&kinds(self.warp(), &rooms[0], &weight, |end| bits(picks, |pick| drawdown.up(end, pick)))),
+            period(&kinds(self.weft(), &rooms[1], &weight, |pick| bits(ends, |end| drawdown.up(end, pick)))),
         ]
     }
 }
@@ -87,12 +97,18 @@ pub(super) fn gaps(threads: &[Thread]) -> Vec<f64> {
 }
 
 /// Numbers for threads that are alike, and that cross alike.
-fn kinds(threads: &[Thread], rooms: &[[f32; 2]], sides: impl Fn(usize) -> Vec<u64>) -> Vec<usize> {
+fn kinds(
+    threads: &[Thread],
+    rooms: &[[f32; 2]],
+    weight: impl Fn(&Thread) -> Option<f32>,
+    sides: impl Fn(usize) -> Vec<u64>,
+) -> Vec<usize> {
     let mut known = HashMap::new();
     let kind = |number: usize| {
-        let Thread { spacing_mm, radius_mm, stiffness, .. } = threads[number];
-        let sizes = [radius_mm, stiffness, rooms[number][0], rooms[number][1]].map(f32::to_bits);
-        (sizes, (spacing_mm as f32).to_bits(), sides(number))
+        let Thread { spacing_mm, radius_mm, flatness, stiffness, .. } = threads[number];
+        let sizes = [radius_mm, flatness, stiffness, rooms[number][0], rooms[number][1]].map(f32::to_bits);
+        let weight = weight(&threads[number]).map(f32::to_bits);
+        (sizes, (spacing_mm as f32).to_bits(), weight, sides(number))
     };
     (0..threads.len())
         .map(|number| {

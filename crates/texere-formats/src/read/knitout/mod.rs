@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use texere_core::Origin;
-use texere_fabric::weft::{CarrierSet, Program};
+use texere_fabric::weft::{CarrierSet, Instruction, Operation, Program};
 
 use super::ReadError;
 use super::file::{Files, bytes_of};
@@ -138,20 +138,32 @@ fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<Knitout, Re
     Ok(Knitout { program, gauge, yarns, warnings: warnings.list(), unused_sizes, keys })
 }
 
-/// What errors of the cloth name: the gauge, and where each carrier comes first.
+/// What errors of the cloth name: the gauge, where each carrier comes first, and the last loop; where there is none, the first operation.
 fn keys(path: &Path, gauge: Option<usize>, program: &Program) -> Keys {
-    let (mut carriers, mut seen) = (Vec::new(), vec![false; program.carriers.len()]);
+    let (mut carriers, mut last, mut seen) = (Vec::new(), None, vec![false; program.carriers.len()]);
+    let written = |(operation, carrier): (&Operation, u32)| {
+        let written = format!("{} {}", operation.instruction, program.carriers[carrier as usize]);
+        (written, operation.source as usize)
+    };
     for operation in &program.operations {
         let CarrierSet(set) = operation.carriers;
-        for &carrier in program.carrier_sets.get(set as usize).into_iter().flatten() {
+        let set = program.carrier_sets.get(set as usize).map_or(&[][..], Vec::as_slice);
+        for &carrier in set {
             if !std::mem::replace(&mut seen[carrier as usize], true) {
-                let written = format!("{} {}", operation.instruction, program.carriers[carrier as usize]);
-                carriers.push((Origin::Carrier(carrier + 1), written, operation.source as usize));
+                let (written, line) = written((operation, carrier));
+                carriers.push((Origin::Carrier(carrier + 1), written, line));
             }
+        }
+        let makes_loops = matches!(
+            operation.instruction,
+            Instruction::Knit(..) | Instruction::Tuck(..) | Instruction::Split(..)
+        );
+        if let Some(&carrier) = set.first().filter(|_| makes_loops || last.is_none()) {
+            last = Some((operation, carrier));
         }
     }
     let lines = gauge.map(|line| (GAUGE.to_owned(), line)).into_iter().collect();
-    Keys { file: path.into(), lines, carriers, ..Keys::default() }
+    Keys { file: path.into(), lines, carriers, last: last.map(written), ..Keys::default() }
 }
 
 /// Whether a line has no operation.

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
+use texere_core::{BackendError, Origin, SettlingError};
 use texere_fabric::weft::{CarrierSet, Direction, Instruction, Needle};
+use texere_fabric::{FabricError, FinishError};
 
 use super::warnings::WARNINGS_MAX;
 use super::{Knitout, LoopLengths, parse};
@@ -214,6 +216,45 @@ fn what_is_not_standard_is_warned_of_once() {
     let many: String = (0..100).map(|number| format!("x-{number}\n")).collect();
     let many = warnings(format!("{HEAD}{many}"));
     assert!(many.len() == 21 && many[20].contains("more warnings are left out"), "{many:?}");
+}
+
+/// Errors of a cloth, whose structure and settling know carriers and sizes, name the lines of its file.
+#[test]
+fn errors_of_the_cloth_have_their_lines() {
+    let text = ";!knitout-2\n;;Machine: SWG\n;;Carriers: 1 2 3\n;;Gauge: 7\nin 3\nknit + f1 3\nin 2\ntuck - f1 2\nsplit + f1 b1 2 3\nout 2\nrack 1\n";
+    let place = |text: &str, error: FinishError| {
+        let place = read(text).unwrap().keys.place(&error, |_| None);
+        place.map(|place| format!("{} {}: {}", place.file.display(), place.line, place.field))
+    };
+    let (low, high) = (0.1, 1.0);
+    let radius =
+        |carrier| FabricError::Radius { thread: Origin::Carrier(carrier), radius_mm: 9.0, low, high };
+    let twist = FabricError::Twist { thread: Origin::Carrier(2), twist: 9.0, limit: 1.0 };
+    let gauge = |what| FabricError::Gauge { what, mm: 0.0, low: 0.1, high: 1.0 };
+    let long = SettlingError::LongInterval { yarn: 0, chords: 9, limit: 1 };
+    let crowded = BackendError::Crowded { chords: 9, limit: 1 };
+    for (error, line) in [
+        (radius(3).into(), "5: in 3"),
+        (twist.into(), "7: in 2"),
+        (FinishError::Thread { thread: Origin::Carrier(3), source: long.clone() }, "5: in 3"),
+        (gauge("wales").into(), "4: ;;Gauge"),
+        (gauge("courses").into(), "4: ;;Gauge"),
+        (gauge("loops").into(), "4: ;;Gauge"),
+        (FinishError::Settling(long), "4: ;;Gauge"),
+        (FabricError::KnitPoints { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
+        (FabricError::KnitRepeat { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
+        (FabricError::ClearancePoints { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
+        (FabricError::LinkingSize { intervals: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
+        (FabricError::Stitches { what: "no loops" }.into(), "9: split + f1 b1 2"),
+        (SettlingError::TooMany { what: "chords", count: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
+        (crowded.into(), "9: split + f1 b1 2"),
+    ] {
+        let said = error.to_string();
+        assert_eq!(place(text, error), Some(format!("a.k {line}")), "{said}");
+    }
+    // Where nothing is knitted, the first operation has to do.
+    let empty = place(";!knitout-2\nin 1\nout 1\n", FabricError::Stitches { what: "no loops" }.into());
+    assert_eq!(empty.as_deref(), Some("a.k 2: in 1"));
 }
 
 #[test]

@@ -91,10 +91,13 @@ impl fmt::Display for Undersampled {
 }
 
 impl Settings {
-    /// The usual settings for a mesh of `yarns`: [`Settings::default`], but as many subdivisions as [their twist needs](Settings::following).
+    /// The usual settings for a mesh of `yarns`: [`Settings::default`], but as many subdivisions as [their twist needs](Settings::following), and as
+    /// many sides as a polygon has [corners](crate::Layout::corners).
     #[must_use]
     pub fn of(yarns: &Yarns) -> Self {
-        Self::default().following(yarns)
+        let usual = Self::default();
+        let sides = yarns.layout().corners().unwrap_or(usual.sides);
+        Self { sides, ..usual }.following(yarns)
     }
 
     /// The same with so many subdivisions that rings follow the twist of all `yarns`: it turns none by more than [`TWIST_STEP`] from one ring

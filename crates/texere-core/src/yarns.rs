@@ -182,6 +182,15 @@ impl Layout {
         &self.sections
     }
 
+    /// How many corners the first polygon among the sections has, if any is one: tubes of a polygon have as many [sides](crate::Settings::sides).
+    #[must_use]
+    pub fn corners(&self) -> Option<u32> {
+        self.sections.iter().find_map(|section| match section {
+            Section::Polygon(corners) => Some(corners.len() as u32),
+            _ => None,
+        })
+    }
+
     /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more than [`UPRIGHT_TURN`](crate::UPRIGHT_TURN)
     /// within a control interval. [`Yarns::new`] finds it out; a layout without control points has no steep yarns.
     ///

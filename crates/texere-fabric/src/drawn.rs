@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use texere_core::{PaddedPoints, Plan, Ring, Sample, Section, Settings, TWIST_SUBDIVISIONS_MAX, Turn, Yarns};
+use texere_core::{PaddedPoints, Plan, Ring, Sample, Settings, TWIST_SUBDIVISIONS_MAX, Turn, Yarns};
 
 use crate::{FabricError, YarnPlace};
 
@@ -44,11 +44,7 @@ pub struct Drawn {
 /// ```
 pub fn drawn(yarns: &Yarns, settings: &Settings) -> Result<Drawn, FabricError> {
     // A polygon has the sides that it has.
-    let corners = yarns.layout().sections().iter().find_map(|section| match section {
-        Section::Polygon(corners) => Some(corners.len() as u32),
-        _ => None,
-    });
-    let settings = &Settings { sides: corners.unwrap_or(settings.sides), ..*settings };
+    let settings = &Settings { sides: yarns.layout().corners().unwrap_or(settings.sides), ..*settings };
     let plan = Plan::new(yarns.layout().clone(), *settings)?;
     let mut points = PaddedPoints::new(&plan)
         .map_err(|_| FabricError::OutOfMemory { what: "control points", bytes: plan.resident_bytes() })?;

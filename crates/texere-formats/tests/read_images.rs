@@ -3,9 +3,12 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use std::error::Error;
+use std::io::Cursor;
 
 use image::{Rgba, RgbaImage};
 use texere_formats::{Design, ReadError, read};
+use tiff::encoder::TiffEncoder;
+use tiff::encoder::colortype::{Gray8, RGB8};
 
 /// Five ends by six picks as a viewer shows them, `#` dark.
 const SHOWN: [&str; 6] = ["#....", "##..#", "###..", ".###.", "..#.#", "#..#."];
@@ -98,8 +101,8 @@ impl Tiff {
                 let each = data.len() as u32 / samples;
                 for (tag, values) in &mut tags {
                     match tag {
-                        273 => *values = (0..samples).map(|plane| strip + plane * each).collect(),
-                        279 => *values = vec![each; samples as usize],
+                        273 | 324 => *values = (0..samples).map(|plane| strip + plane * each).collect(),
+                        279 | 325 => *values = vec![each; samples as usize],
                         _ => {}
                     }
                 }
@@ -332,6 +335,49 @@ fn a_tiff_that_can_not_be_shown_is_refused_by_name() {
     assert_eq!(woven("a.tif", &small.bytes()), SHOWN);
 }
 
+#[test]
+fn planes_of_tiles_are_refused_by_name() {
+    // Grey and opacity, red and green and blue, numbers of a palette and opacity, in a tile of 16 by 16 each.
+    for (photometric, samples) in [(1, 2), (2, 3), (3, 2)] {
+        let planes = Tiff::one(
+            &[
+                (256, &[5]),
+                (257, &[6]),
+                (258, &vec![8; samples]),
+                (262, &[photometric]),
+                (277, &[samples as u32]),
+                (284, &[2]),
+                (320, &palette(8, [200, 7])),
+                (322, &[16]),
+                (323, &[16]),
+            ],
+            vec![200; samples * 16 * 16],
+        );
+        refused("a.tif", &planes.bytes(), "", &["PlanarConfiguration"]);
+    }
+    // Of one sample there is one plane, whatever the file says.
+    let tile = (0..16 * 16).map(|place| match [place % 16, place / 16] {
+        [column, row] if column < 5 && row < 6 && is_dark(column, row) => 0,
+        _ => 255,
+    });
+    let mut single = grey(8, false).with(284, &[2]).with(322, &[16]).with(323, &[16]);
+    single.pages[0].0.retain(|(tag, _)| *tag != 278);
+    single.pages[0].1 = tile.collect();
+    assert_eq!(woven("a.tif", &single.bytes()), SHOWN);
+}
+
+#[test]
+fn a_bigtiff_is_a_tiff() {
+    let grey: Vec<u8> = (0..30).map(|place| if is_dark(place % 5, place / 5) { 0 } else { 255 }).collect();
+    let mut file = Cursor::new(Vec::new());
+    TiffEncoder::new_big(&mut file).unwrap().write_image::<Gray8>(5, 6, &grey).unwrap();
+    assert_eq!(woven("a.tif", file.get_ref()), SHOWN);
+    let colors: Vec<u8> = grey.iter().flat_map(|value| [*value, *value, 90]).collect();
+    let mut file = Cursor::new(Vec::new());
+    TiffEncoder::new_big(&mut file).unwrap().write_image::<RGB8>(5, 6, &colors).unwrap();
+    assert_eq!(woven("a.tif", file.get_ref()), SHOWN);
+}
+
 /// What is shown where a file holds `held` and names this orientation, by the words of TIFF 6.0: where row 0 and column 0 are.
 fn turned(held: &[&str], orientation: u32) -> Vec<String> {
     let rows = || held.iter().map(|row| row.chars().collect::<Vec<_>>());
@@ -390,7 +436,7 @@ fn png(color: impl Fn(bool, usize) -> [u8; 4]) -> Vec<u8> {
     let image = RgbaImage::from_fn(5, 6, |column, row| {
         Rgba(color(is_dark(column as usize, row as usize), (column + 5 * row) as usize))
     });
-    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut bytes = Cursor::new(Vec::new());
     image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
     bytes.into_inner()
 }

@@ -444,6 +444,13 @@ fn a_file_that_counts_from_0_is_told_so() {
     let shafts =
         shafts.replace("[TIEUP]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n", "[TIEUP]\n1=0,1\n2=1,2\n3=2,3\n4=3,0\n");
     refused(&shafts, &["[THREADING] 1 is \"0\"", "shafts are counted from 1", "from 0"]);
+    // A loom of more shafts, or of nobody knows how many: an end may well be on no shaft, and a treadle tied to none.
+    for weaving in ["Shafts=8\n", ""] {
+        let design = read_text(&shafts.replace("Shafts=4\n", weaving)).unwrap();
+        let told =
+            |warning: &String| warning.contains("[THREADING] 1 is shaft 0") && warning.contains("from 1");
+        assert!(design.warnings().iter().any(told), "{weaving:?}: {:?}", design.warnings());
+    }
     // Treadles in both lists; and in the treadling alone, where the tie-up has no row 0 to be pressed.
     let pressed = treadles.replace("[TREADLING]\n1=1\n2=2\n3=3\n4=4\n", "[TREADLING]\n1=0\n2=1\n3=2\n4=3\n");
     refused(&pressed, &["counts from 0"]);

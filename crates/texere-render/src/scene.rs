@@ -41,13 +41,18 @@ impl Default for Quality {
 const FINE_SIDES: u32 = 16;
 const FINE_POINTS: usize = 4_000_000;
 
-/// How many sides tubes have in a picture where nobody asks for others. `lies_close`: whether the yarns are flattened threads of woven cloth at
+/// How many sides tubes have in a picture where nobody asks for others: of a polygon as many as it has corners. `lies_close`: whether the yarns are flattened threads of woven cloth at
 /// rest, which lie so close that ground would be seen past the corners of fewer sides.
 ///
 /// **Units**: sides of a section, as in [`Settings::sides`].
 #[must_use]
 pub fn picture_sides(yarns: &Yarns, lies_close: bool) -> u32 {
-    if lies_close && yarns.points().len() <= FINE_POINTS { FINE_SIDES } else { Settings::default().sides }
+    let usual = if lies_close && yarns.points().len() <= FINE_POINTS {
+        FINE_SIDES
+    } else {
+        Settings::default().sides
+    };
+    yarns.layout().corners().unwrap_or(usual)
 }
 
 /// A picture in host memory.

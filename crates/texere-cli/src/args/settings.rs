@@ -10,7 +10,8 @@ pub(crate) struct SettingsArgs {
     /// ring to ring: of plies, ellipses and polygons, and in pictures of every yarn. Round yarns in meshes may turn by 90
     #[arg(long, value_name = "K")]
     pub(crate) subdivisions: Option<u32>,
-    /// Sides of the tube; if left out 6, or 16 in a picture of woven cloth at rest of up to four million control points
+    /// Sides of the tube; if left out 6, or 16 in a picture of woven cloth at rest of up to four million control points; a polygon has as
+    /// many as corners
     #[arg(long, value_name = "NC")]
     pub(crate) sides: Option<u32>,
     /// Tension of the spline, 0 to below 1
@@ -69,7 +70,9 @@ impl SettingsArgs {
 
     /// The settings for a mesh of `yarns`.
     pub(crate) fn of(&self, yarns: &Yarns) -> Settings {
+        let sides = self.sides.or_else(|| yarns.layout().corners());
         let settings = self.settings();
+        let settings = Settings { sides: sides.unwrap_or(settings.sides), ..settings };
         if self.subdivisions.is_some() { settings } else { settings.following(yarns) }
     }
 

@@ -56,6 +56,30 @@ fn measures_add_up() {
     assert!((0.29..3.0 * 0.29).contains(&number(&measures["thickness_mm"])));
 }
 
+/// Settled and as it is woven: nobody has to say how many sides a triangle has.
+#[test]
+fn a_polygon_has_as_many_sides_as_corners() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, mesh) = (folder.path().join("cloth.toml"), folder.path().join("cloth.ply"));
+    for (corners, count) in
+        [("[-1, -1], [1, -1], [0, 1]", 3), ("[1, 0], [0.3, 1], [-0.8, 0.6], [-0.8, -0.6], [0.3, -1]", 5)]
+    {
+        let section = format!("section = {{ shape = \"polygon\", corners = [{corners}] }}\n");
+        std::fs::write(&path, CLOTH.replace("tex = 40.0\n", &format!("tex = 40.0\n{section}"))).unwrap();
+        let path = path.to_str().unwrap();
+        for settle in ["--settle", "--no-settle"] {
+            let counts = inspect(&[path, settle]);
+            assert_eq!(number(&counts["vertices"]), f64::from(count) * number(&counts["rings"]), "{settle}");
+        }
+        let output = texere(&["mesh", path, "--no-settle", "-o", mesh.to_str().unwrap()]);
+        assert!(output.status.success() && mesh.exists(), "{output:?}");
+        // Who asks for others is told.
+        let output = texere(&["inspect", "--counts", path, "--sides", "6"]);
+        assert_eq!(output.status.code(), Some(2), "{output:?}");
+        std::fs::remove_file(&mesh).unwrap();
+    }
+}
+
 #[test]
 fn the_worst_places_have_a_weavers_names() {
     let report = cloth();

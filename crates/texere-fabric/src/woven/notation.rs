@@ -59,9 +59,6 @@ const NUMBER: &str = "a number from 1 to 4096";
 
 const _: () = assert!(REPEAT_MAX == 4096);
 
-/// What is expected where a weave may start.
-const WEAVE: &str = "the name of a weave or a number from 1 to 4096";
-
 /// What is expected where the picks of a satin name the ends that they bind.
 const ORDER: &str = "each end of the satin once, in the order in which picks bind them: satin 6(1 3 5 2 6 4)";
 
@@ -112,8 +109,7 @@ pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
         }
         Some("honeycomb") => Notation::Drawn(&HONEYCOMB),
         Some("crepe") => Notation::Drawn(&CREPE),
-        Some(_) => floats(&mut cursor, NUMBER)?,
-        None => floats(&mut cursor, WEAVE)?,
+        _ => floats(&mut cursor)?,
     };
     if cursor.rest.trim_start().is_empty() { Ok(notation) } else { Err(cursor.fail("the end")) }
 }
@@ -188,7 +184,7 @@ fn reversed(
     reversal: Reversal,
     expected: &'static str,
 ) -> Result<Notation, FabricError> {
-    let base = row(cursor, NUMBER)?;
+    let base = row(cursor)?;
     if !cursor.sign('(') {
         return Err(cursor.fail("\"(\""));
     }
@@ -203,10 +199,10 @@ fn reversed(
 }
 
 /// A twill or a matt weave. Which hand a twill has may be said before its floats or behind them.
-fn floats(cursor: &mut Cursor<'_>, expected: &'static str) -> Result<Notation, FabricError> {
+fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
     let before = cursor.hand();
     cursor.word("twill");
-    let base = row(cursor, if before.is_some() { NUMBER } else { expected })?;
+    let base = row(cursor)?;
     let (mut position, mut written) = (cursor.position(), 1);
     let has_move = cursor.sign('(');
     if has_move {
@@ -229,9 +225,9 @@ fn floats(cursor: &mut Cursor<'_>, expected: &'static str) -> Result<Notation, F
 }
 
 /// Floats up and down in turn, thread by thread.
-fn row(cursor: &mut Cursor<'_>, expected: &'static str) -> Result<Vec<bool>, FabricError> {
+fn row(cursor: &mut Cursor<'_>) -> Result<Vec<bool>, FabricError> {
     let mut base = Vec::new();
-    let mut up = cursor.number(expected)?;
+    let mut up = cursor.number(NUMBER)?;
     loop {
         if !cursor.sign('/') {
             return Err(cursor.fail("\"/\""));
@@ -329,8 +325,11 @@ impl Cursor<'_> {
         let known = NAMES
             .iter()
             .find(|(name, others)| self.word(name) || others.iter().any(|other| self.word(other)));
-        if known.is_some() || !self.rest.starts_with(char::is_alphabetic) {
+        if known.is_some() || self.rest.starts_with(|c: char| c.is_ascii_digit()) {
             return Ok(known.map(|(name, _)| *name));
+        }
+        if hyphen_look_alike(self.next()).is_some() {
+            return Err(self.fail(NUMBER));
         }
         let written = self.rest.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
         Err(FabricError::NoWeave { text: self.shown(), position: self.position(), near: nearest(written) })
@@ -393,10 +392,14 @@ impl Cursor<'_> {
         shown
     }
 
-    fn fail(&self, expected: &'static str) -> FabricError {
+    /// The next character; nothing at the end.
+    fn next(&self) -> &str {
         let next = self.rest.trim_start();
-        let next = &next[..next.chars().next().map_or(0, char::len_utf8)];
-        if let Some(sign) = hyphen_look_alike(next) {
+        &next[..next.chars().next().map_or(0, char::len_utf8)]
+    }
+
+    fn fail(&self, expected: &'static str) -> FabricError {
+        if let Some(sign) = hyphen_look_alike(self.next()) {
             return FabricError::Hyphen { text: self.shown(), position: self.position(), sign };
         }
         FabricError::Notation { text: self.shown(), position: self.position(), expected }

@@ -37,7 +37,7 @@ impl<T: BufRead + Seek> Bytes for T {}
 pub(super) fn decode(path: &Path, files: &Files<'_>) -> Result<Image, ReadError> {
     let io = |source| ReadError::Io { file: path.into(), source };
     let failed = |error: ImageError| undecodable(path, &error.to_string());
-    let (file, file_bytes): (Box<dyn Bytes>, u64) = match files(path, FILE_LIMIT)? {
+    let (mut file, file_bytes): (Box<dyn Bytes>, u64) = match files(path, FILE_LIMIT)? {
         Opened::File(file) => {
             let count = file.metadata().map_err(io)?.len();
             (Box::new(BufReader::new(file)), count)
@@ -47,8 +47,9 @@ pub(super) fn decode(path: &Path, files: &Files<'_>) -> Result<Image, ReadError>
             (Box::new(Cursor::new(bytes)), count)
         }
     };
+    let is_bigtiff = tiff_file::is_big(file.fill_buf().map_err(io)?);
     let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
-    let format = reader.format();
+    let format = if is_bigtiff { Some(ImageFormat::Tiff) } else { reader.format() };
     if format == Some(ImageFormat::Png) {
         let mut file = reader.into_inner();
         if let Some(bytes) = broken_palette(&mut file).map_err(io)? {

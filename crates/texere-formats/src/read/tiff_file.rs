@@ -19,6 +19,12 @@ const BLACK_IS_ZERO: u16 = 1;
 const PALETTE: u16 = 3;
 const CMYK: u16 = 5;
 
+/// The value of PlanarConfiguration that puts each sample in a plane of its own, TIFF 6.0, page 38.
+const IN_PLANES: u16 = 2;
+
+/// How a BigTIFF begins, in either order of bytes.
+const BIG: [[u8; 4]; 2] = [*b"II+\0", *b"MM\0+"];
+
 /// Bits of NewSubfileType that say that a page is a small copy of another, or its mask.
 const BESIDE: u32 = 0b101;
 
@@ -28,6 +34,11 @@ pub(super) struct Header {
     /// Where the file says so, bytes from its start.
     photometric_at: u64,
     order: ByteOrder,
+}
+
+/// Whether a file that begins so is a BigTIFF, which the decoder of all images reads but does not know by itself.
+pub(super) fn is_big(start: &[u8]) -> bool {
+    BIG.iter().any(|big| start.starts_with(big))
 }
 
 /// Looks at a TIFF's first page. `None` for one that the decoder of all images reads as it looks.
@@ -42,6 +53,10 @@ pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header
         Ok(Page { fill_order: 2, .. }) => {
             refuse("its FillOrder is 2, the bits of each byte turned round; save it with FillOrder 1")
         }
+        // Of planes but the first one the decoder takes the lowest tiles for whole ones, and panics.
+        Ok(Page { in_planes_of_tiles: true, .. }) => refuse(
+            "its samples lie in planes of tiles (PlanarConfiguration 2); save it with PlanarConfiguration 1",
+        ),
         Ok(Page { others: true, .. }) => refuse("it has several pages; save the one that is meant alone"),
         Ok(Page { header, .. }) => Ok(header),
         Err(error) => refuse(&error.to_string()),
@@ -52,6 +67,8 @@ pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header
 struct Page {
     photometric: u16,
     fill_order: u16,
+    /// Whether each sample has a plane of its own, cut into tiles.
+    in_planes_of_tiles: bool,
     /// Whether other pages follow.
     others: bool,
     header: Option<Header>,
@@ -61,6 +78,10 @@ fn look(file: &mut impl Bytes) -> Result<Page, TiffError> {
     let mut decoder = Decoder::new(&mut *file)?.with_limits(limits(0));
     let photometric: u16 = decoder.get_tag_unsigned(Tag::PhotometricInterpretation)?;
     let fill_order = decoder.find_tag_unsigned(Tag::FillOrder)?.unwrap_or(1);
+    let in_planes =
+        decoder.find_tag_unsigned(Tag::PlanarConfiguration)?.is_some_and(|of: u16| of == IN_PLANES);
+    let samples: u16 = decoder.find_tag_unsigned(Tag::SamplesPerPixel)?.unwrap_or(1);
+    let in_planes_of_tiles = in_planes && samples > 1 && decoder.find_tag(Tag::TileWidth)?.is_some();
     let (order, at) = (decoder.byte_order(), decoder.ifd_pointer());
     let mut others = false;
     while !others && decoder.more_images() && decoder.next_image().is_ok() {
@@ -73,7 +94,7 @@ fn look(file: &mut impl Bytes) -> Result<Page, TiffError> {
         let photometric_at = entry_at(file, order, at.0, Tag::PhotometricInterpretation.to_u16())?;
         header = photometric_at.map(|photometric_at| Header { photometric, photometric_at, order });
     }
-    Ok(Page { photometric, fill_order, others, header })
+    Ok(Page { photometric, fill_order, in_planes_of_tiles, others, header })
 }
 
 /// Where the value of a tag stands in the directory at `at`, as a SHORT; `None` where it is none.

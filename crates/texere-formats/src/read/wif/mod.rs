@@ -114,7 +114,7 @@ fn draft(
     }
     let threading = lists(ini, "threading", ends, LOOM_LIMIT, warnings)?;
     let highest = threading.iter().flatten().max().copied().unwrap_or(0);
-    counted_from_1(ini, &threading, highest)?;
+    counted_from_1(ini, &threading, highest, warnings)?;
     let shafts = on_loom(ini, "Shafts", highest, "THREADING", warnings)?.unwrap_or(LOOM_LIMIT);
     let rising_shed = rising_shed(ini)?;
     let lift_plan =
@@ -152,33 +152,37 @@ fn draft(
 }
 
 /// Refuses a draft that counts shafts from 0: some ends are on shaft 0, others on every further one but the last; some lifts
-/// name shaft 0, and none the last. A draft of ours counts from 1.
-fn counted_from_1(ini: &Ini<'_>, threading: &[Vec<u32>], highest: u32) -> Result<(), ReadError> {
-    let declared = integer(ini, "weaving", "shafts", 0, LOOM_LIMIT)?;
-    let used: BTreeSet<_> = threading.iter().flatten().collect();
-    let lifts = ["tieup", "liftplan"].into_iter().flat_map(|section| {
-        ini.entries(section).flat_map(move |(key, entry)| numbers::list(ini, section, key, entry).flatten())
-    });
-    let lifts: BTreeSet<_> = lifts.collect();
-    let is_last_lifted = lifts.last().is_some_and(|shaft| *shaft > i64::from(highest));
-    if highest == 0
-        || declared != Some(highest + 1)
-        || used.len() != highest as usize
-        || !lifts.contains(&0)
-        || is_last_lifted
-        || threads::is_ours(ini)
-    {
-        return Ok(());
-    }
+/// name shaft 0, and none the last. Where both name shaft 0, but not all of that is so, there is a warning. A draft of ours counts from 1.
+fn counted_from_1(
+    ini: &Ini<'_>,
+    threading: &[Vec<u32>],
+    highest: u32,
+    warnings: &mut Vec<String>,
+) -> Result<(), ReadError> {
     let first = (1..).zip(threading).find_map(|(end, shafts)| {
         let (key, empty) = (u32::to_string(&end), shafts.is_empty());
         let entry = ini.get("threading", &key).filter(|_| empty)?;
         Some((key, entry))
     });
-    first.map_or(Ok(()), |(key, entry)| {
+    let Some((key, entry)) = first else { return Ok(()) };
+    let lifts = ["tieup", "liftplan"].into_iter().flat_map(|section| {
+        ini.entries(section).flat_map(move |(key, entry)| numbers::list(ini, section, key, entry).flatten())
+    });
+    let lifts: BTreeSet<_> = lifts.collect();
+    if highest == 0 || !lifts.contains(&0) || threads::is_ours(ini) {
+        return Ok(());
+    }
+    let declared = integer(ini, "weaving", "shafts", 0, LOOM_LIMIT)?;
+    let used: BTreeSet<_> = threading.iter().flatten().collect();
+    let is_last_lifted = lifts.last().is_some_and(|shaft| *shaft > i64::from(highest));
+    if declared == Some(highest + 1) && used.len() == highest as usize && !is_last_lifted {
         let expected = "a shaft from 1: shafts are counted from 1 in WIF, in this file from 0";
-        Err(numbers::bad(ini, "threading", &key, entry, expected))
-    })
+        return Err(numbers::bad(ini, "threading", &key, entry, expected));
+    }
+    warnings.push(format!(
+        "[THREADING] {key} is shaft 0, which some lifts name, too; 0 stands for no shaft, for WIF counts them from 1"
+    ));
+    Ok(())
 }
 
 /// Whether the file says that the loom has no treadles. What it says of treadles then counts for nothing.

@@ -47,14 +47,12 @@ struct EmptyNeedles {
     count: u64,
     /// The first of them, from 0 at the left.
     first: Vec<u64>,
-    #[serde(skip)]
-    said: String,
 }
 
 impl EmptyNeedles {
     fn new(pieces: &Pieces) -> Option<Self> {
-        let said = pieces.empty()?;
-        Some(Self { count: pieces.empty_needles, first: pieces.empty_listed.clone(), said })
+        let count = pieces.empty_needles;
+        (count > 0).then(|| Self { count, first: pieces.empty_listed.clone() })
     }
 }
 
@@ -126,7 +124,7 @@ struct Jammed {
 }
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
-    let mut design = reading::design(&args.design)?;
+    let (mut design, _) = reading::reported(&args.design)?;
     let tension = Settings::default().tension;
     let (yarns, mut settling) =
         settling::yarns(&mut design, &args.settling, tension, || texere::open("cpu"))?;
@@ -300,18 +298,12 @@ impl Report {
         if let Some(undersampled) = &self.undersampled {
             line("warning", undersampled.clone());
         }
-        if let Some(empty) = &self.empty_needles {
-            line("warning", empty.said.clone());
-        }
         for missed in self.settling.iter().filter_map(SettlingReport::press_missed) {
             line("warning", missed);
         }
-        for (what, faults) in self
-            .machine
-            .iter()
-            .flat_map(|machine| [("machine", &machine.errors), ("warning", &machine.warnings)])
-        {
-            faults.iter().for_each(|fault| line(what, fault.clone()));
+        // What is no fault has been said as the design was read.
+        for error in self.machine.iter().flat_map(|machine| &machine.errors) {
+            line("machine", error.clone());
         }
         if self.clean {
             let jam = if self.has_settled() { "" } else { ", no jam" };

@@ -36,6 +36,9 @@ struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     settling: Option<SettlingReport>,
     warnings: Vec<String>,
+    /// Those that standard error has not had as the design was read.
+    #[serde(skip)]
+    unsaid: Vec<String>,
 }
 
 /// What a mesh of it takes.
@@ -98,18 +101,18 @@ struct WovenReport {
 }
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
-    let mut design = reading::design(&args.design)?;
+    let (mut design, said) = reading::reported(&args.design)?;
     if let Some(section) = &args.settings.section {
         design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }
-    let report = report(design, args)?;
+    let report = report(design, &said, args)?;
     if args.json {
         return print::json(&report);
     }
     print::text(&report.text())
 }
 
-fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
+fn report(mut design: Design, said: &[String], args: &InspectArgs) -> Result<Report, Fail> {
     let (yarns, mut settling) = if args.counts {
         (design.yarns().map_err(|error| design.refused(error))?, None)
     } else {
@@ -138,7 +141,8 @@ fn report(mut design: Design, args: &InspectArgs) -> Result<Report, Fail> {
     let mut warnings = settling::warnings(&design, settling.as_ref());
     warnings.extend(knit.iter().flat_map(KnitReport::missed));
     warnings.extend(undersampled(&yarns, &settings));
-    Ok(Report { warnings, name: design.name, size: Size::new(&counts), knit, cloth, at, settling })
+    let unsaid = reading::unsaid(&warnings, said);
+    Ok(Report { warnings, unsaid, name: design.name, size: Size::new(&counts), knit, cloth, at, settling })
 }
 
 impl Size {
@@ -333,7 +337,7 @@ impl Report {
                 said.enumerate().map(|(number, said)| (if number == 0 { "at the point" } else { "" }, said)),
             );
         }
-        lines.extend(self.warnings.iter().map(|warning| ("warning", warning.clone())));
+        lines.extend(self.unsaid.iter().map(|warning| ("warning", warning.clone())));
         for (what, value) in lines {
             // Writing to a string can't fail.
             let _ = writeln!(text, "{what:>16}  {}", line(value));

@@ -24,9 +24,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::reporter(&bar));
     let written = texere::stream(pipeline, &*device, output)?;
     bar.finish_and_clear();
-    let mut warnings = settling::warnings(&design, settling.as_ref());
-    // The reader's have been said.
-    warnings.retain(|warning| !design.remarks().contains(warning));
+    let warnings = reading::unsaid(&settling::warnings(&design, settling.as_ref()), design.remarks());
     for warning in warnings.into_iter().chain(undersampled(&yarns, &settings)) {
         print::text(&format!("warning: {}\n", line(warning)))?;
     }

@@ -11,10 +11,31 @@ use crate::terminal::line;
 /// Reads a design, and says on standard error what its reader had to assume or leave out: standard output is for what the command makes.
 pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
     let design = texere::read(path)?;
+    say(design.remarks());
+    Ok(design)
+}
+
+/// [`design`] for a report, which says itself what is wrong with the cloth. Gives what was said beforehand, too.
+pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
+    let design = texere::read(path)?;
+    let errors = design.faults().iter().filter(|fault| fault.is_error).map(|fault| &fault.said);
+    let pieces = design.structure.pieces();
+    let apart = pieces.falls_apart().then(|| pieces.to_string());
+    let faults: Vec<_> = errors.chain(&apart).collect();
+    let said: Vec<_> = design.remarks().iter().filter(|remark| !faults.contains(remark)).cloned().collect();
+    say(&said);
+    Ok((design, said))
+}
+
+/// What of `warnings` has not been `said`.
+pub(crate) fn unsaid(warnings: &[String], said: &[String]) -> Vec<String> {
+    warnings.iter().filter(|warning| !said.contains(warning)).cloned().collect()
+}
+
+fn say(remarks: &[String]) {
     let mut out = std::io::stderr().lock();
-    for remark in design.remarks() {
+    for remark in remarks {
         // When standard error is closed, there is nowhere left to say so.
         let _ = writeln!(out, "warning: {}", line(remark));
     }
-    Ok(design)
 }

@@ -199,9 +199,9 @@ pub enum FabricError {
         limit: usize,
     },
     /// As many threads must be described as the drawdown has.
-    #[error("{threads} described, but the drawdown has {planned}", threads = counted(*.threads, .set.trim_end_matches('s')))]
+    #[error("{threads} described, but the drawdown has {planned}", threads = counted(*.threads, .set))]
     ThreadCount {
-        /// `ends` or `picks`.
+        /// `end` or `pick`.
         set: &'static str,
         /// Described.
         threads: usize,
@@ -506,9 +506,9 @@ pub enum FabricError {
         limit: i32,
     },
     /// Wales or courses of a warp knit that its bars don't repeat in.
-    #[error("{size}, but bars begin again after {multiple}: take a multiple of that", size = counted(*.size, .what.trim_end_matches('s')))]
+    #[error("{size}, but bars begin again after {multiple}: take a multiple of that", size = counted(*.size, .what))]
     WarpRepeat {
-        /// `wales` or `courses`.
+        /// `wale` or `course`.
         what: &'static str,
         /// How many.
         size: u32,

@@ -52,7 +52,7 @@ impl FabricError {
             | Self::TwillMove { .. }
             | Self::Stitches { .. }
             | Self::NoLoops => Subject::Structure,
-            Self::Laps { .. } | Self::WarpRepeat { what: "wales", .. } => Subject::Width,
+            Self::Laps { .. } | Self::WarpRepeat { what: "wale", .. } => Subject::Width,
             Self::WarpRepeat { .. } => Subject::Height,
             Self::Copies { .. } => Subject::Copies,
             Self::Spacing { thread, .. } => Subject::Spacing(thread),

@@ -266,7 +266,7 @@ fn what_is_no_cloth_is_refused() {
     let narrow = Displacements::new([1, 1], vec![vec![[0, 1], [0, 0]]], |_, _| 0);
     let narrow = Bar { jacquard: narrow, ..Bar::new(chain("2-0/1-2//")) };
     knit(vec![narrow], four, one).unwrap().yarns().unwrap();
-    let odd = FabricError::WarpRepeat { what: "courses", size: 3, multiple: 2 };
+    let odd = FabricError::WarpRepeat { what: "course", size: 3, multiple: 2 };
     assert_eq!(refused(vec![bar()], [4, 3], one), odd);
     assert!(matches!(refused(vec![bar()], [0, 2], one), FabricError::WarpRepeat { .. }));
     for copies in [[0, 1], [u32::MAX, u32::MAX], [u32::MAX, 1]] {

@@ -205,9 +205,9 @@ fn what_is_wrong_with_a_thread_is_named() {
 #[test]
 fn what_is_wrong_with_the_whole_is_named() {
     let error = woven(plain(2, 3), vec![THREAD; 3], vec![THREAD; 3]).unwrap_err();
-    assert_eq!(error, FabricError::ThreadCount { set: "ends", threads: 3, planned: 2 });
+    assert_eq!(error, FabricError::ThreadCount { set: "end", threads: 3, planned: 2 });
     let error = woven(plain(2, 3), vec![THREAD; 2], vec![]).unwrap_err();
-    assert_eq!(error, FabricError::ThreadCount { set: "picks", threads: 0, planned: 3 });
+    assert_eq!(error, FabricError::ThreadCount { set: "pick", threads: 0, planned: 3 });
 
     let wide = Thread { spacing_mm: 1e6, ..THREAD };
     let error = woven(plain(2000, 1), vec![wide; 2000], vec![THREAD]).unwrap_err();

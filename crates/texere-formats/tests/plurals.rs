@@ -56,7 +56,7 @@ fn errors_say_one_of_one() {
         SettlingError::LongYarns { points: 1, chords: 1, limit: 0 }.to_string(),
         SettlingError::OutOfMemory { what: "chords", bytes: 1 }.to_string(),
         CrossingsError::Drawdown { ups: 1, ends: 1, picks: 1 }.to_string(),
-        CrossingsError::TooFew { what: "ends", count: 1, least: 2 }.to_string(),
+        CrossingsError::TooFew { what: "end", count: 1, least: 2 }.to_string(),
     ];
     let fabric = [
         Fabric::Size { ends: 1, picks: 1, limit: 9 },
@@ -69,7 +69,7 @@ fn errors_say_one_of_one() {
         Fabric::NoSatin { text: "satin".into(), position: 6, ends: 1 },
         Fabric::SatinMove { text: "satin".into(), position: 6, step: 3, ends: 1 },
         Fabric::Repeat { ends: 1, picks: 1, limit: 0 },
-        Fabric::ThreadCount { set: "picks", threads: 1, planned: 2 },
+        Fabric::ThreadCount { set: "pick", threads: 1, planned: 2 },
         Fabric::ClearancePoints { points: 1, limit: 0 },
         Fabric::LinkingSize { intervals: 1, limit: 0 },
         Fabric::OtherYarns { points: 1, planned: 2 },
@@ -80,7 +80,7 @@ fn errors_say_one_of_one() {
         Fabric::Bars { bars: 1, limit: 0 },
         Fabric::BarOffset { bar: 2, offset: 1, limit: 0 },
         Fabric::JacquardCourses { bar: 2, courses: 1, chain: 2 },
-        Fabric::WarpRepeat { what: "wales", size: 1, multiple: 2 },
+        Fabric::WarpRepeat { what: "wale", size: 1, multiple: 2 },
     ];
     let others = [
         ChartError::Size { wales: 1, rows: 1, limit: 0 }.to_string(),

@@ -14,6 +14,43 @@ const LIFTED: &str = "[WIF]\nVersion=1.1\n[WEAVING]\nShafts=2\nTreadles=0\nRisin
 const EMPTY: &str = "[knit]\nchart = \"\"\"\nkmk\nkmk\n\"\"\"\nrepeat = [2, 2]\nwales_per_cm = 8\ncourses_per_cm = 10\n[yarns.a]\n\
                      diameter_mm = 0.1\n";
 
+/// Yarns that the hook can't take, one that is used before it is brought in, and loops that are left on needles.
+const HOOKED: &str = ";!knitout-2\n;;Carriers: 1 2\ninhook 1\ninhook 2\nknit + f1 1\nknit + f2 1\nknit - f2 1\nknit - f1 1\nouthook 1\n";
+
+/// Two layers that nothing binds.
+const LAYERS: &str = "[weave]\ndrawdown = \"\"\"\n0010\n1011\n1110\n1000\n\"\"\"\n[yarns.a]\ndiameter_mm = 0.3\n[warp]\nyarns = [\"a\"]\n\
+                      spacing_mm = 0.6\n[weft]\nyarns = [\"a\"]\nspacing_mm = 0.6\n";
+
+/// On a terminal both outputs are seen: none has what the other one has.
+#[test]
+fn reports_do_not_repeat_what_was_said_as_the_design_was_read() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text, words) in [
+        ("lifted.wif", LIFTED, vec!["range", "treadles"]),
+        ("empty.toml", EMPTY, vec!["needles that never have a loop"]),
+        ("hooked.k", HOOKED, vec!["the hook takes carrier 2", "loops hang on needles"]),
+        ("layers.toml", LAYERS, vec!["nothing binds all threads"]),
+    ] {
+        let path = folder.path().join(name).to_string_lossy().into_owned();
+        fs::write(&path, text).unwrap();
+        for command in [
+            vec!["inspect", &path],
+            vec!["inspect", &path, "--counts"],
+            vec!["check", &path, "--no-settle"],
+            vec!["check", &path],
+        ] {
+            let output = texere(&command);
+            let said = (crate::stdout(&output) + &stderr(&output)).to_lowercase();
+            for word in &words {
+                assert_eq!(said.matches(word).count(), 1, "{command:?}, {word}: {said}");
+            }
+        }
+        // A report for programs is whole by itself.
+        let report = crate::stdout(&texere(&["inspect", &path, "--counts", "--json"])).to_lowercase();
+        assert!(words.iter().all(|word| report.contains(word)), "{report}");
+    }
+}
+
 #[test]
 fn every_command_says_what_a_reader_warns_of_once() {
     let folder = tempfile::tempdir().unwrap();

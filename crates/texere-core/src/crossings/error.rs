@@ -18,9 +18,9 @@ pub enum CrossingsError {
         picks: usize,
     },
     /// A set with too few threads.
-    #[error("{count}, at least {least} are needed", count = counted(*.count, .what.trim_end_matches('s')))]
+    #[error("{count}, at least {least} are needed", count = counted(*.count, .what))]
     TooFew {
-        /// `ends` or `picks`.
+        /// `end` or `pick`.
         what: &'static str,
         /// How many.
         count: usize,

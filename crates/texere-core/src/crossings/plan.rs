@@ -114,7 +114,7 @@ impl CrossingsPlan {
     /// finite.
     pub fn new(problem: &Crossings) -> Result<Self, CrossingsError> {
         let [ends, picks] = [0, 1].map(|set| problem.threads[set].len());
-        for (what, count) in [("ends", ends), ("picks", picks)] {
+        for (what, count) in [("end", ends), ("pick", picks)] {
             if count < THREADS_MIN {
                 return Err(CrossingsError::TooFew { what, count, least: THREADS_MIN });
             }

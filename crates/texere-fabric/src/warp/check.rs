@@ -64,7 +64,7 @@ pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], FabricErr
         [common(threading[0], u64::from(guides)), threading[1]]
     });
     let repeat = periods.fold([1, 1], |all, own| [0, 1].map(|axis| common(all[axis], own[axis])));
-    for (axis, what) in ["wales", "courses"].into_iter().enumerate() {
+    for (axis, what) in ["wale", "course"].into_iter().enumerate() {
         if size[axis] == 0 || !u64::from(size[axis]).is_multiple_of(repeat[axis]) {
             return Err(FabricError::WarpRepeat { what, size: size[axis], multiple: repeat[axis] });
         }

@@ -63,7 +63,7 @@ impl Woven {
         sections: Vec<Section>,
     ) -> Result<Self, FabricError> {
         let (ends, picks) = (drawdown.ends(), drawdown.picks());
-        for (set, threads, planned) in [("ends", warp.len(), ends), ("picks", weft.len(), picks)] {
+        for (set, threads, planned) in [("end", warp.len(), ends), ("pick", weft.len(), picks)] {
             if threads != planned {
                 return Err(FabricError::ThreadCount { set, threads, planned });
             }

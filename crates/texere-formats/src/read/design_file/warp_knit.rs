@@ -52,9 +52,9 @@ pub(super) fn read(
     let made = WarpKnitted::new(bars, gauge, wales?, courses?, knit_yarns, materials, sections, copies);
     let knit = made.map_err(|error| match error {
         FabricError::WarpRepeat { what, multiple, .. } => {
-            let side = if what == "wales" { &table.wales } else { &table.courses };
+            let side = if what == "wale" { &table.wales } else { &table.courses };
             let expected = format!("a multiple of {multiple}, after which all bars begin again");
-            source.bad(&format!("warp_knit.{what}"), side, &expected)
+            source.bad(&format!("warp_knit.{what}s"), side, &expected)
         }
         error => source.fabric(error),
     })?;

@@ -459,6 +459,29 @@ fn a_file_that_counts_from_0_is_told_so() {
 }
 
 #[test]
+fn a_number_with_zeros_or_a_sign_before_it_is_the_same_key() {
+    // Alone, and after the same key as most files write it, whose value it takes the place of.
+    for key in ["01", "0001", "+1"] {
+        let alone = TWILL.replace("[THREADING]\n1=1\n", &format!("[THREADING]\n{key}=1\n"));
+        assert_eq!(drawdown(&alone), TWILL_DRAWDOWN, "{key}");
+        let again = TWILL.replace("[THREADING]\n1=1\n", &format!("[THREADING]\n1=3\n{key}=1\n"));
+        assert_eq!(drawdown(&again), TWILL_DRAWDOWN, "{key}");
+    }
+    let shafts = TWILL.replace("[TIEUP]\n1=1,2\n2=2,3\n", "[TIEUP]\n01=4\n1=1,2\n2=2,3\n");
+    assert_eq!(drawdown(&shafts), TWILL_DRAWDOWN);
+    // Of colours, too, where several such keys stand.
+    let colors = TWILL.to_owned() + "[COLOR TABLE]\n9=9,9,9\n09=1,1,1\n[WARP COLORS]\n1=9\n+1=9\n";
+    for _ in 0..10 {
+        let cloth = cloth(&colors);
+        assert_eq!(cloth.materials()[cloth.warp()[0].material as usize].srgb, [1, 1, 1]);
+    }
+    // Of two faults the first is told, every time.
+    for _ in 0..10 {
+        refused(&(TWILL.to_owned() + "[COLOR TABLE]\n9=9,9\n8=x\n"), &["[COLOR TABLE] 9"]);
+    }
+}
+
+#[test]
 fn a_set_without_a_unit_has_that_of_the_other() {
     for (set, other) in [("WARP", "WEFT"), ("WEFT", "WARP")] {
         let inches = TWILL.replace("Units=Centimeters", "Units=Inches");

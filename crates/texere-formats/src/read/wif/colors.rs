@@ -23,7 +23,11 @@ impl Palette {
     pub(super) fn read(ini: &Ini<'_>, warnings: &mut Vec<String>) -> Result<Self, ReadError> {
         let mut palette = Self { materials: vec![Material::default()], by_number: BTreeMap::new() };
         let mut table = BTreeMap::new();
-        for (key, entry) in ini.entries("color table").filter(|(_, entry)| !entry.value.is_empty()) {
+        let mut lines: Vec<_> =
+            ini.entries("color table").filter(|(_, entry)| !entry.value.is_empty()).collect();
+        // Of several faults the first is told.
+        lines.sort_unstable_by_key(|(_, entry)| entry.line);
+        for (key, entry) in lines {
             let expected = "red, green and blue, numbered from 1";
             let number = key.parse().ok().filter(|&number: &u32| number > 0);
             let number = number.ok_or_else(|| bad(ini, "color table", key, entry, expected))?;

@@ -66,7 +66,7 @@ impl<'a> Ini<'a> {
                 is_text = name == TEXT;
                 section = READ.contains(&name.as_ref()).then(|| sections.entry(name).or_default());
             } else if let (Some(section), Some((key, value))) = (&mut section, text.split_once('=')) {
-                section.insert(lower_case(key.trim()), Entry { line: line + 1, value: value.trim() });
+                section.insert(plain_key(key.trim()), Entry { line: line + 1, value: value.trim() });
             }
         }
         // A section of nothing but empty values says nothing.
@@ -119,7 +119,15 @@ impl<'a> Ini<'a> {
     }
 }
 
-/// Most names are numbers, which stay where they are.
+/// A key as it is looked up: a number without a sign and zeros before it, so that 01 and 1 are one key; any other in lower case. Most keys are
+/// numbers, which stay where they are.
+fn plain_key(key: &str) -> Cow<'_, str> {
+    match key.parse::<u32>() {
+        Ok(number) if key.starts_with(['0', '+']) => Cow::Owned(number.to_string()),
+        _ => lower_case(key),
+    }
+}
+
 fn lower_case(name: &str) -> Cow<'_, str> {
     if name.bytes().all(|byte| byte.is_ascii_digit() || byte.is_ascii_lowercase()) {
         Cow::Borrowed(name)

@@ -446,7 +446,7 @@ fn a_file_that_counts_from_0_is_told_so() {
     refused(&shafts, &["[THREADING] 1 is \"0\"", "shafts are counted from 1", "from 0"]);
     // A loom of more shafts, or of nobody knows how many: an end may well be on no shaft, and a treadle tied to none.
     for weaving in ["Shafts=8\n", ""] {
-        let design = read_text(&shafts.replace("Shafts=4\n", weaving)).unwrap();
+        let design = read_text(shafts.replace("Shafts=4\n", weaving)).unwrap();
         let told =
             |warning: &String| warning.contains("[THREADING] 1 is shaft 0") && warning.contains("from 1");
         assert!(design.warnings().iter().any(told), "{weaving:?}: {:?}", design.warnings());

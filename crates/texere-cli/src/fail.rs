@@ -216,7 +216,7 @@ impl From<texere_view::ViewError> for Fail {
         use texere_view::ViewError;
         match error {
             ViewError::Read(error) => error.into(),
-            ViewError::Refused(error) => error.into(),
+            ViewError::Refused(error) => (*error).into(),
             ViewError::Backend(error) => error.into(),
             _ => Self { code: WORLD, source: error.into() },
         }
@@ -264,10 +264,10 @@ mod tests {
         #[cfg(feature = "view")]
         {
             use texere_view::ViewError;
-            let fail = Fail::from(ViewError::Refused(Refusal::Key { place: place(), source: crowded() }));
+            let fail = Fail::from(ViewError::from(Refusal::Key { place: place(), source: crowded() }));
             assert_eq!(fail.code, DESIGN);
             assert!(fail.to_string().contains("a.k, line 3: knit + f1 1"), "{fail}");
-            assert_eq!(Fail::from(ViewError::Refused(other(short().into()))).code, WORLD);
+            assert_eq!(Fail::from(ViewError::from(other(short().into()))).code, WORLD);
             assert_eq!(
                 Fail::from(ViewError::Read(ReadError::Io {
                     file: "a.k".into(),

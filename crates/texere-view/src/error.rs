@@ -15,13 +15,19 @@ pub enum ViewError {
     Read(#[from] ReadError),
     /// The section that was asked for does not go with the design; with the file, line and key that it does not go with.
     #[error(transparent)]
-    Refused(#[from] Refusal),
+    Refused(Box<Refusal>),
     /// The device.
     #[error(transparent)]
     Backend(#[from] BackendError),
     /// The system has no place for a window, or its driver can't draw there.
     #[error("no window can be opened")]
     Window(#[source] Box<dyn Error>),
+}
+
+impl From<Refusal> for ViewError {
+    fn from(error: Refusal) -> Self {
+        Self::Refused(error.into())
+    }
 }
 
 /// An error and its causes, in one line.

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
-use texere_conformance::cases::design;
+use texere_conformance::cases::{design, small_designs};
 use texere_conformance::schedule::able_devices;
 use texere_core::{
-    ControlPoint, Frame, LiveMesh, Material, Mesh, MeshPiece, Pipeline, Placement, Plan, Ray, Section,
-    Settings, Topology, Vertex, Yarn, YarnError, Yarns,
+    BackendError, ControlPoint, Frame, LiveMesh, Material, Mesh, MeshPiece, Pipeline, Placement, Plan, Ray,
+    Section, SessionError, Settings, Topology, Vertex, Yarn, YarnError, Yarns,
 };
 use texere_cpu::{ParallelBackend, Picker, SerialBackend};
 use texere_fabric::{Finish, Thread, Weave, Woven, clearance};
@@ -110,6 +110,62 @@ fn poplin_at_rest_keeps_its_clearance_wherever_it_goes() {
     assert!((after - before).abs() < 0.01, "saddle: {after} for {before}");
 }
 
+/// The same yarns, so much wider than high.
+fn flattened(yarns: &Yarns, flatness: f32) -> Yarns {
+    let flattened = |point: &ControlPoint| {
+        let radius = (point.half_width() * point.half_height()).sqrt();
+        point.flattened(radius * flatness.sqrt(), radius / flatness.sqrt())
+    };
+    let points = yarns.points().iter().map(flattened).collect();
+    Yarns::new(yarns.layout().as_ref().clone(), yarns.materials().to_vec(), points).unwrap()
+}
+
+/// Ribbons side by side that go up, over and down, and such as only go up.
+fn binders() -> [Yarns; 2] {
+    let ribbons = |count: u8, place: &dyn Fn(f32, f32) -> [f32; 3]| {
+        let mut yarns = Yarns::builder();
+        for yarn in (0..3_u8).map(f32::from) {
+            let point = |k| {
+                let [x, y, z] = place(yarn, f32::from(k));
+                ControlPoint::new(x, y, z, 0.1).flattened(0.2, 0.08)
+            };
+            yarns.yarn(Yarn::default(), &(0..count).map(point).collect::<Vec<_>>());
+        }
+        yarns.build().unwrap()
+    };
+    let over = |yarn: f32, k: f32| {
+        let angle = (k / 20.0).clamp(0.2, 0.8) * std::f32::consts::TAU;
+        let leg = if k < 10.0 { (4.0 - k).max(0.0) } else { (k - 16.0).max(0.0) };
+        [angle.sin(), 0.44 * yarn + 0.02 * k.sin(), -angle.cos() - 0.3 * leg]
+    };
+    [ribbons(21, &over), ribbons(6, &|yarn, k| [0.1 * yarn, 0.2 * yarn, k])]
+}
+
+/// Flat yarns without ups of their own come as near to one another whatever way their cloth lies, also where they run straight up.
+#[test]
+fn flat_yarns_that_run_up_and_down_keep_their_clearance_any_way_round() {
+    let knits = ["tricot.toml", "jersey.toml", "locknit.toml"].map(|name| small(name, 1.5));
+    for (number, yarns) in binders().into_iter().chain(knits).enumerate() {
+        assert!(yarns.ups().is_none());
+        let before = least(&yarns);
+        for z in [0.7, 2.9] {
+            let placed = yarns.placed(&Placement { turn: z, ..Placement::default() }).unwrap();
+            let after = least(&placed);
+            assert!((after - before).abs() < 0.01, "{number}, placed by {z}: {after} for {before}");
+        }
+        for x in [0.5, 1.571] {
+            let after = least(&turned(&yarns, [x, 0.4]).0);
+            assert!((after - before).abs() < 0.01, "{number}, turned by {x}: {after} for {before}");
+        }
+    }
+}
+
+/// A small piece of a design, of yarns so much wider than high.
+fn small(name: &str, flatness: f32) -> Yarns {
+    let yarns = small_designs().find(|(small, _)| *small == name.trim_end_matches(".toml"));
+    flattened(&yarns.expect("a design of that name").1, flatness)
+}
+
 fn mesh(yarns: &Yarns, device: &dyn texere_core::Backend, settings: Settings) -> Mesh {
     Pipeline::new(yarns).settings(settings).mesh(device).unwrap()
 }
@@ -181,6 +237,82 @@ fn all_cores_make_the_bits_of_one() {
             }
         }
     }
+}
+
+/// A ribbon of `count` points that rises by `slope` in its middle, radians, in a cloth beside a twisted yarn.
+fn rising(slope: f32, count: u8) -> Yarns {
+    let mut at = [0.0_f32, 1.0, 0.0];
+    let ribbon: Vec<_> = (0..count)
+        .map(|k| {
+            let here = ControlPoint::new(at[0], at[1], at[2], 0.1).flattened(0.2, 0.05);
+            let [along, aside] = [f32::from(k) / f32::from(count), 0.02 * f32::from(k).sin()];
+            let own = slope * (std::f32::consts::PI * along).sin();
+            at = [at[0] + 0.3 * own.cos(), at[1] + aside, at[2] + 0.3 * own.sin()];
+            here
+        })
+        .collect();
+    let twisted: Vec<_> = (0..60).map(|k| ControlPoint::new(0.2 * k as f32, 0.0, 0.0, 0.1)).collect();
+    let mut yarns = Yarns::builder();
+    let section = yarns.section(Section::Lenticular { aspect: 1.5, distortion: 0.0 });
+    for (twist, points) in [(2.0, &twisted), (0.0, &ribbon), (0.0, &twisted)] {
+        yarns.yarn(Yarn { section, twist, ..Yarn::default() }, points);
+    }
+    yarns.build().unwrap()
+}
+
+/// A ribbon in a live mesh that is raised, raised further, made longer and laid flat again is that of a fresh mesh, each time and on every device.
+#[test]
+fn flat_yarns_that_are_raised_are_live() {
+    let (flat, settings) = (rising(0.2, 40), Settings { sides: 8, ..Settings::default() });
+    let edits =
+        [(1.6, 40), (1.8, 40), (1.7, 44), (0.1, 44), (1.5, 39)].map(|(slope, count)| rising(slope, count));
+    let leans: Vec<_> = edits.iter().map(|yarns| yarns.layout().leans()).collect();
+    assert_eq!((flat.layout().leans(), &leans[..]), (false, &[true, true, true, false, true][..]));
+    for device in able_devices(&edits[0], &settings) {
+        let plan = Arc::new(Plan::with_room(flat.layout().clone(), settings, |_| 60).unwrap());
+        let mut live = match LiveMesh::new(&*device, plan) {
+            Err(SessionError::Backend(BackendError::NoEditing)) => continue,
+            live => live.unwrap(),
+        };
+        live.upload(0, flat.points()).unwrap();
+        live.update().unwrap();
+        for (number, yarns) in edits.iter().enumerate() {
+            let points = yarns.yarn_points(1).unwrap();
+            let first = live.plan().layout().offsets()[1];
+            // As many points are moved, more or fewer are another yarn.
+            if points.len() as u64 == live.plan().layout().offsets()[2] - first {
+                live.upload(first, points).unwrap();
+            } else {
+                live.set_yarn(1, yarns.layout().yarns()[1], points).unwrap();
+            }
+            live.update().unwrap();
+            assert_eq!(live.plan().layout(), yarns.layout(), "edit {number}");
+            let fresh = by_ring(&mesh(yarns, &*device, settings));
+            let kept = by_ring(&kept(&mut live));
+            assert!(kept == fresh, "{}, edit {number}", device.info().name);
+        }
+    }
+}
+
+/// The whole mesh that a live one has made.
+fn kept(live: &mut LiveMesh) -> Mesh {
+    let mut kept = Mesh {
+        plan: live.plan().clone(),
+        chunks: live.chunks().to_vec(),
+        vertices: Vec::new(),
+        indices: Vec::new(),
+        materials: Arc::from([]),
+    };
+    for chunk in 0..live.chunks().len() {
+        let mut take = |piece: MeshPiece<'_>| {
+            if let MeshPiece::Vertices { vertices, .. } = piece {
+                kept.vertices.extend_from_slice(vertices);
+            }
+            ControlFlow::Continue(())
+        };
+        let _ = live.read_mesh(chunk, &mut take).unwrap();
+    }
+    kept
 }
 
 /// A closed ribbon that stands on end and turns over once on its way round.
@@ -279,16 +411,7 @@ fn bent_cloth_is_kept_live_and_picked() {
     live.upload(0, bent.points()).unwrap();
     live.update().unwrap();
     let fresh = mesh(&bent, &device, settings);
-    let mut kept = Vec::new();
-    let _ = live
-        .read_mesh(0, &mut |piece| {
-            if let MeshPiece::Vertices { vertices, .. } = piece {
-                kept.extend_from_slice(vertices);
-            }
-            ControlFlow::Continue(())
-        })
-        .unwrap();
-    assert!(kept == fresh.vertices);
+    assert!(kept(&mut live).vertices == fresh.vertices);
     let moved: Vec<_> = bent
         .yarn_points(0)
         .unwrap()

@@ -26,7 +26,7 @@ impl Default for Placement {
 
 impl Yarns {
     /// The same yarns in another place. Sizes grow with the scale, and twist becomes slower, so that the mesh is the same but for the
-    /// placement.
+    /// placement. Where a yarn stands by [up directions](Layout::ups), all yarns of the placed cloth have some.
     ///
     /// **Errors**: those of [`Layout::new`] and [`Yarns::new`], where yarns leave the limits of size, twist and place; a scale or a turn
     /// that is none is found so, too.
@@ -64,9 +64,11 @@ impl Yarns {
             let [x, y] = [up.x, up.y].map(f64::from);
             [(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, up.z]
         };
-        match self.ups() {
-            Some(ups) => placed.with_ups(ups.iter().map(turned).collect()),
-            None => Ok(placed),
+        // Of a flattened yarn that goes straight up nothing but its ups says which way it stands.
+        if self.layout().leans() {
+            placed.with_ups(self.standing_ups().iter().map(turned).collect())
+        } else {
+            Ok(placed)
         }
     }
 
@@ -110,11 +112,8 @@ impl Yarns {
         if cloths.iter().all(|cloth| cloth.ups().is_none()) {
             return Ok(merged);
         }
-        // Beside a cloth that leaves its plane all others say that theirs point along z.
-        let ups = cloths.iter().flat_map(|cloth| match cloth.ups() {
-            Some(ups) => ups.to_vec(),
-            None => cloth.uprights(),
-        });
+        // Beside a cloth that leaves its plane all others say where theirs point.
+        let ups = cloths.iter().flat_map(|cloth| cloth.standing_ups());
         merged.with_ups(ups.map(|up| up.to_array()).collect())
     }
 

@@ -9,7 +9,7 @@ use crate::{NO_LENGTH, Turn, atan2_turns};
 pub enum Frame {
     /// The section's side lies level (at right angles to z), its up points out of the fabric: right for flat yarns in
     /// cloth. It is the paper's equation 7 turned by half a turn. It would flip where a yarn passes through the vertical, so a yarn that is
-    /// [steep](crate::Layout::is_steep) anywhere is carried along instead.
+    /// [steep](crate::Layout::is_steep) anywhere is carried along instead, and the outline of a flattened one [leans](crate::Layout::ups) there.
     #[default]
     Upright,
     /// The section is carried along without turning about the yarn: no twist of its own, no flip where the tangent

@@ -1,23 +1,29 @@
-//! Yarns that leave the plane of their cloth: the up direction of each control point, and how far outlines lean with it.
+//! Yarns that leave the plane of their cloth, and flat ones that run up or down: the up direction of each control point, and how far outlines
+//! lean with it.
 
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 
-use crate::steep::window;
-use crate::{Basis, ControlPoint, Layout, Sampling, Segment, Turn, atan2_turns};
+use crate::steep::{intervals, window};
+use crate::{Basis, ControlPoint, Sampling, Segment, Turn, atan2_turns};
 
-/// The up directions of all control points of a fabric, with the points that they belong to.
+/// The up directions that the control points of a yarn stand by, with the points that they belong to.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Leaning {
     /// Unit vectors.
     pub(crate) ups: Vec<Vec3>,
     pub(crate) points: Vec<ControlPoint>,
+    /// Whether they were given, and so stay when the points move.
+    pub(crate) given: bool,
 }
+
+/// How far the cosine of two ups at a right angle may be off zero.
+const RIGHT_ANGLE: f64 = 1e-9;
 
 /// Where the height of a yarn points at `t`, from 0 to 1, of a control interval: `ups` are the up directions of its two control points, `tangents` the
 /// yarn's there, `tangent` the one at `t`; all of length 1. Gives a unit vector at right angles to `tangent`; zero where there is none.
 ///
-/// Each of the two is carried to the tangent by the smallest rotation, and they are mixed there.
+/// Each of the two is carried to the tangent by the smallest rotation, and they are mixed there. A yarn's height has two ends: of the second up
+/// and its opposite the one nearer to the first counts; at a right angle, but for rounding, the up itself.
 ///
 /// ```
 /// use glam::DVec3;
@@ -31,12 +37,12 @@ pub(crate) struct Leaning {
 #[must_use]
 pub fn up_between(ups: [DVec3; 2], tangents: [DVec3; 2], tangent: DVec3, t: f64) -> DVec3 {
     let [one, other] = [0, 1].map(|end| across(carried(ups[end], tangents[end], tangent), tangent));
-    let mixed = across(one * (1.0 - t) + other * t, tangent);
-    // Of two that are opposite the nearer one counts.
-    match () {
-        () if mixed != DVec3::ZERO => mixed,
-        () if t < 0.5 => one,
-        () => other,
+    let other = if one.dot(other) < -RIGHT_ANGLE { -other } else { other };
+    match across(one * (1.0 - t) + other * t, tangent) {
+        // One that lies along the yarn says nothing.
+        DVec3::ZERO if one == DVec3::ZERO => other,
+        DVec3::ZERO => one,
+        mixed => mixed,
     }
 }
 
@@ -67,6 +73,12 @@ impl IntervalLean {
         Self { segment, ups: ups.map(|up| up.as_dvec3()), tangents }
     }
 
+    /// Whether the second up points away from the first, so that its opposite counts.
+    pub(crate) fn turns_over(&self) -> bool {
+        let end = self.tangents[1];
+        up_between(self.ups, self.tangents, end, 1.0).dot(across(self.ups[1], end)) < 0.0
+    }
+
     /// The turn from the upright frame's up to the yarn's own at `t`, about the tangent.
     pub(crate) fn at(&self, t: f32) -> Turn {
         let tangent = self.segment.sample(t).tangent;
@@ -77,27 +89,20 @@ impl IntervalLean {
 }
 
 impl Leaning {
-    /// The lean of each ring of the fabric, where `ring_offsets` says; zero where there is only room.
-    pub(crate) fn rings(&self, layout: &Layout, sampling: &Sampling, ring_offsets: &[u64]) -> Vec<Turn> {
-        let per_interval = sampling.subdivisions() + 1;
-        let of_yarn = |yarn: usize| {
-            let own = layout.offsets()[yarn] as usize..layout.offsets()[yarn + 1] as usize;
-            let (points, ups, closed) =
-                (&self.points[own.clone()], &self.ups[own], layout.yarns()[yarn].closed);
-            let intervals = if closed { points.len() } else { points.len() - 1 };
-            let room = (ring_offsets[yarn + 1] - ring_offsets[yarn]) as usize;
-            let mut rings = Vec::with_capacity(room);
-            for interval in 0..intervals {
-                let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
-                let lean = IntervalLean::new(&window(points, closed, interval), ends, sampling.s());
-                rings.extend((0..per_interval).map(|part| lean.at(part as f32 * sampling.step())));
-                if interval + 1 == intervals {
-                    rings.push(if closed { rings[0] } else { lean.at(1.0) });
-                }
+    /// The lean of each ring of the yarn.
+    pub(crate) fn rings(&self, closed: bool, sampling: &Sampling) -> Vec<Turn> {
+        let Self { points, ups, .. } = self;
+        let (intervals, per_interval) = (intervals(points, closed), sampling.subdivisions() + 1);
+        let last = intervals.end - 1;
+        let mut rings = Vec::with_capacity(intervals.len() * per_interval as usize + 1);
+        for interval in intervals {
+            let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
+            let lean = IntervalLean::new(&window(points, closed, interval), ends, sampling.s());
+            rings.extend((0..per_interval).map(|part| lean.at(part as f32 * sampling.step())));
+            if interval == last {
+                rings.push(if closed { rings[0] } else { lean.at(1.0) });
             }
-            rings.resize(room, Turn::ZERO);
-            rings
-        };
-        (0..layout.yarns().len()).into_par_iter().flat_map_iter(of_yarn).collect()
+        }
+        rings
     }
 }

@@ -44,6 +44,7 @@ mod section;
 mod session;
 pub mod settling;
 mod spline;
+mod stand;
 mod steep;
 mod subject;
 mod topology;

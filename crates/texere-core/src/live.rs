@@ -7,7 +7,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
-use crate::steep::is_steep;
+use crate::stand::Stand;
 use crate::yarns::check_points;
 use crate::{
     Backend, BackendError, Chunk, ControlPoint, Limits, PaddedPoints, Part, Plan, PlanError, SessionError,
@@ -162,18 +162,16 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         }
         let yarns = self.plan.layout().yarns_of(first..end);
         for yarn in yarns.clone() {
-            let [_, sent] = self.plan.layout().points_of(yarn, &(first..end));
-            check_points(yarn, &points[sent])?;
-        }
-        match self.plan.layout().leaning() {
-            // How outlines lean belongs to the plan's own points.
-            Some(leaning) if leaning.points[first as usize..end as usize] != *points => {
+            let [own, sent] = self.plan.layout().points_of(yarn, &(first..end));
+            check_points(yarn, &points[sent.clone()])?;
+            // Up directions that were given belong to the points that they were given with.
+            let given = self.plan.layout().leaning(yarn).filter(|leaning| leaning.given);
+            if given.is_some_and(|leaning| leaning.points[own] != points[sent]) {
                 let what = "moved, where yarns have up directions of their own";
-                return Err(PlanError::OtherPlan { yarn: yarns.start, what }.into());
+                return Err(PlanError::OtherPlan { yarn, what }.into());
             }
-            Some(_) => {}
-            None => self.note_steepness(first, points, yarns.clone())?,
         }
+        self.note_stands(first, points, yarns.clone())?;
         for yarn in yarns {
             let [own, _] = self.plan.layout().points_of(yarn, &(first..end));
             self.note(yarn, self.rings_of(yarn, &own));
@@ -192,10 +190,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
             return Err(SessionError::NoYarn { yarn, yarns });
         }
         check_points(yarn, points)?;
-        let steep = points.len() as u64 >= what.points_least() && is_steep(points, what.closed, None);
-        let plan = self.plan.edited_to(yarn, what, points.len() as u64, steep)?;
+        let plan = self.plan.edited(yarn, what, points)?;
         if *plan.layout() != *self.plan.layout() {
-            self.replan(yarn, plan)?;
+            self.replan(yarn..yarn + 1, plan)?;
         }
         self.note(yarn, 0..self.plan.rings(yarn));
         let first = self.plan.layout().offsets()[yarn];
@@ -204,8 +201,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(())
     }
 
-    /// Takes control points of some yarns, and notes which of them have become steep, or lie flat again.
-    fn note_steepness(
+    /// Takes control points of some yarns, and notes which of them stand otherwise with these: have become steep, lie flat again, or lean in
+    /// another way.
+    fn note_stands(
         &mut self,
         first: u64,
         points: &[ControlPoint],
@@ -213,24 +211,27 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     ) -> Result<(), SessionError> {
         self.points.upload(&self.plan, first, points);
         let (plan, padded) = (&self.plan, &self.points);
-        let steep: Vec<_> =
-            yarns.clone().into_par_iter().map(|yarn| runs_steeply(plan, padded, yarn)).collect();
-        for (yarn, steep) in yarns.clone().zip(steep) {
-            if steep != self.plan.layout().is_steep(yarn) {
-                let own = &self.plan.layout().offsets()[yarn..yarn + 2];
-                self.replan(yarn, self.plan.edited_to(yarn, *self.plan.yarn(yarn), own[1] - own[0], steep)?)?;
-                self.note(yarn, 0..self.plan.rings(yarn));
-            }
+        let stands = yarns.clone().into_par_iter().filter_map(|yarn| {
+            let before = plan.layout().stand(yarn);
+            let given = before.leaning.as_ref().is_some_and(|leaning| leaning.given);
+            let stand = (!given).then(|| stands_now(plan, padded, yarn))?;
+            (stand != before).then_some((yarn, stand))
+        });
+        let stands: Vec<_> = stands.collect();
+        let changed: Vec<_> = stands.iter().map(|(yarn, _)| *yarn).collect();
+        if !changed.is_empty() {
+            self.replan(yarns, Plan::clone(&self.plan).standing(stands))?;
+            changed.into_iter().for_each(|yarn| self.note(yarn, 0..self.plan.rings(yarn)));
         }
         Ok(())
     }
 
-    /// Takes a plan that differs from the present one in `yarn`.
-    fn replan(&mut self, yarn: usize, plan: Plan) -> Result<(), SessionError> {
+    /// Takes a plan that differs from the present one in some of `yarns`.
+    fn replan(&mut self, yarns: Range<usize>, plan: Plan) -> Result<(), SessionError> {
         let plan = Arc::new(plan);
-        self.engine.replan(plan.clone(), yarn..yarn + 1)?;
+        self.engine.replan(plan.clone(), yarns.clone())?;
         self.plan = plan;
-        for number in self.chunks_of(yarn) {
+        for number in self.chunks_of(yarns.start).start..self.chunks_of(yarns.end - 1).end {
             self.chunks[number] = self.plan.recut(&self.chunks[number]);
         }
         Ok(())
@@ -423,11 +424,11 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 }
 
-/// Whether `yarn` is steep with the control points that it has now.
-fn runs_steeply(plan: &Plan, points: &PaddedPoints, yarn: usize) -> bool {
+/// How `yarn` stands with the control points that it has now.
+fn stands_now(plan: &Plan, points: &PaddedPoints, yarn: usize) -> Stand {
     let offsets = plan.layout().offsets();
     let count = (offsets[yarn + 1] - offsets[yarn]) as usize;
-    is_steep(&points.yarn(plan, yarn)[1..=count], plan.yarn(yarn).closed, None)
+    Stand::of(&points.yarn(plan, yarn)[1..=count], plan.yarn(yarn).closed, None)
 }
 
 const _: () = {

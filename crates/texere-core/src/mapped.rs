@@ -50,9 +50,8 @@ impl Yarns {
             .into_par_iter()
             .map(|yarn| {
                 let points = self.yarn_points(yarn).unwrap_or_default();
-                let own = self.range(yarn).unwrap_or_default();
                 let closed = layout.yarns()[yarn].closed;
-                carry(points, closed, self.ups().map(|ups| &ups[own]), &map)
+                carry(points, closed, layout.ups(yarn), &map)
             })
             .collect();
         let twisted = |(yarn, carried): (&Yarn, &Carried)| {
@@ -68,19 +67,25 @@ impl Yarns {
         mapped.with_sources_of([self])
     }
 
-    /// Where the upright frame's up points at each control point.
-    pub(crate) fn uprights(&self) -> Vec<Vec3> {
+    /// The ups that control points stand by, if any, else where the upright frame's up points.
+    pub(crate) fn standing_ups(&self) -> Vec<Vec3> {
         let yarns = self.layout().yarns().iter().enumerate();
         let of_yarn = |(number, yarn): (usize, &Yarn)| {
             let (points, closed) = (self.yarn_points(number).unwrap_or_default(), yarn.closed);
-            (0..points.len()).map(move |point| Basis::upright(tangent(points, closed, point)).up)
+            match self.layout().ups(number) {
+                Some(ups) => ups.to_vec(),
+                None => {
+                    let upright = |point| Basis::upright(tangent(points, closed, point)).up;
+                    (0..points.len()).map(upright).collect()
+                }
+            }
         };
         yarns.flat_map(of_yarn).collect()
     }
 }
 
 /// The tangent at a control point.
-fn tangent(points: &[ControlPoint], closed: bool, point: usize) -> Vec3 {
+pub(crate) fn tangent(points: &[ControlPoint], closed: bool, point: usize) -> Vec3 {
     // At control points it is that of any tension.
     let (interval, t) = if !closed && point + 1 == points.len() { (point - 1, 1.0) } else { (point, 0.0) };
     Segment::new(&window(points, closed, interval), 0.5).sample(t).tangent

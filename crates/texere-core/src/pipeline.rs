@@ -160,7 +160,10 @@ impl<'a> Pipeline<'a> {
     }
 
     /// Takes control points from where `settler` has left them instead of those of the yarns, whose layout stays: on the device that
-    /// it works on they don't leave it. What lies [within](Pipeline::within) a box is still told by those of the yarns.
+    /// it works on they don't leave it. What lies [within](Pipeline::within) a box is still told by those of the yarns, and so is which yarns are
+    /// [steep](crate::Layout::is_steep) and how outlines [lean](crate::Layout::ups): where yarns settle so far that they run up or down
+    /// elsewhere, or where flattened ones do at all, make new [`Yarns`] of what has been
+    /// [read back](crate::settling::settled).
     ///
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), Box<dyn std::error::Error>> {

@@ -30,8 +30,8 @@ pub struct Ring {
     pub width_growth: f32,
     /// Growth of the half height along the yarn.
     pub height_growth: f32,
-    /// Turn of the outline of a flattened yarn about the tangent, against the upright frame: 0 but where yarns have up
-    /// directions of their own.
+    /// Turn of the outline of a flattened yarn about the tangent, against the upright frame: 0 but where the yarn has [up
+    /// directions that it stands by](crate::Layout::ups).
     pub lean: Turn,
 }
 

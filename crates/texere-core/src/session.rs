@@ -143,7 +143,8 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Takes all control points from where a settler has left them. Where it works on the same device they never leave that.
+    /// Takes all control points from where a settler has left them. Where it works on the same device they never leave that. Which yarns are
+    /// [steep](crate::Layout::is_steep), and how outlines [lean](crate::Layout::ups), stays as the plan has it.
     ///
     /// **Errors**: [`SessionError::OtherYarns`] for a settler whose yarns have other numbers of control points than the
     /// plan's, and what either device says.

@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 use std::iter::once;
+use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 
@@ -21,26 +22,37 @@ const PLACES: u32 = 16;
 /// The spline's `s` at tension 0. Tension moves the tangents within an interval, but hardly the turn of all of it.
 const S: f32 = 0.5;
 
-/// Whether the upright frame of a yarn turns about it by more than [`UPRIGHT_TURN`] within an interval of `points`, against a frame that is
+/// Whether the upright frame of a yarn turns about it by more than `most`, in turns, within an interval of `points`, against a frame that is
 /// carried along.
-///
-/// `ups` are the up directions of the points, where they have their own: the frame then stands by these.
-pub(crate) fn is_steep(points: &[ControlPoint], closed: bool, ups: Option<&[Vec3]>) -> bool {
-    if ups.is_none() && runs_straight(points, closed) {
-        return false;
-    }
-    let intervals = if closed { points.len() } else { points.len() - 1 };
-    (0..intervals).any(|interval| {
+pub(crate) fn upright_turns_beyond(points: &[ControlPoint], closed: bool, most: f32) -> bool {
+    intervals(points, closed).any(|interval| {
         let window = window(points, closed, interval);
-        match ups {
-            None => turn_at_most(&window) > UPRIGHT_TURN && turn(&window, |_| 0.0) > UPRIGHT_TURN,
-            Some(ups) => {
-                let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
-                let lean = IntervalLean::new(&window, ends, S);
-                turn(&window, |t| lean.at(t).turns()) > UPRIGHT_TURN
-            }
-        }
+        turn_at_most(&window) > most && turn(&window, |_| 0.0) > most
     })
+}
+
+/// Whether the frame that stands by the up directions `ups` of a yarn's points would wring it.
+///
+/// That of a round yarn may turn by [`UPRIGHT_TURN`] within an interval. The outline of a flattened one turns with its ups in any case, and
+/// its section goes along, so that its shape stays; but not where they turn over.
+pub(crate) fn wrings(points: &[ControlPoint], closed: bool, ups: &[Vec3]) -> bool {
+    let flat = is_flat(points);
+    intervals(points, closed).any(|interval| {
+        let window = window(points, closed, interval);
+        let ends = [interval, (interval + 1) % ups.len()].map(|point| ups[point]);
+        let lean = IntervalLean::new(&window, ends, S);
+        if flat { lean.turns_over() } else { turn(&window, |t| lean.at(t).turns()) > UPRIGHT_TURN }
+    })
+}
+
+/// The numbers of a yarn's control intervals.
+pub(crate) const fn intervals(points: &[ControlPoint], closed: bool) -> Range<usize> {
+    0..if closed { points.len() } else { points.len() - 1 }
+}
+
+/// Whether a yarn is flattened anywhere.
+pub(crate) fn is_flat(points: &[ControlPoint]) -> bool {
+    points.iter().any(|point| !point.is_round())
 }
 
 /// Whether the yarn's direction in plan swings so little that no interval can turn by more than [`UPRIGHT_TURN`], however steep it is. Woven
@@ -49,7 +61,7 @@ pub(crate) fn is_steep(points: &[ControlPoint], closed: bool, ups: Option<&[Vec3
 /// It is the bound of [`turn_at_most`], with the tangent of the swing for the angle and 1 for the sine of the slope. In plan the middle one of
 /// an interval's Bézier velocities goes three times along the chord, less the two at its ends. Of a yarn that keeps to a plane it may go back, as it
 /// does beside a chord that is much longer, as long as the velocity itself does not.
-fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
+pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     let plan = |from: &ControlPoint, to: &ControlPoint| (to.position() - from.position()).truncate();
     let (first, last) = (&points[0], &points[points.len() - 1]);
     let back = closed.then(|| plan(last, first));
@@ -105,16 +117,26 @@ fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
 
 /// The turns between places along the interval of a frame that stands so far, in turns, off the upright one, added up without regard to sign.
 fn turn(window: &[ControlPoint; 4], lean: impl Fn(f32) -> f32) -> f32 {
-    let segment = Segment::new(window, S);
-    let mut here = (segment.sample(0.0), lean(0.0));
-    (1..=PLACES).fold(0.0, |sum, place| {
-        let t = place as f32 / PLACES as f32;
-        let next = (segment.sample(t), lean(t));
-        let chord = next.0.offset - here.0.offset;
-        let step = Frame::RotationMinimizing.step(here.0.tangent, next.0.tangent, chord, 0.0);
-        let turned = Turn::from_turns(step.turns() + here.1 - next.1);
+    let mut here = lean(0.0);
+    let steps = carried_steps(window).enumerate().map(|(place, step)| {
+        let next = lean((place + 1) as f32 / PLACES as f32);
+        let turned = Turn::from_turns(step.turns() + here - next);
         here = next;
-        sum + turned.turns().abs()
+        turned.turns().abs()
+    });
+    steps.sum()
+}
+
+/// By how much a frame that is carried along turns against the upright one, from place to place along the interval.
+pub(crate) fn carried_steps(window: &[ControlPoint; 4]) -> impl Iterator<Item = Turn> {
+    let segment = Segment::new(window, S);
+    let mut here = segment.sample(0.0);
+    (1..=PLACES).map(move |place| {
+        let next = segment.sample(place as f32 / PLACES as f32);
+        let chord = next.offset - here.offset;
+        let step = Frame::RotationMinimizing.step(here.tangent, next.tangent, chord, 0.0);
+        here = next;
+        step
     })
 }
 

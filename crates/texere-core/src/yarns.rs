@@ -1,5 +1,6 @@
 //! The yarns of a fabric: flat control points, offsets, and what belongs to each yarn.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,7 +9,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::lean::Leaning;
-use crate::steep::is_steep;
+use crate::stand::Stand;
 use crate::{
     COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section, YarnError,
 };
@@ -83,8 +84,8 @@ pub struct Layout {
     sections: Vec<Section>,
     /// Which yarns run too steeply for upright frames.
     steep: Vec<bool>,
-    /// Where yarns leave the plane of their cloth.
-    leaning: Option<Arc<Leaning>>,
+    /// How yarns lean that do, by their numbers.
+    leaning: BTreeMap<usize, Arc<Leaning>>,
 }
 
 impl Layout {
@@ -127,19 +128,29 @@ impl Layout {
             }
         }
         let steep = vec![false; yarns.len()];
-        Ok(Self { offsets, yarns, sections, steep, leaning: None })
+        Ok(Self { offsets, yarns, sections, steep, leaning: BTreeMap::new() })
     }
 
-    /// The same but that yarn number `yarn` is `what`, of `points` control points, and whether it is steep.
-    pub(crate) fn edited(&self, yarn: usize, what: Yarn, points: u64, steep: bool) -> Self {
-        let mut layout = self.clone();
-        layout.yarns[yarn] = what;
-        layout.steep[yarn] = steep;
+    /// Makes yarn number `yarn` `what`, of `points` control points.
+    pub(crate) fn edit(&mut self, yarn: usize, what: Yarn, points: u64) {
+        self.yarns[yarn] = what;
         let before = self.offsets[yarn + 1] - self.offsets[yarn];
-        for offset in &mut layout.offsets[yarn + 1..] {
+        for offset in &mut self.offsets[yarn + 1..] {
             *offset = *offset - before + points;
         }
-        layout
+    }
+
+    /// How `yarn` stands.
+    pub(crate) fn stand(&self, yarn: usize) -> Stand {
+        Stand { steep: self.steep[yarn], leaning: self.leaning.get(&yarn).cloned() }
+    }
+
+    pub(crate) fn set_stand(&mut self, yarn: usize, Stand { steep, leaning }: Stand) {
+        self.steep[yarn] = steep;
+        match leaning {
+            Some(leaning) => self.leaning.insert(yarn, leaning),
+            None => self.leaning.remove(&yarn),
+        };
     }
 
     /// Where each yarn's control points start, and their total last (the paper's Ωτ): yarns + 1 values.
@@ -192,7 +203,8 @@ impl Layout {
     }
 
     /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more than [`UPRIGHT_TURN`](crate::UPRIGHT_TURN)
-    /// within a control interval. [`Yarns::new`] finds it out; a layout without control points has no steep yarns.
+    /// within a control interval. [`Yarns::new`] finds it out; a layout without control points has no steep yarns. A flattened yarn gets
+    /// [ups](Layout::ups) instead, and is steep only where ups turn over from one control point to the next.
     ///
     /// **Panics** past the last yarn.
     #[must_use]
@@ -200,15 +212,41 @@ impl Layout {
         self.steep[yarn]
     }
 
-    /// Whether control points have up directions of their own: see [`Yarns::with_ups`].
+    /// Whether any yarn has [up directions](Layout::ups) that it stands by.
     #[must_use]
     pub fn leans(&self) -> bool {
-        self.leaning.is_some()
+        !self.leaning.is_empty()
     }
 
-    /// The up directions, with their points.
-    pub(crate) fn leaning(&self) -> Option<&Leaning> {
-        self.leaning.as_deref()
+    /// The up directions that the control points of `yarn` stand by, of length 1: [their own](Yarns::with_ups), or those that a flattened yarn gets
+    /// whose upright frame would turn about it by more than 15 degrees within a control interval. These hold to the upright frame where that turns
+    /// slowly, and are carried along near the vertical. None of a yarn that stands upright, or that is round and has no own ones, and past
+    /// the last yarn.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
+    /// // A ribbon that goes along x, then down and a little back: its height turns along, from z to x.
+    /// let mut yarns = Yarns::builder();
+    /// let places = [[0.0, 0.0], [1.0, 0.0], [2.0, -0.2], [2.5, -1.0], [2.4, -2.0], [2.3, -3.0]];
+    /// yarns.yarn(Yarn::default(), &places.map(|[x, z]| ControlPoint::new(x, 0.0, z, 0.1).flattened(0.2, 0.05)));
+    /// let yarns = yarns.build()?;
+    /// let ups = yarns.layout().ups(0).unwrap_or_default();
+    /// assert!(ups[0].z > 0.99 && ups[5].x > 0.99);
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    #[must_use]
+    pub fn ups(&self, yarn: usize) -> Option<&[Vec3]> {
+        self.leaning(yarn).map(|leaning| &leaning.ups[..])
+    }
+
+    /// Those of `yarn`, with their points.
+    pub(crate) fn leaning(&self, yarn: usize) -> Option<&Leaning> {
+        self.leaning.get(&yarn).map(|leaning| &**leaning)
+    }
+
+    /// How yarns lean that do, by their numbers.
+    pub(crate) const fn all_leaning(&self) -> &BTreeMap<usize, Arc<Leaning>> {
+        &self.leaning
     }
 
     /// Control points of all yarns together.
@@ -236,6 +274,7 @@ pub struct Yarns {
     layout: Arc<Layout>,
     materials: Arc<[Material]>,
     points: Vec<ControlPoint>,
+    ups: Option<Vec<Vec3>>,
     sources: Option<Vec<u32>>,
 }
 
@@ -260,15 +299,16 @@ impl Yarns {
         }
         check_materials(&layout, &materials)?;
         let yarns = layout.offsets.par_windows(2).zip(&layout.yarns).enumerate();
-        let steep = yarns.map(|(number, (bounds, yarn))| {
+        let stands = yarns.map(|(number, (bounds, yarn))| {
             let own = &points[bounds[0] as usize..bounds[1] as usize];
-            check_points(number, own).map(|()| is_steep(own, yarn.closed, None))
+            check_points(number, own).map(|()| Stand::of(own, yarn.closed, None))
         });
         // Of several errors the first counts.
-        let steep: Vec<_> = steep.collect();
-        layout.steep = steep.into_iter().collect::<Result<_, _>>()?;
-        layout.leaning = None;
-        Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, sources: None })
+        let stands: Vec<_> = stands.collect();
+        for (yarn, stand) in stands.into_iter().enumerate() {
+            layout.set_stand(yarn, stand?);
+        }
+        Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, ups: None, sources: None })
     }
 
     /// Adds where each control point comes from (a crossing, a stitch, a source line): one `u32` per control point.
@@ -314,19 +354,22 @@ impl Yarns {
         let ups = ups.iter().enumerate().map(unit).collect::<Result<Vec<_>, _>>()?;
         let layout = Arc::make_mut(&mut self.layout);
         let yarns = layout.offsets.par_windows(2).zip(&layout.yarns);
-        let steep = yarns.map(|(bounds, yarn)| {
+        let stands = yarns.map(|(bounds, yarn)| {
             let own = bounds[0] as usize..bounds[1] as usize;
-            is_steep(&self.points[own.clone()], yarn.closed, Some(&ups[own]))
+            Stand::of(&self.points[own.clone()], yarn.closed, Some(&ups[own]))
         });
-        layout.steep = steep.collect();
-        layout.leaning = Some(Arc::new(Leaning { ups, points: self.points.clone() }));
+        let stands: Vec<_> = stands.collect();
+        for (yarn, stand) in stands.into_iter().enumerate() {
+            layout.set_stand(yarn, stand);
+        }
+        self.ups = Some(ups);
         Ok(self)
     }
 
     /// The up direction of each control point, of length 1, where they have [their own](Yarns::with_ups).
     #[must_use]
     pub fn ups(&self) -> Option<&[Vec3]> {
-        self.layout.leaning().map(|leaning| &leaning.ups[..])
+        self.ups.as_deref()
     }
 
     /// Counts, offsets, sections, and each yarn's own data.
@@ -378,14 +421,9 @@ impl Yarns {
         }
         check_points(yarn, points)?;
         let ups = self.ups().map(|ups| &ups[range.clone()]);
-        let steep = is_steep(points, self.layout.yarns[yarn].closed, ups);
-        if steep != self.layout.steep[yarn] {
-            Arc::make_mut(&mut self.layout).steep[yarn] = steep;
-        }
-        if self.layout.leans()
-            && let Some(leaning) = &mut Arc::make_mut(&mut self.layout).leaning
-        {
-            Arc::make_mut(leaning).points[range.clone()].copy_from_slice(points);
+        let stand = Stand::of(points, self.layout.yarns[yarn].closed, ups);
+        if stand != self.layout.stand(yarn) {
+            Arc::make_mut(&mut self.layout).set_stand(yarn, stand);
         }
         self.points[range].copy_from_slice(points);
         Ok(())

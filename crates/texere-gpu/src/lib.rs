@@ -48,5 +48,5 @@ pub use settling::{
     ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow, UNSEEN,
     settles_flattened, settling_pass_bytes,
 };
-pub use tables::{CapRow, Params, YarnRow, cap_pattern, lean_table, part_rows};
+pub use tables::{CapRow, Params, YarnRow, cap_pattern, lean_count, lean_rows, part_rows};
 pub use upload::{PaddedUpload, YarnEnds};

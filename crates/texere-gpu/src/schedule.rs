@@ -53,8 +53,8 @@ pub fn check_schedule(schedule: Schedule, plan: &Plan, name: &str) -> Result<(),
 }
 
 fn left_out_per_yarn(plan: &Plan) -> Option<String> {
-    if plan.leans().is_some() {
-        return Some("yarns with up directions of their own".into());
+    if plan.layout().leans() {
+        return Some("yarns that stand by up directions".into());
     }
     if plan.settings().frame != Frame::Upright {
         return Some("rotation-minimising frames".into());

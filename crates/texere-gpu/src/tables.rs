@@ -155,7 +155,7 @@ impl Params {
             yarns: plan.layout().yarns().len() as u32,
             sides: settings.sides,
             subdivisions: settings.subdivisions,
-            leans: plan.leans().map_or(0, |_| plan.block_count() as u32),
+            leans: if plan.layout().leans() { plan.block_count() as u32 } else { 0 },
             indexed: (settings.topology == Topology::Indexed).into(),
             rolled: plan.needs_scan().into(),
             s: plan.sampling().s(),
@@ -165,23 +165,30 @@ impl Params {
     }
 }
 
-/// The lean of each ring of `plan`, [`BLOCK_RINGS`] for each of its blocks, as kernels read them behind the rolls of blocks; empty where no
-/// yarn leans.
+/// Where the leans of `yarns` begin in the lean table, which kernels read behind the rolls of blocks, and what is there: the lean of each ring,
+/// [`BLOCK_RINGS`] for each block of those yarns, zero where a yarn does not lean. Nothing where no yarn of `plan` does.
+///
+/// **Panics** past the last yarn.
 #[must_use]
-pub fn lean_table(plan: &Plan) -> Vec<Turn> {
-    let Some(leans) = plan.leans() else { return Vec::new() };
-    let mut table = vec![Turn::ZERO; lean_count(plan) as usize];
-    for (bounds, first_block) in plan.ring_offsets().windows(2).zip(plan.block_offsets()) {
-        let own = &leans[bounds[0] as usize..bounds[1] as usize];
-        let first = (first_block * u64::from(BLOCK_RINGS)) as usize;
-        table[first..first + own.len()].copy_from_slice(own);
+pub fn lean_rows(plan: &Plan, yarns: Range<usize>) -> (u64, Vec<Turn>) {
+    let place = |yarn: usize| plan.block_offsets()[yarn] * u64::from(BLOCK_RINGS);
+    let first = place(yarns.start);
+    if !plan.layout().leans() {
+        return (first, Vec::new());
     }
-    table
+    let mut rows = vec![Turn::ZERO; (place(yarns.end) - first) as usize];
+    for yarn in yarns {
+        if let Some(leans) = plan.leans(yarn) {
+            rows[(place(yarn) - first) as usize..][..leans.len()].copy_from_slice(leans);
+        }
+    }
+    (first, rows)
 }
 
-/// How many there are in [`lean_table`].
-pub(crate) fn lean_count(plan: &Plan) -> u64 {
-    plan.leans().map_or(0, |_| plan.block_count() * u64::from(BLOCK_RINGS))
+/// How many there are in the whole lean table.
+#[must_use]
+pub fn lean_count(plan: &Plan) -> u64 {
+    if plan.layout().leans() { plan.block_count() * u64::from(BLOCK_RINGS) } else { 0 }
 }
 
 /// The block table of `chunk`, one of `plan`'s, for a schedule with a lane a part: one row a part, or a few where it has

@@ -235,9 +235,13 @@ impl Engine for OpenClEngine {
     fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
         let first = yarns.start * size_of::<YarnRow>();
         // In the queue of the kernels, so that those before still read the rows before.
-        let rows = YarnRow::of(&plan, yarns);
+        let rows = YarnRow::of(&plan, yarns.clone());
         self.tables.yarns.write(&self.opened, &self.opened.queue, first as u64, &rows, None)?;
         self.tables.reserve_rolls(&self.opened, &plan)?;
+        // Room for leans is made with the first yarn that leans, and holds nothing then.
+        let all = 0..plan.layout().yarns().len();
+        let leaning = if self.plan.layout().leans() { yarns } else { all };
+        self.tables.set_leans(&self.opened, &plan, leaning)?;
         self.plan = plan;
         Ok(())
     }

@@ -1,7 +1,9 @@
 //! What stays on the device for a session's whole life.
 
+use std::ops::Range;
+
 use texere_core::{BackendError, Limits, Plan, Turn, index_pattern};
-use texere_gpu::{YarnRow, cap_pattern, lean_table};
+use texere_gpu::{YarnRow, cap_pattern, lean_count, lean_rows};
 
 use crate::buffers::Buffer;
 use crate::opened::Opened;
@@ -41,6 +43,7 @@ impl Tables {
             yarn_turns: Buffer::default(),
         };
         tables.reserve_rolls(opened, plan)?;
+        tables.set_leans(opened, plan, 0..plan.layout().yarns().len())?;
         Ok(tables)
     }
 
@@ -48,13 +51,23 @@ impl Tables {
     pub(crate) fn reserve_rolls(&mut self, opened: &Opened, plan: &Plan) -> Result<(), BackendError> {
         if plan.needs_scan() {
             let turns = |count: u64| count * size_of::<Turn>() as u64;
-            // Behind the rolls of blocks lie the leans of rings, which nothing changes.
-            let leans = lean_table(plan);
-            let blocks = turns(plan.block_count());
-            self.rolls.reserve(opened, "rolls", blocks + size_of_val(&leans[..]) as u64)?;
-            self.rolls.write(opened, &opened.queue, blocks, &leans, None)?;
+            // Behind the rolls of blocks lie the leans of rings.
+            self.rolls.reserve(opened, "rolls", turns(plan.block_count() + lean_count(plan)))?;
             self.yarn_turns.reserve(opened, "whole turns", turns(plan.counts().yarns))?;
         }
+        Ok(())
+    }
+
+    /// Sends how the outlines of `yarns` lean.
+    pub(crate) fn set_leans(
+        &mut self,
+        opened: &Opened,
+        plan: &Plan,
+        yarns: Range<usize>,
+    ) -> Result<(), BackendError> {
+        let (first, leans) = lean_rows(plan, yarns);
+        let place = (plan.block_count() + first) * size_of::<Turn>() as u64;
+        self.rolls.write(opened, &opened.queue, place, &leans, None)?;
         Ok(())
     }
 

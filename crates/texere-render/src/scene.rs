@@ -132,7 +132,8 @@ impl Renderer {
         self.scene_of(yarns, settings, Extent::of(yarns), |session| session.upload(0, yarns.points()))
     }
 
-    /// The same for `yarns` where a settler has left them: on this renderer's device they don't leave it.
+    /// The same for `yarns` where a settler has left them: on this renderer's device they don't leave it. Which yarns are
+    /// [steep](texere_core::Layout::is_steep), and how outlines [lean](texere_core::Layout::ups), stays as it was before.
     ///
     /// **Errors**: those of [`Renderer::scene`], and [`RenderError::Backend`] for a settler of other yarns.
     pub fn settled_scene(

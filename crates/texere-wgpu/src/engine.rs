@@ -307,9 +307,13 @@ impl Engine for WgpuEngine {
 
     fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {
         let first = yarns.start * size_of::<YarnRow>();
-        let rows = YarnRow::of(&plan, yarns);
+        let rows = YarnRow::of(&plan, yarns.clone());
         self.opened.gpu.write(self.tables.yarns.buffer(), first as u64, bytemuck::cast_slice(&rows))?;
         self.tables.reserve_rolls(&self.opened.gpu, &plan)?;
+        // Room for leans is made with the first yarn that leans, and holds nothing then.
+        let all = 0..plan.layout().yarns().len();
+        let leaning = if self.plan.layout().leans() { yarns } else { all };
+        self.tables.set_leans(&self.opened.gpu, &plan, leaning)?;
         self.plan = plan;
         Ok(())
     }

@@ -1,7 +1,9 @@
 //! What stays on the device for as long as its engine: control points, the plan's tables and the rolls.
 
+use std::ops::Range;
+
 use texere_core::{ArcLength, BackendError, Plan, index_pattern};
-use texere_gpu::{Params, YarnRow, cap_pattern, lean_table};
+use texere_gpu::{Params, YarnRow, cap_pattern, lean_count, lean_rows};
 use wgpu::BufferUsages;
 
 use crate::buffer::Buffer;
@@ -46,21 +48,32 @@ impl Tables {
             of_yarns: Buffer::new(gpu, "parameters", BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
         };
         tables.reserve_rolls(gpu, plan)?;
+        tables.set_leans(gpu, plan, 0..plan.layout().yarns().len())?;
         Ok(tables)
     }
 
     /// Makes room for rolls where any yarn turns.
     pub(crate) fn reserve_rolls(&mut self, gpu: &Gpu, plan: &Plan) -> Result<(), BackendError> {
         if plan.needs_scan() {
-            // Behind the rolls of blocks lie the leans of rings, which nothing changes.
-            let leans = lean_table(plan);
-            let blocks = 4 * (plan.layout().yarns().len() as u64 + plan.block_count());
-            let rolls = self.rolls.reserve(gpu, blocks + size_of_val(&leans[..]) as u64)?;
-            if !leans.is_empty() {
-                gpu.write(rolls, blocks, bytemuck::cast_slice(&leans))?;
-            }
+            // Behind the rolls of blocks lie the leans of rings.
+            self.rolls.reserve(gpu, 4 * (Self::rolls_before_leans(plan) + lean_count(plan)))?;
         }
         Ok(())
+    }
+
+    /// Sends how the outlines of `yarns` lean.
+    pub(crate) fn set_leans(&self, gpu: &Gpu, plan: &Plan, yarns: Range<usize>) -> Result<(), BackendError> {
+        let (first, leans) = lean_rows(plan, yarns);
+        if leans.is_empty() {
+            return Ok(());
+        }
+        let place = 4 * (Self::rolls_before_leans(plan) + first);
+        gpu.write(self.rolls.buffer(), place, bytemuck::cast_slice(&leans))
+    }
+
+    /// Whole turns of yarns and rolls of blocks.
+    fn rolls_before_leans(plan: &Plan) -> u64 {
+        plan.layout().yarns().len() as u64 + plan.block_count()
     }
 
     /// Makes room for the lengths along yarns.

@@ -243,8 +243,7 @@ impl Live {
         if !numbers.clone().any(|yarn| self.ups(yarn).is_some()) {
             return Ok(all);
         }
-        let ups = numbers.flat_map(|yarn| self.ups_or_z(yarn, all.range(yarn).unwrap_or_default().len()));
-        let ups = ups.collect();
+        let ups = numbers.flat_map(|yarn| self.standing_ups(yarn, &all, yarn)).collect();
         Ok(all.with_ups(ups)?)
     }
 
@@ -265,12 +264,16 @@ impl Live {
             }
         };
         self.tell(yarn, told.as_deref(), points.len(), &mut sources);
-        let (leans, count) = (layout.leans(), points.len());
-        let (table, offsets) = (vec![self.yarn(yarn)], vec![0, count as u64]);
+        let any_ups = (0..layout.yarns().len()).any(|yarn| self.ups(yarn).is_some());
+        let (table, offsets) = (vec![self.yarn(yarn)], vec![0, points.len() as u64]);
         let layout = texere_core::Layout::new(table, offsets, layout.sections().to_vec())?;
         let only = Yarns::new(layout, self.materials.clone(), points)?;
         let only = if sources.is_empty() { only } else { only.with_sources(sources)? };
-        Ok(if leans { only.with_ups(self.ups_or_z(yarn, count))? } else { only })
+        if !any_ups {
+            return Ok(only);
+        }
+        let ups = self.standing_ups(yarn, &only, 0);
+        Ok(only.with_ups(ups)?)
     }
 
     /// Adds to `sources` where the control points of yarn number `yarn`, `count` as it is now, come from. `told` is where those of the
@@ -313,10 +316,12 @@ impl Live {
         }
     }
 
-    /// The same for each of its `count` control points: along z where it does not say so.
-    fn ups_or_z(&self, yarn: usize, count: usize) -> Vec<[f32; 3]> {
-        let own = self.ups(yarn).map(|ups| ups.iter().map(Vec3::to_array).collect());
-        own.unwrap_or_else(|| vec![Vec3::Z.to_array(); count])
+    /// The same for each of its control points, which are those of yarn number `number` of `yarns`: where it does not say so, what those stand by,
+    /// and else along z.
+    fn standing_ups(&self, yarn: usize, yarns: &Yarns, number: usize) -> Vec<[f32; 3]> {
+        let count = yarns.range(number).unwrap_or_default().len();
+        let ups = self.ups(yarn).or_else(|| yarns.layout().ups(number));
+        ups.map_or_else(|| vec![Vec3::Z.to_array(); count], |ups| ups.iter().map(Vec3::to_array).collect())
     }
 
     /// A mesh of other yarns, with attributes where this one has them.

@@ -57,11 +57,14 @@ pub(super) fn menagerie(section: Section) -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Every shape that is open and has no twist, in one fabric.
+/// Every shape that is open, has no twist and stands upright all along, in one fabric.
 pub(super) fn standing() -> Yarns {
     let mut yarns = Yarns::builder();
     for shape in shapes::all().into_iter().filter(|shape| !shape.yarn.closed && shape.yarn.twist == 0.0) {
-        yarns.yarn(shape.yarn, &shape.points);
+        let own = alone(&shape);
+        if !own.layout().is_steep(0) && !own.layout().leans() {
+            yarns.yarn(shape.yarn, &shape.points);
+        }
     }
     yarns.build().unwrap()
 }
@@ -107,9 +110,9 @@ pub(super) fn leaning() -> Yarns {
             };
             let lean = match (closed, fast) {
                 (false, false) => 0.04 * k,
-                (false, true) => 0.5 * k,
+                (false, true) => 2.0 * k,
                 (true, false) => 0.1 * sin,
-                (true, true) => 2.0 * std::f64::consts::TAU * k / f64::from(count),
+                (true, true) => 2.5 * std::f64::consts::TAU * k / f64::from(count),
             };
             ups.push([across[0] * lean.sin(), across[1] * lean.sin(), lean.cos()].map(|value| value as f32));
             let thick = 1.0 + 0.2 * k.sin();

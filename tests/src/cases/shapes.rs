@@ -232,8 +232,18 @@ fn flat() -> Vec<Shape> {
             |k: f64| point(torus_knot(k, 48.0), RADIUS).flattened(0.3 + 0.1 * (k * 0.4).cos() as f32, 0.2);
         closed(name, (0..48).map(|k| at(f64::from(k))).collect())
     };
+    // Goes up through the vertical and a little back, and lies level again.
+    let binder = |name| {
+        let at = |k: f64| {
+            let (sin, cos) = (0.1 * TAU * k).sin_cos();
+            point([0.8 * k - 1.5 * sin, 0.1 * (2.0 * k).sin(), -2.0 * cos], RADIUS).flattened(0.3, 0.15)
+        };
+        open(name, (0..31).map(|k| at(f64::from(k))).collect())
+    };
     vec![
         ribbon("flat"),
+        binder("flat-binder"),
+        twisted(binder("flat-binder-twisted"), 1.0),
         flattened("flat-standing", &[[0.125, 0.5]; 6]),
         flattened("flat-changing", &changing),
         // The spline of the height dips below zero, that of the width does not.

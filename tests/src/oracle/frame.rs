@@ -29,7 +29,7 @@ pub(super) fn transport(side: DVec3, tangent: DVec3, next: DVec3, chord: DVec3) 
 /// tangent is `tangent`; zero where it has no direction.
 ///
 /// Each up is turned by the smallest rotation to the tangent, here as two reflections, and its part across the tangent is
-/// mixed with the other's. Of two that are opposite the nearer one counts.
+/// mixed with the other's. Of the second up and its opposite the one nearer to the first counts; at a right angle, but for rounding, the up itself.
 pub(super) fn up_between(one: (DVec3, DVec3), other: (DVec3, DVec3), tangent: DVec3, t: f64) -> DVec3 {
     let across = |v: DVec3| {
         let part = v - tangent * v.dot(tangent);
@@ -41,9 +41,11 @@ pub(super) fn up_between(one: (DVec3, DVec3), other: (DVec3, DVec3), tangent: DV
         let turns = middle.length() > 4e-5;
         across(if turns { mirror(mirror(up, from), middle.normalize()) } else { up })
     });
+    let other = if one.dot(other) < -1e-9 { -other } else { other };
     let mixed = across(one.lerp(other, t));
-    let nearer = if t < 0.5 { one } else { other };
-    if mixed == DVec3::ZERO { nearer } else { mixed }
+    // One that lies along the yarn says nothing.
+    let left = if one == DVec3::ZERO { other } else { one };
+    if mixed == DVec3::ZERO { left } else { mixed }
 }
 
 fn mirror(v: DVec3, normal: DVec3) -> DVec3 {
@@ -75,8 +77,9 @@ mod tests {
         }
         let up = up_between((DVec3::Z, DVec3::X), (DVec3::Y, DVec3::X), DVec3::X, 0.5);
         assert!((up - DVec3::new(0.0, 1.0, 1.0).normalize()).length() < 1e-12, "{up}");
+        // A height has two ends.
         let opposite = up_between((DVec3::Z, DVec3::X), (-DVec3::Z, DVec3::X), DVec3::X, 0.5);
-        assert_eq!(opposite, -DVec3::Z);
+        assert_eq!(opposite, DVec3::Z);
     }
 
     /// Along a circle, carried without turning, the part across the circle's plane stays, and the part in it follows

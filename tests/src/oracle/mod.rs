@@ -43,7 +43,7 @@ pub struct OracleRing {
     pub extent: f64,
     /// Side and up of the upright frame, or of the one that leans, along which flattening works.
     pub upright: [DVec3; 2],
-    /// Whether its yarn has up directions of its own.
+    /// Whether its yarn has up directions that it stands by.
     pub leans: bool,
     /// Where the section's x axis points before it is flattened.
     pub side: DVec3,
@@ -136,9 +136,8 @@ impl Oracle {
                 .zip(ranges)
                 .enumerate()
                 .map(|(number, (yarn, own))| {
-                    let ups = yarns.ups().map(|ups| &ups[own.clone()]);
                     let frame = settings.frame.of(layout.is_steep(number));
-                    follow(yarn, &yarns.points()[own], ups, settings, frame)
+                    follow(yarn, &yarns.points()[own], layout.ups(number), settings, frame)
                 })
                 .collect(),
             outlines: layout.sections().iter().map(|section| outline(section, settings.sides)).collect(),

@@ -1,5 +1,6 @@
 //! Tubes are not wrung: no ring of any yarn is turned against the one before by more than its twist asks.
 
+mod flat;
 mod judge;
 
 use std::f64::consts::{PI, TAU};
@@ -31,7 +32,12 @@ fn check(name: &str, yarns: &Yarns, tension: f32) -> usize {
             let drawn = drawn(&device, yarns, settings);
             let case = format!("{name}, {frame:?}, K {subdivisions}, {sides} sides: {drawn:?}");
             assert!(drawn.turn <= TURN, "{case}");
-            assert!(drawn.width >= WIDTH, "{case}");
+            // Arms of a section that is carried along inside a flat outline get longer and shorter, too.
+            let layout = yarns.layout();
+            let carried = (0..layout.yarns().len())
+                .any(|yarn| frame.of(layout.is_steep(yarn)) == Frame::RotationMinimizing);
+            let slides = carried && yarns.points().iter().any(|point| !point.is_round());
+            assert!(slides || drawn.width >= WIDTH, "{case}");
             inwards = inwards.max(drawn.inwards);
         }
     }

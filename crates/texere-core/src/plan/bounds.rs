@@ -126,7 +126,7 @@ impl Plan {
             let hull = Segment::new(&window, self.sampling().s()).hull(from, to);
             // Across the yarn the frame's side is level, so a section reaches out along z by its height alone.
             let level = level * hull.half_width.max(hull.half_height);
-            let rising = if self.leans().is_some() { level } else { upright * hull.half_height };
+            let rising = if self.leans(yarn).is_some() { level } else { upright * hull.half_height };
             let reach = Vec3::new(level, level, rising) * FRAME_SLACK;
             let (low, high) = (hull.low - reach, hull.high + reach);
             let slack = Vec3::splat(low.abs().max(high.abs()).max_element() * SUM_SLACK);

@@ -21,11 +21,14 @@ pub use locate::MeshPlace;
 
 use offsets::Offsets;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::steep::is_steep;
+use rayon::prelude::*;
+
+use crate::stand::Stand;
 use crate::{
     ControlPoint, Frame, Layout, PlanError, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Section,
     SectionPoint, TWIST_LIMIT, Topology, Turn, Yarn, triangulate,
@@ -93,8 +96,8 @@ pub struct Plan {
     /// The blocks that it makes, in order: all, unless it is of a [region](Plan::within).
     runs: Arc<[Range<u64>]>,
     needs_scan: bool,
-    /// The lean of each ring; none where no control point has an up direction of its own.
-    leans: Option<Arc<[Turn]>>,
+    /// The lean of each ring of the yarns that lean, by their numbers.
+    leans: BTreeMap<usize, Arc<[Turn]>>,
     outlines: Vec<SectionPoint>,
     cap_triangles: Vec<Vec<[u32; 3]>>,
     counts: Counts,
@@ -160,7 +163,7 @@ impl Plan {
             id: PlanId::next(),
             runs: std::iter::once(0..blocks).collect(),
             needs_scan: false,
-            leans: layout.leaning().map(|leaning| leaning.rings(&layout, &sampling, &offsets.rings).into()),
+            leans: BTreeMap::new(),
             layout,
             settings,
             sampling,
@@ -171,12 +174,14 @@ impl Plan {
         };
         plan.cap_triangles =
             (0..plan.layout.sections().len()).map(|section| triangulate(plan.outline(section))).collect();
+        let leaning = plan.layout.all_leaning().par_iter();
+        plan.leans = leaning.map(|(yarn, _)| (*yarn, plan.leans_of(*yarn))).collect();
         plan.counts = plan.count();
         plan.needs_scan = (0..plan.layout.yarns().len()).any(|yarn| plan.turns(yarn));
         Ok(plan)
     }
 
-    /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which say whether it is [steep](Layout::is_steep). Offsets stay, and so both plans own one another's
+    /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which say whether it is [steep](Layout::is_steep) and how it [leans](Plan::leans). Offsets stay, and so both plans own one another's
     /// chunks: of those, the ones that hold some of the yarn are out of date ([`Plan::recut`]).
     ///
     /// **Errors**: [`PlanError::NoRoom`] where there is [room](Plan::with_room) for fewer points, [`PlanError::TooFewPoints`], and
@@ -187,24 +192,35 @@ impl Plan {
     pub fn edited(&self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<Self, PlanError> {
         let count = points.len() as u64;
         self.check_edit(yarn, &what, count)?;
-        self.edited_to(yarn, what, count, is_steep(points, what.closed, None))
+        let mut plan = self.clone();
+        Arc::make_mut(&mut plan.layout).edit(yarn, what, count);
+        plan.counts = plan.count();
+        Ok(plan.standing([(yarn, Stand::of(points, what.closed, None))]))
     }
 
-    /// The same for a yarn that is [steep](Layout::is_steep) or not.
-    pub(crate) fn edited_to(
-        &self,
-        yarn: usize,
-        what: Yarn,
-        points: u64,
-        steep: bool,
-    ) -> Result<Self, PlanError> {
-        self.check_edit(yarn, &what, points)?;
-        let mut plan = self.clone();
-        plan.layout = Arc::new(self.layout.edited(yarn, what, points, steep));
-        plan.counts = plan.count();
-        // A yarn that has become steep turns where none did.
-        plan.needs_scan |= steep;
-        Ok(plan)
+    /// The same plan but that some yarns, by their numbers, stand so.
+    pub(crate) fn standing(mut self, stands: impl IntoIterator<Item = (usize, Stand)>) -> Self {
+        for (yarn, stand) in stands {
+            let leans = stand.leaning.is_some();
+            Arc::make_mut(&mut self.layout).set_stand(yarn, stand);
+            if leans {
+                self.leans.insert(yarn, self.leans_of(yarn));
+            } else {
+                self.leans.remove(&yarn);
+            }
+            // A yarn that has become steep turns where none did.
+            self.needs_scan |= self.turns(yarn);
+        }
+        self
+    }
+
+    /// The lean of each ring of a yarn that leans, worked out.
+    fn leans_of(&self, yarn: usize) -> Arc<[Turn]> {
+        let leaning = self.layout.leaning(yarn);
+        leaning
+            .map(|leaning| leaning.rings(self.yarn(yarn).closed, &self.sampling))
+            .unwrap_or_default()
+            .into()
     }
 
     /// Whether [`Plan::edited`] takes `what` of `points` control points in place of yarn number `yarn`. No plan is made.
@@ -219,7 +235,7 @@ impl Plan {
         if points < what.points_least() {
             return Err(PlanError::TooFewPoints { yarn, points, least: what.points_least() });
         }
-        if self.leans.is_some() {
+        if self.layout.leaning(yarn).is_some_and(|leaning| leaning.given) {
             return Err(PlanError::OtherPlan {
                 yarn,
                 what: "edited, where yarns have up directions of their own",
@@ -355,29 +371,28 @@ impl Plan {
     /// **Panics** past the last yarn.
     #[must_use]
     pub fn turns(&self, yarn: usize) -> bool {
-        self.leans.is_some() || !self.frame(yarn).is_level(self.yarn(yarn).twist)
+        self.leans.contains_key(&yarn) || !self.frame(yarn).is_level(self.yarn(yarn).twist)
     }
 
-    /// The lean of each ring, in the order of [`Plan::ring_offsets`]; none where no control point has [an up direction of its
-    /// own](crate::Yarns::with_ups).
+    /// The lean of each ring of `yarn`; none of a yarn that has no [up directions to stand by](Layout::ups), and past the last yarn.
     #[must_use]
-    pub fn leans(&self) -> Option<&[Turn]> {
-        self.leans.as_deref()
+    #[inline]
+    pub fn leans(&self, yarn: usize) -> Option<&[Turn]> {
+        self.leans.get(&yarn).map(|leans| &**leans)
     }
 
     /// Ring number `ring` of `yarn`, at `sample`, with the roll that the scan gives it.
     ///
-    /// **Panics** past the last yarn, and past the last ring where yarns lean.
+    /// **Panics** past the last yarn, and past the last ring of a yarn that leans.
     #[must_use]
     #[inline]
     pub fn ring(&self, yarn: usize, ring: u32, sample: &Sample, scanned: Turn) -> Ring {
-        let Some(leans) = &self.leans else { return Ring::new(sample, scanned) };
-        let first = self.offsets.rings[yarn] as usize;
-        let lean = leans[first + ring as usize];
+        let Some(leans) = self.leans(yarn) else { return Ring::new(sample, scanned) };
+        let lean = leans[ring as usize];
         // An upright section leans with its outline; one that is carried along starts so.
         let start = match self.frame(yarn) {
             Frame::Upright => lean,
-            Frame::RotationMinimizing => leans[first],
+            Frame::RotationMinimizing => leans[0],
         };
         Ring { lean, ..Ring::new(sample, scanned + start) }
     }
@@ -424,7 +439,7 @@ impl Plan {
         let rings = self.offsets.rings.last().copied().unwrap_or(0);
         let rolls = if self.needs_scan() { rings * size_of::<Turn>() as u64 } else { 0 };
         let blocks = self.block_count() * size_of::<Block>() as u64;
-        let leans = self.leans().map_or(0, |leans| size_of_val(leans) as u64);
+        let leans = self.leans.values().map(|leans| size_of_val(&**leans) as u64).sum::<u64>();
         self.counts.bytes() + blocks + self.resident_bytes() + rolls + leans
     }
 

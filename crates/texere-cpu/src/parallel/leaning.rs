@@ -1,44 +1,38 @@
-//! Yarns that leave the plane of their cloth, by the reference's own functions, a run of blocks on each core.
+//! Yarns whose outlines lean, by the reference's own functions. All blocks of a call are of one yarn and follow each other.
 
-use texere_core::{BLOCK_RINGS, Ring, index_pattern};
+use texere_core::{BLOCK_RINGS, Block, Ring, Vertex, index_pattern};
 
-use super::runs::{MeshRun, RingRun};
 use crate::engine::Work;
 use crate::serial;
 
-pub(super) fn rings(work: &Work, run: RingRun<'_>) {
-    for block in run.blocks {
-        let first = (block.chunk_ring - run.first_ring) as usize;
-        let own = &mut run.rings[first..][..block.rings as usize];
+pub(super) fn rings(work: &Work, blocks: &[Block], out: &mut [Ring]) {
+    let mut out = out;
+    for block in blocks {
+        let own = out.split_off_mut(..block.rings as usize).unwrap_or_default();
         serial::rings(work, block.yarn as usize, block.first_ring, own);
     }
 }
 
-/// Vertices, and indices where they are wanted.
-pub(super) fn mesh(work: &Work, indexed: bool, run: MeshRun<'_>) {
+/// Vertices and indices; `indices` is empty where none are wanted.
+pub(super) fn mesh(work: &Work, blocks: &[Block], vertices: &mut [Vertex], indices: &mut [u32]) {
     let (plan, sides) = (&work.plan, work.plan.settings().sides);
-    let pattern = index_pattern(sides);
+    let outline = plan.outline(plan.yarn(blocks[0].yarn as usize).section as usize);
+    let mut vertices = vertices.chunks_exact_mut(sides as usize);
     let mut rings = [Ring::default(); BLOCK_RINGS as usize];
-    for block in run.blocks {
+    for block in blocks {
         let rings = &mut rings[..block.rings as usize];
         serial::rings(work, block.yarn as usize, block.first_ring, rings);
-        let outline = plan.outline(plan.yarn(block.yarn as usize).section as usize);
-        let first = (block.first_vertex - run.first_vertex) as usize;
-        let vertices = run.vertices[first..].chunks_exact_mut(sides as usize);
-        for (ring, vertices) in rings.iter().zip(vertices) {
+        for (ring, vertices) in rings.iter().zip(&mut vertices) {
             let stance = ring.stance();
             for (vertex, point) in vertices.iter_mut().zip(outline) {
                 *vertex = ring.vertex(&stance, point);
             }
         }
-        if indexed {
-            let first = (block.first_index - run.first_index) as usize;
-            let quads = run.indices[first..].chunks_exact_mut(pattern.len()).take(block.quads as usize);
-            for (k, indices) in (0..).zip(quads) {
-                for (index, offset) in indices.iter_mut().zip(&pattern) {
-                    *index = block.first_vertex + k * sides + offset;
-                }
-            }
+    }
+    let pattern = index_pattern(sides);
+    for (k, indices) in (0..).zip(indices.chunks_exact_mut(pattern.len())) {
+        for (index, offset) in indices.iter_mut().zip(&pattern) {
+            *index = blocks[0].first_vertex + k * sides + offset;
         }
     }
 }

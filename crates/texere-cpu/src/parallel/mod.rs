@@ -144,6 +144,11 @@ impl<'a> Maker<'a> {
         }
     }
 
+    /// Whether the yarn leans that `blocks` are of.
+    fn leans(&self, blocks: &[Block]) -> bool {
+        self.work.plan.leans(blocks[0].yarn as usize).is_some()
+    }
+
     fn source(&self) -> Source<'_> {
         Source { plan: &self.work.plan, points: &self.work.points, seats: &self.seats }
     }
@@ -207,13 +212,14 @@ struct RingJob<'a> {
 impl Job for RingJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
-        if self.maker.work.plan.leans().is_some() {
-            return leaning::rings(self.maker.work, self.run);
-        }
         let Self { maker, run: RingRun { blocks, first_ring, rings } } = self;
         for blocks in blocks.chunk_by(|block, next| block.is_before(next)) {
             let count: usize = blocks.iter().map(|block| block.rings as usize).sum();
             let rings = &mut rings[(blocks[0].chunk_ring - first_ring) as usize..][..count];
+            if maker.leans(blocks) {
+                leaning::rings(maker.work, blocks, rings);
+                continue;
+            }
             maker.make(simd, RingPiece { maker, blocks, sink: RingSink { rings } }, blocks);
         }
     }
@@ -267,9 +273,6 @@ impl Job for MeshJob<'_> {
     #[cfg_attr(optimized, inline(always))]
     fn run<S: Simd>(self, simd: S) {
         let Self { maker, table, streams, run } = self;
-        if maker.work.plan.leans().is_some() {
-            return leaning::mesh(maker.work, table.is_some(), run);
-        }
         let sides = maker.work.plan.settings().sides as usize;
         let floats = sides * VERTEX;
         let room = VertexLines::scratch(floats).max(TileLines::scratch(floats));
@@ -279,12 +282,18 @@ impl Job for MeshJob<'_> {
             let quads: usize = blocks.iter().map(|block| block.quads as usize).sum();
             let first = (blocks[0].first_vertex - run.first_vertex) as usize;
             let own: &mut [Vertex] = &mut run.vertices[first..][..rings * sides];
-            let out = Lines::new(bytemuck::cast_slice_mut(own), streams);
-            let indices = table.map(|table| {
+            let own_indices = table.map(|_| {
                 let first = (blocks[0].first_index - run.first_index) as usize;
-                let own = &mut run.indices[first..][..quads * sides * 6];
-                IndexLines::new(own, streams, table, blocks[0].first_vertex)
+                &mut run.indices[first..][..quads * sides * 6]
             });
+            if maker.leans(blocks) {
+                leaning::mesh(maker.work, blocks, own, own_indices.unwrap_or_default());
+                continue;
+            }
+            let out = Lines::new(bytemuck::cast_slice_mut(own), streams);
+            let indices = table
+                .zip(own_indices)
+                .map(|(table, own)| IndexLines::new(own, streams, table, blocks[0].first_vertex));
             let scratch = &mut scratch[..];
             maker.make(simd, MeshPiece { maker, blocks, floats, out, scratch, indices }, blocks);
         }

@@ -28,7 +28,7 @@ pub(super) struct Line<'a> {
     /// Number of the first control point.
     first: usize,
     points: &'a [ControlPoint],
-    /// Their up directions, where they have their own.
+    /// The up directions that they stand by, if any.
     ups: Option<&'a [Vec3]>,
     closed: bool,
     /// The factor of the spline's tangents.
@@ -67,7 +67,7 @@ impl<'a> Line<'a> {
             yarn,
             support,
             first: own.start,
-            ups: yarns.ups().map(|ups| &ups[own]),
+            ups: yarns.layout().ups(yarn),
             points: yarns.yarn_points(yarn).unwrap_or(&[]),
             closed: yarns.layout().yarns()[yarn].closed,
             s,

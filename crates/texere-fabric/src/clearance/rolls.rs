@@ -106,9 +106,8 @@ impl Rolls {
 
     /// The roll of a yarn's first ring, whose interval `window` steers.
     fn starts_at(&self, yarns: &Yarns, yarn: usize, window: [ControlPoint; 4]) -> Turn {
-        let own = yarns.range(yarn).unwrap_or_default();
         let carried = matches!(self.twists[yarn], Some((Frame::RotationMinimizing, _)));
-        let (Some(ups), true) = (yarns.ups().map(|ups| &ups[own]), carried) else { return Turn::ZERO };
+        let (Some(ups), true) = (yarns.layout().ups(yarn), carried) else { return Turn::ZERO };
         let cubic =
             Cubic::new(window, (1.0 - f64::from(self.sampling.tension())) / 2.0).with_ups([ups[0], ups[1]]);
         let [_, velocity, _] = cubic.path(0.0);

@@ -54,7 +54,7 @@ impl Live {
     }
 
     /// Makes yarn number `yarn`, from 0, another one: its material, section and twist, and its control points, mm. Where it has [up directions of
-    /// its own](Yarns::with_ups), as many control points as before keep them; the height of more or fewer points along z.
+    /// its own](Yarns::with_ups), as many control points as before keep them; more or fewer points stand as a yarn does that has none.
     ///
     /// **Errors**: [`LiveError::NoYarn`], [`LiveError::NoMaterial`], [`LiveError::Session`] for what no yarn can be and for a device that fails.
     pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), LiveError> {
@@ -203,13 +203,13 @@ impl Live {
         shown
     }
 
-    /// Gives the mesh these yarns as they are now, or begins another mesh, once, where it has no room for one of them or where outlines lean.
+    /// Gives the mesh these yarns as they are now, or begins another mesh, once, where it has no room for one of them or where one of them has up directions of its own.
     fn show_all(&mut self, yarns: &[usize]) -> Result<(), LiveError> {
         let (plan, mut points) = (self.mesh.plan().clone(), Vec::new());
         let mut fits = |&yarn: &usize| {
             self.lay(yarn, &mut points);
             let edit = plan.check_edit(yarn, &self.yarn(yarn), points.len() as u64);
-            // A plan without leans takes no yarn that has some.
+            // No plan takes a yarn with up directions of its own.
             self.ups(yarn).is_none()
                 && !matches!(edit, Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }))
         };

@@ -287,6 +287,23 @@ fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
     assert!((1.0..1.06).contains(&thick.curvature_min));
 }
 
+/// A section beside its axis folds where it reaches into the bend, and nowhere else. The side of a ring that is counter-clockwise
+/// points to its middle.
+#[test]
+fn a_polygon_on_the_outer_side_of_a_bend_does_not_fold() {
+    let angle = |k: usize| (k as f64 / 96.0 * TAU) as f32;
+    let ring = || (0..96).map(|k| [2.0 * angle(k).cos(), 2.0 * angle(k).sin(), 0.0, 0.5]).collect();
+    let radii = |corners: [[f32; 2]; 3]| {
+        let yarns = yarns(&Section::Polygon(corners.to_vec()), &[(true, ring())]);
+        clearance(&yarns, &Settings { sides: 3, ..Settings::default() }).unwrap().curvature_min
+    };
+    assert!((radii([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0]]) / 4.0 - 1.0).abs() < 0.02);
+    assert!((radii([[1.0, -0.5], [2.0, 0.0], [1.0, 0.5]]) / 2.0 - 1.0).abs() < 0.02);
+    for outer in [[[-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]], [[-2.0, 0.0], [-1.0, -0.5], [-1.0, 0.5]]] {
+        assert!(radii(outer).is_infinite(), "{outer:?}: {}", radii(outer));
+    }
+}
+
 #[test]
 fn a_fold_is_reported_with_its_place() {
     let mut yarns = cloth(Section::Circle);

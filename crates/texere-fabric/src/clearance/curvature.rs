@@ -150,6 +150,9 @@ impl Search<'_> {
                 return;
             }
         } else {
+            if part.halvings >= HALVINGS_FLAT && reach <= 0.0 {
+                return;
+            }
             let sizes = middle.sizes.max(self.floors);
             let furthest = if part.halvings < HALVINGS_FLAT {
                 self.support.extent()
@@ -176,14 +179,18 @@ impl Search<'_> {
     }
 
     fn compare(&mut self, place: &Place) {
+        let reach = self.reach(place);
+        if reach <= 0.0 {
+            return;
+        }
         let turn = place.velocity.cross(place.acceleration).length();
-        let ratio = place.velocity.length().powi(3) / (turn * self.reach(place));
+        let ratio = place.velocity.length().powi(3) / (turn * reach);
         if ratio < self.best.0 {
             self.best = (ratio, Some(place.t));
         }
     }
 
-    /// How far the section reaches into the bend, mm.
+    /// How far the section reaches into the bend, mm: 0 or less where a polygon beside its axis lies on the outer side alone, which folds in no bend.
     fn reach(&self, place: &Place) -> f64 {
         let sizes = place.sizes.max(self.floors);
         if self.support.is_circle() && sizes.x == sizes.y {

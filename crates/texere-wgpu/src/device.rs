@@ -1,6 +1,6 @@
 //! Devices: which there are, and how one is opened.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
 use texere_core::settling::{Settler, SettlingPlan};
@@ -213,13 +213,19 @@ impl Backend for WgpuBackend {
 }
 
 /// All adapters that can compute.
+///
+/// Drivers stay loaded until the process ends: NVIDIA's loads libEGL, which crashes where it is unloaded while a thread that has used it ends
+/// (`tests/leaning.rs` did so in two of three runs, its devices being opened and dropped side by side).
 fn adapters() -> Vec<wgpu::Adapter> {
+    static INSTANCE: OnceLock<wgpu::Instance> = OnceLock::new();
     let backends = Backends::VULKAN | Backends::METAL | Backends::DX12;
-    let instance = wgpu::Instance::new(InstanceDescriptor {
-        backends,
-        // No validation layer of the driver's, also in a debug build, unless the environment asks for it.
-        flags: InstanceFlags::empty().with_env(),
-        ..InstanceDescriptor::new_without_display_handle()
+    let instance = INSTANCE.get_or_init(|| {
+        wgpu::Instance::new(InstanceDescriptor {
+            backends,
+            // No validation layer of the driver's, also in a debug build, unless the environment asks for it.
+            flags: InstanceFlags::empty().with_env(),
+            ..InstanceDescriptor::new_without_display_handle()
+        })
     });
     let mut adapters = pollster::block_on(instance.enumerate_adapters(backends));
     adapters.retain(|adapter| {

@@ -117,6 +117,15 @@ fn a_repeat_that_no_gigabyte_holds_is_refused_before_it_is_laid() {
     assert!(output.status.code() == Some(3) && error.contains("a repeat of "), "{error}");
 }
 
+/// A Jacquard of two yarns on 1,024 needles and rows, of which one floats all the way: it takes less than a gigabyte beside what threads reserve.
+#[test]
+fn a_repeat_that_a_gigabyte_holds_is_laid() {
+    let folder = picture(1024);
+    let [jacquard, ..] = pictured(1024);
+    let output = within_in(folder.path(), 1_150_000, "inspect --counts", &jacquard);
+    assert!(output.status.success(), "{}", stderr(&output));
+}
+
 #[test]
 fn pictures_of_400_wales_and_courses_are_knitted() {
     let folder = picture(400);

@@ -3,7 +3,7 @@
 use texere_core::Origin;
 
 use super::laps::laps;
-use super::{Bar, LapKind, NEEDLES_MOST};
+use super::{Bar, Laid, LapKind, NEEDLES_MOST};
 use crate::settling::settled_together;
 use crate::weft::check::{passed_max, repeat_points, tiled};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
@@ -22,6 +22,9 @@ const LAID_MAX: u64 = 1 << 26;
 
 /// Control points of a lap at least.
 const LAP_POINTS: u64 = 2;
+
+/// Control points of a loop.
+const LOOP_POINTS: u64 = 9;
 
 /// Whether bars are sound, and refer only to yarns that there are.
 pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), FabricError> {
@@ -104,13 +107,13 @@ pub(super) fn size(
     if copies.contains(&0) {
         return Err(FabricError::Stitches { what: "no copy of the repeat" });
     }
-    let (mut loops, mut inlays, mut passed) = (0_u64, 0_u64, 0_u64);
+    let (mut loops, mut inlays, mut passed, mut points) = (0_u64, 0_u64, 0_u64, 0_u64);
     for laid in laps(bars, repeat[0], repeat[1]) {
         loops += u64::from(laid.lap.overlap().unsigned_abs());
         inlays += u64::from(laid.kind() == LapKind::Inlay);
         passed += u64::from(laid.underlap.unsigned_abs());
-        // An inlay has a course to rise, which is about as much as a needle to pass.
-        repeat_points(loops, passed + inlays)?;
+        points += lap_points(&laid);
+        repeat_points(points)?;
     }
     if loops == 0 {
         return Err(FabricError::NoLoops);
@@ -123,4 +126,51 @@ pub(super) fn size(
     let whole = [0, 1].map(|axis| piece[axis] * copies[axis] / repeat[axis]);
     let tiles = settled_together(repeat, whole);
     tiled(tiles, u64::from(repeat[0]) * u64::from(repeat[1]) * bars.len() as u64)
+}
+
+/// Control points of a lap and its underlap, about. Pieces of underlaps are 0.4 wales long.
+fn lap_points(laid: &Laid) -> u64 {
+    let [needles, underlap] =
+        [laid.lap.overlap(), laid.underlap].map(|count| u64::from(count.unsigned_abs()));
+    match laid.kind() {
+        LapKind::Inlay => 1 + underlap,
+        LapKind::Overlap | LapKind::TwoNeedle => {
+            LOOP_POINTS * needles + (5 * underlap).div_ceil(2).saturating_sub(1)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use texere_core::{Material, Section};
+
+    use super::super::{Chain, WarpKnitted};
+    use super::*;
+    use crate::weft::{Gauge, KnitYarn};
+
+    #[test]
+    fn the_size_of_a_repeat_is_known_before_it_is_laid() {
+        for bars in [
+            &["1-0/1-2//"][..],
+            &["1-0/2-3//", "1-2/1-0//"],
+            &["0-1/1-0//", "1-0/4-5//"],
+            &["1-0/0-1//", "0-0/4-4//"],
+            &["2-0/2-4//"],
+            &["(1-0/1-2)x4/2-3/2-1//", "5-4/1-0//"],
+        ] {
+            let bars: Vec<_> = bars.iter().map(|chain| Bar::new(Chain::parse(chain, 1).unwrap())).collect();
+            let courses = bars.iter().map(|bar| bar.chain.courses()).max().unwrap() as u32;
+            let laps = laps(&bars, 8, courses).map(|laid| lap_points(&laid)).sum::<u64>();
+            let (yarns, sections) = (vec![KnitYarn::new(0.04)], vec![Section::Circle]);
+            let gauge = Gauge::new(1.0, 0.75);
+            let materials = vec![Material::default()];
+            let cloth =
+                WarpKnitted::new(bars, gauge, 8, courses, yarns, materials, sections, [1, 1]).unwrap();
+            let repeat = cloth.repeat().unwrap();
+            let copies = u64::from(repeat.copies[0]) * u64::from(repeat.copies[1]);
+            let points = repeat.piece.yarns.points().len() as u64 * copies;
+            let share = laps as f64 / points as f64;
+            assert!((0.8..1.2).contains(&share), "{laps} for {points}");
+        }
+    }
 }

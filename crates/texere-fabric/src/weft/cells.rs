@@ -1,5 +1,7 @@
 //! What a yarn does at each needle that it comes to, also at those that it passes without being told.
 
+use std::ops::Range;
+
 use super::layers::{Layers, STEP};
 use super::{Bed, Direction, Step, Stitches};
 use crate::FabricError;
@@ -92,17 +94,8 @@ fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Ce
 /// further back, it turns at once and floats back.
 fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), FabricError> {
     let way = f64::from(other.at - one.at) * one.direction;
-    let gap = way.abs().round() as u32;
     let turns = one.direction != other.direction;
-    if !turns && way.abs() <= f64::from(STEP) || gap == 0 {
-        return Ok(());
-    }
-    let on = way > 0.0;
-    let passed = match (turns, on) {
-        (false, true) => 1..gap,
-        (true, true) => 1..gap + 1,
-        (true, false) | (false, false) => 0..gap,
-    };
+    let (passed, gap, on) = (passed_on_way(way, turns), way.abs().round() as u32, way > 0.0);
     let direction = if on { one.direction } else { -one.direction };
     let like = if on && turns { one } else { other };
     room_for(cells, passed.len(), "needles that a yarn comes to")?;
@@ -111,4 +104,18 @@ fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), FabricErr
         cells.push(Cell { number: None, at, direction, bed: one.bed, ..*like });
     }
     Ok(())
+}
+
+/// The steps of a needle each after which a yarn floats on a way in the direction in which it came, or against it; and whether the next loop is
+/// made in the other direction.
+pub(super) fn passed_on_way(way: f64, turns: bool) -> Range<u32> {
+    let gap = way.abs().round() as u32;
+    if !turns && way.abs() <= f64::from(STEP) || gap == 0 {
+        return 0..0;
+    }
+    match (turns, way > 0.0) {
+        (false, true) => 1..gap,
+        (true, true) => 1..gap + 1,
+        (true, false) | (false, false) => 0..gap,
+    }
 }

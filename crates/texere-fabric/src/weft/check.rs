@@ -2,8 +2,10 @@
 
 use texere_core::{Material, Origin, Section, Yarn};
 
+use super::cells::passed_on_way;
+use super::form::point_count;
 use super::layers::held_until;
-use super::{Fate, Gauge, KnitYarn, LoopRef, Step, Stitches, Strand};
+use super::{Direction, Fate, Gauge, KnitYarn, LoopRef, Step, Stitches, Strand, Visit};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN, yarn_check};
 
 /// The furthest that a needle lies from the first one, in wales.
@@ -18,13 +20,13 @@ pub(super) const MOVED_MAX: f32 = 256.0;
 /// The most loops of several repeats that settle together.
 const TILED_MAX: u64 = 1 << 16;
 
-/// Control points of a loop at least, and of a needle or a course that its yarn passes.
-const LOOP_POINTS: u64 = 10;
+/// Control points of a needle that a yarn floats past, with the arc to the next one, and of a turn.
 const PASSED_POINTS: u64 = 3;
+const TURN_POINTS: u64 = 3;
 
-/// The most control points of a repeat, which is laid and settles as one: a gigabyte, for laying takes up to 70 bytes for each. That is a picture
-/// of 1,060 × 1,060 stitches, or of 870 × 870 with two yarns.
-const REPEAT_POINTS_MAX: u64 = 14 << 20;
+/// The most control points of a repeat, which is laid and settles as one: a gigabyte, for reading and laying takes 73 to 79 bytes for each. That
+/// is a picture of 1,024 × 1,024 stitches, also with two yarns of which one only floats; of 910 × 910 where both knit.
+const REPEAT_POINTS_MAX: u64 = 12_600_000;
 
 /// The most needles and courses that yarns pass: so many, and so many more for each loop. All of them take memory.
 const PASSED_MAX: u64 = 1 << 16;
@@ -118,7 +120,7 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     if passed > limit {
         return Err(FabricError::KnitRuns { passed, loops, limit, told: furthest(stitches) });
     }
-    let points = repeat_points(loops, passed)?;
+    let points = repeat_points(points(stitches))?;
     let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
     if sides.into_iter().any(|(size, copies)| u64::from(size) * u64::from(copies) > u64::from(SIDE_MAX)) {
         return Err(FabricError::Stitches { what: "too many wales or courses" });
@@ -131,14 +133,37 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     if points > POINTS_MAX { Err(FabricError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
 }
 
-/// Control points of a repeat of so many loops whose yarns pass so many needles and courses, about, unless they are too many to be laid as
-/// one.
-pub(crate) fn repeat_points(loops: u64, passed: u64) -> Result<u64, FabricError> {
-    let points = LOOP_POINTS.saturating_mul(loops).saturating_add(PASSED_POINTS.saturating_mul(passed));
+/// So many control points of a repeat, unless they are too many to be laid as one.
+pub(crate) fn repeat_points(points: u64) -> Result<u64, FabricError> {
     if points > REPEAT_POINTS_MAX {
         return Err(FabricError::KnitRepeat { points, limit: REPEAT_POINTS_MAX });
     }
     Ok(points)
+}
+
+/// About as many control points as a knit's yarns have: exact but for their ends, turns over several courses, and needles half a wale apart.
+fn points(stitches: &Stitches) -> u64 {
+    let loops = (0..stitches.loops.len() as u32).map(|number| point_count(stitches, number));
+    let strands = stitches.strands.iter().map(|strand| {
+        let visit = |step: &Step| stitches.visit(step);
+        let floats = strand.steps.iter().filter(|step| matches!(step, Step::Float { .. })).count() as u64;
+        let joins: u64 = strand.steps.windows(2).map(|pair| join(&visit(&pair[0]), &visit(&pair[1]))).sum();
+        // A yarn that goes on comes to its first needle again, in the next repeat.
+        let onward = strand.onward.zip(stitches.repeat).zip(strand.steps.first().zip(strand.steps.last()));
+        let onward = onward.map_or(0, |(([right, _], [width, _]), (first, last))| {
+            let first = visit(first);
+            join(&visit(last), &Visit { at: first.at + right as f32 * width as f32, ..first })
+        });
+        (PASSED_POINTS - 1) * floats + joins + onward
+    });
+    loops.sum::<u64>() + strands.sum::<u64>()
+}
+
+/// Control points between one needle and another.
+fn join(one: &Visit, other: &Visit) -> u64 {
+    let turns = one.direction != other.direction;
+    let way = f64::from(other.at - one.at) * if one.direction == Direction::Right { 1.0 } else { -1.0 };
+    PASSED_POINTS * passed_on_way(way, turns).len() as u64 + if turns { TURN_POINTS } else { 1 }
 }
 
 /// How many needles and courses yarns may pass between so many loops or laps.
@@ -185,4 +210,51 @@ fn furthest(stitches: &Stitches) -> Option<u32> {
         }
     }
     longest.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Backing, Beds, Chart, Knitted, Machine, Program};
+    use super::*;
+
+    fn chart(text: &str, beds: Beds) -> Program {
+        Chart::parse(text, beds).unwrap().program().unwrap()
+    }
+
+    /// A Jacquard of so many colours, of blocks or of single stitches.
+    fn jacquard(colours: u32, block: usize, backing: Option<Backing>) -> Program {
+        let colour = |wale: usize, row: usize| ((wale / block + row / block) as u32) % colours;
+        Chart::jacquard(12 * block, 12 * block, backing, colour).unwrap().program().unwrap()
+    }
+
+    #[test]
+    fn the_size_of_a_repeat_is_known_before_it_is_laid() {
+        let mut programs = vec![
+            ("plain", chart("k", Beds::One)),
+            ("garter", chart("k\np", Beds::One)),
+            ("rib", chart("kp", Beds::One)),
+            ("tuck", chart("kt\nkk\ntk\nkk", Beds::One)),
+            ("miss", chart("kmmk\nkkkk", Beds::One)),
+            ("slips over four courses", chart("kkkk\nkmkm\nkmkm\nkmkm\nkmkm", Beds::One)),
+            ("interlock", chart("kp\npk", Beds::Two)),
+        ];
+        for block in [1, 3] {
+            for colours in [2, 3, 4] {
+                programs.push(("single Jacquard", jacquard(colours, block, None)));
+                programs.push(("bird's-eye back", jacquard(colours, block, Some(Backing::Birdseye))));
+                programs.push(("ladder back", jacquard(colours, block, Some(Backing::Ladder))));
+            }
+        }
+        for (name, program) in programs {
+            let yarns = vec![KnitYarn::new(0.1); program.carriers.len()];
+            let stitches = Machine::default().knit(&program).unwrap().stitches;
+            let gauge = Gauge::new(1.0, 0.75);
+            let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+            let estimate = points(&stitches);
+            let knit = Knitted::new(stitches, gauge, yarns, materials, sections, [1, 1]).unwrap();
+            let laid = knit.piece().unwrap().yarns.points().len();
+            let share = estimate as f64 / laid as f64;
+            assert!((0.9..1.1).contains(&share), "{name}: {estimate} for {laid}");
+        }
+    }
 }

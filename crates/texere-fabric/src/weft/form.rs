@@ -114,6 +114,29 @@ fn plates(stitches: &Stitches, number: u32) -> u16 {
     stitches.loops[number as usize].plate + 1 + last as u16
 }
 
+/// How many control points [`Form::points`] has for the loop `number`.
+pub(super) fn point_count(stitches: &Stitches, number: u32) -> u64 {
+    let stitch = &stitches.loops[number as usize];
+    let is_arch = stitch.kind == LoopKind::Tuck || stitch.parents.is_empty();
+    let half = match (is_arch, stitch.fate == Fate::Dropped) {
+        (true, true) => 1,
+        (false, true) => 4,
+        (true, false) => 4 + u64::from(held(stitches, number)),
+        (false, false) => {
+            let changes = stitch.bed != drawn_through(stitches, number).0;
+            5 + u64::from(changes) + u64::from(held(stitches, number))
+        }
+    };
+    2 * half + 1
+}
+
+/// For how many courses the needle of a loop does not knit.
+fn held(stitches: &Stitches, number: u32) -> u32 {
+    let stitch = &stitches.loops[number as usize];
+    let held = held_until(stitches, stitch.fate).unwrap_or(0) - i64::from(stitch.course) - 1;
+    u32::try_from(held).unwrap_or(0)
+}
+
 impl<'a> Form<'a> {
     /// The loop `number`, its needle at `x` and its course at height `y`, its feet `lift` above that.
     pub(super) fn new(
@@ -144,7 +167,6 @@ impl<'a> Form<'a> {
             });
             further.fold(0.0, f64::max)
         };
-        let held = held_until(stitches, stitch.fate).unwrap_or(0) - i64::from(stitch.course) - 1;
         let over = |crossed| side(next) * (CROSSING - crossed) * shape.diameter;
         Self {
             shape,
@@ -156,7 +178,7 @@ impl<'a> Form<'a> {
             behind,
             forward: f64::from(plates(stitches, number) - 1) * shape.diameter,
             lean: f64::from(stitch.head.at - stitch.at) * shape.wale,
-            held: u32::try_from(held).unwrap_or(0),
+            held: held(stitches, number),
             over: layers.crossed(number).map_or(0.0, over),
             is_arch,
             is_dropped: stitch.fate == Fate::Dropped,

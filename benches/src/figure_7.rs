@@ -45,7 +45,7 @@ pub fn print(device: &str, designs: &Path, output: &Path) -> Result<(), Box<dyn 
         for (picture, file) in [(picture, format!("{name}.png")), (near, format!("{name}-close-up.png"))] {
             texere::write_picture(picture.size, &picture.rgb, Output::to(output.join(file)))?;
         }
-        let rest = row.rest.map_or("as laid", |rest| if rest.at_rest { "yes" } else { "no" });
+        let rest = row.rests.map_or("as placed", |rests| if rests.at_rest { "yes" } else { "no" });
         println!(
             "| {} | {:.2} | {facets:.2} | {rest} | {:.2} | {:.2} | {PAPER_S:.0} |",
             row.name,

@@ -73,7 +73,7 @@ fn main() -> ExitCode {
             eprintln!(
                 "usage: cargo xtask <demo | gallery | test | check | mutate | instructions | bench-tables | bundle>"
             );
-            eprintln!("  demo   a picture of a herringbone; installs a Vulkan driver where there is none");
+            eprintln!("  demo   a picture of denim at rest; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
             eprintln!("  test   all tests, doctests and the conformance suite");
             eprintln!(

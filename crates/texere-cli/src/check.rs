@@ -124,10 +124,10 @@ struct Jammed {
 }
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
-    let (mut design, _) = reading::reported(&args.design)?;
+    let (design, _) = reading::reported(&args.design)?;
     let tension = Settings::default().tension;
-    let (yarns, mut settling) =
-        settling::yarns(&mut design, &args.settling, tension, || texere::open("cpu"))?;
+    let (cloth, mut settling) = settling::cloth(design, &args.settling, tension, || texere::open("cpu"))?;
+    let (design, yarns) = cloth.into_parts();
     let settings = Settings::of(&yarns);
     let clearance = progress::during("measuring how near yarns come", |bar| {
         design.structure.clearance(&yarns, &settings, progress::share(bar))

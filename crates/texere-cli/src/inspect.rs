@@ -112,12 +112,14 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
     print::text(&report.text())
 }
 
-fn report(mut design: Design, said: &[String], args: &InspectArgs) -> Result<Report, Fail> {
-    let (yarns, mut settling) = if args.counts {
-        (design.yarns().map_err(|error| design.refused(error))?, None)
+fn report(design: Design, said: &[String], args: &InspectArgs) -> Result<Report, Fail> {
+    let (cloth, mut settling) = if args.counts {
+        (design.placed()?, None)
     } else {
-        settling::yarns(&mut design, &args.settling, args.settings.tension, || texere::open("cpu"))?
+        settling::cloth(design, &args.settling, args.settings.tension, || texere::open("cpu"))?
     };
+    let mut warnings = cloth.warnings();
+    let (design, yarns) = cloth.into_parts();
     let settings = args.settings.of(&yarns);
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let counts = *Plan::new(yarns.layout().clone(), settings)?.counts();
@@ -138,7 +140,6 @@ fn report(mut design: Design, said: &[String], args: &InspectArgs) -> Result<Rep
     };
     let knit = weft.or_else(warp);
     let at = args.at.map(|point| at::under(&design, &yarns, point, settings.tension));
-    let mut warnings = settling::warnings(&design, settling.as_ref());
     warnings.extend(knit.iter().flat_map(KnitReport::missed));
     warnings.extend(undersampled(&yarns, &settings));
     let unsaid = reading::unsaid(&warnings, said);

@@ -17,15 +17,15 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let output = Output::to(&args.output).sparing(design.files());
     let device = drivers::quietly(|| texere::open(&args.device))?;
     output.check()?;
-    let (yarns, settling) =
-        settling::yarns(&mut design, &args.settling, args.settings.tension, || Ok(&*device))?;
-    let settings = args.settings.of(&yarns);
+    let (cloth, settling) = settling::cloth(design, &args.settling, args.settings.tension, || Ok(&*device))?;
+    let yarns = cloth.yarns();
+    let settings = args.settings.of(yarns);
     let bar = progress::bar(std::io::stderr().is_terminal());
-    let pipeline = Pipeline::new(&yarns).settings(settings).progress(progress::reporter(&bar));
+    let pipeline = Pipeline::new(yarns).settings(settings).progress(progress::reporter(&bar));
     let written = texere::stream(pipeline, &*device, output)?;
     bar.finish_and_clear();
-    let warnings = reading::unsaid(&settling::warnings(&design, settling.as_ref()), design.remarks());
-    for warning in warnings.into_iter().chain(undersampled(&yarns, &settings)) {
+    let warnings = reading::unsaid(&cloth.warnings(), cloth.design().remarks());
+    for warning in warnings.into_iter().chain(undersampled(yarns, &settings)) {
         print::text(&format!("warning: {}\n", line(warning)))?;
     }
     if let Some(settling) = settling {

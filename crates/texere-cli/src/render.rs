@@ -36,8 +36,9 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     }
     let outputs = outputs(args, &design)?;
     let open = || texere::open(&args.device);
-    let (yarns, settling) =
-        stages.time("yarns", || settling::yarns(&mut design, &args.settling, args.settings.tension, open))?;
+    let (cloth, settling) =
+        stages.time("yarns", || settling::cloth(design, &args.settling, args.settings.tension, open))?;
+    let (design, yarns) = cloth.into_parts();
     let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
     let settings = args.settings.of_picture(&yarns, lies_close);
     let mut scene = stages.time("upload", || renderer.scene(&yarns, &settings))?;

@@ -10,9 +10,11 @@
 )]
 
 pub mod read;
+mod rest;
 pub mod write;
 
 pub use read::{
     Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Structure, Told, read, read_from,
 };
+pub use rest::{Cloth, RestReport, Resting};
 pub use write::WriteError;

@@ -3,10 +3,9 @@
 
 use std::error::Error;
 use std::iter::successors;
-use std::ops::ControlFlow;
 
 use texere_cpu::ParallelBackend;
-use texere_formats::read;
+use texere_formats::{Cloth, RestReport, read};
 
 const YARN: &str = "[yarns.a]\ndiameter_mm = 0.1\n";
 
@@ -30,17 +29,11 @@ fn said_of(name: &str, design: &str, draft: &str) -> String {
         Ok(design) => design,
         Err(error) => return said(&error),
     };
-    let backend = ParallelBackend::open().unwrap();
-    let on = |_| ControlFlow::Continue(());
-    let (finish, stretch) = (design.finish, design.stretch);
-    if let Some(stretch) = stretch
-        && let Err(error) = design.structure.stretch(&finish, stretch, 0.0, &backend, on)
-    {
-        return said(&design.refused(error));
-    }
-    match design.structure.settle(&finish, 0.0, &backend, on) {
+    design.settle = true;
+    let cloth = design.rest(&ParallelBackend::open().unwrap()).run();
+    match cloth.as_ref().map(Cloth::report) {
+        Err(reason) | Ok(RestReport::Refused { reason, .. }) => said(reason),
         Ok(_) => "taken".into(),
-        Err(error) => said(&design.refused(error)),
     }
 }
 
@@ -182,10 +175,9 @@ fn a_knitout_file_that_is_too_crowded_to_settle_names_its_line() {
     let design = "[knit]\nknitout = \"cable.k\"\nwales_per_cm = 5\ncourses_per_cm = 7\n[yarns.a]\ndiameter_mm = 0.35\n";
     std::fs::write(folder.path().join("cable.toml"), design).unwrap();
     for name in ["cable.k", "cable.toml"] {
-        let design = read(folder.path().join(name)).unwrap();
-        let on = |_| ControlFlow::Continue(());
-        let error = design.structure.settle(&design.finish, 0.0, &ParallelBackend::open().unwrap(), on);
-        let error = design.refused(error.unwrap_err());
+        let mut design = read(folder.path().join(name)).unwrap();
+        design.settle = true;
+        let error = design.rest(&ParallelBackend::open().unwrap()).run().unwrap_err();
         let said = error.to_string();
         let line = said.split_once("cable.k, line ").and_then(|(_, rest)| rest.split_once(": "));
         let (line, rest) = line.unwrap_or_else(|| panic!("{name}: {said}"));

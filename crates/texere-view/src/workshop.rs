@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 use texere::{
-    Backend, Camera, Design, Extent, FinishError, Finished, Output, Quality, RenderError, Renderer, Scene,
-    Settings, Structure, Undersampled, Yarns,
+    Backend, Camera, Design, Extent, FinishError, Output, Quality, Refusal, RenderError, Renderer,
+    RestReport, Scene, Settings, Structure, Undersampled, Yarns,
 };
 
 use crate::error::said;
@@ -264,12 +264,13 @@ impl Workshop {
             return None;
         }
         let mut order = None;
-        match self.settled(&mut order) {
-            Ok(finished) => {
-                let verdict = [finished.verdict().to_string()].into_iter();
-                let warnings = finished.warnings().into_iter().map(|warning| warning.to_string());
-                let said = verdict.chain(warnings).collect::<Vec<_>>().join("; ");
-                self.take_yarns(finished.into_yarns(), true);
+        match self.at_rest(&mut order) {
+            Ok(cloth) => {
+                let report = [cloth.report().to_string()].into_iter();
+                let said = report.chain(cloth.report().warnings()).collect::<Vec<_>>().join("; ");
+                if matches!(cloth.report(), RestReport::Finished(_)) {
+                    self.take_yarns(cloth.into_parts().1, true);
+                }
                 self.tell(News::Settled(said));
             }
             // It was stopped, for there is something else to be done.
@@ -277,21 +278,23 @@ impl Workshop {
             Err(error) => {
                 // It may be gone.
                 self.settler = None;
-                self.tell(News::Settled(said(&self.design.refused(error))));
+                self.tell(News::Settled(said(&error)));
             }
         }
         order
     }
 
-    /// Lets the yarns settle until an order comes, which is put into `order`, a file changes, or the window is closed.
-    fn settled(&mut self, order: &mut Option<Order>) -> Result<Finished, FinishError> {
-        let Self { orders, is_closing, news, window, watch, view, design, settler, .. } = self;
+    /// Lets the yarns come to rest until an order comes, which is put into `order`, a file changes, or the window is closed.
+    fn at_rest(&mut self, order: &mut Option<Order>) -> Result<texere::Cloth, Refusal> {
+        let mut design = self.design.clone();
+        design.settle = true;
+        let Self { orders, is_closing, news, window, watch, view, settler, .. } = self;
         let device = match settler {
             Some(device) => device,
-            None => settler.insert(texere::open(&view.device)?),
+            None => settler.insert(texere::open(&view.device).map_err(FinishError::from)?),
         };
         // Moved in, for a receiver can be sent to other threads but not shared with them.
-        let mut progress = move |share| {
+        let progress = move |share| {
             let is_open = news.send(News::Settling(share)).is_ok() && !is_closing.load(Ordering::Relaxed);
             window.request_repaint();
             if order.is_none() {
@@ -303,12 +306,7 @@ impl Workshop {
                 ControlFlow::Continue(())
             }
         };
-        let tension = view.settings.tension;
-        let (mut structure, mut finish) = (design.structure.clone(), design.finish);
-        if let Some(stretch) = design.stretch {
-            finish = structure.stretch(&finish, stretch, tension, &**device, &mut progress)?;
-        }
-        structure.settle(&finish, tension, &**device, progress)
+        design.rest(&**device).tension(view.settings.tension).progress(progress).run()
     }
 
     /// Shows other yarns, in the colours that were chosen.

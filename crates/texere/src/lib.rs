@@ -1,8 +1,8 @@
 //! Textile designs to yarn-level 3D geometry.
 //!
 //! ```text
-//! Design ──> Yarns ──> Pipeline on a device ──> Mesh ──> file
-//! read       yarns     open                              write
+//! Design ──> Cloth ──> Pipeline on a device ──> Mesh ──> file
+//! read       rest      open                              write
 //! ```
 //!
 //! ```
@@ -13,36 +13,36 @@
 //! # std::fs::write(&design_path, "[weave]\nnotation = \"plain\"\nends = 8\npicks = 8\n[yarns.ecru]\ntex = 50.0\n\
 //! # [warp]\nyarns = [\"ecru\"]\nper_cm = 12.0\n[weft]\nyarns = [\"ecru\"]\nper_cm = 12.0\n")?;
 //! # let mesh_path = folder.join("plain.glb");
-//! let design = texere::read(&design_path)?; // .wif or .toml
-//! let yarns = design.yarns()?;
+//! let design = texere::read(&design_path)?; // .wif, .toml or .k
 //! let device = texere::open("auto")?;
-//! let mesh = texere::Pipeline::new(&yarns).sides(6).mesh(&*device)?;
+//! let cloth = design.rest(&*device).run()?; // its yarns come to rest
+//! let mesh = texere::Pipeline::new(cloth.yarns()).mesh(&*device)?;
 //! texere::write(&mesh, &mesh_path)?; // .glb or .ply
 //! # std::fs::remove_dir_all(&folder)?;
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! Yarns are about where they belong. They come to rest with [`Structure::settle`], as the design's [`Finish`] says:
+//! [`Design::yarns`] are where the structure places them, about where they belong. [`Design::rest`] lets them come to rest, as the design's
+//! [`Finish`] says:
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let folder = std::env::temp_dir().join(format!("texere-doc-poplin-{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder)?;
 //! # let design_path = folder.join("poplin.toml");
-//! use std::ops::ControlFlow;
 //! // Poplin: as round yarns its ends would pierce one another.
 //! std::fs::write(&design_path, "weave = { notation = \"plain\", ends = 6, picks = 6 }\n\
 //!     yarns.white.diameter_mm = 0.143\n\
 //!     warp = { yarns = [\"white\"], spacing_mm = 0.19 }\n\
 //!     weft = { yarns = [\"white\"], spacing_mm = 0.35 }\n")?;
 //! let design = texere::read(&design_path)?;
-//! let device = texere::open("cpu")?;
-//! let finished = design.structure.settle(&design.finish, 0.0, &*device, |_| ControlFlow::Continue(()))?;
-//! assert!(design.settle && finished.is_at_rest());
 //! assert!(texere::clearance(&design.yarns()?, &texere::Settings::default())?.min < 0.9);
-//! assert!(texere::clearance(finished.yarns(), &texere::Settings::default())?.min > 0.98);
-//! let mesh = texere::Pipeline::new(finished.yarns()).mesh(&*device)?;
+//! let device = texere::open("cpu")?;
+//! let cloth = design.rest(&*device).run()?;
+//! assert_eq!(cloth.report().to_string(), "at rest");
+//! assert!(texere::clearance(cloth.yarns(), &texere::Settings::default())?.min > 0.98);
+//! let mesh = texere::Pipeline::new(cloth.yarns()).mesh(&*device)?;
 //! # assert!(!mesh.vertices.is_empty());
 //! # std::fs::remove_dir_all(&folder)?;
 //! # Ok(())
@@ -56,7 +56,7 @@
 //! | read a design from a file, or from memory with whatever it names | [`read()`], [`read_from`] |
 //! | make a design in code | [`Woven`], [`weft::Knitted`], [`warp::WarpKnitted`], [`Design::of`] |
 //! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`] |
-//! | let cloth come to rest | [`Structure::settle`] |
+//! | let cloth come to rest | [`Design::rest`] |
 //! | have a whole mesh in memory, write it | [`Pipeline::mesh`], [`write()`] |
 //! | write a mesh larger than memory, or a format of your own | [`stream`], [`Pipeline::stream`] |
 //! | have only what lies in a rectangle | [`Pipeline::within`] |
@@ -172,7 +172,8 @@ pub use texere_formats::write::{toml as write_toml, toml_to as write_toml_to};
 #[cfg(feature = "wif")]
 pub use texere_formats::write::{wif as write_wif, wif_to as write_wif_to};
 pub use texere_formats::{
-    Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Told, WriteError, read, read_from,
+    Cloth, Design, MachineFault, NamedPlace, Place, ReadError, Refusal, RestReport, Resting, Told,
+    WriteError, read, read_from,
 };
 #[cfg(feature = "opencl")]
 pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};

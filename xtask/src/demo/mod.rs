@@ -10,10 +10,10 @@ pub(crate) use gallery::gallery;
 /// Where the demo's picture lies, from the repository's root.
 const DEMO: &str = "target/demo.png";
 
-/// A close-up of a herringbone, on whatever device draws here.
+/// A close-up of denim at rest, on whatever device draws here.
 pub(crate) fn demo(steps: &mut Steps) {
     vulkan::install(steps);
-    render(steps, "the demo", &["designs/herringbone.wif", "-o", DEMO, "--view", "close-up"]);
+    render(steps, "the demo", &["designs/denim.toml", "-o", DEMO, "--view", "close-up", "--sides", "16"]);
     if steps.succeed() {
         println!("\nThe picture is {DEMO}. There are more in docs/gallery.");
     }

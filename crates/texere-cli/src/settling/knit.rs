@@ -16,8 +16,6 @@ pub(crate) struct KnitRestReport {
     #[serde(skip)]
     verdict: Verdict,
     #[serde(skip)]
-    pub(super) warnings: Vec<String>,
-    #[serde(skip)]
     pub(super) press_missed: Option<String>,
     /// Passes in all, and those of the block form among them.
     passes: u32,
@@ -56,7 +54,7 @@ struct PassageReport {
 }
 
 impl KnitRestReport {
-    pub(super) fn new(design: &Design, settled: &Settled, warnings: Vec<String>, device: &str) -> Self {
+    pub(super) fn new(design: &Design, settled: &Settled, device: &str) -> Self {
         let rest = &settled.rest;
         let passage = |passage: &Passage| {
             let [one, other] = passage.places.map(|place| design.structure.place(&settled.yarns, &place));
@@ -71,7 +69,6 @@ impl KnitRestReport {
             device: device.to_owned(),
             at_rest: settled.verdict() == Verdict::AtRest,
             verdict: settled.verdict(),
-            warnings,
             press_missed: settled.press.and_then(|press| press.missed()).map(|missed| missed.to_string()),
             press: settled.press.map(|Press { asked_mm, reached_mm }| PressReport { asked_mm, reached_mm }),
             passes: rest.passes,

@@ -8,9 +8,7 @@ use std::fmt;
 use std::ops::Deref;
 
 use serde::Serialize;
-use texere::{
-    Backend, BackendError, ClothClearance, Design, Finish, FinishError, Finished, Output, Refusal, Yarns,
-};
+use texere::{Backend, BackendError, Cloth, ClothClearance, Design, Finished, Output, Refusal, RestReport};
 
 use crate::args::SettlingArgs;
 use crate::clearance::least;
@@ -32,18 +30,18 @@ pub(crate) enum SettlingReport {
     },
 }
 
-/// The yarns of a design, and how they have settled where it or the command line asks for that. They settle on the device that
-/// `open` gives, with splines of `tension`. A design that is stretched is another cloth then.
-pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
-    design: &mut Design,
+/// The cloth of a design, and what is said of how its yarns came to rest where it or the command line asks for that. They rest on the device that
+/// `open` gives, with splines of `tension`.
+pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
+    mut design: Design,
     args: &SettlingArgs,
     tension: f32,
     open: impl FnOnce() -> Result<D, BackendError>,
-) -> Result<(Yarns, Option<SettlingReport>), Fail> {
-    if !args.settles(design) {
+) -> Result<(Cloth, Option<SettlingReport>), Fail> {
+    if !args.settles(&design) {
         return match args.settling_plot {
             Some(_) => Err(Fail::nothing_settles()),
-            None => Ok((design.yarns().map_err(|error| design.refused(error))?, None)),
+            None => Ok((design.placed()?, None)),
         };
     }
     if args.settling_plot.is_some() && design.structure.woven().is_some() {
@@ -52,56 +50,31 @@ pub(crate) fn yarns<D: Deref<Target = dyn Backend>>(
     let output = args.settling_plot.as_ref().map(|path| Output::to(path).sparing(design.files()));
     output.iter().try_for_each(Output::check)?;
     let device = drivers::quietly(open)?;
-    if let Some(stretch) = design.stretch {
-        design.finish = progress::during("stretching", |bar| {
-            design.structure.stretch(&design.finish, stretch, tension, &*device, progress::share(bar))
-        })
-        .map_err(|error| design.refused(error))?;
-    }
-    let finish = Finish { record: output.is_some(), ..design.finish };
-    let finished = progress::during("settling", |bar| {
-        design.structure.settle(&finish, tension, &*device, progress::share(bar))
-    });
-    let finished = match finished {
-        Err(error @ FinishError::Crossings(_)) => {
-            let yarns = design.yarns().map_err(|error| design.refused(error))?;
-            let refused = match design.refused(error) {
-                Refusal::Key { place, source } => format!("{place}: {source}"),
-                refused => refused.to_string(),
-            };
-            return Ok((yarns, Some(SettlingReport::Refused { refused })));
-        }
-        finished => finished.map_err(|error| design.refused(error))?,
-    };
-    if let (Some(output), Finished::Knit(settled)) = (output, &finished) {
+    (design.settle, design.finish.record) = (true, output.is_some());
+    let cloth = progress::during("settling", |bar| {
+        design.rest(&*device).tension(tension).progress(progress::share(bar)).run()
+    })?;
+    if let (Some(output), RestReport::Finished(Finished::Knit(settled))) = (output, cloth.report()) {
         texere::write_file(plot(&settled.course).as_bytes(), output)?;
     }
-    let report = SettlingReport::new(design, &finished, &device.info().name);
-    Ok((finished.into_yarns(), report))
-}
-
-/// What a designer should know of yarns that have settled so, if they have.
-pub(crate) fn warnings(design: &Design, settling: Option<&SettlingReport>) -> Vec<String> {
-    match settling {
-        Some(
-            SettlingReport::Knit(KnitRestReport { warnings, .. })
-            | SettlingReport::Woven(WovenRestReport { warnings, .. }),
-        ) => warnings.clone(),
-        Some(SettlingReport::Refused { .. }) | None => design.warnings(),
-    }
+    let report = SettlingReport::new(&cloth, &device.info().name);
+    Ok((cloth, report))
 }
 
 impl SettlingReport {
-    /// None of a way to rest that is not known here.
-    fn new(design: &Design, finished: &Finished, device: &str) -> Option<Self> {
-        match finished {
-            Finished::Knit(settled) => {
-                let warnings = design.warnings_at_rest(finished);
-                Some(Self::Knit(KnitRestReport::new(design, settled, warnings, device)))
+    /// None of yarns that were only placed.
+    fn new(cloth: &Cloth, device: &str) -> Option<Self> {
+        match cloth.report() {
+            RestReport::Finished(Finished::Knit(settled)) => {
+                Some(Self::Knit(KnitRestReport::new(cloth.design(), settled, device)))
             }
-            Finished::Woven(rest) => {
-                Some(Self::Woven(WovenRestReport::new(rest, design.warnings_at_rest(finished), device)))
+            RestReport::Finished(Finished::Woven(rest)) => {
+                Some(Self::Woven(WovenRestReport::new(rest, device)))
             }
+            RestReport::Refused { reason: Refusal::Key { place, source }, .. } => {
+                Some(Self::Refused { refused: format!("{place}: {source}") })
+            }
+            RestReport::Refused { reason, .. } => Some(Self::Refused { refused: reason.to_string() }),
             _ => None,
         }
     }

@@ -15,8 +15,6 @@ pub(crate) struct WovenRestReport {
     at_rest: bool,
     #[serde(skip)]
     verdict: Verdict,
-    #[serde(skip)]
-    pub(super) warnings: Vec<String>,
     passes: u32,
     /// Ends and picks of what has settled.
     repeat: Sets<usize>,
@@ -41,7 +39,7 @@ struct AreaReport {
 }
 
 impl WovenRestReport {
-    pub(super) fn new(rest: &WovenRest, warnings: Vec<String>, device: &str) -> Self {
+    pub(super) fn new(rest: &WovenRest, device: &str) -> Self {
         let area = [0, 1].map(|set| {
             let [mean, least] = rest.area[set];
             AreaReport { mean, least, lost: rest.area_lost[set] }
@@ -50,7 +48,6 @@ impl WovenRestReport {
             device: device.to_owned(),
             at_rest: rest.verdict() == Verdict::AtRest,
             verdict: rest.verdict(),
-            warnings,
             passes: rest.crossings.passes,
             repeat: rest.repeat.into(),
             clearance_before: rest.clearance[0],

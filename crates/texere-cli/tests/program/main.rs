@@ -11,6 +11,7 @@ mod inspect;
 mod knit;
 mod outputs;
 mod reading;
+mod rest;
 mod settling;
 mod twist;
 mod warp_knit;

@@ -5,7 +5,7 @@ use std::path::{self, PathBuf};
 
 use texere_core::{BackendError, Origin, Settings, Yarns};
 use texere_fabric::{
-    FabricError, Finish, FinishError, Finished, Stretch, Structure, ThreadPlace, YarnPlace, clearance,
+    FabricError, Finish, FinishError, Stretch, Structure, ThreadPlace, YarnPlace, clearance,
 };
 
 use super::Place;
@@ -26,7 +26,7 @@ pub struct Design {
     pub name: String,
     /// What it describes.
     pub structure: Structure,
-    /// Whether its yarns are to settle before they are used ([`Structure::settle`]). [`Design::yarns`] are as they are before.
+    /// Whether its yarns come to rest ([`Design::rest`]) before they are used. [`Design::yarns`] are as they are before.
     pub settle: bool,
     /// How they settle.
     pub finish: Finish,
@@ -148,15 +148,12 @@ impl Design {
         Self { keys: Keys { named, ..keys }, ..self }
     }
 
-    /// An error of its structure, or of how that comes to rest, with the file, line and key that ask for it: what
-    /// [`Design::yarns`], [`Structure::stretch`] and [`Structure::settle`] give back knows threads and bars alone.
+    /// An error of its structure, or of how that comes to rest, with the file, line and key that ask for it: what [`Structure`]'s methods and
+    /// [`Design::yarns`] give back knows threads and bars alone.
     ///
     /// ```no_run
-    /// use std::ops::ControlFlow;
     /// let design = texere_formats::read("designs/jersey.toml")?;
-    /// let backend = texere_cpu::SerialBackend::new();
-    /// let settled = design.structure.settle(&design.finish, 0.0, &backend, |_| ControlFlow::Continue(()));
-    /// let settled = settled.map_err(|error| design.refused(error))?;
+    /// let yarns = design.yarns().map_err(|error| design.refused(error))?;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
@@ -280,14 +277,6 @@ impl Design {
     pub fn warnings(&self) -> Vec<String> {
         let warnings = self.structure.warnings();
         self.remarks.iter().cloned().chain(warnings.iter().map(ToString::to_string)).collect()
-    }
-
-    /// What a designer should know of the fabric once it has settled to `finished`: the reader's [`remarks`](Design::remarks), what settling
-    /// did not reach, and only where it is not at rest what the structure lacked before.
-    #[must_use]
-    pub fn warnings_at_rest(&self, finished: &Finished) -> Vec<String> {
-        let before = if finished.is_at_rest() { self.remarks.clone() } else { self.warnings() };
-        before.into_iter().chain(finished.warnings().iter().map(ToString::to_string)).collect()
     }
 
     /// The yarns of the fabric: [`Structure::yarns`].

@@ -1,0 +1,201 @@
+//! From a design to its cloth: its yarns are placed as its structure says, and come to rest as its finish says.
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+use texere_core::{Backend, CrossingsError, Yarns};
+use texere_fabric::{FinishError, Finished};
+
+use crate::{Design, Refusal};
+
+/// The share of the progress at which cloth that is stretched has been, and begins to come to rest.
+const STRETCHED: f64 = 0.5;
+
+/// A cloth: a design and its yarns, at rest or as near to it as they came. [`Design::rest`] makes it.
+#[derive(Debug)]
+pub struct Cloth {
+    design: Design,
+    report: RestReport,
+}
+
+/// What became of the yarns of a [`Cloth`].
+#[derive(Debug)]
+#[non_exhaustive]
+#[allow(clippy::large_enum_variant, reason = "a cloth has one")]
+pub enum RestReport {
+    /// Yarns are as the structure places them: the design does not ask for more.
+    Placed(Yarns),
+    /// Yarns came to rest, or as near to it as [`Finished::verdict`] says.
+    Finished(Finished),
+    /// Yarns are as the structure places them, for they can't come to rest.
+    Refused {
+        /// The yarns.
+        yarns: Yarns,
+        /// Why, with the place in the design that asks for it.
+        reason: Refusal,
+    },
+}
+
+impl fmt::Display for RestReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Placed(_) => write!(f, "placed as the structure says"),
+            Self::Finished(finished) => finished.verdict().fmt(f),
+            Self::Refused { reason: Refusal::Key { place, source }, .. } => {
+                write!(f, "placed as the structure says: {place}: {source}")
+            }
+            Self::Refused { reason, .. } => write!(f, "placed as the structure says: {reason}"),
+        }
+    }
+}
+
+impl RestReport {
+    /// What the finish asks for and did not reach.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        match self {
+            Self::Placed(_) | Self::Refused { .. } => Vec::new(),
+            Self::Finished(finished) => finished.warnings().iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+impl Cloth {
+    /// The design. Where it asks for a stretch, its structure is stretched.
+    #[must_use]
+    pub const fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// The yarns.
+    #[must_use]
+    pub const fn yarns(&self) -> &Yarns {
+        match &self.report {
+            RestReport::Placed(yarns) | RestReport::Refused { yarns, .. } => yarns,
+            RestReport::Finished(finished) => finished.yarns(),
+        }
+    }
+
+    /// What became of the yarns.
+    #[must_use]
+    pub const fn report(&self) -> &RestReport {
+        &self.report
+    }
+
+    /// The design and its yarns, without the report.
+    #[must_use]
+    pub fn into_parts(self) -> (Design, Yarns) {
+        let yarns = match self.report {
+            RestReport::Placed(yarns) | RestReport::Refused { yarns, .. } => yarns,
+            RestReport::Finished(finished) => finished.into_yarns(),
+        };
+        (self.design, yarns)
+    }
+
+    /// What a designer should know of the cloth: the reader's [remarks](Design::remarks), what the structure lacked before where the yarns are
+    /// not at rest, and what the finish asks for and did not reach.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let before = match &self.report {
+            RestReport::Finished(finished) if finished.is_at_rest() => self.design.remarks().to_vec(),
+            _ => self.design.warnings(),
+        };
+        before.into_iter().chain(self.report.warnings()).collect()
+    }
+}
+
+/// A design whose yarns are about to come to rest: see [`Design::rest`].
+#[must_use = "yarns come to rest by `run`"]
+pub struct Resting<'a> {
+    design: Design,
+    device: &'a dyn Backend,
+    tension: f32,
+    progress: Box<dyn FnMut(f64) -> ControlFlow<()> + Send + 'a>,
+}
+
+impl fmt::Debug for Resting<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { design, tension, .. } = self;
+        f.debug_struct("Resting").field("design", design).field("tension", tension).finish_non_exhaustive()
+    }
+}
+
+impl Design {
+    /// The cloth of the design, for [`Resting::run`] to make on `device`: its yarns are placed, stretched, and come to rest, as its `settle`,
+    /// `stretch` and `finish` say.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_cpu::SerialBackend;
+    /// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign};
+    /// use texere_formats::Design;
+    /// // Threads so dense that they flatten.
+    /// let plain = Weave::parse("plain")?.drawdown(4, 4)?;
+    /// let (warp, weft) = (vec![Thread::new(0.7, 0.2); 4], vec![Thread::new(0.7, 0.2); 4]);
+    /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let design = Design::of("Sheeting", Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?));
+    /// let cloth = design.rest(&SerialBackend::new()).run()?;
+    /// assert_eq!(cloth.report().to_string(), "at rest");
+    /// assert_eq!(cloth.yarns().layout().yarns().len(), 8);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn rest(self, device: &dyn Backend) -> Resting<'_> {
+        let progress = Box::new(|_| ControlFlow::Continue(()));
+        Resting { design: self, device, tension: 0.0, progress }
+    }
+
+    /// The cloth of the design with its yarns as the structure places them, whatever the design asks for. No device is needed.
+    ///
+    /// **Errors**: where the structure can't be made.
+    pub fn placed(self) -> Result<Cloth, Refusal> {
+        match self.yarns() {
+            Ok(yarns) => Ok(Cloth { design: self, report: RestReport::Placed(yarns) }),
+            Err(error) => Err(self.refused(error)),
+        }
+    }
+}
+
+impl<'a> Resting<'a> {
+    /// The tension of the yarns' splines, from 0 to below 1; 0 where not given.
+    pub fn tension(self, tension: f32) -> Self {
+        Self { tension, ..self }
+    }
+
+    /// Calls `progress` with the share of the work that is done, from 0 to 1. `Break` ends it within one pass.
+    pub fn progress(self, progress: impl FnMut(f64) -> ControlFlow<()> + Send + 'a) -> Self {
+        Self { progress: Box::new(progress), ..self }
+    }
+
+    /// Makes the cloth. Where yarns can't come to rest they are as the structure places them, and [`Cloth::report`] says why.
+    ///
+    /// **Errors**: a [`Refusal`] where the design asks for cloth that can't be made or for a finish that its structure does not have, where a device
+    /// fails, and where `progress` asked to stop.
+    pub fn run(self) -> Result<Cloth, Refusal> {
+        let Self { mut design, device, tension, mut progress } = self;
+        if !design.settle {
+            return design.placed();
+        }
+        let mut done = 0.0;
+        if let Some(stretch) = design.stretch.take() {
+            let on = |share| progress(STRETCHED * share);
+            match design.structure.stretch(&design.finish, stretch, tension, device, on) {
+                Ok(finish) => design.finish = finish,
+                Err(error) => return Err(design.refused(error)),
+            }
+            done = STRETCHED;
+        }
+        let on = |share| progress(done + (1.0 - done) * share);
+        let report = match design.structure.settle(&design.finish, tension, device, on) {
+            Ok(finished) => RestReport::Finished(finished),
+            Err(error @ FinishError::Crossings(CrossingsError::OutOfMemory { .. })) => {
+                return Err(design.refused(error));
+            }
+            Err(error @ FinishError::Crossings(_)) => {
+                let yarns = design.yarns().map_err(|error| design.refused(error))?;
+                RestReport::Refused { yarns, reason: design.refused(error) }
+            }
+            Err(error) => return Err(design.refused(error)),
+        };
+        Ok(Cloth { design, report })
+    }
+}

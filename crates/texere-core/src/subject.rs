@@ -86,8 +86,8 @@ impl SettlingError {
         Some(match self {
             Self::OutOfMemory { .. } | Self::Pinned { .. } => return None,
             Self::Boundary(error) => return error.subject(),
-            Self::ShortRepeat { axis: 'x', .. } | Self::LongInterval { .. } => Subject::Wales,
-            Self::ShortRepeat { .. } => Subject::Courses,
+            Self::ShortRepeat { axis: 'x', .. } | Self::LongInterval { axis: 'x', .. } => Subject::Wales,
+            Self::ShortRepeat { .. } | Self::LongInterval { .. } => Subject::Courses,
             Self::LongYarns { .. } => Subject::Loops,
             Self::TooFewPoints { .. } | Self::TooLarge { .. } | Self::TooMany { .. } => Subject::Size,
             Self::Setting { setting, .. } => match *setting {

@@ -19,7 +19,7 @@ pub struct Drawn {
     pub width: f64,
     /// Where that is.
     pub width_at: Option<YarnPlace>,
-    /// Triangles that face inwards: of tubes that are wrung, and of bends too tight for their rings.
+    /// Triangles that face inwards, against the outline's own outward side: those of bends tighter than their section reaches.
     pub inwards: u64,
     /// Where the first of them is.
     pub inwards_at: Option<YarnPlace>,
@@ -178,6 +178,10 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
 }
 
 /// How wide the tube is half way between two rings, and how many of its triangles face inwards.
+///
+/// A triangle has an edge of the outline in the plane of one ring, and its third corner on the other ring. Outlines go counter-clockwise
+/// about the tangent, so an edge crossed with the tangent points out of the outline, wherever the axis lies. The triangle's normal is
+/// that edge crossed with the way along the yarn to or from the third corner. It faces outwards where that way goes with the tangent.
 fn between(here: &Standing, next: &Standing) -> (f64, u64) {
     let carry = DQuat::from_rotation_arc(here.tangent, next.tangent);
     let (mut width, mut inwards) = (1.0_f64, 0);
@@ -185,14 +189,11 @@ fn between(here: &Standing, next: &Standing) -> (f64, u64) {
     for (point, (arm, other)) in here.arms.iter().zip(&next.arms).enumerate() {
         width = width.min((carry * *arm + *other).length() / (arm.length() + other.length()));
         let further = (point + 1) % sides;
-        let chord = next.centre - here.centre;
-        let [a, b, c, d] = [*arm, here.arms[further], chord + *other, chord + next.arms[further]];
-        // The two triangles of a quad, each with where outwards is.
-        for ([p, q, r], outwards) in [
-            ([a, b, c], *arm + here.arms[further] + *other),
-            ([b, d, c], here.arms[further] + *other + next.arms[further]),
-        ] {
-            inwards += u64::from((q - p).cross(r - p).dot(outwards) < 0.0);
+        let to_next = next.centre - here.centre + *other;
+        // The two triangles of a quad: one has its edge on this ring, the other on the next one.
+        for (along, tangent) in [(to_next - *arm, here.tangent), (to_next - here.arms[further], next.tangent)]
+        {
+            inwards += u64::from(along.dot(tangent) < 0.0);
         }
     }
     (width, inwards)

@@ -150,6 +150,16 @@ pub enum FabricError {
         /// What it is: `an en dash (U+2013)`.
         sign: &'static str,
     },
+    /// A sign in a weave's notation that looks like a slash and is none.
+    #[error("weave \"{text}\", character {position}: this is {sign}, not a slash (/)")]
+    Slash {
+        /// The text, cut short where it is long.
+        text: String,
+        /// Which character, from 1.
+        position: usize,
+        /// What it is: `a fraction slash (U+2044)`.
+        sign: &'static str,
+    },
     /// A satin's move that would show a twill line or leave ends without a binding point.
     #[error(
         "weave \"{text}\", character {position}: a satin of {ends} can't have move {step}; \

@@ -37,9 +37,9 @@ mod diagnosis;
 mod drawn;
 mod error;
 mod grid;
-mod hyphen;
 mod length;
 mod linking;
+mod look_alike;
 mod measures;
 mod memory;
 mod reach;
@@ -65,12 +65,12 @@ pub use diagnosis::{
 };
 pub use drawn::{Drawn, WRUNG, drawn, finer};
 pub use error::FabricError;
-pub use hyphen::hyphen_look_alike;
 pub use length::{length_mm, lengths_mm};
 pub use linking::{
     LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
     WINDOW_REACH, linking, linking_with_progress,
 };
+pub use look_alike::{hyphen_look_alike, slash_look_alike};
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, Settled, settle};
 pub use structure::Structure;

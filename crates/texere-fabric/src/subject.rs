@@ -47,6 +47,7 @@ impl FabricError {
             | Self::Notation { .. }
             | Self::NoWeave { .. }
             | Self::Hyphen { .. }
+            | Self::Slash { .. }
             | Self::SatinMove { .. }
             | Self::NoSatin { .. }
             | Self::TwillMove { .. }

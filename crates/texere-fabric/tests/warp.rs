@@ -113,6 +113,12 @@ fn wrong_notation_is_refused_with_its_column() {
         let said = format!("chain, column 6: found \"{dash}\", {name}, not a hyphen, expected \"-\"");
         assert_eq!(error, said);
     }
+    for (slash, name) in
+        [('\u{2044}', "a fraction slash (U+2044)"), ('\u{2215}', "a division slash (U+2215)")]
+    {
+        let error = Chain::parse(&format!("1-0{slash}1-2//"), 1).unwrap_err().to_string();
+        assert!(error.contains(&format!("column 4: found \"{slash}\", {name}, not a slash")), "{error}");
+    }
     assert_eq!(
         Chain::parse("1-2/13D-0//", 1).unwrap_err().to_string(),
         "chain, column 7: found \"D\", expected \"-\""

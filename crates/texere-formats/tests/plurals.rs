@@ -52,7 +52,7 @@ fn errors_say_one_of_one() {
         BackendError::OutOfMemory { what: "rings", bytes: 1 }.to_string(),
         BackendError::Crowded { chords: 1, limit: 3 }.to_string(),
         SettlingError::TooFewPoints { yarn: 0, points: 1, least: 2 }.to_string(),
-        SettlingError::LongInterval { yarn: 0, chords: 1, limit: 0 }.to_string(),
+        SettlingError::LongInterval { yarn: 0, axis: 'x', chords: 1, limit: 0 }.to_string(),
         SettlingError::LongYarns { points: 1, chords: 1, limit: 0 }.to_string(),
         SettlingError::OutOfMemory { what: "chords", bytes: 1 }.to_string(),
         CrossingsError::Drawdown { ups: 1, ends: 1, picks: 1 }.to_string(),

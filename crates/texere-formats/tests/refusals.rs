@@ -63,6 +63,16 @@ fn refused_cloth_names_file_line_and_key() {
             "course 1",
         ),
         (
+            knit("chart = \"k\"\nwales_per_cm = 10\ncourses_per_cm = 0.01"),
+            "line 4: knit.courses_per_cm",
+            "too long for its thickness",
+        ),
+        (
+            knit("chart = \"\"\"\nkp\npk\n\"\"\"\ncourses_per_cm = 0.01\nwales_per_cm = 5"),
+            "line 6: knit.courses_per_cm",
+            "too long for its thickness",
+        ),
+        (
             knit("chart = \"k\"\nrepeat = [20, 20]\nloop_length_mm = 1000"),
             "line 4: knit.loop_length_mm",
             "too long",

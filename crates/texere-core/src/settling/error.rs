@@ -46,11 +46,13 @@ pub enum SettlingError {
     },
     /// A yarn so much longer than it is thick, from one control point to the next, that it takes too many chords.
     #[error(
-        "yarn {}: from one of its control points to the next {chords} are needed, more than {limit}: it is too long for its thickness",
+        "yarn {}: from one of its control points to the next, along {axis}, {chords} are needed, more than {limit}: it is too long for its thickness",
         .yarn + 1, chords = counted(*.chords, "chord"))]
     LongInterval {
         /// The yarn's number, from 0.
         yarn: usize,
+        /// Which way it goes most: `x` or `y`.
+        axis: char,
         /// Chords that are needed.
         chords: u64,
         /// How many are taken at most.
@@ -112,7 +114,7 @@ impl SettlingError {
     ///
     /// ```
     /// use texere_core::SettlingError;
-    /// assert_eq!(SettlingError::LongInterval { yarn: 2, chords: 5000, limit: 4096 }.yarn(), Some(2));
+    /// assert_eq!(SettlingError::LongInterval { yarn: 2, axis: 'x', chords: 5000, limit: 4096 }.yarn(), Some(2));
     /// ```
     #[must_use]
     pub const fn yarn(&self) -> Option<usize> {

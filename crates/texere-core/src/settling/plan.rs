@@ -332,14 +332,15 @@ impl SettlingPlan {
         for place in 0..self.places.len() {
             self.chords[place] = chords as u32;
             if self.tags[place] & tag::INTERVAL != 0 {
-                let (arc, _) = self.interval(&self.places, place).arc();
+                let (arc, along) = self.interval(&self.places, place).arc();
                 self.lengths[place] = arc * factor;
                 let ends = [self.places[place].halves, self.places[place + 1].halves];
                 let thickness = ends.map(|halves| 2.0 * halves.width().min(halves.height()));
                 let pieces = (arc * most / (CHORD_MOST * thickness[0].min(thickness[1]))).ceil();
                 if pieces > CHORDS_MAX {
                     let (yarn, chords) = (self.yarns[place] as usize, pieces as u64);
-                    return Err(SettlingError::LongInterval { yarn, chords, limit: CHORDS_MAX as u64 });
+                    let axis = if along.y.abs() > along.x.abs() { 'y' } else { 'x' };
+                    return Err(SettlingError::LongInterval { yarn, axis, chords, limit: CHORDS_MAX as u64 });
                 }
                 chords += u64::from((pieces as u32).max(CHORDS_MIN));
             }

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::{CHAIN_COURSES, Chain, Lap, NEEDLES_MOST, SPACE_MAX};
-use crate::hyphen_look_alike;
+use crate::{hyphen_look_alike, slash_look_alike};
 
 /// The most characters that are read.
 const TEXT_MAX: usize = 1 << 16;
@@ -193,10 +193,11 @@ impl Reader {
         let rest = &self.text[at.min(self.text.len())..];
         let digits = rest.iter().take_while(|letter| letter.is_ascii_digit()).count();
         let shown: String = rest.iter().take(digits.clamp(1, SHOWN)).collect();
-        let found = match hyphen_look_alike(&shown) {
+        let found = match (hyphen_look_alike(&shown), slash_look_alike(&shown)) {
             _ if rest.is_empty() => "the end".to_owned(),
-            Some(sign) => format!("{shown:?}, {sign}, not a hyphen"),
-            None => format!("{shown:?}"),
+            (Some(sign), _) => format!("{shown:?}, {sign}, not a hyphen"),
+            (_, Some(sign)) => format!("{shown:?}, {sign}, not a slash"),
+            _ => format!("{shown:?}"),
         };
         ChainError { column: at + 1, found, expected: expected.to_owned() }
     }

@@ -2,7 +2,7 @@
 
 use super::library::{CREPE, HONEYCOMB, Reversal, drawn};
 use crate::FabricError;
-use crate::hyphen_look_alike;
+use crate::{hyphen_look_alike, slash_look_alike};
 
 /// The most ends, and the most picks, in the repeat of a weave.
 ///
@@ -62,6 +62,11 @@ const _: () = assert!(REPEAT_MAX == 4096);
 /// What is expected where the picks of a satin name the ends that they bind.
 const ORDER: &str = "each end of the satin once, in the order in which picks bind them: satin 6(1 3 5 2 6 4)";
 
+/// What is expected behind the name of a satin, a matt weave or a twill.
+const ENDS: &str = "the number of its ends: satin 8";
+const THREADS: &str = "how many threads lie together: matt 2, or matt 3/2";
+const FLOATS: &str = "its floats, up and down in turn: twill 2/2";
+
 /// The names of weaves, and how each may be called otherwise.
 const NAMES: [(&str, &[&str]); 11] = [
     ("plain", &["tabby"]),
@@ -101,12 +106,8 @@ pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
         Some("satin") => satin(&mut cursor, true)?,
         Some("sateen") => satin(&mut cursor, false)?,
         Some("matt" | "hopsack" | "basket") => matt(&mut cursor)?,
-        Some("herringbone") => {
-            reversed(&mut cursor, Reversal::Cut, "a number of at least half the ends of the twill's repeat")?
-        }
-        Some("pointed") => {
-            reversed(&mut cursor, Reversal::Point, "a number of at least the ends of the twill's repeat")?
-        }
+        Some("herringbone") => reversed(&mut cursor, Reversal::Cut)?,
+        Some("pointed") => reversed(&mut cursor, Reversal::Point)?,
         Some("honeycomb") => Notation::Drawn(&HONEYCOMB),
         Some("crepe") => Notation::Drawn(&CREPE),
         _ => floats(&mut cursor)?,
@@ -116,6 +117,7 @@ pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
 
 /// A satin's number and move, or the order of its binding points, after its name.
 fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, FabricError> {
+    cursor.need(ENDS)?;
     let position = cursor.position();
     let ends = cursor.number(NUMBER)?;
     if let Some(order) = order(cursor, ends)? {
@@ -171,6 +173,7 @@ fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, Fab
 
 /// A matt weave by its name: as many ends together as picks.
 fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
+    cursor.need(THREADS)?;
     let left = cursor.number(NUMBER)?;
     let right = if cursor.sign('/') { cursor.number(NUMBER)? } else { left };
     let mut base = vec![true; left];
@@ -179,20 +182,29 @@ fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
 }
 
 /// A twill's floats and the ends after which its line reverses.
-fn reversed(
-    cursor: &mut Cursor<'_>,
-    reversal: Reversal,
-    expected: &'static str,
-) -> Result<Notation, FabricError> {
+fn reversed(cursor: &mut Cursor<'_>, reversal: Reversal) -> Result<Notation, FabricError> {
+    let [all, ends, more] = match reversal {
+        Reversal::Cut => [
+            "the floats of a twill and, in brackets, after how many ends it reverses: herringbone 2/2(8)",
+            "in brackets, after how many ends the twill reverses: herringbone 2/2(8)",
+            "a number of at least half the ends of the twill's repeat",
+        ],
+        Reversal::Point => [
+            "the floats of a twill and, in brackets, after how many ends it reverses: pointed 2/2(8)",
+            "in brackets, after how many ends the twill reverses: pointed 2/2(8)",
+            "a number of at least the ends of the twill's repeat",
+        ],
+    };
+    cursor.need(all)?;
     let base = row(cursor)?;
     if !cursor.sign('(') {
-        return Err(cursor.fail("\"(\""));
+        return Err(cursor.fail(ends));
     }
     let before = cursor.rest;
     let way = cursor.number(NUMBER)?;
     if way < reversal.least(base.len()) {
         cursor.rest = before;
-        return Err(cursor.fail(expected));
+        return Err(cursor.fail(more));
     }
     cursor.close()?;
     Ok(Notation::Reversed { base, reversal, way })
@@ -202,6 +214,7 @@ fn reversed(
 fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
     let before = cursor.hand();
     cursor.word("twill");
+    cursor.need(FLOATS)?;
     let base = row(cursor)?;
     let (mut position, mut written) = (cursor.position(), 1);
     let has_move = cursor.sign('(');
@@ -328,7 +341,7 @@ impl Cursor<'_> {
         if known.is_some() || self.rest.starts_with(|c: char| c.is_ascii_digit()) {
             return Ok(known.map(|(name, _)| *name));
         }
-        if hyphen_look_alike(self.next()).is_some() {
+        if hyphen_look_alike(self.next()).or(slash_look_alike(self.next())).is_some() {
             return Err(self.fail(NUMBER));
         }
         let written = self.rest.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
@@ -347,6 +360,11 @@ impl Cursor<'_> {
         let rest = self.rest.strip_prefix(sign);
         self.rest = rest.unwrap_or(self.rest);
         rest.is_some()
+    }
+
+    /// Refuses a text that ends here.
+    fn need(&self, expected: &'static str) -> Result<(), FabricError> {
+        if self.next().is_empty() { Err(self.fail(expected)) } else { Ok(()) }
     }
 
     fn close(&mut self) -> Result<(), FabricError> {
@@ -401,6 +419,9 @@ impl Cursor<'_> {
     fn fail(&self, expected: &'static str) -> FabricError {
         if let Some(sign) = hyphen_look_alike(self.next()) {
             return FabricError::Hyphen { text: self.shown(), position: self.position(), sign };
+        }
+        if let Some(sign) = slash_look_alike(self.next()) {
+            return FabricError::Slash { text: self.shown(), position: self.position(), sign };
         }
         FabricError::Notation { text: self.shown(), position: self.position(), expected }
     }

@@ -92,9 +92,10 @@ impl Weave {
 
     /// Reads the notation of a weave.
     ///
-    /// **Errors**: [`FabricError::NoWeave`] for a name that no weave has, [`FabricError::Hyphen`] for a dash instead of a hyphen,
-    /// [`FabricError::Notation`] where the text departs from the grammar otherwise, [`FabricError::SatinMove`],
-    /// [`FabricError::NoSatin`] and [`FabricError::TwillMove`] for what can't be woven, [`FabricError::Repeat`].
+    /// **Errors**: [`FabricError::NoWeave`] for a name that no weave has, [`FabricError::Hyphen`] and [`FabricError::Slash`] for
+    /// signs that only look like these, [`FabricError::Notation`] where the text departs from the grammar otherwise,
+    /// [`FabricError::SatinMove`], [`FabricError::NoSatin`] and [`FabricError::TwillMove`] for what can't be woven,
+    /// [`FabricError::Repeat`].
     pub fn parse(text: &str) -> Result<Self, FabricError> {
         Self { repeat: Repeat::Written(notation::parse(text)?) }.checked()
     }

@@ -1,16 +1,17 @@
 //! Image files: PNG, BMP and TIFF.
 
-use std::io::{self, BufRead, BufReader, Cursor, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use image::{ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use texere_core::counted;
 use texere_fabric::THREADS_MAX;
 
 use super::error::said;
 use super::file::{Files, Opened};
 use super::memory::{filled, room};
 use super::point_paper::{Image, Orientation};
-use super::{ReadError, tiff_file};
+use super::{ReadError, png_file, tiff_file};
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
 const PIXELS_MAX: u64 = 1 << 28;
@@ -24,10 +25,6 @@ pub(super) const ASIDE_MAX: u64 = 1 << 25;
 
 /// The largest image file that is read: one that is not compressed.
 const FILE_LIMIT: u64 = MEMORY_MAX + ASIDE_MAX;
-
-/// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
-/// one bit. So a short file takes no memory for pixels that it can't have.
-const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// What an image is decoded from.
 pub(super) trait Bytes: BufRead + Seek {}
@@ -52,10 +49,7 @@ pub(super) fn decode(path: &Path, files: &Files<'_>) -> Result<Image, ReadError>
     let format = if is_bigtiff { Some(ImageFormat::Tiff) } else { reader.format() };
     if format == Some(ImageFormat::Png) {
         let mut file = reader.into_inner();
-        if let Some(bytes) = broken_palette(&mut file).map_err(io)? {
-            let source = format!("it has a palette of {bytes} bytes, not three for each of 1 to 256 colours");
-            return Err(undecodable(path, &source));
-        }
+        png_file::check(path, &mut file, file_bytes)?;
         file.rewind().map_err(io)?;
         reader = ImageReader::with_format(file, ImageFormat::Png);
     }
@@ -74,11 +68,6 @@ pub(super) fn decode(path: &Path, files: &Files<'_>) -> Result<Image, ReadError>
     let mut decoder = reader.into_decoder().map_err(failed)?;
     let (width, height) = decoder.dimensions();
     check_size(path, width, height)?;
-    let is_png = format == Some(ImageFormat::Png);
-    if is_png && u64::from(width) * u64::from(height) > PIXELS_PER_BYTE * file_bytes {
-        let source = format!("its {file_bytes} bytes are too few for {width} × {height} pixels");
-        return Err(undecodable(path, &source));
-    }
     let orientation = Orientation(decoder.orientation().map_err(failed)?.to_exif().into());
     let (channels, size) = (decoder.color_type().channel_count(), decoder.total_bytes());
     limits.max_alloc = Some(MEMORY_MAX);
@@ -104,6 +93,11 @@ pub(super) fn undecodable(path: &Path, why: &str) -> ReadError {
     ReadError::Image { file: path.into(), source: said(why).into() }
 }
 
+/// Why an image is refused where a pixel has a number that its palette of `colors` has no colour for.
+pub(super) fn no_color(number: usize, colors: usize) -> String {
+    format!("a pixel has number {number} of a palette of {}", counted(colors as u64, "colour"))
+}
+
 /// Refuses an image that no cloth may be as large as.
 pub(super) fn check_size(path: &Path, width: u32, height: u32) -> Result<(), ReadError> {
     let side_limit = THREADS_MAX as u32;
@@ -112,25 +106,4 @@ pub(super) fn check_size(path: &Path, width: u32, height: u32) -> Result<(), Rea
         return Err(ReadError::ImageTooLarge { file, width, height, side_limit, limit: PIXELS_MAX });
     }
     Ok(())
-}
-
-/// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder takes that for granted.
-fn broken_palette(file: &mut impl Bytes) -> io::Result<Option<u32>> {
-    // Behind the signature each chunk has its length, its name, its data and a checksum.
-    file.seek(SeekFrom::Start(8))?;
-    let mut head = [0; 8];
-    loop {
-        match file.read_exact(&mut head) {
-            // What is missing the decoder will miss too.
-            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(None),
-            other => other?,
-        }
-        let [a, b, c, d, name @ ..] = head;
-        let length = u32::from_be_bytes([a, b, c, d]);
-        match &name {
-            b"IDAT" | b"IEND" => return Ok(None),
-            b"PLTE" if !length.is_multiple_of(3) || !(3..=768).contains(&length) => return Ok(Some(length)),
-            _ => file.seek_relative(i64::from(length) + 4)?,
-        }
-    }
 }

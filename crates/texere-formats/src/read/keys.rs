@@ -337,7 +337,14 @@ mod tests {
                 SettlingError::ShortRepeat { axis: 'y', repeat: 1.0, diameter: 1.0, least: 2.0 }.into(),
                 "knit.courses_per_cm",
             ),
-            (SettlingError::LongInterval { yarn: 0, chords: 9, limit: 1 }.into(), "knit.wales_per_cm"),
+            (
+                SettlingError::LongInterval { yarn: 0, axis: 'x', chords: 9, limit: 1 }.into(),
+                "knit.wales_per_cm",
+            ),
+            (
+                SettlingError::LongInterval { yarn: 0, axis: 'y', chords: 9, limit: 1 }.into(),
+                "knit.courses_per_cm",
+            ),
             (SettlingError::LongYarns { points: 1, chords: 9, limit: 1 }.into(), "knit.loop_length_mm"),
             (SettlingError::TooLarge { extent: 9.0, diameter: 1.0 }.into(), "weave.ends"),
             (SettlingError::TooMany { what: "chords", count: 9, limit: 1 }.into(), "weave.ends"),
@@ -347,7 +354,7 @@ mod tests {
             (
                 FinishError::Thread {
                     thread: Origin::Course(1),
-                    source: SettlingError::LongInterval { yarn: 0, chords: 9, limit: 1 },
+                    source: SettlingError::LongInterval { yarn: 0, axis: 'x', chords: 9, limit: 1 },
                 },
                 "knit.wales_per_cm",
             ),

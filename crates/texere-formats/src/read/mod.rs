@@ -12,6 +12,8 @@ mod knit;
 #[cfg(feature = "knitout")]
 mod knitout;
 mod memory;
+#[cfg(all(feature = "images", feature = "toml"))]
+mod png_file;
 #[cfg(feature = "toml")]
 mod point_paper;
 mod refusal;

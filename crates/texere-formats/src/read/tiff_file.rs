@@ -9,7 +9,7 @@ use tiff::decoder::{Decoder, Limits};
 use tiff::tags::{ByteOrder, Tag};
 
 use super::ReadError;
-use super::image_file::{ASIDE_MAX, Bytes, check_size, undecodable};
+use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, undecodable};
 use super::memory::filled;
 use super::point_paper::{Image, Orientation};
 
@@ -163,9 +163,7 @@ pub(super) fn decode(path: &Path, file: impl Bytes, header: &Header) -> Result<I
         };
         let number = sample(0);
         let Some(rgb) = samples.rgb(number) else {
-            let why =
-                format!("a pixel has number {number} of a palette of {} colours", samples.map.len() / 3);
-            return Err(undecodable(path, &why));
+            return Err(undecodable(path, &no_color(number, samples.map.len() / 3)));
         };
         pixel[..3].copy_from_slice(&rgb);
         if let Some(alpha) = samples.alpha {

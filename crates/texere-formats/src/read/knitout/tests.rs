@@ -231,7 +231,7 @@ fn errors_of_the_cloth_have_their_lines() {
         |carrier| FabricError::Radius { thread: Origin::Carrier(carrier), radius_mm: 9.0, low, high };
     let twist = FabricError::Twist { thread: Origin::Carrier(2), twist: 9.0, limit: 1.0 };
     let gauge = |what| FabricError::Gauge { what, mm: 0.0, low: 0.1, high: 1.0 };
-    let long = SettlingError::LongInterval { yarn: 0, chords: 9, limit: 1 };
+    let long = SettlingError::LongInterval { yarn: 0, axis: 'x', chords: 9, limit: 1 };
     let crowded = BackendError::Crowded { chords: 9, limit: 1 };
     for (error, line) in [
         (radius(3).into(), "5: in 3"),

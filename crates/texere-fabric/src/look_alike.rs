@@ -1,4 +1,4 @@
-//! Signs that look like a hyphen and are none, as word processors put them in its place.
+//! Signs that look like a hyphen or a slash and are none, as word processors put them in its place.
 
 /// What the first sign of a text is called that looks like a hyphen and is none, with its number in Unicode.
 ///
@@ -8,10 +8,21 @@
 /// ```
 #[must_use]
 pub fn hyphen_look_alike(text: &str) -> Option<&'static str> {
-    text.chars().find_map(name)
+    text.chars().find_map(hyphen)
 }
 
-const fn name(sign: char) -> Option<&'static str> {
+/// What the first sign of a text is called that looks like a slash and is none, with its number in Unicode.
+///
+/// ```
+/// assert_eq!(texere_fabric::slash_look_alike("2\u{2044}2"), Some("a fraction slash (U+2044)"));
+/// assert_eq!(texere_fabric::slash_look_alike("2/2"), None);
+/// ```
+#[must_use]
+pub fn slash_look_alike(text: &str) -> Option<&'static str> {
+    text.chars().find_map(slash)
+}
+
+const fn hyphen(sign: char) -> Option<&'static str> {
     Some(match sign {
         '\u{ad}' => "a soft hyphen (U+00AD)",
         '\u{2010}' => "a typographic hyphen (U+2010)",
@@ -24,6 +35,16 @@ const fn name(sign: char) -> Option<&'static str> {
         '\u{fe58}' => "a small em dash (U+FE58)",
         '\u{fe63}' => "a small hyphen (U+FE63)",
         '\u{ff0d}' => "a wide hyphen (U+FF0D)",
+        _ => return None,
+    })
+}
+
+const fn slash(sign: char) -> Option<&'static str> {
+    Some(match sign {
+        '\u{2044}' => "a fraction slash (U+2044)",
+        '\u{2215}' => "a division slash (U+2215)",
+        '\u{29f8}' => "a big slash (U+29F8)",
+        '\u{ff0f}' => "a wide slash (U+FF0F)",
         _ => return None,
     })
 }

@@ -1,0 +1,79 @@
+//! PNG images: what their decoder takes for granted or shows black is looked at before.
+
+use std::io::{self, SeekFrom};
+use std::path::Path;
+
+use png::{ColorType, Decoder, DecodingError, Limits};
+
+use super::ReadError;
+use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, undecodable};
+use super::memory::filled;
+
+/// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
+/// one bit. So a short file takes no memory for pixels that it can't have.
+const PIXELS_PER_BYTE: u64 = 8 * 1032;
+
+/// Refuses a PNG of `file_bytes` that has a broken palette, fewer bytes than its pixels take, or pixels beyond its palette.
+///
+/// **Source**: PNG 1.2, 4.1.2: a number that the palette has no colour for is an error.
+pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Result<(), ReadError> {
+    let io = |source| ReadError::Io { file: path.into(), source };
+    let failed = |error: DecodingError| undecodable(path, &error.to_string());
+    if let Some(bytes) = broken_palette(file).map_err(io)? {
+        let why = format!("it has a palette of {bytes} bytes, not three for each of 1 to 256 colours");
+        return Err(undecodable(path, &why));
+    }
+    file.rewind().map_err(io)?;
+    let mut decoder = Decoder::new_with_limits(file, Limits { bytes: ASIDE_MAX as usize });
+    // The decoder of the picture looks at these.
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let mut reader = decoder.read_info().map_err(failed)?;
+    let info = reader.info();
+    let (width, height) = info.size();
+    check_size(path, width, height)?;
+    if u64::from(width) * u64::from(height) > PIXELS_PER_BYTE * file_bytes {
+        let why = format!("its {file_bytes} bytes are too few for {width} × {height} pixels");
+        return Err(undecodable(path, &why));
+    }
+    let bits = info.bit_depth as usize;
+    let colors = info.palette.as_ref().map_or(0, |palette| palette.len() / 3);
+    if info.color_type != ColorType::Indexed || colors >= 1 << bits {
+        return Ok(());
+    }
+    let mut numbers =
+        filled("the numbers of an image", reader.output_buffer_size().unwrap_or(usize::MAX), 0)?;
+    let frame = reader.next_frame(&mut numbers).map_err(failed)?;
+    let mut numbers = numbers.chunks_exact(frame.line_size).flat_map(|row| {
+        // What is left of a row's last byte is no pixel.
+        (0..frame.width as usize).map(move |place| {
+            let (at, before) = (place * bits / 8, place * bits % 8);
+            usize::from(row[at]) >> (8 - bits - before) & ((1 << bits) - 1)
+        })
+    });
+    match numbers.find(|number| *number >= colors) {
+        Some(number) => Err(undecodable(path, &no_color(number, colors))),
+        None => Ok(()),
+    }
+}
+
+/// The bytes of a PNG's palette where they are not those of whole colours, 256 at most: the decoder takes that for granted.
+fn broken_palette(file: &mut impl Bytes) -> io::Result<Option<u32>> {
+    // Behind the signature each chunk has its length, its name, its data and a checksum.
+    file.seek(SeekFrom::Start(8))?;
+    let mut head = [0; 8];
+    loop {
+        match file.read_exact(&mut head) {
+            // What is missing the decoder will miss too.
+            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(None),
+            other => other?,
+        }
+        let [a, b, c, d, name @ ..] = head;
+        let length = u32::from_be_bytes([a, b, c, d]);
+        match &name {
+            b"IDAT" | b"IEND" => return Ok(None),
+            b"PLTE" if !length.is_multiple_of(3) || !(3..=768).contains(&length) => return Ok(Some(length)),
+            _ => file.seek_relative(i64::from(length) + 4)?,
+        }
+    }
+}

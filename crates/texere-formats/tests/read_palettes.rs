@@ -1,0 +1,120 @@
+//! Images of palette numbers: each pixel has the colour of its number, and a number that the palette has no colour for is refused by
+//! name. The bytes of the pixels are put together here.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
+
+use std::error::Error;
+use std::io::Write;
+
+use texere_formats::{Design, ReadError, read};
+
+/// Columns and rows: more than a byte has pixels, and no whole bytes.
+const SIZE: [usize; 2] = [11, 9];
+
+fn design(name: &str, bytes: &[u8]) -> Result<Design, ReadError> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(name), bytes).unwrap();
+    let path = folder.path().join("design.toml");
+    let text = format!(
+        "[weave]\nimage = \"{name}\"\n[yarns.a]\ndiameter_mm = 0.3\n[warp]\nyarns = [\"a\"]\nspacing_mm = 1\n\
+         [weft]\nyarns = [\"a\"]\nspacing_mm = 1\n"
+    );
+    std::fs::write(&path, text).unwrap();
+    read(&path)
+}
+
+/// Checks that the warp is up where pixels are dark.
+#[track_caller]
+fn shows(name: &str, bytes: &[u8], is_dark: impl Fn(usize, usize) -> bool) {
+    let design = design(name, bytes).unwrap();
+    let drawdown = design.structure.woven().unwrap().cloth().drawdown();
+    assert_eq!([drawdown.ends(), drawdown.picks()], SIZE);
+    for row in 0..SIZE[1] {
+        for column in 0..SIZE[0] {
+            let up = drawdown.up(column, SIZE[1] - 1 - row);
+            assert_eq!(up, is_dark(column, row), "{name}: column {column}, row {row}");
+        }
+    }
+}
+
+#[track_caller]
+fn refuses(name: &str, bytes: &[u8], number: usize, colors: &str) {
+    let error = design(name, bytes).expect_err("it is taken");
+    let error = error.innermost();
+    let told = format!("{error}: {}", error.source().map(ToString::to_string).unwrap_or_default());
+    let why = format!("number {number} of a palette of {colors}");
+    assert!(told.contains(name) && told.contains(&why), "\"{told}\" lacks \"{name}\" or \"{why}\"");
+}
+
+/// A row of numbers of so many bits. What is left of its last byte is all ones, which are no pixels.
+fn packed(bits: usize, row: &[usize]) -> Vec<u8> {
+    let mut line = vec![0u8; (row.len() * bits).div_ceil(8)];
+    for place in 0..line.len() * 8 / bits {
+        let number = row.get(place).copied().unwrap_or((1 << bits) - 1);
+        line[place * bits / 8] |= (number as u8) << (8 - bits - place * bits % 8);
+    }
+    line
+}
+
+/// Light at 0, dark at 1, and then light again.
+fn palette(colors: usize) -> Vec<u8> {
+    (0..colors).flat_map(|number| if number == 1 { [20, 10, 60] } else { [250, 240, 60] }).collect()
+}
+
+/// First columns and rows of the seven passes of Adam7, and how far apart they are: PNG 1.2, 2.6.
+const ADAM7: [[usize; 4]; 7] =
+    [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]];
+
+fn png(bits: usize, colors: usize, interlaced: bool, number: impl Fn(usize, usize) -> usize) -> Vec<u8> {
+    let mut info = png::Info::with_size(SIZE[0] as u32, SIZE[1] as u32);
+    info.color_type = png::ColorType::Indexed;
+    info.bit_depth = png::BitDepth::from_u8(bits as u8).unwrap();
+    info.interlaced = interlaced;
+    info.palette = Some(palette(colors).into());
+    let passes = if interlaced { &ADAM7[..] } else { &[[0, 0, 1, 1]] };
+    let mut data = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
+    for &[left, top, across, down] in passes {
+        for row in (top..SIZE[1]).step_by(down) {
+            let numbers: Vec<_> = (left..SIZE[0]).step_by(across).map(|column| number(column, row)).collect();
+            data.write_all(&[&[0], &packed(bits, &numbers)[..]].concat()).unwrap();
+        }
+    }
+    let mut bytes = Vec::new();
+    let mut writer = png::Encoder::with_info(&mut bytes, info).unwrap().write_header().unwrap();
+    writer.write_chunk(png::chunk::IDAT, &data.finish().unwrap()).unwrap();
+    drop(writer);
+    bytes
+}
+
+/// Bits, colours, and a number beyond them: the next one and the last.
+const BEYOND: [(usize, usize, usize); 8] =
+    [(1, 1, 1), (2, 2, 2), (2, 3, 3), (4, 2, 2), (4, 9, 15), (8, 2, 2), (8, 2, 255), (8, 255, 255)];
+
+fn is_dark(column: usize, row: usize) -> bool {
+    (column * column + row) % 3 == 0
+}
+
+#[test]
+fn a_png_with_a_number_beyond_its_palette_is_refused() {
+    for (bits, colors, beyond) in BEYOND {
+        for interlaced in [false, true] {
+            // The first pixel, one in the middle, the last.
+            for odd in [[0, 0], [6, 3], [10, 8]] {
+                let number =
+                    |column, row| if [column, row] == odd { beyond } else { (column + row) % colors.min(2) };
+                let told = if colors == 1 { "1 colour" } else { &format!("{colors} colours") };
+                refuses("motif.png", &png(bits, colors, interlaced, number), beyond, told);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_png_shows_the_colours_of_a_palette_that_is_shorter_than_it_may_be() {
+    for (bits, colors) in [(1, 2), (2, 2), (2, 3), (2, 4), (4, 2), (4, 15), (8, 2), (8, 200), (8, 256)] {
+        for interlaced in [false, true] {
+            let light = if colors > 2 { colors - 1 } else { 0 };
+            let number = |column, row| if is_dark(column, row) { 1 } else { light };
+            shows("motif.png", &png(bits, colors, interlaced, number), is_dark);
+        }
+    }
+}

@@ -98,8 +98,8 @@ pub trait Engine: Any + fmt::Debug + Send {
         false
     }
 
-    /// Takes a plan that was [edited](crate::Plan::edited) from its own: `yarns` may be others, with other numbers of control points. What is loaded
-    /// in slots is forgotten, what has been made stays.
+    /// Takes a plan that was [edited](crate::Plan::edited) from its own: `yarns` may be others, with other numbers of control points. It takes one plan several
+    /// times where many yarns are edited, each time with other `yarns` that lie next to one another. What is loaded in slots is forgotten, what has been made stays.
     ///
     /// Provided: refused, by an engine that is not [editable](Engine::is_editable).
     fn replan(&mut self, plan: Arc<Plan>, yarns: Range<usize>) -> Result<(), BackendError> {

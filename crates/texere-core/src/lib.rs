@@ -76,7 +76,7 @@ pub use packed::{PackedVertex, Quantum};
 pub use padded::{PaddedPoints, renew_virtual_ends, zeroed};
 pub use pipeline::{Pipeline, Progress};
 pub use plan::{
-    BLOCK_RINGS, Block, Bounds, Cap, Chunk, Chunks, Counts, Limits, MeshPlace, Part, Plan, RINGS_MAX,
+    BLOCK_RINGS, Block, Bounds, Cap, Chunk, Chunks, Counts, Edits, Limits, MeshPlace, Part, Plan, RINGS_MAX,
     Settings, TablesId, WINDOW_POINTS, YARN_RINGS_MAX,
 };
 pub use point::{COORDINATE_LIMIT, ControlPoint, Halves, RADIUS_MAX, RADIUS_MIN};

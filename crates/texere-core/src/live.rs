@@ -1,17 +1,14 @@
 //! A whole mesh that stays on its device while yarns are edited.
 
+mod edits;
+
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
-use crate::stand::Stand;
-use crate::yarns::check_points;
 use crate::{
-    Backend, BackendError, Chunk, ControlPoint, Limits, PaddedPoints, Part, Plan, PlanError, SessionError,
-    Topology, Traffic, Vertex, Yarn,
+    Backend, BackendError, Chunk, Limits, PaddedPoints, Part, Plan, SessionError, Topology, Traffic, Vertex,
 };
 
 /// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and made again.
@@ -150,93 +147,6 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         self.engine.timings()
     }
 
-    /// Takes control points, the first of which is number `first` of the fabric as it is now. All rings that they have a part in are made
-    /// again by the next [`LiveMesh::update`].
-    ///
-    /// **Errors**: [`SessionError::UploadRange`] past the last control point, [`SessionError::Yarns`] for a point that is not sound, and what
-    /// the device says.
-    pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
-        let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
-        if end > total {
-            return Err(SessionError::UploadRange { first, end, points: total });
-        }
-        let yarns = self.plan.layout().yarns_of(first..end);
-        for yarn in yarns.clone() {
-            let [own, sent] = self.plan.layout().points_of(yarn, &(first..end));
-            check_points(yarn, &points[sent.clone()])?;
-            // Up directions that were given belong to the points that they were given with.
-            let given = self.plan.layout().leaning(yarn).filter(|leaning| leaning.given);
-            if given.is_some_and(|leaning| leaning.points[own] != points[sent]) {
-                let what = "moved, where yarns have up directions of their own";
-                return Err(PlanError::OtherPlan { yarn, what }.into());
-            }
-        }
-        self.note_stands(first, points, yarns.clone())?;
-        for yarn in yarns {
-            let [own, _] = self.plan.layout().points_of(yarn, &(first..end));
-            self.note(yarn, self.rings_of(yarn, &own));
-        }
-        self.traffic.uploaded += self.engine.upload(first, points)?;
-        Ok(())
-    }
-
-    /// Makes yarn number `yarn`, from 0, another one, of other control points, perhaps of more or fewer.
-    ///
-    /// **Errors**: [`SessionError::NoYarn`]; those of [`Plan::edited`]; [`SessionError::Yarns`] for a point that is not sound; and what the device
-    /// says. All but the last leave everything as it was.
-    pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), SessionError> {
-        let yarns = self.plan.layout().yarns().len();
-        if yarn >= yarns {
-            return Err(SessionError::NoYarn { yarn, yarns });
-        }
-        check_points(yarn, points)?;
-        let plan = self.plan.edited(yarn, what, points)?;
-        if *plan.layout() != *self.plan.layout() {
-            self.replan(yarn..yarn + 1, plan)?;
-        }
-        self.note(yarn, 0..self.plan.rings(yarn));
-        let first = self.plan.layout().offsets()[yarn];
-        self.points.upload(&self.plan, first, points);
-        self.traffic.uploaded += self.engine.upload(first, points)?;
-        Ok(())
-    }
-
-    /// Takes control points of some yarns, and notes which of them stand otherwise with these: have become steep, lie flat again, or lean in
-    /// another way.
-    fn note_stands(
-        &mut self,
-        first: u64,
-        points: &[ControlPoint],
-        yarns: Range<usize>,
-    ) -> Result<(), SessionError> {
-        self.points.upload(&self.plan, first, points);
-        let (plan, padded) = (&self.plan, &self.points);
-        let stands = yarns.clone().into_par_iter().filter_map(|yarn| {
-            let before = plan.layout().stand(yarn);
-            let given = before.leaning.as_ref().is_some_and(|leaning| leaning.given);
-            let stand = (!given).then(|| stands_now(plan, padded, yarn))?;
-            (stand != before).then_some((yarn, stand))
-        });
-        let stands: Vec<_> = stands.collect();
-        let changed: Vec<_> = stands.iter().map(|(yarn, _)| *yarn).collect();
-        if !changed.is_empty() {
-            self.replan(yarns, Plan::clone(&self.plan).standing(stands))?;
-            changed.into_iter().for_each(|yarn| self.note(yarn, 0..self.plan.rings(yarn)));
-        }
-        Ok(())
-    }
-
-    /// Takes a plan that differs from the present one in some of `yarns`.
-    fn replan(&mut self, yarns: Range<usize>, plan: Plan) -> Result<(), SessionError> {
-        let plan = Arc::new(plan);
-        self.engine.replan(plan.clone(), yarns.clone())?;
-        self.plan = plan;
-        for number in self.chunks_of(yarns.start).start..self.chunks_of(yarns.end - 1).end {
-            self.chunks[number] = self.plan.recut(&self.chunks[number]);
-        }
-        Ok(())
-    }
-
     /// Makes again what has changed, and says where that lies, chunk by chunk. May return before it is done: what is read or drawn later
     /// has it.
     ///
@@ -341,20 +251,6 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         }
     }
 
-    /// The rings that control points `own` of `yarn`, counted from its first, have a part in. A yarn with rolls has all of them: what turns at
-    /// one place turns the rest.
-    fn rings_of(&self, yarn: usize, own: &Range<usize>) -> Range<u32> {
-        let rings = self.plan.rings(yarn);
-        let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
-        let (first, end) = (own.start as u64, own.end as u64);
-        // A point has a part in the two intervals before it and the two behind, the last ring of which is that of a knot.
-        let (from, to) = (first.saturating_sub(2) * per_interval, (end + 1).saturating_mul(per_interval) + 1);
-        if self.attributes || self.plan.needs_scan() || self.plan.yarn(yarn).closed {
-            return 0..rings;
-        }
-        from.min(u64::from(rings)) as u32..to.min(u64::from(rings)) as u32
-    }
-
     fn note(&mut self, yarn: usize, rings: Range<u32>) {
         let stale = self.stale.entry(yarn).or_insert(rings.clone());
         *stale = stale.start.min(rings.start)..stale.end.max(rings.end);
@@ -374,8 +270,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         scan: impl Fn(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
     ) -> Result<(), SessionError> {
         let stale: Vec<_> = self.stale.keys().copied().collect();
-        for run in stale.chunk_by(|one, next| one + 1 == *next) {
-            let yarns = run[0]..run[run.len() - 1] + 1;
+        for yarns in runs(&stale) {
             let chunks = self.chunks_of(yarns.start).start..self.chunks_of(yarns.end - 1).end;
             let (plan, cut) = (&self.plan, &self.chunks);
             let mut patches = chunks.filter_map(|number| {
@@ -424,11 +319,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 }
 
-/// How `yarn` stands with the control points that it has now.
-fn stands_now(plan: &Plan, points: &PaddedPoints, yarn: usize) -> Stand {
-    let offsets = plan.layout().offsets();
-    let count = (offsets[yarn + 1] - offsets[yarn]) as usize;
-    Stand::of(&points.yarn(plan, yarn)[1..=count], plan.yarn(yarn).closed, None)
+/// Runs of neighbours among `yarns`, which are in order.
+fn runs(yarns: &[usize]) -> impl Iterator<Item = Range<usize>> {
+    yarns.chunk_by(|one, next| one + 1 == *next).map(|run| run[0]..run[run.len() - 1] + 1)
 }
 
 const _: () = {

@@ -11,7 +11,8 @@ use rayon::prelude::*;
 use crate::lean::Leaning;
 use crate::stand::Stand;
 use crate::{
-    COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section, YarnError,
+    COORDINATE_LIMIT, ControlPoint, Edits, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section,
+    YarnError,
 };
 
 /// Where in the structure a yarn comes from, counted from 1 as weavers and knitters do.
@@ -131,12 +132,17 @@ impl Layout {
         Ok(Self { offsets, yarns, sections, steep, leaning: BTreeMap::new() })
     }
 
-    /// Makes yarn number `yarn` `what`, of `points` control points.
-    pub(crate) fn edit(&mut self, yarn: usize, what: Yarn, points: u64) {
-        self.yarns[yarn] = what;
-        let before = self.offsets[yarn + 1] - self.offsets[yarn];
-        for offset in &mut self.offsets[yarn + 1..] {
-            *offset = *offset - before + points;
+    /// Makes yarns others, each of another number of control points.
+    pub(crate) fn edit(&mut self, edits: &Edits<'_>) {
+        let mut start = 0;
+        for yarn in 0..self.yarns.len() {
+            let end = self.offsets[yarn + 1];
+            let mut points = end - start;
+            if let Some((what, own)) = edits.get(&yarn) {
+                (self.yarns[yarn], points) = (*what, own.len() as u64);
+            }
+            self.offsets[yarn + 1] = self.offsets[yarn] + points;
+            start = end;
         }
     }
 

@@ -133,7 +133,7 @@ pub use live::{Live, LiveError, Update};
 pub use texere_core::{
     ArcLength, Attribute, BLOCK_RINGS, Backend, BackendError, Block, Boundary, BoundaryError, Bounds,
     COORDINATE_LIMIT, Cap, Change, Chunk, ChunkDraw, Chunks, ControlPoint, Counts, DeviceInfo, DeviceKind,
-    Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace,
+    Edits, Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace,
     NullBackend, Origin, PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError,
     Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section,
     SectionError, SectionPoint, Settings, SettlingError, Subject, TWIST_LIMIT, TWIST_STEP,

@@ -6,6 +6,7 @@ mod chunk;
 mod chunk_tables;
 mod counts;
 mod cut;
+mod edits;
 mod limits;
 mod locate;
 mod offsets;
@@ -16,6 +17,7 @@ pub use bounds::Bounds;
 pub use chunk::{Cap, Chunk, Part, TablesId};
 pub use counts::Counts;
 pub use cut::{Chunks, WINDOW_POINTS};
+pub use edits::Edits;
 pub use limits::Limits;
 pub use locate::MeshPlace;
 
@@ -28,10 +30,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use crate::stand::Stand;
 use crate::{
     ControlPoint, Frame, Layout, PlanError, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Section,
-    SectionPoint, TWIST_LIMIT, Topology, Turn, Yarn, triangulate,
+    SectionPoint, Topology, Turn, Yarn, triangulate,
 };
 
 /// The choices that a mesh is made with.
@@ -179,80 +180,6 @@ impl Plan {
         plan.counts = plan.count();
         plan.needs_scan = (0..plan.layout.yarns().len()).any(|yarn| plan.turns(yarn));
         Ok(plan)
-    }
-
-    /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which say whether it is [steep](Layout::is_steep) and how it [leans](Plan::leans). Offsets stay, and so both plans own one another's
-    /// chunks: of those, the ones that hold some of the yarn are out of date ([`Plan::recut`]).
-    ///
-    /// **Errors**: [`PlanError::NoRoom`] where there is [room](Plan::with_room) for fewer points, [`PlanError::TooFewPoints`], and
-    /// [`PlanError::OtherPlan`] for what takes a new plan: an open yarn that is closed or the other way round, a section that the layout
-    /// lacks, a twist that is not sound, or one where no yarn's rolls are scanned.
-    ///
-    /// **Panics** past the last yarn.
-    pub fn edited(&self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<Self, PlanError> {
-        let count = points.len() as u64;
-        self.check_edit(yarn, &what, count)?;
-        let mut plan = self.clone();
-        Arc::make_mut(&mut plan.layout).edit(yarn, what, count);
-        plan.counts = plan.count();
-        Ok(plan.standing([(yarn, Stand::of(points, what.closed, None))]))
-    }
-
-    /// The same plan but that some yarns, by their numbers, stand so.
-    pub(crate) fn standing(mut self, stands: impl IntoIterator<Item = (usize, Stand)>) -> Self {
-        for (yarn, stand) in stands {
-            let leans = stand.leaning.is_some();
-            Arc::make_mut(&mut self.layout).set_stand(yarn, stand);
-            if leans {
-                self.leans.insert(yarn, self.leans_of(yarn));
-            } else {
-                self.leans.remove(&yarn);
-            }
-            // A yarn that has become steep turns where none did.
-            self.needs_scan |= self.turns(yarn);
-        }
-        self
-    }
-
-    /// The lean of each ring of a yarn that leans, worked out.
-    fn leans_of(&self, yarn: usize) -> Arc<[Turn]> {
-        let leaning = self.layout.leaning(yarn);
-        leaning
-            .map(|leaning| leaning.rings(self.yarn(yarn).closed, &self.sampling))
-            .unwrap_or_default()
-            .into()
-    }
-
-    /// Whether [`Plan::edited`] takes `what` of `points` control points in place of yarn number `yarn`. No plan is made.
-    ///
-    /// **Errors** and **panics**: those of [`Plan::edited`].
-    pub fn check_edit(&self, yarn: usize, what: &Yarn, points: u64) -> Result<(), PlanError> {
-        let before = self.yarn(yarn);
-        let room = self.offsets.room(yarn, before.closed);
-        if points > room {
-            return Err(PlanError::NoRoom { yarn, points, room });
-        }
-        if points < what.points_least() {
-            return Err(PlanError::TooFewPoints { yarn, points, least: what.points_least() });
-        }
-        if self.layout.leaning(yarn).is_some_and(|leaning| leaning.given) {
-            return Err(PlanError::OtherPlan {
-                yarn,
-                what: "edited, where yarns have up directions of their own",
-            });
-        }
-        let turns = !self.settings.frame.is_level(what.twist);
-        for (holds, what) in [
-            (what.closed == before.closed, "closed or opened"),
-            ((what.section as usize) < self.layout.sections().len(), "of a section that the plan lacks"),
-            ((-TWIST_LIMIT..=TWIST_LIMIT).contains(&what.twist), "so twisted"),
-            (self.needs_scan || !turns, "twisted, where no other yarn is"),
-        ] {
-            if !holds {
-                return Err(PlanError::OtherPlan { yarn, what });
-            }
-        }
-        Ok(())
     }
 
     /// Whether `chunk` was cut from this plan, a clone of it, one [edited](Plan::edited) or one of a [region](Plan::within), so that its tables fit the plan's offsets.

@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use texere_core::{
-    BLOCK_RINGS, BackendError, Bounds, ControlPoint, MeshPlace, PaddedPoints, Plan, Ray, Turn, YarnError,
-    check_points, index_pattern,
+    BLOCK_RINGS, BackendError, Bounds, ControlPoint, Edits, MeshPlace, PaddedPoints, Plan, Ray, Turn,
+    YarnError, check_points, index_pattern,
 };
 use thiserror::Error;
 
@@ -65,10 +65,10 @@ pub enum PickError {
         /// How many there are.
         yarns: usize,
     },
-    /// A plan that differs from the picker's by more than one yarn.
+    /// A plan that differs from the picker's by other yarns than those that are set.
     #[error("the plan is not the picker's with yarn {yarn} edited")]
     OtherPlan {
-        /// The yarn, from 0.
+        /// The first of those, from 0.
         yarn: usize,
     },
     /// There is not enough memory.
@@ -187,51 +187,68 @@ impl Picker {
     /// Takes other control points of yarn number `yarn`, from 0. `plan` is the picker's own, or what [`Plan::edited`] has made of that for this
     /// yarn. The boxes of that yarn alone are made again, and those above it.
     ///
-    /// **Errors**: [`PickError::NoYarn`], [`PickError::OtherPlan`], [`PickError::PointCount`] of that yarn, and [`PickError::Points`]. All leave
-    /// everything as it was.
+    /// **Errors**: those of [`Picker::set_yarns`].
     pub fn set_yarn(
         &mut self,
         plan: Arc<Plan>,
         yarn: usize,
         points: &[ControlPoint],
     ) -> Result<(), PickError> {
+        let what = plan.layout().yarns().get(yarn).copied().unwrap_or_default();
+        self.set_yarns(plan, &Edits::from([(yarn, (what, points))]))
+    }
+
+    /// Takes many yarns at once. `plan` is what [`Plan::edited_all`] has made of the picker's own for them.
+    ///
+    /// **Errors**: [`PickError::NoYarn`], [`PickError::OtherPlan`], [`PickError::PointCount`] of a yarn, and [`PickError::Points`]: all leave
+    /// everything as it was. [`PickError::Memory`], after which a picker is of no more use.
+    pub fn set_yarns(&mut self, plan: Arc<Plan>, edits: &Edits<'_>) -> Result<(), PickError> {
+        let Some((&first, _)) = edits.first_key_value() else { return Ok(()) };
         let yarns = self.yarns.len();
-        if yarn >= yarns {
+        if let Some((&yarn, _)) = edits.range(yarns..).next() {
             return Err(PickError::NoYarn { yarn, yarns });
         }
-        if !differ_at_most_by(self.plan(), &plan, yarn) {
-            return Err(PickError::OtherPlan { yarn });
+        if !differ_by(self.plan(), &plan, edits) {
+            return Err(PickError::OtherPlan { yarn: first });
         }
-        let bounds = &plan.layout().offsets()[yarn..yarn + 2];
-        let (first, planned) = (bounds[0], bounds[1] - bounds[0]);
-        if points.len() as u64 != planned {
-            return Err(PickError::PointCount { points: points.len() as u64, planned });
+        let offsets = plan.layout().offsets();
+        for (&yarn, (_, points)) in edits {
+            let (given, planned) = (points.len() as u64, offsets[yarn + 1] - offsets[yarn]);
+            if given != planned {
+                return Err(PickError::PointCount { points: given, planned });
+            }
+            check_points(yarn, points)?;
         }
-        check_points(yarn, points)?;
         let scans_already = self.plan().needs_scan();
         let Work { points: padded, rolls, .. } = &mut self.work;
-        padded.upload(&plan, first, points);
+        for (&yarn, (_, points)) in edits {
+            padded.upload(&plan, offsets[yarn], points);
+        }
         if plan.needs_scan() && !scans_already {
             *rolls = scanned(&plan, padded)?;
         } else if plan.needs_scan() {
-            let at_block = &mut rolls.at_block[plan.block_offsets()[yarn] as usize..];
-            rolls.whole[yarn] = scan_yarn(&plan, padded, yarn, at_block);
+            for &yarn in edits.keys() {
+                let at_block = &mut rolls.at_block[plan.block_offsets()[yarn] as usize..];
+                rolls.whole[yarn] = scan_yarn(&plan, padded, yarn, at_block);
+            }
         }
         self.work.plan = plan;
-        self.yarns[yarn] = boxes(&self.work, yarn);
-        self.cloth.set(self.positions[yarn] as usize, *self.yarns[yarn].root());
+        for &yarn in edits.keys() {
+            self.yarns[yarn] = boxes(&self.work, yarn);
+            self.cloth.set(self.positions[yarn] as usize, *self.yarns[yarn].root());
+        }
         Ok(())
     }
 }
 
-/// Whether two plans have the same offsets and, but for `yarn`, the same yarns.
-fn differ_at_most_by(one: &Plan, other: &Plan, yarn: usize) -> bool {
-    let [before, after] = [one, other].map(Plan::layout);
-    let rest = |range: std::ops::Range<usize>| {
-        let points = range.clone().all(|yarn| one.rings(yarn) == other.rings(yarn));
-        points && before.yarns()[range.clone()] == after.yarns()[range]
-    };
-    one.shares_offsets(other) && rest(0..yarn) && rest(yarn + 1..before.yarns().len())
+/// Whether two plans have the same offsets and the same yarns, but that those of `edits` are as these say.
+fn differ_by(one: &Plan, other: &Plan, edits: &Edits<'_>) -> bool {
+    let [before, after] = [one, other].map(|plan| plan.layout().yarns());
+    one.shares_offsets(other)
+        && (0..before.len()).all(|yarn| match edits.get(&yarn) {
+            Some((what, _)) => after[yarn] == *what,
+            None => one.rings(yarn) == other.rings(yarn) && before[yarn] == after[yarn],
+        })
 }
 
 /// The rolls of all yarns.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use texere_core::{
-    ControlPoint, Material, PlanError, SessionError, Yarn, Yarns, check_material, check_points,
+    ControlPoint, Edits, Material, PlanError, SessionError, Yarn, Yarns, check_material, check_points,
 };
 use texere_fabric::{Loom, Structure};
 
@@ -203,30 +203,29 @@ impl Live {
         shown
     }
 
-    /// Gives the mesh these yarns as they are now, or begins another mesh, once, where it has no room for one of them or where one of them has up directions of its own.
+    /// Gives the mesh these yarns as they are now, all at once, or begins another mesh where it has no room for one of them or where one of them has up directions of its own.
     fn show_all(&mut self, yarns: &[usize]) -> Result<(), LiveError> {
-        let (plan, mut points) = (self.mesh.plan().clone(), Vec::new());
-        let mut fits = |&yarn: &usize| {
-            self.lay(yarn, &mut points);
-            let edit = plan.check_edit(yarn, &self.yarn(yarn), points.len() as u64);
-            // No plan takes a yarn with up directions of its own.
-            self.ups(yarn).is_none()
-                && !matches!(edit, Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }))
-        };
-        if !yarns.iter().all(&mut fits) {
-            self.mesh = self.another(&self.yarns()?)?;
-            (self.anew, self.picker) = (true, None);
-            return Ok(());
-        }
+        let (plan, mut laid) = (self.mesh.plan().clone(), Vec::with_capacity(yarns.len()));
         for &yarn in yarns {
+            let (what, mut points) = (self.yarn(yarn), Vec::new());
             self.lay(yarn, &mut points);
-            self.mesh.set_yarn(yarn, self.yarn(yarn), &points)?;
-            let plan = self.mesh.plan().clone();
-            // A picker that does not take the yarn is made anew.
-            let picker = self.picker.take();
-            self.picker =
-                picker.and_then(|mut picker| picker.set_yarn(plan, yarn, &points).ok().and(Some(picker)));
+            let edit = plan.check_edit(yarn, &what, points.len() as u64);
+            // No plan takes a yarn with up directions of its own.
+            if self.ups(yarn).is_some()
+                || matches!(edit, Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }))
+            {
+                self.mesh = self.another(&self.yarns()?)?;
+                (self.anew, self.picker) = (true, None);
+                return Ok(());
+            }
+            laid.push((yarn, what, points));
         }
+        let edits: Edits<'_> =
+            laid.iter().map(|(yarn, what, points)| (*yarn, (*what, &points[..]))).collect();
+        self.mesh.set_yarns(&edits)?;
+        // A picker that does not take the yarns is made anew.
+        let (plan, picker) = (self.mesh.plan().clone(), self.picker.take());
+        self.picker = picker.and_then(|mut picker| picker.set_yarns(plan, &edits).ok().and(Some(picker)));
         Ok(())
     }
 }

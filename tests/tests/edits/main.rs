@@ -1,5 +1,7 @@
 //! Yarns that are edited on a device end as those of a fresh mesh, to the bit, on every backend.
 
+mod together;
+
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -8,7 +10,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use texere_conformance::REGISTRY;
 use texere_core::{
-    Attribute, Backend, BackendError, ControlPoint, DeviceKind, End, Frame, Limits, LiveMesh, Mesh,
+    Attribute, Backend, BackendError, ControlPoint, DeviceKind, Edits, End, Frame, Limits, LiveMesh, Mesh,
     MeshPiece, Pipeline, PipelineError, Plan, Schedule, Section, SessionError, Settings, Topology, Vertex,
     Yarn, Yarns,
 };
@@ -20,6 +22,8 @@ const ROOM: usize = 150;
 enum Edit {
     /// A yarn becomes another one.
     Yarn { yarn: usize, twist: f32, section: u32, points: Vec<ControlPoint> },
+    /// Several yarns become others at once.
+    Yarns(Vec<(usize, f32, u32, Vec<ControlPoint>)>),
     /// Some of a yarn's points move: from a share of the yarn on.
     Points { yarn: usize, from: f64, points: Vec<ControlPoint> },
     /// What has changed is made again.
@@ -52,6 +56,7 @@ fn fabric() -> impl Strategy<Value = Fabric> {
 
 fn edit() -> impl Strategy<Value = Edit> {
     prop_oneof![
+        1 => prop::collection::vec((0usize..60, -3.0f32..3.0, 0u32..2, many()), 1..7).prop_map(Edit::Yarns),
         2 => (any::<prop::sample::Index>(), -3.0f32..3.0, 0u32..2, many())
             .prop_map(|(yarn, twist, section, points)| Edit::Yarn { yarn: yarn.index(60), twist, section, points }),
         2 => (any::<prop::sample::Index>(), 0.0f64..1.0, points(1..6))
@@ -169,6 +174,10 @@ fn read_attributes(live: &mut LiveMesh, mesh: &Mesh) -> Vec<Attribute> {
     attributes
 }
 
+fn edits_of(yarns: &BTreeMap<usize, (Yarn, Vec<ControlPoint>)>) -> Edits<'_> {
+    yarns.iter().map(|(yarn, (what, points))| (*yarn, (*what, &points[..]))).collect()
+}
+
 fn apply(live: &mut LiveMesh, fabric: &mut Fabric, edit: &Edit) {
     match edit {
         Edit::Yarn { yarn, twist, section, points } => {
@@ -178,6 +187,19 @@ fn apply(live: &mut LiveMesh, fabric: &mut Fabric, edit: &Edit) {
             let what = Yarn { twist, section: *section, ..fabric[yarn].0 };
             live.set_yarn(yarn, what, points).unwrap();
             fabric[yarn] = (what, points.clone());
+        }
+        Edit::Yarns(all) => {
+            let turns = live.plan().needs_scan();
+            let other = |(yarn, twist, section, points): &(usize, f32, u32, Vec<ControlPoint>)| {
+                let yarn = yarn % fabric.len();
+                let twist = if turns { *twist } else { 0.0 };
+                (yarn, (Yarn { twist, section: *section, ..fabric[yarn].0 }, points.clone()))
+            };
+            let others: BTreeMap<_, _> = all.iter().map(other).collect();
+            live.set_yarns(&edits_of(&others)).unwrap();
+            for (yarn, other) in others {
+                fabric[yarn] = other;
+            }
         }
         Edit::Points { yarn, from, points } => {
             let yarn = yarn % fabric.len();
@@ -301,18 +323,23 @@ fn a_round_yarn_does_not_hang_on_flattened_ones() {
     let yarn = Yarn { twist: 2.0, ..Yarn::default() };
     let becomes = |wide| Edit::Yarn { yarn: 1, twist: 2.0, section: 0, points: line(wide) };
     let settings = Settings { subdivisions: 3, frame: Frame::RotationMinimizing, ..Settings::default() };
-    for entry in REGISTRY {
-        let (devices, missing) = entry.devices();
-        assert!(missing.is_empty(), "{missing:?}");
-        let edits =
-            |device: &dyn Backend| entry.name != "deferred" && device.info().schedule != Schedule::PerYarn;
-        for device in devices.iter().filter(|device| edits(&***device)) {
-            for widths in [[0.1, 0.2], [0.2, 0.1]] {
-                let fabric = vec![(yarn, line(0.1)), (yarn, line(widths[0]))];
-                ends_as_fresh(&**device, fabric, settings, 6, &[Edit::Update, becomes(widths[1])]).unwrap();
-            }
+    for device in editing() {
+        for widths in [[0.1, 0.2], [0.2, 0.1]] {
+            let fabric = vec![(yarn, line(0.1)), (yarn, line(widths[0]))];
+            ends_as_fresh(&*device, fabric, settings, 6, &[Edit::Update, becomes(widths[1])]).unwrap();
         }
     }
+}
+
+/// Devices on which yarns are edited.
+fn editing() -> Vec<Arc<dyn Backend>> {
+    let entries = REGISTRY.iter().filter(|entry| entry.name != "deferred");
+    let devices = entries.flat_map(|entry| {
+        let (devices, missing) = entry.devices();
+        assert!(missing.is_empty(), "{missing:?}");
+        devices
+    });
+    devices.filter(|device| device.info().schedule != Schedule::PerYarn).collect()
 }
 
 /// Where blocks end, a point has a part in the rings of two of them.

@@ -1,0 +1,164 @@
+//! Yarns of a live mesh that become others, and control points that move.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::{LiveMesh, runs};
+use crate::engine::Engine;
+use crate::stand::Stand;
+use crate::yarns::check_points;
+use crate::{ControlPoint, Edits, PaddedPoints, Plan, PlanError, SessionError, Yarn};
+
+impl<E: Engine + ?Sized> LiveMesh<E> {
+    /// Takes control points, the first of which is number `first` of the fabric as it is now. All rings that they have a part in are made
+    /// again by the next [`LiveMesh::update`].
+    ///
+    /// **Errors**: [`SessionError::UploadRange`] past the last control point, [`SessionError::Yarns`] for a point that is not sound, and what
+    /// the device says.
+    pub fn upload(&mut self, first: u64, points: &[ControlPoint]) -> Result<(), SessionError> {
+        let (end, total) = (first.saturating_add(points.len() as u64), self.plan.layout().point_count());
+        if end > total {
+            return Err(SessionError::UploadRange { first, end, points: total });
+        }
+        let yarns = self.plan.layout().yarns_of(first..end);
+        for yarn in yarns.clone() {
+            let [own, sent] = self.plan.layout().points_of(yarn, &(first..end));
+            check_points(yarn, &points[sent.clone()])?;
+            // Up directions that were given belong to the points that they were given with.
+            let given = self.plan.layout().leaning(yarn).filter(|leaning| leaning.given);
+            if given.is_some_and(|leaning| leaning.points[own] != points[sent]) {
+                let what = "moved, where yarns have up directions of their own";
+                return Err(PlanError::OtherPlan { yarn, what }.into());
+            }
+        }
+        self.note_stands(first, points, yarns.clone())?;
+        for yarn in yarns {
+            let [own, _] = self.plan.layout().points_of(yarn, &(first..end));
+            self.note(yarn, self.rings_of(yarn, &own));
+        }
+        self.traffic.uploaded += self.engine.upload(first, points)?;
+        Ok(())
+    }
+
+    /// Makes yarn number `yarn`, from 0, another one, of other control points, perhaps of more or fewer.
+    ///
+    /// **Errors**: those of [`LiveMesh::set_yarns`].
+    pub fn set_yarn(&mut self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<(), SessionError> {
+        self.set_yarns(&Edits::from([(yarn, (what, points))]))
+    }
+
+    /// Makes many yarns others at once, each of other control points, perhaps of more or fewer. The mesh is planned once for all of them.
+    ///
+    /// ```
+    /// use std::sync::Arc;
+    /// use texere_core::{ControlPoint, Edits, LiveMesh, NullBackend, Plan, Settings, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # for y in 0..3 {
+    /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));
+    /// # }
+    /// # let yarns = yarns.build()?;
+    /// let plan = Plan::with_room(yarns.layout().clone(), Settings::default(), |_| 16)?; // three yarns of three points
+    /// let mut live = LiveMesh::new(&NullBackend::default(), Arc::new(plan))?;
+    /// live.upload(0, yarns.points())?;
+    ///
+    /// // Yarns 0 and 2 get four points.
+    /// let line = |y| [0.0, 0.8, 1.2, 2.0].map(|x| ControlPoint::new(x, y, 0.0, 0.1));
+    /// let (first, last) = (line(0.0), line(2.0));
+    /// let yarn = Yarn::default();
+    /// live.set_yarns(&Edits::from([(0, (yarn, &first[..])), (2, (yarn, &last[..]))]))?;
+    /// assert_eq!([0, 1, 2].map(|yarn| live.plan().rings(yarn)), [7, 5, 7]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// **Errors**: [`SessionError::NoYarn`]; those of [`Plan::edited_all`]; [`SessionError::Yarns`] for a point that is not sound; and what the device
+    /// says. All but the last leave everything as it was, whichever of the yarns is refused.
+    pub fn set_yarns(&mut self, edits: &Edits<'_>) -> Result<(), SessionError> {
+        let yarns = self.plan.layout().yarns().len();
+        if let Some((&yarn, _)) = edits.range(yarns..).next() {
+            return Err(SessionError::NoYarn { yarn, yarns });
+        }
+        for (&yarn, (_, points)) in edits {
+            check_points(yarn, points)?;
+        }
+        let plan = self.plan.edited_all(edits)?;
+        let numbers: Vec<_> = edits.keys().copied().collect();
+        if *plan.layout() != *self.plan.layout() {
+            self.replan(&numbers, plan)?;
+        }
+        numbers.iter().for_each(|&yarn| self.note(yarn, 0..self.plan.rings(yarn)));
+        for run in runs(&numbers) {
+            let first = self.plan.layout().offsets()[run.start];
+            let points: Vec<_> = edits.range(run).flat_map(|(_, (_, points))| *points).copied().collect();
+            self.points.upload(&self.plan, first, &points);
+            self.traffic.uploaded += self.engine.upload(first, &points)?;
+        }
+        Ok(())
+    }
+
+    /// Takes control points of some yarns, and notes which of them stand otherwise with these: have become steep, lie flat again, or lean in
+    /// another way.
+    fn note_stands(
+        &mut self,
+        first: u64,
+        points: &[ControlPoint],
+        yarns: Range<usize>,
+    ) -> Result<(), SessionError> {
+        self.points.upload(&self.plan, first, points);
+        let (plan, padded) = (&self.plan, &self.points);
+        let stands = yarns.into_par_iter().filter_map(|yarn| {
+            let before = plan.layout().stand(yarn);
+            let given = before.leaning.as_ref().is_some_and(|leaning| leaning.given);
+            let stand = (!given).then(|| stands_now(plan, padded, yarn))?;
+            (stand != before).then_some((yarn, stand))
+        });
+        let stands: Vec<_> = stands.collect();
+        let changed: Vec<_> = stands.iter().map(|(yarn, _)| *yarn).collect();
+        if !changed.is_empty() {
+            self.replan(&changed, Plan::clone(&self.plan).standing(stands))?;
+            changed.into_iter().for_each(|yarn| self.note(yarn, 0..self.plan.rings(yarn)));
+        }
+        Ok(())
+    }
+
+    /// Takes a plan that differs from the present one in some of `yarns`, which are in order.
+    fn replan(&mut self, yarns: &[usize], plan: Plan) -> Result<(), SessionError> {
+        let plan = Arc::new(plan);
+        for run in runs(yarns) {
+            self.engine.replan(plan.clone(), run)?;
+        }
+        self.plan = plan;
+        let mut cut = 0;
+        for run in runs(yarns) {
+            // Runs may share a chunk, which is cut again once.
+            let chunks = self.chunks_of(run.start).start..self.chunks_of(run.end - 1).end;
+            for number in chunks.start.max(cut)..chunks.end {
+                self.chunks[number] = self.plan.recut(&self.chunks[number]);
+            }
+            cut = chunks.end;
+        }
+        Ok(())
+    }
+
+    /// The rings that control points `own` of `yarn`, counted from its first, have a part in. A yarn with rolls has all of them: what turns at
+    /// one place turns the rest.
+    fn rings_of(&self, yarn: usize, own: &Range<usize>) -> Range<u32> {
+        let rings = self.plan.rings(yarn);
+        let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
+        let (first, end) = (own.start as u64, own.end as u64);
+        // A point has a part in the two intervals before it and the two behind, the last ring of which is that of a knot.
+        let (from, to) = (first.saturating_sub(2) * per_interval, (end + 1).saturating_mul(per_interval) + 1);
+        if self.attributes || self.plan.needs_scan() || self.plan.yarn(yarn).closed {
+            return 0..rings;
+        }
+        from.min(u64::from(rings)) as u32..to.min(u64::from(rings)) as u32
+    }
+}
+
+/// How `yarn` stands with the control points that it has now.
+fn stands_now(plan: &Plan, points: &PaddedPoints, yarn: usize) -> Stand {
+    let offsets = plan.layout().offsets();
+    let count = (offsets[yarn + 1] - offsets[yarn]) as usize;
+    Stand::of(&points.yarn(plan, yarn)[1..=count], plan.yarn(yarn).closed, None)
+}

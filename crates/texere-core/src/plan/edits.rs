@@ -1,0 +1,117 @@
+//! A plan with other yarns: what it takes, and how those stand then.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::Plan;
+use crate::stand::Stand;
+use crate::{ControlPoint, PlanError, TWIST_LIMIT, Turn, Yarn};
+
+/// Yarns that become others, by their numbers from 0: what each is then, and its control points.
+pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
+
+impl Plan {
+    /// The same plan but that yarn number `yarn` is `what`, of the control points `points`, which say whether it is [steep](crate::Layout::is_steep) and how it [leans](Plan::leans). Offsets stay, and so both plans own one another's
+    /// chunks: of those, the ones that hold some of the yarn are out of date ([`Plan::recut`]).
+    ///
+    /// **Errors**: [`PlanError::NoRoom`] where there is [room](Plan::with_room) for fewer points, [`PlanError::TooFewPoints`], and
+    /// [`PlanError::OtherPlan`] for what takes a new plan: an open yarn that is closed or the other way round, a section that the layout
+    /// lacks, a twist that is not sound, or one where no yarn's rolls are scanned.
+    ///
+    /// **Panics** past the last yarn.
+    pub fn edited(&self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<Self, PlanError> {
+        self.edited_all(&Edits::from([(yarn, (what, points))]))
+    }
+
+    /// Makes many yarns others at once, in the time of one new plan. Each is judged by this plan: a twist is refused where no yarn's rolls are scanned in it, though another edit
+    /// may make a yarn steep.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Edits, Plan, Settings, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # for y in 0..3 {
+    /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));
+    /// # }
+    /// # let yarns = yarns.build()?;
+    /// let plan = Plan::with_room(yarns.layout().clone(), Settings::default(), |_| 10)?; // three yarns of three points
+    /// let points: Vec<_> = (0..7).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
+    /// let edits = Edits::from([(0, (*plan.yarn(0), &points[..])), (2, (*plan.yarn(2), &points[..2]))]);
+    /// let edited = plan.edited_all(&edits)?;
+    /// assert_eq!([0, 1, 2].map(|yarn| edited.rings(yarn)), [13, 5, 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// **Errors** and **panics**: those of [`Plan::edited`], for the first yarn that is refused.
+    pub fn edited_all(&self, edits: &Edits<'_>) -> Result<Self, PlanError> {
+        for (&yarn, (what, points)) in edits {
+            self.check_edit(yarn, what, points.len() as u64)?;
+        }
+        let mut plan = self.clone();
+        Arc::make_mut(&mut plan.layout).edit(edits);
+        plan.counts = plan.count();
+        let stand = |(&yarn, (what, points)): (&usize, &(Yarn, &[ControlPoint]))| {
+            (yarn, Stand::of(points, what.closed, None))
+        };
+        let stands: Vec<_> = edits.par_iter().map(stand).collect();
+        Ok(plan.standing(stands))
+    }
+
+    /// The same plan but that some yarns, by their numbers, stand so.
+    pub(crate) fn standing(mut self, stands: impl IntoIterator<Item = (usize, Stand)>) -> Self {
+        for (yarn, stand) in stands {
+            let leans = stand.leaning.is_some();
+            Arc::make_mut(&mut self.layout).set_stand(yarn, stand);
+            if leans {
+                self.leans.insert(yarn, self.leans_of(yarn));
+            } else {
+                self.leans.remove(&yarn);
+            }
+            // A yarn that has become steep turns where none did.
+            self.needs_scan |= self.turns(yarn);
+        }
+        self
+    }
+
+    /// The lean of each ring of a yarn that leans, worked out.
+    pub(super) fn leans_of(&self, yarn: usize) -> Arc<[Turn]> {
+        let leaning = self.layout.leaning(yarn);
+        leaning
+            .map(|leaning| leaning.rings(self.yarn(yarn).closed, &self.sampling))
+            .unwrap_or_default()
+            .into()
+    }
+
+    /// Whether [`Plan::edited`] takes `what` of `points` control points in place of yarn number `yarn`. No plan is made.
+    ///
+    /// **Errors** and **panics**: those of [`Plan::edited`].
+    pub fn check_edit(&self, yarn: usize, what: &Yarn, points: u64) -> Result<(), PlanError> {
+        let before = self.yarn(yarn);
+        let room = self.offsets.room(yarn, before.closed);
+        if points > room {
+            return Err(PlanError::NoRoom { yarn, points, room });
+        }
+        if points < what.points_least() {
+            return Err(PlanError::TooFewPoints { yarn, points, least: what.points_least() });
+        }
+        if self.layout.leaning(yarn).is_some_and(|leaning| leaning.given) {
+            return Err(PlanError::OtherPlan {
+                yarn,
+                what: "edited, where yarns have up directions of their own",
+            });
+        }
+        let turns = !self.settings.frame.is_level(what.twist);
+        for (holds, what) in [
+            (what.closed == before.closed, "closed or opened"),
+            ((what.section as usize) < self.layout.sections().len(), "of a section that the plan lacks"),
+            ((-TWIST_LIMIT..=TWIST_LIMIT).contains(&what.twist), "so twisted"),
+            (self.needs_scan || !turns, "twisted, where no other yarn is"),
+        ] {
+            if !holds {
+                return Err(PlanError::OtherPlan { yarn, what });
+            }
+        }
+        Ok(())
+    }
+}

@@ -113,7 +113,7 @@ fn yarns_that_can_t_be_cut_into_intervals_or_chords_are_refused() {
     long.yarn(Yarn::default(), &[0.0, 100.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.01)));
     let long = long.build().expect("yarns");
     let refused = SettlingPlan::new(&Settling::new(&long)).err();
-    let Some(SettlingError::LongInterval { yarn: 0, chords, limit: 4096 }) = refused else {
+    let Some(SettlingError::LongInterval { yarn: 0, axis: 'x', chords, limit: 4096 }) = refused else {
         panic!("{refused:?}")
     };
     // 100 mm in chords of 0.6 times 0.02 mm.

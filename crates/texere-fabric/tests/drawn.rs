@@ -18,7 +18,8 @@ const T: &[[f32; 2]] =
 /// A star of five points, drawn in to so much of their reach.
 fn star(inner: f32) -> Vec<[f32; 2]> {
     let corner = |number: u8| {
-        let (turn, reach) = (f32::from(number) * 36.0_f32, if number % 2 == 0 { 1.0 } else { inner });
+        let (turn, reach) =
+            (f32::from(number) * 36.0_f32, if number.is_multiple_of(2) { 1.0 } else { inner });
         [reach * turn.to_radians().cos(), reach * turn.to_radians().sin()]
     };
     (0..10).map(corner).collect()

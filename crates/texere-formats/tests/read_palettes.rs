@@ -85,12 +85,71 @@ fn png(bits: usize, colors: usize, interlaced: bool, number: impl Fn(usize, usiz
     bytes
 }
 
+/// How the pixels of a BMP are written: rows of numbers from the bottom or the top, or runs and lists of numbers (RLE).
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Bmp {
+    Upward,
+    Downward,
+    Runs,
+    Lists,
+}
+
+/// A BMP with an info header, which says `told` colours; 0 is as many as its bits number.
+fn bmp(
+    bits: usize,
+    [colors, told]: [usize; 2],
+    kind: Bmp,
+    number: impl Fn(usize, usize) -> usize,
+) -> Vec<u8> {
+    let [width, height] = SIZE;
+    let row = |row: usize| (0..width).map(|column| number(column, row)).collect::<Vec<_>>();
+    let mut data = Vec::new();
+    for line in 0..height {
+        let numbers = row(if kind == Bmp::Downward { line } else { height - 1 - line });
+        match kind {
+            Bmp::Upward | Bmp::Downward => data.extend(packed(bits, &numbers)),
+            // A number stands in both halves of a byte; the second is no pixel.
+            Bmp::Runs => data.extend(numbers.iter().flat_map(|&number| [1, packed(bits, &[number])[0]])),
+            Bmp::Lists => {
+                data.extend([0, width as u8]);
+                data.extend(packed(bits, &numbers));
+                data.resize(data.len().next_multiple_of(2), u8::MAX);
+            }
+        }
+        match kind {
+            Bmp::Upward | Bmp::Downward => data.resize(data.len().next_multiple_of(4), u8::MAX),
+            Bmp::Runs | Bmp::Lists => data.extend([0, u8::from(line + 1 == height)]),
+        }
+    }
+    let packing = match kind {
+        Bmp::Upward | Bmp::Downward => 0,
+        Bmp::Runs | Bmp::Lists => {
+            if bits == 8 {
+                1
+            } else {
+                2
+            }
+        }
+    };
+    let rows = if kind == Bmp::Downward { (height as u32).wrapping_neg() } else { height as u32 };
+    let at = 54 + 4 * colors as u32;
+    let mut bytes = b"BM".to_vec();
+    let size = [at + data.len() as u32, 0, at, 40, width as u32, rows, 1 | (bits as u32) << 16, packing];
+    for word in size.into_iter().chain([data.len() as u32, 0, 0, told as u32, 0]) {
+        bytes.extend(word.to_le_bytes());
+    }
+    let palette = palette(colors);
+    bytes.extend(palette.chunks(3).flat_map(|color| [color[2], color[1], color[0], 0]));
+    bytes.extend(data);
+    bytes
+}
+
 /// Bits, colours, and a number beyond them: the next one and the last.
 const BEYOND: [(usize, usize, usize); 8] =
     [(1, 1, 1), (2, 2, 2), (2, 3, 3), (4, 2, 2), (4, 9, 15), (8, 2, 2), (8, 2, 255), (8, 255, 255)];
 
 fn is_dark(column: usize, row: usize) -> bool {
-    (column * column + row) % 3 == 0
+    (column * column + row).is_multiple_of(3)
 }
 
 #[test]
@@ -115,6 +174,43 @@ fn a_png_shows_the_colours_of_a_palette_that_is_shorter_than_it_may_be() {
             let light = if colors > 2 { colors - 1 } else { 0 };
             let number = |column, row| if is_dark(column, row) { 1 } else { light };
             shows("motif.png", &png(bits, colors, interlaced, number), is_dark);
+        }
+    }
+}
+
+/// The ways in which a BMP of so many bits is written.
+fn kinds(bits: usize) -> &'static [Bmp] {
+    if bits < 4 {
+        &[Bmp::Upward, Bmp::Downward]
+    } else {
+        &[Bmp::Upward, Bmp::Downward, Bmp::Runs, Bmp::Lists]
+    }
+}
+
+#[test]
+fn a_bmp_with_a_number_beyond_its_palette_is_refused() {
+    for (bits, colors, beyond) in BEYOND {
+        for &kind in kinds(bits) {
+            for odd in [[0, 0], [6, 3], [10, 8]] {
+                let number =
+                    |column, row| if [column, row] == odd { beyond } else { (column + row) % colors.min(2) };
+                let told = if colors == 1 { "1 colour" } else { &format!("{colors} colours") };
+                refuses("motif.bmp", &bmp(bits, [colors; 2], kind, number), beyond, told);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_bmp_shows_the_colours_of_a_palette_that_is_shorter_than_it_may_be() {
+    for (bits, colors) in [(1, 2), (4, 2), (4, 15), (4, 16), (8, 2), (8, 200), (8, 256)] {
+        for &kind in kinds(bits) {
+            let light = if colors > 2 { colors - 1 } else { 0 };
+            let number = |column, row| if is_dark(column, row) { 1 } else { light };
+            shows("motif.bmp", &bmp(bits, [colors; 2], kind, number), is_dark);
+            if colors == 1 << bits {
+                shows("motif.bmp", &bmp(bits, [colors, 0], kind, number), is_dark);
+            }
         }
     }
 }

@@ -11,7 +11,7 @@ use super::error::said;
 use super::file::{Files, Opened};
 use super::memory::{filled, room};
 use super::point_paper::{Image, Orientation};
-use super::{ReadError, png_file, tiff_file};
+use super::{ReadError, bmp_file, png_file, tiff_file};
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
 const PIXELS_MAX: u64 = 1 << 28;
@@ -47,19 +47,20 @@ pub(super) fn decode(path: &Path, files: &Files<'_>) -> Result<Image, ReadError>
     let is_bigtiff = tiff_file::is_big(file.fill_buf().map_err(io)?);
     let mut reader = ImageReader::new(file).with_guessed_format().map_err(io)?;
     let format = if is_bigtiff { Some(ImageFormat::Tiff) } else { reader.format() };
-    if format == Some(ImageFormat::Png) {
+    if let Some(format) = format {
         let mut file = reader.into_inner();
-        png_file::check(path, &mut file, file_bytes)?;
-        file.rewind().map_err(io)?;
-        reader = ImageReader::with_format(file, ImageFormat::Png);
-    }
-    if format == Some(ImageFormat::Tiff) {
-        let mut file = reader.into_inner();
-        if let Some(header) = tiff_file::header(path, &mut file)? {
-            return tiff_file::decode(path, file, &header);
+        match format {
+            ImageFormat::Bmp => bmp_file::check(path, &mut file)?,
+            ImageFormat::Png => png_file::check(path, &mut file, file_bytes)?,
+            ImageFormat::Tiff => {
+                if let Some(header) = tiff_file::header(path, &mut file)? {
+                    return tiff_file::decode(path, file, &header);
+                }
+            }
+            _ => {}
         }
         file.rewind().map_err(io)?;
-        reader = ImageReader::with_format(file, ImageFormat::Tiff);
+        reader = ImageReader::with_format(file, format);
     }
     // These are for what stands before the pixels; a PNG's text and colour profile are not asked for their own.
     let mut limits = Limits::default();
@@ -96,6 +97,13 @@ pub(super) fn undecodable(path: &Path, why: &str) -> ReadError {
 /// Why an image is refused where a pixel has a number that its palette of `colors` has no colour for.
 pub(super) fn no_color(number: usize, colors: usize) -> String {
     format!("a pixel has number {number} of a palette of {}", counted(colors as u64, "colour"))
+}
+
+/// The first `count` numbers of so many bits, 1, 2, 4 or 8, that a row's bytes hold, the first in the highest bits. What is left of the
+/// last byte is no pixel.
+pub(super) fn packed_numbers(row: &[u8], bits: usize, count: usize) -> impl Iterator<Item = usize> {
+    let digits = move |byte: u8| (0..8 / bits).rev().map(move |place| usize::from(byte) >> (place * bits));
+    row.iter().flat_map(move |byte| digits(*byte)).map(move |number| number & ((1 << bits) - 1)).take(count)
 }
 
 /// Refuses an image that no cloth may be as large as.

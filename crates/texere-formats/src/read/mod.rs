@@ -1,5 +1,7 @@
 //! Readers: from a design file to a [`Design`].
 
+#[cfg(all(feature = "images", feature = "toml"))]
+mod bmp_file;
 mod design;
 #[cfg(feature = "toml")]
 mod design_file;

@@ -6,7 +6,7 @@ use std::path::Path;
 use png::{ColorType, Decoder, DecodingError, Limits};
 
 use super::ReadError;
-use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, undecodable};
+use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, packed_numbers, undecodable};
 use super::memory::filled;
 
 /// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
@@ -44,13 +44,8 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Resu
     let mut numbers =
         filled("the numbers of an image", reader.output_buffer_size().unwrap_or(usize::MAX), 0)?;
     let frame = reader.next_frame(&mut numbers).map_err(failed)?;
-    let mut numbers = numbers.chunks_exact(frame.line_size).flat_map(|row| {
-        // What is left of a row's last byte is no pixel.
-        (0..frame.width as usize).map(move |place| {
-            let (at, before) = (place * bits / 8, place * bits % 8);
-            usize::from(row[at]) >> (8 - bits - before) & ((1 << bits) - 1)
-        })
-    });
+    let rows = numbers.chunks_exact(frame.line_size);
+    let mut numbers = rows.flat_map(|row| packed_numbers(row, bits, frame.width as usize));
     match numbers.find(|number| *number >= colors) {
         Some(number) => Err(undecodable(path, &no_color(number, colors))),
         None => Ok(()),

@@ -1,6 +1,6 @@
 //! Devices: which there are, and how one is opened.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
 use texere_core::settling::{Settler, SettlingPlan};
@@ -45,11 +45,11 @@ pub struct WgpuBackend {
 }
 
 impl WgpuBackend {
-    /// All devices, in the order of their numbers. [`DeviceInfo::name`] is `wgpu:0` and so on.
+    /// All devices, in the order of their numbers. [`DeviceInfo::name`] is `wgpu:0` and so on. Drivers are asked once in a process.
     ///
     /// **Errors**: [`BackendError::NoDevice`] where there is none, or no driver to ask.
     pub fn devices() -> Result<Vec<DeviceInfo>, BackendError> {
-        let described = Self::describe(&adapters());
+        let described = Self::describe(adapters());
         if described.is_empty() { Err(none("wgpu".into(), &[])) } else { Ok(described) }
     }
 
@@ -83,11 +83,15 @@ impl WgpuBackend {
     pub fn open(index: usize, schedule: Schedule) -> Result<Self, BackendError> {
         let adapters = adapters();
         let adapter =
-            adapters.get(index).ok_or_else(|| none(device_name("wgpu", Some(index), schedule), &adapters))?;
+            adapters.get(index).ok_or_else(|| none(device_name("wgpu", Some(index), schedule), adapters))?;
+        // One after the other, as drivers are asked.
+        static OPENING: Mutex<()> = Mutex::new(());
+        let opening = OPENING.lock().unwrap_or_else(PoisonError::into_inner);
         let (device, queue) =
             pollster::block_on(adapter.request_device(&Self::descriptor(adapter))).map_err(|source| {
                 BackendError::Driver { call: "Adapter::request_device", source: source.into() }
             })?;
+        drop(opening);
         Self::new(Gpu::owned(device_name("wgpu", Some(index), schedule), device, queue), schedule)
     }
 
@@ -99,7 +103,7 @@ impl WgpuBackend {
         let index = adapters
             .iter()
             .position(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted))
-            .ok_or_else(|| none(part.into(), &adapters))?;
+            .ok_or_else(|| none(part.into(), adapters))?;
         Self::open(index, schedule)
     }
 
@@ -212,24 +216,25 @@ impl Backend for WgpuBackend {
     }
 }
 
-/// All adapters that can compute.
+/// All adapters that can compute. Drivers are asked once and stay loaded until the process ends.
 ///
-/// Drivers stay loaded until the process ends: NVIDIA's loads libEGL, which crashes where it is unloaded while a thread that has used it ends
-/// (`tests/leaning.rs` did so in two of three runs, its devices being opened and dropped side by side).
-fn adapters() -> Vec<wgpu::Adapter> {
-    static INSTANCE: OnceLock<wgpu::Instance> = OnceLock::new();
-    let backends = Backends::VULKAN | Backends::METAL | Backends::DX12;
-    let instance = INSTANCE.get_or_init(|| {
-        wgpu::Instance::new(InstanceDescriptor {
+/// NVIDIA's crashes where adapters are listed, or its libEGL is unloaded, while another thread does so: devices that `tests/leaning.rs` opened and
+/// dropped side by side ended it in four of six runs.
+fn adapters() -> &'static [wgpu::Adapter] {
+    static ADAPTERS: OnceLock<(wgpu::Instance, Vec<wgpu::Adapter>)> = OnceLock::new();
+    let (_, adapters) = ADAPTERS.get_or_init(|| {
+        let backends = Backends::VULKAN | Backends::METAL | Backends::DX12;
+        let instance = wgpu::Instance::new(InstanceDescriptor {
             backends,
             // No validation layer of the driver's, also in a debug build, unless the environment asks for it.
             flags: InstanceFlags::empty().with_env(),
             ..InstanceDescriptor::new_without_display_handle()
-        })
-    });
-    let mut adapters = pollster::block_on(instance.enumerate_adapters(backends));
-    adapters.retain(|adapter| {
-        adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::COMPUTE_SHADERS)
+        });
+        let mut adapters = pollster::block_on(instance.enumerate_adapters(backends));
+        adapters.retain(|adapter| {
+            adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::COMPUTE_SHADERS)
+        });
+        (instance, adapters)
     });
     adapters
 }

@@ -30,7 +30,7 @@ pub struct Stages {
     pub rests: Option<Rests>,
     /// The tables of the mesh, counted and sent.
     pub plan: Duration,
-    /// Control points to the session: from the host, or from where they settled.
+    /// Control points from the host to the session.
     pub take: Duration,
     /// Both stages of the mesh, all chunks, in the device's own memory.
     pub mesh: Duration,

@@ -259,7 +259,9 @@ fn a_polygon_needs_its_own_number_of_sides() {
     let mut yarns = Yarns::builder();
     yarns.section(Section::Polygon(vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]));
     yarns.yarn(Yarn::default(), &straight(3));
-    let error = Pipeline::new(&yarns.build().unwrap()).sides(6).plan().unwrap_err();
+    let yarns = yarns.build().unwrap();
+    assert_eq!(Pipeline::new(&yarns).plan().unwrap().settings().sides, 4);
+    let error = Pipeline::new(&yarns).sides(6).plan().unwrap_err();
     let expected = PlanError::PolygonSides { section: 0, corners: 4, sides: 6 };
     assert!(matches!(error, PipelineError::Plan(error) if error == expected));
 }

@@ -126,10 +126,11 @@ fn relieved(report: &JamReport, [before, after]: [f64; 2]) -> String {
 impl fmt::Display for CureReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { key, value, effect, clearance, curvature, leaves } = self;
-        write!(
-            f,
-            "{key} = {value}: {effect}; then {clearance:.4} of touching, bends of {curvature:.2} radii"
-        )?;
+        write!(f, "{key} = {value}: {effect}; then ")?;
+        if clearance.is_finite() {
+            write!(f, "{clearance:.4} of touching, ")?;
+        }
+        write!(f, "bends of {curvature:.2} radii")?;
         leaves.iter().try_for_each(|left| write!(f, ", but it still {left}"))
     }
 }

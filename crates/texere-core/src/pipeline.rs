@@ -56,12 +56,14 @@ impl std::fmt::Debug for Pipeline<'_> {
 
 impl<'a> Pipeline<'a> {
     /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, tension 0, upright, indexed, no caps. Where that undersamples twist, K
-    /// is as large as [`Settings::following`] says, unless it is chosen.
+    /// is as large as [`Settings::following`] says, and tubes of a polygon have as many sides as it has corners, unless these are chosen.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
+        let usual = Settings::default();
+        let sides = yarns.layout().corners().unwrap_or(usual.sides);
         Self {
             yarns,
-            settings: Settings::default(),
+            settings: Settings { sides, ..usual },
             follows_twist: true,
             limits: Limits::default(),
             within: None,

@@ -22,6 +22,9 @@ const HANDED_OVER: f32 = 15.0 / 360.0;
 /// so where it lies level again (`a_flat_yarn_stands_upright_where_it_lies_flat`).
 const NEAR_POLE: f32 = 0.067;
 
+/// Points on either side of the lap of a closed yarn whose ups are looked for: in so many steps of [`HANDED_OVER`] a frame turns by whole turns.
+const LAP_POINTS: usize = 24;
+
 /// Whether a yarn is steep, and how its outline leans if it does.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Stand {
@@ -68,8 +71,9 @@ fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<
         let window = window(points, closed, interval);
         rolls.push(rolls[interval] + carried_steps(&window).map(|step| f64::from(step.turns())).sum::<f64>());
     }
-    // Round a closed yarn three times, the middle one of which has neighbours on either side.
-    let (laps, whole) = (if closed { 3 } else { 1 }, rolls[rolls.len() - 1]);
+    // Round a closed yarn so often that the middle lap has neighbours enough on either side for a frame to be handed over by half a turn.
+    let laps = if closed { 2 * LAP_POINTS.div_ceil(count) + 1 } else { 1 };
+    let whole = rolls[rolls.len() - 1];
     let mut before: Option<f64> = None;
     let asked: Vec<_> = (0..laps * count)
         .map(|place| {
@@ -82,7 +86,15 @@ fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<
             before
         })
         .collect();
-    let turns = followed(&asked);
+    let turns = if closed && asked.iter().all(Option::is_none) {
+        // Nothing says how it stands: what a lap turns is spread over its points, for an outline turned by half a turn is the same.
+        let left = whole - (whole * 2.0).round() / 2.0;
+        (0..laps * count)
+            .map(|place| -whole * (place / count) as f64 - left * (place % count) as f64 / count as f64)
+            .collect()
+    } else {
+        followed(&asked)
+    };
     let lap = laps / 2;
     (0..count)
         .map(|point| {

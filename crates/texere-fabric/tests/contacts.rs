@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use texere_core::{ControlPoint, Material, PlanError, Section, Segment, Settings, Yarn, Yarns};
 use texere_fabric::{
     CLEARANCE_ACCURACY, CLEARANCE_NEAR, CONTACTS_LISTED, Contact, FabricError, NO_CROSSING, Shape, Thread,
-    Weave, Woven, clearance,
+    Weave, Woven, YarnPlace, clearance,
 };
 
 use oracle::{ellipse, refined_clearance, round_clearance, surface_clearance};
@@ -620,4 +620,46 @@ fn a_contact_just_before_a_knot_is_found() {
     let points = points.map(|[x, y, z]| [x, y, z, 0.1]).to_vec();
     let found = clearance(&yarns(&Section::Circle, &[(false, points)]), &Settings::default()).unwrap();
     assert!(found.min < 0.162, "{}", found.min);
+}
+
+/// Two yarns cross just where each has a control point, and are symmetric about it: of the four pairs of intervals one has the contact, whatever
+/// rounding says.
+#[test]
+fn a_crossing_on_a_control_point_is_one_contact() {
+    let mut state = 1_u64;
+    let mut random = |low: f32, high: f32| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((state >> 40) as f32 / (1 << 24) as f32)
+    };
+    let mut least = 0;
+    for number in 0..3000 {
+        let out = |point: [f32; 3]| {
+            [[-point[0], -point[1], point[2], 0.125], [point[0], point[1], point[2], 0.125]]
+        };
+        // The first falls to both sides, the other rises or falls; they cross at any angle but a flat one.
+        let turn = random(0.6, 2.5);
+        let [near, far] = [random(0.3, 0.7), random(0.8, 1.5)];
+        let height = random(0.1, 0.24);
+        let one = [[near, 0.0, -random(0.02, 0.2)], [far, 0.0, -random(0.3, 0.8)]].map(out);
+        let other = [[near, height + random(-0.01, 0.3)], [far, height + random(0.0, 0.6)]];
+        let other = other.map(|[along, z]| out([along * turn.cos(), along * turn.sin(), z]));
+        let lay = |[near, far]: [[[f32; 4]; 2]; 2], z: f32| {
+            vec![far[0], near[0], [0.0, 0.0, z, 0.125], near[1], far[1]]
+        };
+        let both = yarns(&Section::Circle, &[(false, lay(one, 0.0)), (false, lay(other, height))]);
+        let found = clearance(&both, &Settings::default()).unwrap();
+        let middle = f64::from(height) / 0.25;
+        let is_there = |place: &YarnPlace| place.position[0].hypot(place.position[1]) < 1e-4;
+        let at_knot = found.worst.iter().filter(|contact| contact.places.iter().all(is_there)).count();
+        // Nearer on all sides of the control points they meet elsewhere.
+        let round_about = (0..64).map(|k| {
+            let (sin, cos) = (TAU * f64::from(k) / 64.0).sin_cos();
+            place(&both, 0, 2.0 + 0.05 * cos).0.distance(place(&both, 1, 2.0 + 0.05 * sin).0) / 0.25
+        });
+        let is_least = round_about.fold(f64::INFINITY, f64::min) > middle + 1e-5;
+        least += usize::from(is_least);
+        let is_found = !is_least || found.min < middle + CLEARANCE_ACCURACY;
+        assert!(is_found && at_knot <= 1, "{number}: {:?} for {middle}", found.worst);
+    }
+    assert!(least > 1000, "{least} that meet at their control points");
 }

@@ -61,7 +61,8 @@ impl RestReport {
 }
 
 impl Cloth {
-    /// The design. Where it asks for a stretch, its structure is stretched.
+    /// The design. Once its cloth was stretched the structure is the stretched one, [`Design::stretch`] is none, and [`Design::finish`] has the
+    /// tensions that go with it.
     #[must_use]
     pub const fn design(&self) -> &Design {
         &self.design

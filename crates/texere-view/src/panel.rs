@@ -1,6 +1,6 @@
 //! What stands beside the cloth: its name, what can be chosen, and how long a picture takes.
 
-use eframe::egui::{Button, Panel, ProgressBar, ScrollArea, Slider, Ui};
+use eframe::egui::{Button, Panel, ProgressBar, ScrollArea, Slider, SliderClamping, Ui};
 use texere::{Settings, TWIST_SUBDIVISIONS_MAX};
 
 use crate::Event;
@@ -57,8 +57,13 @@ impl<T: FnMut(&Event)> Window<T> {
 
     fn mesh(&self, ui: &mut Ui, cloth: &Cloth) {
         let Settings { mut sides, mut subdivisions, mut tension, .. } = cloth.settings;
+        // A polygon has the sides that it has.
+        let is_round = cloth.yarns.layout().corners().is_none();
         let changed = [
-            ui.add(Slider::new(&mut sides, 3..=32).text("sides")),
+            ui.add_enabled(
+                is_round,
+                Slider::new(&mut sides, 3..=32).clamping(SliderClamping::Edits).text("sides"),
+            ),
             ui.add(Slider::new(&mut subdivisions, 0..=TWIST_SUBDIVISIONS_MAX).text("subdivisions")),
             ui.add(Slider::new(&mut tension, 0.0..=0.95).text("tension")),
         ];

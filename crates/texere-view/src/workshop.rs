@@ -338,7 +338,8 @@ impl Workshop {
         let Some((yarns, is_settled)) = &self.yarns else { return };
         let mut settings = self.view.settings;
         let lies_close = *is_settled && self.design.structure.woven().is_some();
-        settings.sides = self.view.sides.unwrap_or_else(|| texere::picture_sides(yarns, lies_close));
+        let sides = yarns.layout().corners().or(self.view.sides);
+        settings.sides = sides.unwrap_or_else(|| texere::picture_sides(yarns, lies_close));
         settings = match self.view.subdivisions {
             Some(subdivisions) => Settings { subdivisions, ..settings },
             None => settings.following_fibres(yarns),

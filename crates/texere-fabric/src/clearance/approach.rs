@@ -66,9 +66,9 @@ impl Side<'_> {
 /// Where two round yarns come nearest to one another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Approach {
-    /// The distance over the sum of the radii.
+    /// The distance over the sum of the radii: of the place of both intervals that is nearest to it, where it belongs to others.
     pub(super) ratio: f64,
-    /// Its parameters; none where it belongs to other intervals, to which the way was followed only a little.
+    /// Its parameters; none where it belongs to other intervals.
     pub(super) own: Option<DVec2>,
     /// Whether it lies in a valley: the distance hardly rises along it, and may fall further on.
     pub(super) valley: bool,
@@ -78,13 +78,25 @@ pub(super) struct Approach {
 pub(super) fn refine(one: Side<'_>, other: Side<'_>, start: DVec2) -> Approach {
     let (place, ratio, curved) = nearest(one, other, start);
     let own = own(one, other, place, ratio).zip(own(other, one, place.yx(), ratio)).map(DVec2::from);
+    let ratio = if own.is_some() {
+        ratio
+    } else {
+        let place = place.clamp(DVec2::ZERO, DVec2::ONE);
+        ratio_of(&one.cubic.at(place.x), &other.cubic.at(place.y))
+    };
     Approach { ratio, own, valley: curved < VALLEY }
+}
+
+/// The distance of two places over the sum of their radii.
+fn ratio_of(a: &At, b: &At) -> f64 {
+    (a.position - b.position).length() / (a.radius()[0] + b.radius()[0])
 }
 
 /// The first parameter of an approach, if it is its interval's.
 ///
-/// At a knot within a yarn the earlier interval has it where the distance falls clearly before the knot, as
-/// [`Passing::leaves_to_neighbours`](super::passing::Passing::leaves_to_neighbours) has it: an interval that is left out there has no approach either way.
+/// At a knot within a yarn the earlier interval has it where the distance rises clearly at the knot, so that it is least before. Both intervals see
+/// the same slope there, and one that
+/// [`Passing::leaves_to_neighbours`](super::passing::Passing::leaves_to_neighbours) leaves out never has it.
 fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64> {
     let knot = place.x.round();
     if (place.x - knot).abs() >= AT_KNOT || side.cut[usize::from(knot > 0.0)] {
@@ -93,7 +105,7 @@ fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64>
     let (at, beside) = (side.cubic.at(knot), other.cubic.at(place.y));
     let (apart, radii) = (at.position - beside.position, at.radius()[0] + beside.radius()[0]);
     let slope = apart.dot(at.velocity) - ratio * ratio * radii * at.radius()[1];
-    let rises = slope > LEVEL * apart.length() * at.velocity.length();
+    let rises = slope > 1.5 * LEVEL * radii * at.velocity.length();
     (rises == (knot > 0.0)).then_some(knot)
 }
 
@@ -101,12 +113,11 @@ fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64>
 /// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967): the parameters, the ratio, and its least
 /// curvature there.
 fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
-    let ratio = |a: &At, b: &At| (a.position - b.position).length() / (a.radius()[0] + b.radius()[0]);
     let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
     let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));
     let mut place = held_at(start);
     let (mut a, mut b) = at(place);
-    let mut lambda = ratio(&a, &b);
+    let mut lambda = ratio_of(&a, &b);
     // The least curvature of half the squared distance, by the same measure that is used below: 1 - |cos| of straight lines.
     let mut curved = f64::INFINITY;
     for _ in 0..STEPS {
@@ -170,7 +181,7 @@ fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
             let next = held_at(place + step);
             let moved = (next - place).abs().max_element();
             let (next_a, next_b) = at(next);
-            let next_lambda = ratio(&next_a, &next_b);
+            let next_lambda = ratio_of(&next_a, &next_b);
             if next_lambda <= lambda || moved < CLOSE {
                 (place, a, b, lambda) = (next, next_a, next_b, next_lambda);
                 break moved;

@@ -4,12 +4,13 @@ use glam::DVec3;
 
 use super::interval::Cubic;
 
-/// What counts as level, in the distance looked within times the speed at a knot: rounding alone.
+/// What counts as level: half the slope of the squared distance at a knot, over the sum of both radii and the speed there.
 ///
-/// At a knot where the distance is level the later interval has it. So the earlier one may be left out where it is no
-/// further than this from level, the later one where it rises by twice as much at least: rounding can't lose it between
-/// the two.
-pub(super) const LEVEL: f64 = 1e-12;
+/// At a knot where the distance is level the later interval has it. The earlier one may be left out where the slope is no more than this, the
+/// later one where it is twice as much at least, and a contact at the knot goes by what lies between ([`refine`](super::approach::refine)). Refinement
+/// ends so near to the place on the other yarn that it is off by a hundredth of this. At 1e-12 rounding counts crossings on a knot twice
+/// (`a_crossing_on_a_control_point_is_one_contact`).
+pub(super) const LEVEL: f64 = 1e-8;
 
 /// An interval as Bernstein coefficients, relative to where it begins so that nothing is lost far from the origin.
 #[derive(Debug, Clone, Copy)]
@@ -64,10 +65,9 @@ impl Passing {
     }
 
     /// Whether the interval comes nearest to `other` at one of its knots whatever the place on `other`, and that knot
-    /// is another interval's to report. `cut` says which of its ends are an open yarn's, `within` how near the two
-    /// may be.
-    pub(super) fn leaves_to_neighbours(&self, other: &Self, cut: [bool; 2], within: f64) -> bool {
-        let level = |velocity: DVec3| LEVEL * within * velocity.length();
+    /// is another interval's to report. `cut` says which of its ends are an open yarn's, `radii` the sum of both radii.
+    pub(super) fn leaves_to_neighbours(&self, other: &Self, cut: [bool; 2], radii: f64) -> bool {
+        let level = |velocity: DVec3| LEVEL * radii * velocity.length();
         let (rises, falls) = (2.0 * level(self.velocities[0]), level(self.velocities[2]));
         (!cut[0] && self.all_slopes(other, |slope| slope > rises))
             || (!cut[1] && self.all_slopes(other, |slope| slope <= falls))

@@ -254,8 +254,8 @@ impl<'a> Probe<'a> {
         let cuts = [one, other].map(|part| part.line.cut(part.point));
         let same = one.line.yarn == other.line.yarn;
         let passes_by = if a.even && b.even {
-            a.passing.leaves_to_neighbours(&b.passing, cuts[0], within)
-                || b.passing.leaves_to_neighbours(&a.passing, cuts[1], within)
+            a.passing.leaves_to_neighbours(&b.passing, cuts[0], reach)
+                || b.passing.leaves_to_neighbours(&a.passing, cuts[1], reach)
         } else {
             same && one.line.leads_on(one.point, other.point)
         };

@@ -13,6 +13,9 @@ use super::keys::Keys;
 use super::knit::KnittedFrom;
 use super::refusal::Refusal;
 
+/// The most control points among which the place that is too crowded to settle is looked for: a second's work.
+const CROWDED_POINTS: usize = 1 << 18;
+
 /// A design, read and checked.
 ///
 /// ```no_run
@@ -177,6 +180,9 @@ impl Design {
     /// The line of a knitout file whose yarn lies where it is most crowded.
     fn crowded(&self) -> Option<Place> {
         let (from, yarns) = (self.knitted_from.as_ref()?, self.yarns().ok()?);
+        if yarns.points().len() > CROWDED_POINTS {
+            return None;
+        }
         let found = clearance(&yarns, &Settings::of(&yarns)).ok()?;
         let nearest = || found.worst.first().map(|contact| contact.places[0]);
         from.line(found.crowd.map(|crowd| crowd.place).or_else(nearest)?.source?)

@@ -293,7 +293,7 @@ fn what_is_wrong_is_named() {
     let plan = |problem: &Crossings| CrossingsPlan::new(problem).map(|_| ());
     let plain = || Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     let few = Crossings::new(vec![true; 2], vec![thread; 2], vec![thread; 1]);
-    assert_eq!(plan(&few), Err(CrossingsError::TooFew { what: "picks", count: 1, least: 2 }));
+    assert_eq!(plan(&few), Err(CrossingsError::TooFew { what: "pick", count: 1, least: 2 }));
     let short = Crossings::new(vec![true; 3], vec![thread; 2], vec![thread; 2]);
     assert_eq!(plan(&short), Err(CrossingsError::Drawdown { ups: 3, ends: 2, picks: 2 }));
     for wrong in [f32::NAN, f32::INFINITY, -1.0, 0.0] {

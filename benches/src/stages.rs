@@ -86,7 +86,6 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<
         stages.rests = Rests::of(finished);
     }
     let (_, yarns) = cloth.into_parts();
-    clock.lap();
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
     // Two chunks of this size fit on the devices that are measured.
     let limits = device.info().limits.min(&Limits { memory_bytes: CHUNKS, ..Limits::NONE });

@@ -33,6 +33,6 @@ pub use broken_settler::{SabotagedSettler, SettlingSabotage};
 pub use check::{check, check_within};
 pub use deferred::DeferredBackend;
 pub use packed::{PackedError, check_packed};
-pub use registry::{Entry, OpenAll, REGISTRY, near_devices};
+pub use registry::{Entry, OpenAll, REGISTRY, editing_devices, near_devices};
 pub use sabotage::{Sabotage, SabotagedBackend};
 pub use suite::run;

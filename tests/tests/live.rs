@@ -8,10 +8,9 @@ use proptest::test_runner::{Config, TestRunner};
 use texere::weft::{Beds, Cell, Chart, Gauge, KnitYarn, Knitted, Machine};
 use texere::{
     Backend, ControlPoint, Drawdown, Finish, Frame, Live, LiveError, Material, MeshPiece, Picker, Pipeline,
-    Plan, Ray, Relief, Schedule, Section, Settings, Structure, Thread, Vertex, Woven, WovenDesign, Yarn,
-    Yarns,
+    Plan, Ray, Relief, Section, Settings, Structure, Thread, Vertex, Woven, WovenDesign, Yarn, Yarns,
 };
-use texere_conformance::REGISTRY;
+use texere_conformance::editing_devices;
 
 const ENDS: usize = 23;
 const PICKS: usize = 17;
@@ -249,13 +248,9 @@ fn sorted(mut yarns: Vec<Vec<[Vertex; 3]>>) -> Vec<Vec<[Vertex; 3]>> {
 fn devices() -> &'static [Arc<dyn Backend>] {
     static DEVICES: OnceLock<Vec<Arc<dyn Backend>>> = OnceLock::new();
     DEVICES.get_or_init(|| {
-        let entries = REGISTRY.iter().filter(|entry| entry.name != "deferred");
-        let devices = entries.flat_map(|entry| {
-            let (devices, missing) = entry.devices();
-            assert!(missing.is_empty(), "{missing:?}");
-            devices
-        });
-        devices.filter(|device| device.info().schedule != Schedule::PerYarn).collect()
+        let (devices, missing) = editing_devices();
+        assert!(missing.is_empty(), "{missing:?}");
+        devices
     })
 }
 

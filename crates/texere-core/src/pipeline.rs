@@ -59,11 +59,9 @@ impl<'a> Pipeline<'a> {
     /// is as large as [`Settings::following`] says, and tubes of a polygon have as many sides as it has corners, unless these are chosen.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
-        let usual = Settings::default();
-        let sides = yarns.layout().corners().unwrap_or(usual.sides);
         Self {
             yarns,
-            settings: Settings { sides, ..usual },
+            settings: Settings::sided(yarns),
             follows_twist: true,
             limits: Limits::default(),
             within: None,

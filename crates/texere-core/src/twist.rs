@@ -95,9 +95,13 @@ impl Settings {
     /// many sides as a polygon has [corners](crate::Layout::corners).
     #[must_use]
     pub fn of(yarns: &Yarns) -> Self {
+        Self::sided(yarns).following(yarns)
+    }
+
+    /// [`Settings::default`], but for as many sides as a polygon among the sections has corners.
+    pub(crate) fn sided(yarns: &Yarns) -> Self {
         let usual = Self::default();
-        let sides = yarns.layout().corners().unwrap_or(usual.sides);
-        Self { sides, ..usual }.following(yarns)
+        Self { sides: yarns.layout().corners().unwrap_or(usual.sides), ..usual }
     }
 
     /// The same with so many subdivisions that rings follow the twist of all `yarns`: it turns none by more than [`TWIST_STEP`] from one ring

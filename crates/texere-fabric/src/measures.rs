@@ -152,7 +152,7 @@ impl Measures {
         });
         Ok(Self {
             crimp: Some([crimp(0), crimp(1)]),
-            cover: Some(Cover::new(cloth, yarns)?),
+            cover: Some(Cover::of(cloth, yarns, whole, by_weight)),
             knit: None,
             areal_weight: weights.into_iter().sum(),
             length_mm,
@@ -203,7 +203,11 @@ impl Cover {
     /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
-        let whole = cloth.whole();
+        Ok(Self::of(cloth, yarns, cloth.whole(), cloth.whole_by_weight()))
+    }
+
+    /// The cover, measured in so many threads of either set as [`Woven::whole`] and [`Woven::whole_by_weight`] say.
+    fn of(cloth: &Woven, yarns: &Yarns, whole: [(usize, f64); 2], by_weight: [(usize, f64); 2]) -> Self {
         let sets = [(cloth.warp(), whole[0]), (cloth.weft(), whole[1])]
             .map(|(set, (count, mm))| (&set[..count], mm));
         let turns = |threads: &[Thread], section: usize| {
@@ -230,7 +234,6 @@ impl Cover {
         }
         let fraction = [0, 1].map(|set| f64::min(taken[set] / sets[set].1, 1.0));
         // n / √N added up thread by thread: each has its own count.
-        let by_weight = cloth.whole_by_weight();
         let factors =
             [(cloth.warp(), by_weight[0]), (cloth.weft(), by_weight[1])].map(|(set, (count, across))| {
                 let threads = &set[..count];
@@ -242,12 +245,12 @@ impl Cover {
                 sum.map(|sum| sum / (across / INCH_MM))
             });
         let factor = if let [Some(warp), Some(weft)] = factors { Some([warp, weft]) } else { None };
-        Ok(Self {
+        Self {
             factor,
             cloth_factor: factor.map(|[warp, weft]| warp + weft - warp * weft / PEIRCE),
             fraction,
             cloth: fraction[0] + fraction[1] - fraction[0] * fraction[1],
-        })
+        }
     }
 }
 

@@ -41,10 +41,7 @@ impl fmt::Display for RestReport {
         match self {
             Self::Placed(_) => write!(f, "placed as the structure says"),
             Self::Finished(finished) => finished.verdict().fmt(f),
-            Self::Refused { reason: Refusal::Key { place, source }, .. } => {
-                write!(f, "placed as the structure says: {place}: {source}")
-            }
-            Self::Refused { reason, .. } => write!(f, "placed as the structure says: {reason}"),
+            Self::Refused { reason, .. } => write!(f, "placed as the structure says: {}", reason.why()),
         }
     }
 }
@@ -188,10 +185,7 @@ impl<'a> Resting<'a> {
         let on = |share| progress(done + (1.0 - done) * share);
         let report = match design.structure.settle(&design.finish, tension, device, on) {
             Ok(finished) => RestReport::Finished(finished),
-            Err(error @ FinishError::Crossings(CrossingsError::OutOfMemory { .. })) => {
-                return Err(design.refused(error));
-            }
-            Err(error @ FinishError::Crossings(_)) => {
+            Err(FinishError::Crossings(error)) if !matches!(error, CrossingsError::OutOfMemory { .. }) => {
                 let yarns = design.yarns().map_err(|error| design.refused(error))?;
                 RestReport::Refused { yarns, reason: design.refused(error) }
             }

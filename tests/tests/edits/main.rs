@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use texere_conformance::REGISTRY;
+use texere_conformance::{REGISTRY, editing_devices};
 use texere_core::{
     Attribute, Backend, BackendError, ControlPoint, DeviceKind, Edits, End, Frame, Limits, LiveMesh, Mesh,
     MeshPiece, Pipeline, PipelineError, Plan, Schedule, Section, SessionError, Settings, Topology, Vertex,
@@ -333,13 +333,9 @@ fn a_round_yarn_does_not_hang_on_flattened_ones() {
 
 /// Devices on which yarns are edited.
 fn editing() -> Vec<Arc<dyn Backend>> {
-    let entries = REGISTRY.iter().filter(|entry| entry.name != "deferred");
-    let devices = entries.flat_map(|entry| {
-        let (devices, missing) = entry.devices();
-        assert!(missing.is_empty(), "{missing:?}");
-        devices
-    });
-    devices.filter(|device| device.info().schedule != Schedule::PerYarn).collect()
+    let (devices, missing) = editing_devices();
+    assert!(missing.is_empty(), "{missing:?}");
+    devices
 }
 
 /// Where blocks end, a point has a part in the rings of two of them.

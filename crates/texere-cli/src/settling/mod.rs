@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::Deref;
 
 use serde::Serialize;
-use texere::{Backend, BackendError, Cloth, ClothClearance, Design, Finished, Output, Refusal, RestReport};
+use texere::{Backend, BackendError, Cloth, ClothClearance, Design, Finished, Output, RestReport};
 
 use crate::args::SettlingArgs;
 use crate::clearance::least;
@@ -71,10 +71,7 @@ impl SettlingReport {
             RestReport::Finished(Finished::Woven(rest)) => {
                 Some(Self::Woven(WovenRestReport::new(rest, device)))
             }
-            RestReport::Refused { reason: Refusal::Key { place, source }, .. } => {
-                Some(Self::Refused { refused: format!("{place}: {source}") })
-            }
-            RestReport::Refused { reason, .. } => Some(Self::Refused { refused: reason.to_string() }),
+            RestReport::Refused { reason, .. } => Some(Self::Refused { refused: reason.why() }),
             _ => None,
         }
     }

@@ -168,11 +168,7 @@ impl Cubic {
 
     /// How far the interval lies from the straight line between its ends at most, mm.
     pub(super) fn bend(&self) -> f64 {
-        let [start, leaving, arriving, end] = self.hull();
-        // The inner two of the four Bézier weights add up to 3/4 at most.
-        let one = (leaving - start.lerp(end, 1.0 / 3.0)).length_squared();
-        let other = (arriving - start.lerp(end, 2.0 / 3.0)).length_squared();
-        0.75 * one.max(other).sqrt()
+        off_chord(self.hull())
     }
 
     /// How far the interval lies from `count` chords at most, mm, squared.
@@ -235,7 +231,8 @@ impl Chords {
     pub(super) fn approaches(
         &self,
         other: &Self,
-        (within, edges): (f64, bool),
+        within: f64,
+        edges: bool,
         mut start: impl FnMut([DVec2; 2]),
     ) {
         /// A row of pairs, and one place more on each side.
@@ -283,6 +280,14 @@ impl Chords {
     fn chord(&self, number: usize) -> [DVec3; 2] {
         [self.corners[number], self.corners[number + 1]]
     }
+}
+
+/// How far a curve of this Bézier polygon lies from the chord between its ends at most, at any parameter, mm.
+pub(super) fn off_chord([start, leaving, arriving, end]: [DVec3; 4]) -> f64 {
+    // The inner two of the four Bézier weights add up to 3/4 at most.
+    let one = (leaving - start.lerp(end, 1.0 / 3.0)).length_squared();
+    let other = (arriving - start.lerp(end, 2.0 / 3.0)).length_squared();
+    0.75 * one.max(other).sqrt()
 }
 
 /// Squared distance of two straight segments, and where along each they are nearest, from 0 to 1.

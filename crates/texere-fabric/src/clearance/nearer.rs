@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec4, Vec4Swizzles};
 
-use super::interval::{Cubic, closest};
+use super::interval::{Cubic, closest, off_chord};
 
 /// How often an interval is halved at most: pieces so short are as near as their middles are.
 const HALVINGS: u32 = 12;
@@ -40,11 +40,7 @@ impl Piece {
 
     /// How far the piece lies from the chord between its ends at most, mm.
     fn bend(&self) -> f64 {
-        let [start, leaving, arriving, end] = self.corners.map(DVec4::xyz);
-        // The inner two of the four Bézier weights add up to 3/4 at most.
-        let one = (leaving - start.lerp(end, 1.0 / 3.0)).length_squared();
-        let other = (arriving - start.lerp(end, 2.0 / 3.0)).length_squared();
-        0.75 * one.max(other).sqrt()
+        off_chord(self.corners.map(DVec4::xyz))
     }
 
     /// How far another piece's polygon lies from this one's, by the direction between two places of their chords, mm.

@@ -298,7 +298,7 @@ impl<'a> Probe<'a> {
         if !discs && surfaces.iter().any(|surface| !surface.is_simple()) {
             // Surfaces that have lobes or turn may come near in many places, whatever the centrelines do.
             let mut all = Vec::new();
-            chords[0].approaches(chords[1], (within, false), |starts| all.push(starts[0]));
+            chords[0].approaches(chords[1], within, false, |starts| all.push(starts[0]));
             let touching = if all.is_empty() { None } else { touch(surfaces, &all, apart) };
             if let Some((place, ratio)) = touching {
                 add(place, ratio, found);
@@ -330,7 +330,7 @@ impl<'a> Probe<'a> {
             }
         };
         // Of a yarn with itself, what lies beside the knot that two intervals share hides an approach further along.
-        chords[0].approaches(chords[1], (within, same && round), |starts| {
+        chords[0].approaches(chords[1], within, same && round, |starts| {
             // The first may lead out of the interval to an approach beside this one's own.
             let reached = starts.into_iter().find_map(|start| match round {
                 true => refined(start),

@@ -34,3 +34,14 @@ pub enum Refusal {
     #[error(transparent)]
     Other(#[from] FinishError),
 }
+
+impl Refusal {
+    /// Why, in one line, with the place that asks for it where a key does: for a cloth that is there all the same.
+    #[must_use]
+    pub fn why(&self) -> String {
+        match self {
+            Self::Key { place, source } => format!("{place}: {source}"),
+            refusal => refusal.to_string(),
+        }
+    }
+}

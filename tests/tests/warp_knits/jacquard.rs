@@ -57,10 +57,13 @@ fn clear(cloth: &WarpKnitted) -> f64 {
 /// Thick places in every second column: neighbours share needles all the way up to the cut edge, where they once met.
 #[test]
 fn figures_are_as_clear_where_they_are_cut_off() {
-    for (size, figure) in [([12, 8], "bars"), ([6, 5], "checks"), ([8, 6], "figure")] {
+    // Of 100 figures drawn at random the one whose legs bend most unlike one another above the cloth.
+    let random = [1_u8, 1, 2, 1, 0, 0, 0, 0, 2, 0, 0, 1, 0, 2, 0, 0, 2, 2];
+    for (size, figure) in [([12, 8], "bars"), ([6, 5], "checks"), ([8, 6], "figure"), ([6, 3], "random")] {
         let colour = |wale: u32, row: u32| match figure {
             "bars" => (wale / 2 % 3) as u8,
             "checks" => ((wale / 2 + row / 2) % 3) as u8,
+            "random" => random[(wale + 6 * row) as usize],
             _ => ((wale * wale + 3 * row + wale * row) % 3) as u8,
         };
         for diameter in DIAMETERS {

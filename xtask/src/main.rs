@@ -7,6 +7,7 @@ mod demo;
 mod instructions;
 mod mutants;
 mod mutate;
+mod publishing;
 mod sources;
 mod steps;
 mod workspace;
@@ -16,7 +17,6 @@ use std::process::ExitCode;
 
 use demo::vulkan;
 use steps::{Steps, root};
-use workspace::Package;
 
 /// Debian's packages that run both GPU backends on a CPU: an OpenCL loader with PoCL, a Vulkan loader with lavapipe.
 const SOFTWARE_DEVICES: [&str; 4] =
@@ -64,7 +64,7 @@ fn main() -> ExitCode {
             eprintln!("  gallery  the pictures of docs/gallery");
             eprintln!("  test   all tests, doctests and the conformance suite");
             eprintln!(
-                "  check  formatting, lints, docs, licences, packages, instruction counts and the README's main command"
+                "  check  formatting, lints, docs, licences, spelling, packages, instruction counts and the README's main command"
             );
             eprintln!("  sources  circles of files, long functions and wide comments");
             eprintln!(
@@ -160,12 +160,26 @@ fn check(steps: &mut Steps) {
     }
     // Advisories need a database that is fetched from the net at run time; the weekly workflow checks them.
     steps.cargo("licences and sources", &["deny", "--locked", "check", "bans", "licenses", "sources"], &[]);
-    let packages = match workspace::packages() {
-        Ok(packages) => packages,
-        Err(error) => return steps.fail(error),
-    };
-    for Package { name, .. } in packages.iter().filter(|package| package.published) {
-        let list = format!("package list of {name}");
-        steps.cargo(&list, &["package", "--list", "--allow-dirty", "--package", name], &[]);
+    spelling(steps);
+    publishing::check(steps);
+}
+
+/// The version of `typos` whose words the sources are held to.
+const TYPOS: &str = "1.52.0";
+
+/// Words that are mistyped, but for those in `typos.toml`. The program comes from PyPI, built, where there is Python's installer; else cargo
+/// builds it.
+fn spelling(steps: &mut Steps) {
+    let folder = "target/typos";
+    let typos = format!("{folder}/bin/typos");
+    let installed = steps.output(&typos, &["--version"], &[]).is_some_and(|said| said.contains(TYPOS));
+    if !installed && steps.succeeds("python3", &["-m", "pip", "--version"]) {
+        let program = format!("typos=={TYPOS}");
+        let pip = ["python3", "-m", "pip", "install", "--quiet", "--upgrade", "--target", folder, &program];
+        steps.run("install typos", &pip, &[]);
+    } else if !installed {
+        let program = ["install", "typos-cli", "--version", TYPOS, "--locked", "--root", folder];
+        steps.cargo("install typos", &program, &[]);
     }
+    steps.run("spelling", &[&typos], &[]);
 }

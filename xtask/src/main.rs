@@ -7,30 +7,16 @@ mod demo;
 mod instructions;
 mod mutants;
 mod mutate;
+mod publishing;
+mod sources;
 mod steps;
+mod workspace;
 
 use std::collections::BTreeSet;
 use std::process::ExitCode;
 
 use demo::vulkan;
 use steps::{Steps, root};
-
-/// Crates that go to crates.io.
-const PUBLISHED: [&str; 13] = [
-    "texere-core",
-    "texere-fabric",
-    "texere-formats",
-    "texere-cpu",
-    "texere-gpu",
-    "texere-kernels",
-    "texere-opencl",
-    "texere-render",
-    "texere-shaders",
-    "texere-wgpu",
-    "texere",
-    "texere-view",
-    "texere-cli",
-];
 
 /// Debian's packages that run both GPU backends on a CPU: an OpenCL loader with PoCL, a Vulkan loader with lavapipe.
 const SOFTWARE_DEVICES: [&str; 4] =
@@ -57,6 +43,7 @@ fn main() -> ExitCode {
             install(&mut steps, "software devices", &SOFTWARE_DEVICES);
             bench_tables::run(&mut steps, &std::env::args().skip(2).collect::<Vec<_>>());
         }
+        Some("sources") => sources::run(&mut steps),
         Some("bundle") => bundle::run(&mut steps),
         Some("mutate") => {
             install(&mut steps, "software devices", &SOFTWARE_DEVICES);
@@ -71,14 +58,15 @@ fn main() -> ExitCode {
         }
         _ => {
             eprintln!(
-                "usage: cargo xtask <demo | gallery | test | check | mutate | instructions | bench-tables | bundle>"
+                "usage: cargo xtask <demo | gallery | test | check | sources | mutate | instructions | bench-tables | bundle>"
             );
             eprintln!("  demo   a picture of denim at rest; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
             eprintln!("  test   all tests, doctests and the conformance suite");
             eprintln!(
-                "  check  formatting, lints, docs, licences, packages, instruction counts and the README's main command"
+                "  check  formatting, lints, docs, licences, spelling, packages, instruction counts and the README's main command"
             );
+            eprintln!("  sources  circles of files, long functions and wide comments");
             eprintln!(
                 "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
             );
@@ -172,8 +160,26 @@ fn check(steps: &mut Steps) {
     }
     // Advisories need a database that is fetched from the net at run time; the weekly workflow checks them.
     steps.cargo("licences and sources", &["deny", "--locked", "check", "bans", "licenses", "sources"], &[]);
-    for package in PUBLISHED {
-        let name = format!("package list of {package}");
-        steps.cargo(&name, &["package", "--list", "--allow-dirty", "--package", package], &[]);
+    spelling(steps);
+    publishing::check(steps);
+}
+
+/// The version of `typos` whose words the sources are held to.
+const TYPOS: &str = "1.52.0";
+
+/// Words that are mistyped, but for those in `typos.toml`. The program comes from PyPI, built, where there is Python's installer; else cargo
+/// builds it.
+fn spelling(steps: &mut Steps) {
+    let folder = "target/typos";
+    let typos = format!("{folder}/bin/typos");
+    let installed = steps.output(&typos, &["--version"], &[]).is_some_and(|said| said.contains(TYPOS));
+    if !installed && steps.succeeds("python3", &["-m", "pip", "--version"]) {
+        let program = format!("typos=={TYPOS}");
+        let pip = ["python3", "-m", "pip", "install", "--quiet", "--upgrade", "--target", folder, &program];
+        steps.run("install typos", &pip, &[]);
+    } else if !installed {
+        let program = ["install", "typos-cli", "--version", TYPOS, "--locked", "--root", folder];
+        steps.cargo("install typos", &program, &[]);
     }
+    steps.run("spelling", &[&typos], &[]);
 }

@@ -1,0 +1,97 @@
+//! Where a name is defined.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::tree::{Crate, Module};
+
+/// What each file imports from which other one: names by both files' numbers.
+pub(super) type Imports = BTreeMap<(usize, usize), BTreeSet<String>>;
+
+/// How many modules may pass a name on to each other, so that a round of them ends.
+const PASSED_ON_MOST: usize = 16;
+
+/// What a name stands for within the crate.
+#[derive(Debug, Clone, Copy)]
+enum Meaning {
+    Module(usize),
+    /// Something that this file defines.
+    DefinedIn(usize),
+}
+
+/// What each file of a crate imports from which other one.
+pub(super) fn imports(read: &Crate) -> Imports {
+    let mut found = Imports::new();
+    for (number, module) in read.modules.iter().enumerate() {
+        // What is passed on is not needed here, unless a path in the code names it.
+        let used =
+            module.uses.iter().filter(|used| !used.passes_on && used.name != "*").map(|used| &used.path);
+        for path in used.chain(&module.paths) {
+            for meaning in read.meanings(number, path, PASSED_ON_MOST) {
+                let Meaning::DefinedIn(file) = meaning.0 else { continue };
+                if file != module.file {
+                    found.entry((module.file, file)).or_default().insert(meaning.1.to_owned());
+                }
+            }
+        }
+    }
+    found
+}
+
+impl Crate {
+    /// What a path stands for in a module, with the name that it is found by: a module and a function may have one name.
+    fn meanings<'a>(&self, module: usize, path: &'a [String], left: usize) -> Vec<(Meaning, &'a str)> {
+        let Some((first, mut rest)) = path.split_first() else { return Vec::new() };
+        let parent = self.modules[module].parent;
+        let mut found: Vec<(Meaning, &str)> = match first.as_str() {
+            "crate" => vec![(Meaning::Module(0), first)],
+            "self" => vec![(Meaning::Module(module), first)],
+            "super" => parent.map(|parent| (Meaning::Module(parent), first.as_str())).into_iter().collect(),
+            name => self.named(module, name, left).into_iter().map(|meaning| (meaning, name)).collect(),
+        };
+        while let Some((next, further)) = rest.split_first() {
+            let inner = found.iter().flat_map(|&(meaning, by)| match (meaning, next.as_str()) {
+                // A variant, or a function of a type.
+                (Meaning::DefinedIn(_), _) => vec![(meaning, by)],
+                (Meaning::Module(module), "super") => self.modules[module]
+                    .parent
+                    .map(|parent| (Meaning::Module(parent), by))
+                    .into_iter()
+                    .collect(),
+                (Meaning::Module(module), name) => {
+                    self.named(module, name, left).into_iter().map(|meaning| (meaning, name)).collect()
+                }
+            });
+            // What has further names behind it is the module, where there is one.
+            let mut inner: Vec<_> = inner.collect();
+            if !further.is_empty() && inner.iter().any(|inner| matches!(inner.0, Meaning::Module(_))) {
+                inner.retain(|inner| matches!(inner.0, Meaning::Module(_)));
+            }
+            (found, rest) = (inner, further);
+        }
+        found
+    }
+
+    /// What a name stands for in a module.
+    fn named(&self, number: usize, name: &str, left: usize) -> Vec<Meaning> {
+        let module: &Module = &self.modules[number];
+        let mut found: Vec<_> =
+            module.children.get(name).map(|&child| Meaning::Module(child)).into_iter().collect();
+        if module.items.contains(name) {
+            found.push(Meaning::DefinedIn(module.file));
+        }
+        let Some(left) = left.checked_sub(1) else { return found };
+        for used in &module.uses {
+            // A name that is used from itself, as `use clearance::clearance`, is that of a module first.
+            if used.name == name {
+                found.extend(self.meanings(number, &used.path, left).into_iter().map(|meaning| meaning.0));
+            } else if used.name == "*" {
+                for (meaning, _) in self.meanings(number, &used.path, left) {
+                    if let Meaning::Module(all) = meaning {
+                        found.extend(self.named(all, name, left));
+                    }
+                }
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,34 @@
+//! `cargo xtask sources`: what the sources keep to beyond what the compiler and clippy see.
+
+mod circles;
+mod comments;
+mod files;
+mod functions;
+
+use crate::steps::Steps;
+use crate::workspace;
+
+/// Prints each offence against the three rules, and fails where there is one.
+pub(crate) fn run(steps: &mut Steps) {
+    let packages = match workspace::packages() {
+        Ok(packages) => packages,
+        Err(error) => return steps.fail(error),
+    };
+    let (files, circles) = match files::all().and_then(|files| Ok((files, circles::find(&packages)?))) {
+        Ok(found) => found,
+        Err(error) => return steps.fail(error),
+    };
+    report(steps, "circles of files that import one another", &circles);
+    report(steps, "functions of more than 80 lines", &functions::find(&files));
+    report(steps, "comments wider than 100 columns", &comments::find(&files));
+}
+
+fn report(steps: &mut Steps, what: &str, offences: &[String]) {
+    println!("\n==> {what}: {}", offences.len());
+    for offence in offences {
+        println!("{offence}");
+    }
+    if !offences.is_empty() {
+        steps.fail(format!("{what}: {}", offences.len()));
+    }
+}

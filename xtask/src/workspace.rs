@@ -1,0 +1,69 @@
+//! The workspace's packages, as cargo tells them.
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use crate::steps::command;
+
+/// What the manifest of a published package says of it.
+const SAID: [&str; 6] = ["description", "license", "repository", "readme", "keywords", "categories"];
+
+/// A package of the workspace.
+#[derive(Debug)]
+pub(crate) struct Package {
+    pub(crate) name: String,
+    /// Whether it goes to crates.io.
+    pub(crate) published: bool,
+    /// The root files of its library and its programs.
+    pub(crate) roots: Vec<PathBuf>,
+    /// The packages of the workspace that it is built with.
+    pub(crate) needs: Vec<String>,
+    /// The keys of a published manifest that its own lacks.
+    pub(crate) unsaid: Vec<&'static str>,
+    /// Whether it is a library with features, and does not tell docs.rs which ones to show.
+    pub(crate) hides_features: bool,
+}
+
+/// All packages of the workspace.
+///
+/// **Errors**: a sentence, where cargo can't read the manifests.
+pub(crate) fn packages() -> Result<Vec<Package>, String> {
+    let ask = ["metadata", "--format-version", "1", "--no-deps", "--locked", "--quiet"];
+    let told = command("cargo", &ask).output().map_err(|error| format!("cargo metadata: {error}"))?;
+    if !told.status.success() {
+        return Err(format!("cargo metadata: {}", String::from_utf8_lossy(&told.stderr)));
+    }
+    let metadata: Value =
+        serde_json::from_slice(&told.stdout).map_err(|error| format!("cargo metadata: {error}"))?;
+    Ok(list(&metadata["packages"]).iter().map(package).collect())
+}
+
+fn package(value: &Value) -> Package {
+    let is = |target: &Value, kind: &str| list(&target["kind"]).iter().any(|known| known == kind);
+    let targets = list(&value["targets"]);
+    let linked = targets.iter().filter(|target| is(target, "lib") || is(target, "bin"));
+    let needed = list(&value["dependencies"]).iter();
+    let needed = needed.filter(|needed| needed["path"].is_string() && needed["kind"] != "dev");
+    let has_features = value["features"].as_object().is_some_and(|features| !features.is_empty());
+    let lacks = |key: &&str| value[*key].is_null() || value[*key].as_array().is_some_and(Vec::is_empty);
+    Package {
+        name: text(&value["name"]),
+        // `null` says that it may go to any registry, an empty list to none.
+        published: value["publish"].is_null(),
+        roots: linked.map(|target| text(&target["src_path"]).into()).collect(),
+        needs: needed.map(|needed| text(&needed["name"])).collect(),
+        unsaid: SAID.into_iter().filter(lacks).collect(),
+        hides_features: has_features
+            && targets.iter().any(|target| is(target, "lib"))
+            && value["metadata"]["docs"]["rs"].is_null(),
+    }
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}

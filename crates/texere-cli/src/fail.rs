@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use texere::crossings::CrossingsError;
 use texere::{
     BackendError, FabricError, FinishError, PipelineError, PlanError, ReadError, Refusal, RenderError,
-    SettlingError, WriteError,
+    Settings, SettlingError, WriteError,
 };
 
 use crate::terminal::line;
@@ -67,6 +67,24 @@ impl Fail {
         Self {
             code: USAGE,
             source: "--settling-plot is for knits: woven cloth comes to rest by its crossings".into(),
+        }
+    }
+
+    /// An `option` that only a design can do was given for the saved cloth in `path`.
+    pub(crate) fn needs_design(option: &str, path: &Path) -> Self {
+        let path = path.display();
+        Self {
+            code: USAGE,
+            source: format!("{option} needs a design: {path} holds saved yarns alone").into(),
+        }
+    }
+
+    /// Cloth whose splines have another tension than the one that files of yarns state.
+    pub(crate) fn unsaved_tension(tension: f32) -> Self {
+        let only = Settings::default().tension;
+        Self {
+            code: USAGE,
+            source: format!("a .yarns file holds splines of tension {only}, not {tension}").into(),
         }
     }
 

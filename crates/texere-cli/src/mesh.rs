@@ -2,14 +2,23 @@
 
 use std::io::IsTerminal;
 
-use texere::{Output, Pipeline};
+use texere::{Backend, Output, Pipeline, Settings, Yarns, counted};
 
-use crate::args::{MeshArgs, undersampled};
+use crate::args::{MeshArgs, is_yarns, undersampled};
 use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{drivers, print, progress, reading, settling};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
+    let tension = args.settings.tension;
+    if is_yarns(&args.output) && tension != Settings::default().tension {
+        return Err(Fail::unsaved_tension(tension));
+    }
+    if let Some(yarns) = reading::saved(&args.design, &args.settings, &args.settling)? {
+        let output = Output::to(&args.output).sparing([&args.design]);
+        let device = drivers::quietly(|| texere::open(&args.device))?;
+        return print::text(&written(args, &yarns, &*device, output)?);
+    }
     let mut design = reading::design(&args.design)?;
     if let Some(section) = &args.settings.section {
         design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
@@ -17,23 +26,35 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let output = Output::to(&args.output).sparing(design.files());
     let device = drivers::quietly(|| texere::open(&args.device))?;
     output.check()?;
-    let (cloth, settling) = settling::cloth(design, &args.settling, args.settings.tension, || Ok(&*device))?;
-    let yarns = cloth.yarns();
-    let settings = args.settings.of(yarns);
-    let bar = progress::bar(std::io::stderr().is_terminal());
-    let pipeline = Pipeline::new(yarns).settings(settings).progress(progress::reporter(&bar));
-    let written = texere::stream(pipeline, &*device, output)?;
-    bar.finish_and_clear();
-    let warnings = reading::unsaid(&cloth.warnings(), cloth.design().remarks());
-    for warning in warnings.into_iter().chain(undersampled(yarns, &settings)) {
+    let (cloth, settling) = settling::cloth(design, &args.settling, tension, || Ok(&*device))?;
+    let written = written(args, cloth.yarns(), &*device, output)?;
+    for warning in reading::unsaid(&cloth.warnings(), cloth.design().remarks()) {
         print::text(&format!("warning: {}\n", line(warning)))?;
     }
     if let Some(settling) = settling {
         print::text(&format!("settling: {}\n", line(settling)))?;
     }
-    print::text(&format!(
-        "{}: {} triangles, {} vertices, {} bytes, made by {}\n",
-        line(args.output.display()),
+    print::text(&written)
+}
+
+/// Writes the yarns, or their mesh. Gives the lines that say so.
+fn written(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output) -> Result<String, Fail> {
+    let path = line(args.output.display());
+    if is_yarns(&args.output) {
+        let bytes = texere::write_yarns(yarns, output)?;
+        let (count, points) = (yarns.layout().yarns().len(), yarns.points().len());
+        let (count, points) = (counted(count, "yarn"), counted(points, "control point"));
+        return Ok(format!("{path}: {count}, {points}, {bytes} bytes\n"));
+    }
+    let settings = args.settings.of(yarns);
+    let bar = progress::bar(std::io::stderr().is_terminal());
+    let pipeline = Pipeline::new(yarns).settings(settings).progress(progress::reporter(&bar));
+    let written = texere::stream(pipeline, device, output)?;
+    bar.finish_and_clear();
+    let warning = undersampled(yarns, &settings).map(|warning| format!("warning: {}\n", line(warning)));
+    Ok(format!(
+        "{}{path}: {} triangles, {} vertices, {} bytes, made by {}\n",
+        warning.unwrap_or_default(),
         written.triangles,
         written.vertices,
         written.bytes,

@@ -1,10 +1,11 @@
-//! Designs, and what their readers say of them.
+//! Designs, and what their readers say of them; saved yarns.
 
 use std::io::Write;
 use std::path::Path;
 
-use texere::Design;
+use texere::{Design, Yarns};
 
+use crate::args::{SettingsArgs, SettlingArgs, is_yarns};
 use crate::fail::Fail;
 use crate::terminal::line;
 
@@ -13,6 +14,24 @@ pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
     let design = texere::read(path)?;
     say(design.remarks());
     Ok(design)
+}
+
+/// The yarns in `path`, where they are saved ones; none of a design.
+///
+/// **Errors**: also for options that take a design.
+pub(crate) fn saved(
+    path: &Path,
+    settings: &SettingsArgs,
+    settling: &SettlingArgs,
+) -> Result<Option<Yarns>, Fail> {
+    if !is_yarns(path) {
+        return Ok(None);
+    }
+    let section = settings.section.as_ref().map(|_| "--section");
+    match section.or(settling.asked()) {
+        Some(option) => Err(Fail::needs_design(option, path)),
+        None => Ok(Some(texere::read_yarns(path)?.yarns)),
+    }
 }
 
 /// [`design`] for a report, which says itself what is wrong with the cloth. Gives what was said beforehand, too.

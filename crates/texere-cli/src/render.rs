@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use texere::{Background, Camera, Cut, Design, Extent, Output, Quality, Renderer};
+use texere::{Background, Camera, ControlPoint, Cut, Extent, Origin, Output, Quality, Renderer, Yarns};
 
 use crate::args::{RenderArgs, View, undersampled};
 use crate::fail::Fail;
@@ -28,22 +28,75 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
     Ok(())
 }
 
-/// From the design file to the picture. Gives a line for what was written.
-fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Result<String, Fail> {
-    let mut design = stages.time("read", || reading::design(&args.design))?;
-    if let Some(section) = &args.settings.section {
-        design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
+/// What is shown, and the files that its pictures go to.
+struct Shown {
+    outputs: Vec<Output>,
+    yarns: Yarns,
+    /// Whether threads lie so close that coarse tubes would pierce one another.
+    lies_close: bool,
+    /// The middles of the ends of woven cloth, and of its picks, mm.
+    middles: [Vec<f64>; 2],
+    settling: Option<SettlingReport>,
+}
+
+impl Shown {
+    /// What `args` name: a design's cloth, or a saved one.
+    fn new(args: &RenderArgs, stages: &mut Stages) -> Result<Self, Fail> {
+        let saved = stages.time("read", || reading::saved(&args.design, &args.settings, &args.settling))?;
+        match saved {
+            Some(yarns) => Self::of_saved(args, yarns),
+            None => Self::of_design(args, stages),
+        }
     }
-    let outputs = outputs(args, &design)?;
-    let open = || texere::open(&args.device);
-    let (cloth, settling) =
-        stages.time("yarns", || settling::cloth(design, &args.settling, args.settings.tension, open))?;
-    let (design, yarns) = cloth.into_parts();
-    let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
+
+    /// Saved woven cloth counts as cloth at rest, for that is what is saved.
+    fn of_saved(args: &RenderArgs, yarns: Yarns) -> Result<Self, Fail> {
+        let middles = saved_middles(&yarns);
+        let lies_close = middles.iter().all(|middles| !middles.is_empty());
+        let outputs = outputs(args, &[&args.design])?;
+        Ok(Self { outputs, yarns, lies_close, middles, settling: None })
+    }
+
+    fn of_design(args: &RenderArgs, stages: &mut Stages) -> Result<Self, Fail> {
+        let mut design = stages.time("read", || reading::design(&args.design))?;
+        if let Some(section) = &args.settings.section {
+            design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
+        }
+        let outputs = outputs(args, design.files())?;
+        let open = || texere::open(&args.device);
+        let (cloth, settling) =
+            stages.time("yarns", || settling::cloth(design, &args.settling, args.settings.tension, open))?;
+        let (design, yarns) = cloth.into_parts();
+        let lies_close = matches!(settling, Some(SettlingReport::Woven(_)));
+        let middles = design.structure.woven().map(|woven| woven.cloth().middles_mm()).unwrap_or_default();
+        Ok(Self { outputs, yarns, lies_close, middles, settling })
+    }
+}
+
+/// The middles of the ends and the picks among saved yarns, mm.
+fn saved_middles(yarns: &Yarns) -> [Vec<f64>; 2] {
+    let mut middles = [Vec::new(), Vec::new()];
+    for (number, yarn) in yarns.layout().yarns().iter().enumerate() {
+        let points = yarns.yarn_points(number).unwrap_or_default();
+        let middle = |axis: fn(&ControlPoint) -> f32| {
+            points.iter().map(|point| f64::from(axis(point))).sum::<f64>() / points.len() as f64
+        };
+        match yarn.origin {
+            Origin::End(_) => middles[0].push(middle(|point| point.x)),
+            Origin::Pick(_) => middles[1].push(middle(|point| point.y)),
+            _ => {}
+        }
+    }
+    middles
+}
+
+/// From the file to the pictures. Gives a line for each that was written.
+fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Result<String, Fail> {
+    let Shown { outputs, yarns, lies_close, middles, settling } = Shown::new(args, stages)?;
     let settings = args.settings.of_picture(&yarns, lies_close);
     let mut scene = stages.time("upload", || renderer.scene(&yarns, &settings))?;
     scene.set_background(args.background);
-    let cameras = cameras(args, &design, scene.extent())?;
+    let cameras = cameras(args, middles, scene.extent())?;
     let quality = Quality { supersampling: args.supersampling, ..Quality::default() };
     let mut text = settling.map(|settling| format!("settling: {}\n", line(settling))).unwrap_or_default();
     if let Some(warning) = undersampled(&yarns, &settings) {
@@ -68,8 +121,8 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     Ok(text)
 }
 
-/// The files that the pictures go to, once it is known that none would replace another, or the design.
-fn outputs(args: &RenderArgs, design: &Design) -> Result<Vec<Output>, Fail> {
+/// The files that the pictures go to, once it is known that none would replace another, or one of the files that were `read`.
+fn outputs(args: &RenderArgs, read: &[impl AsRef<Path>]) -> Result<Vec<Output>, Fail> {
     let output = &args.output;
     let paths = match args.view {
         View::Turntable => (1..=args.frames).map(|number| numbered(output, number)).collect(),
@@ -77,7 +130,7 @@ fn outputs(args: &RenderArgs, design: &Design) -> Result<Vec<Output>, Fail> {
     };
     let mut taken = HashSet::new();
     let checked = paths.into_iter().map(|path| {
-        let output = Output::to(&path).sparing(design.files());
+        let output = Output::to(&path).sparing(read);
         output.check()?;
         // What is not there yet is no link to another.
         let real = fs::canonicalize(&path).ok();
@@ -91,8 +144,8 @@ fn outputs(args: &RenderArgs, design: &Design) -> Result<Vec<Output>, Fail> {
 }
 
 /// The cameras, one for each picture.
-fn cameras(args: &RenderArgs, design: &Design, extent: &Extent) -> Result<Vec<Camera>, Fail> {
-    let (size, at) = (args.size, point_shown(args, design, extent)?);
+fn cameras(args: &RenderArgs, middles: [Vec<f64>; 2], extent: &Extent) -> Result<Vec<Camera>, Fail> {
+    let (size, at) = (args.size, point_shown(args, middles, extent)?);
     let width = args.width.unwrap_or(40.0 * extent.radius);
     let face = || match args.mm_per_pixel {
         Some(scale) => Camera::true_scale(extent, scale),
@@ -116,7 +169,7 @@ fn cameras(args: &RenderArgs, design: &Design, extent: &Extent) -> Result<Vec<Ca
 
 /// The point that was asked for, or else the middle of the cloth; in a cut that of a thread, since there is nothing to cut
 /// between two.
-fn point_shown(args: &RenderArgs, design: &Design, extent: &Extent) -> Result<[f32; 2], Fail> {
+fn point_shown(args: &RenderArgs, [ends, picks]: [Vec<f64>; 2], extent: &Extent) -> Result<[f32; 2], Fail> {
     let ([left, lower, _], [right, upper, _]) = (extent.low, extent.high);
     if let Some([x, y]) = args.at {
         return if (left..=right).contains(&x) && (lower..=upper).contains(&y) {
@@ -126,8 +179,6 @@ fn point_shown(args: &RenderArgs, design: &Design, extent: &Extent) -> Result<[f
         };
     }
     let [x, y] = [0.5 * (left + right), 0.5 * (lower + upper)];
-    let Some(woven) = design.structure.woven() else { return Ok([x, y]) };
-    let [ends, picks] = woven.cloth().middles_mm();
     Ok(match args.view {
         View::CutWarp => [x, nearest(picks, y)],
         View::CutWeft => [nearest(ends, x), y],

@@ -43,6 +43,30 @@ fn a_picture_has_the_size_that_was_asked_for() {
     assert_eq!(png_size(&path), [120, 90]);
 }
 
+/// Cloth at rest that was saved looks as it does when it comes from its design.
+#[test]
+fn saved_cloth_is_drawn_as_its_design_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let [design, saved] = ["poplin.toml", "poplin.yarns"].map(path);
+    let text = "weave = { notation = \"plain\", ends = 6, picks = 6 }\nyarns.a.diameter_mm = 0.143\n\
+        warp = { yarns = [\"a\"], spacing_mm = 0.19 }\nweft = { yarns = [\"a\"], spacing_mm = 0.35 }\n";
+    std::fs::write(&design, text).unwrap();
+    let yarns = texere::read(&design).unwrap().rest(&*texere::open("cpu").unwrap()).run().unwrap();
+    texere::write_yarns(yarns.yarns(), &saved).unwrap();
+    for view in ["face", "cut-warp", "cut-weft"] {
+        let [own, other] = ["own.png", "other.png"].map(path);
+        for (input, output) in [(&design, &own), (&saved, &other)] {
+            let done = render(&[input, "-o", output, "--size", "80x60", "--view", view]);
+            assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        }
+        assert!(std::fs::read(own).unwrap() == std::fs::read(other).unwrap(), "{view}: another picture");
+    }
+    let refused = render(&[&saved, "-o", &path("x.png"), "--settle"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("--settle needs a design"));
+}
+
 #[test]
 fn true_scale_makes_the_size() {
     let folder = tempfile::tempdir().unwrap();

@@ -351,8 +351,12 @@ impl Yarns {
         let unit = |(point, up): (usize, &[f32; 3])| {
             let up = Vec3::from_array(*up);
             // One of length 1 but for rounding stays as it is, so that ups which were read are the same to the bit when they are given again.
-            let is_unit = (up.length_squared() - 1.0).abs() <= 8.0 * f32::EPSILON;
-            (if is_unit { Some(up) } else { up.try_normalize() }).ok_or_else(|| {
+            let unit = |up: Vec3| {
+                let is_unit = (up.length_squared() - 1.0).abs() <= 8.0 * f32::EPSILON;
+                if is_unit { Some(up) } else { up.try_normalize() }
+            };
+            // Once more, for the square of a very short one has few digits, and so its length is only about 1 at first.
+            unit(up).and_then(unit).ok_or_else(|| {
                 let yarn = self.layout.offsets.partition_point(|&start| start <= point as u64) - 1;
                 YarnError::Up { yarn, point: point - self.layout.offsets[yarn] as usize, up: up.to_array() }
             })

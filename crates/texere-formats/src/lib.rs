@@ -12,9 +12,10 @@
 pub mod read;
 mod rest;
 pub mod write;
+mod yarns_file;
 
 pub use read::{
-    Design, MachineFault, NamedPlace, Place, ReadError, Refusal, Structure, Told, read, read_from,
+    Design, MachineFault, NamedPlace, Place, ReadError, Refusal, SavedYarns, Structure, Told, read, read_from,
 };
 pub use rest::{Cloth, RestReport, Resting};
 pub use write::WriteError;

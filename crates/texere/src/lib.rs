@@ -58,6 +58,7 @@
 //! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`] |
 //! | let cloth come to rest | [`Design::rest`] |
 //! | have a whole mesh in memory, write it | [`Pipeline::mesh`], [`write()`] |
+//! | save cloth at rest, and have it again without settling | [`write_yarns`], [`read_yarns`] |
 //! | write a mesh larger than memory, or a format of your own | [`stream`], [`Pipeline::stream`] |
 //! | have only what lies in a rectangle | [`Pipeline::within`] |
 //! | edit a cloth and keep its mesh on a device | [`Live`] |
@@ -174,6 +175,13 @@ pub use texere_formats::write::{wif as write_wif, wif_to as write_wif_to};
 pub use texere_formats::{
     Cloth, Design, MachineFault, NamedPlace, Place, ReadError, Refusal, RestReport, Resting, Told,
     WriteError, read, read_from,
+};
+pub use texere_formats::{
+    read::{SavedYarns, yarns as read_yarns, yarns_from as read_yarns_from},
+    write::{
+        repeat as write_repeat, repeat_to as write_repeat_to, yarns as write_yarns,
+        yarns_to as write_yarns_to,
+    },
 };
 #[cfg(feature = "opencl")]
 pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};

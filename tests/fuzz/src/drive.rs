@@ -5,11 +5,12 @@ use std::io::sink;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology};
+use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{FabricError, Finish, FinishError, Structure, clearance};
+use texere_formats::read::{self, SavedYarns, read};
 use texere_formats::write::{self, Side};
-use texere_formats::{Design, WriteError, read};
+use texere_formats::{Design, WriteError};
 
 /// The most crossings of a cloth whose yarns are made, and the most control points of one whose mesh is.
 const CROSSINGS: usize = 2_000;
@@ -35,6 +36,9 @@ pub enum Outcome {
 /// Where an error is long or would steer a terminal, a draft is not its cloth's, or a mesh has numbers that are none.
 #[must_use]
 pub fn drive(path: &Path) -> Outcome {
+    if path.extension().is_some_and(|ending| ending == "yarns") {
+        return saved(path);
+    }
     let mut design = match read(path) {
         Ok(design) => design,
         Err(error) => return Outcome::Refused(chain(&error)),
@@ -129,6 +133,21 @@ fn finished(design: &Design, outcome: Outcome) -> Outcome {
     outcome
 }
 
+/// Reads saved yarns, writes them again, and goes on to their mesh and their clearance.
+fn saved(path: &Path) -> Outcome {
+    let SavedYarns { yarns, boundary } = match read::yarns(path) {
+        Ok(saved) => saved,
+        Err(error) => return Outcome::Refused(chain(&error)),
+    };
+    let mut again = Vec::new();
+    write::repeat_to(&yarns, &boundary, &mut again).expect("a file in memory");
+    assert!(
+        std::fs::read(path).is_ok_and(|file| file == again),
+        "a file that is another one when it is written again"
+    );
+    meshed(&yarns)
+}
+
 /// Yarns, mesh, measures and clearance of a small cloth.
 fn cloth(structure: &Structure) -> Outcome {
     let yarns = match structure.yarns() {
@@ -139,6 +158,15 @@ fn cloth(structure: &Structure) -> Outcome {
         let counted = woven.cloth().point_count();
         assert_eq!(counted, yarns.points().len() as u64, "points that were not counted");
     }
+    let outcome = meshed(&yarns);
+    if outcome == Outcome::Taken {
+        let _ = structure.measures(&yarns, 0.0);
+    }
+    outcome
+}
+
+/// Mesh and clearance of a few yarns.
+fn meshed(yarns: &Yarns) -> Outcome {
     if yarns.points().len() > POINTS {
         return Outcome::Large;
     }
@@ -146,7 +174,7 @@ fn cloth(structure: &Structure) -> Outcome {
         Section::Polygon(corners) => Some(corners.len() as u32),
         _ => None,
     });
-    let pipeline = Pipeline::new(&yarns)
+    let pipeline = Pipeline::new(yarns)
         .sides(corners.unwrap_or(5))
         .subdivisions(1)
         .topology(Topology::Indexed)
@@ -161,8 +189,7 @@ fn cloth(structure: &Structure) -> Outcome {
         Err(PipelineError::Plan(PlanError::PolygonSides { .. })) => {}
         Err(error) => panic!("a mesh that could not be made: {}", chain(&error)),
     }
-    let _ = structure.measures(&yarns, 0.0);
-    let report = clearance(&yarns, &Settings::default()).expect("clearance of sound yarns");
+    let report = clearance(yarns, &Settings::default()).expect("clearance of sound yarns");
     assert!(report.min >= 0.0 && report.curvature_min >= 0.0, "{report:?}");
     Outcome::Taken
 }

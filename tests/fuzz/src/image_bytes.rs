@@ -103,7 +103,7 @@ fn palette(width: u32, height: u32, random: &mut Rng) -> Vec<u8> {
 }
 
 /// One field of two or four bytes, in either order, made one of [`FIELDS`].
-fn field(bytes: &mut [u8], random: &mut Rng) {
+pub(crate) fn field(bytes: &mut [u8], random: &mut Rng) {
     let value = FIELDS[random.usize(..FIELDS.len())];
     let wide = if random.bool() { 4 } else { 2 };
     if bytes.len() < wide {

@@ -13,6 +13,7 @@ mod drive;
 mod image_bytes;
 mod text;
 mod watch;
+mod yarn_bytes;
 
 pub use drive::{Outcome, drive};
 pub use watch::fuzz;
@@ -36,11 +37,13 @@ pub enum Reader {
     Knit,
     /// Design files of warp knits, with an image that is mutated as well.
     WarpKnit,
+    /// Files of saved yarns.
+    Yarns,
 }
 
 impl Reader {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Wif,
         Self::Design,
         Self::Notation,
@@ -49,6 +52,7 @@ impl Reader {
         Self::Knitout,
         Self::Knit,
         Self::WarpKnit,
+        Self::Yarns,
     ];
 
     /// Its name, in lower case.
@@ -63,6 +67,7 @@ impl Reader {
             Self::Knitout => "knitout",
             Self::Knit => "knit",
             Self::WarpKnit => "warp-knit",
+            Self::Yarns => "yarns",
         }
     }
 }
@@ -106,6 +111,7 @@ impl Input {
                 ("design.toml", text::mutated(corpus::WARPS, random)),
                 ("motif.png", image_bytes::plain(random)),
             ],
+            Reader::Yarns => vec![("design.yarns", yarn_bytes::mutated(random))],
         };
         Self { files }
     }

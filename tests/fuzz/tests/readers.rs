@@ -51,6 +51,11 @@ fn designs_of_knits() {
 }
 
 #[test]
+fn saved_yarns() {
+    ten_thousand(Reader::Yarns);
+}
+
+#[test]
 fn designs_of_warp_knits() {
     ten_thousand(Reader::WarpKnit);
 }

@@ -11,6 +11,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
+pub(crate) use path::is_yarns;
 use path::{file_of, mesh_file};
 use render::point;
 pub(crate) use render::{RenderArgs, View};
@@ -39,7 +40,7 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     /// Say whether a cloth pierces itself, folds or jams, where, and what would cure it
     Check(CheckArgs),
-    /// Write a design's mesh to a .glb or .ply file
+    /// Write a design's mesh to a .glb or .ply file, or its cloth at rest to a .yarns file
     Mesh(MeshArgs),
     /// Draw a woven design's draft, or print its drawdown
     Draft(DraftArgs),
@@ -96,9 +97,9 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct MeshArgs {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine
+    /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved cloth
     pub(crate) design: PathBuf,
-    /// The file to write: .glb or .ply
+    /// The file to write: .glb or .ply; or .yarns, which saves the cloth at rest without a mesh, so that it need not settle again
     #[arg(short, long, value_name = "FILE", value_parser = mesh_file())]
     pub(crate) output: PathBuf,
     /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl, wgpu:nvidia, opencl:0/per-yarn

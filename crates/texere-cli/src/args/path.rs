@@ -1,16 +1,21 @@
 //! Paths, with the endings that they must have.
 
 use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use texere::Format;
 
-/// A path with the ending of a mesh file.
+/// Whether a path is that of saved yarns.
+pub(crate) fn is_yarns(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns"))
+}
+
+/// A path with the ending of a mesh file, or of saved yarns.
 pub(super) fn mesh_file() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| match Format::from_path(&path) {
-        Ok(_) => Ok(path),
-        Err(error) => Err(error.to_string()),
+        Err(error) if !is_yarns(&path) => Err(format!("{error}; and yarns, without a mesh")),
+        _ => Ok(path),
     })
 }
 

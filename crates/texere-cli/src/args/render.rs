@@ -10,7 +10,7 @@ use super::{SettingsArgs, SettlingArgs};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine
+    /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved cloth
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file; a turntable numbers its pictures: OUT-001.png and so on
     #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]

@@ -30,6 +30,12 @@ impl SettlingArgs {
     pub(crate) fn settles(&self, design: &Design) -> bool {
         self.rest.settles().unwrap_or(design.settle)
     }
+
+    /// The option that asks yarns to settle, if one does.
+    pub(crate) fn asked(&self) -> Option<&'static str> {
+        let plot = self.settling_plot.as_ref().map(|_| "--settling-plot");
+        if self.rest.settle { Some("--settle") } else { plot }
+    }
 }
 
 impl RestArgs {

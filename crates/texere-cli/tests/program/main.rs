@@ -12,6 +12,7 @@ mod knit;
 mod outputs;
 mod reading;
 mod rest;
+mod saved;
 mod settling;
 mod twist;
 mod warp_knit;

@@ -5,7 +5,7 @@ use texere::{Pipeline, RestReport, Settings};
 use crate::{stderr, texere};
 
 /// A weave that is stretched before it comes to rest, a knit and a warp knit, small.
-const DESIGNS: [(&str, &str); 3] = [
+pub(crate) const DESIGNS: [(&str, &str); 3] = [
     (
         "weave",
         "weave = { notation = \"2/1\", ends = 6, picks = 6 }\nyarns.a.diameter_mm = 0.143\n\

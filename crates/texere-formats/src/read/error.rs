@@ -3,8 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use texere_core::SectionError;
 use texere_core::counted;
+use texere_core::{BoundaryError, SectionError, YarnError};
 use texere_fabric::warp::ChainError;
 use texere_fabric::weft::ChartError;
 use texere_fabric::{FabricError, hyphen_look_alike};
@@ -371,6 +371,42 @@ pub enum ReadError {
         place: Place,
         /// Why.
         source: FabricError,
+    },
+    /// Yarns that were saved without the design that they are of, where a design is needed. [`read::yarns`](fn@crate::read::yarns) reads them.
+    #[error("{} holds saved yarns alone, and this needs the design that they are of", named(.file))]
+    WithoutDesign {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A value of a binary file that its format does not have there.
+    #[error("{}, byte {at}: {field} is {value}, expected {expected}", named(.file))]
+    Bytes {
+        /// The file.
+        file: PathBuf,
+        /// The byte at which the value begins, from 0.
+        at: u64,
+        /// What stands there.
+        field: &'static str,
+        /// What it is.
+        value: String,
+        /// What it should be.
+        expected: String,
+    },
+    /// Saved yarns that no yarns can be.
+    #[error("{} holds no sound yarns", named(.file))]
+    Yarns {
+        /// The file.
+        file: PathBuf,
+        /// Why, with the yarn, the point, the value and its limits.
+        source: YarnError,
+    },
+    /// Saved yarns that go on as no yarns can.
+    #[error("{} holds no sound boundary", named(.file))]
+    Boundary {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: BoundaryError,
     },
     /// The structure that the design describes can't be made.
     #[error("{} can't be made into a fabric", named(.file))]

@@ -62,7 +62,8 @@ fn regular(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), ReadError
     small(path, metadata.len(), limit)
 }
 
-fn small(path: &Path, bytes: u64, limit: u64) -> Result<(), ReadError> {
+/// Checks that a file of so many bytes has at most `limit`.
+pub(super) fn small(path: &Path, bytes: u64, limit: u64) -> Result<(), ReadError> {
     if bytes > limit {
         return Err(ReadError::TooLarge { file: path.into(), bytes, limit });
     }

@@ -1,7 +1,8 @@
-//! Readers: from a design file to a [`Design`].
+//! Readers: from a design file to a [`Design`], and from a file of saved yarns to [the yarns](fn@yarns).
 
 #[cfg(all(feature = "images", feature = "toml"))]
 mod bmp_file;
+mod bytes;
 mod design;
 #[cfg(feature = "toml")]
 mod design_file;
@@ -24,6 +25,7 @@ mod threads;
 mod tiff_file;
 #[cfg(feature = "wif")]
 mod wif;
+mod yarns;
 
 #[cfg(all(feature = "toml", not(feature = "images")))]
 mod image_file {
@@ -49,6 +51,9 @@ pub use error::{Place, ReadError};
 use file::Files;
 pub use refusal::Refusal;
 pub use texere_fabric::Structure;
+pub use yarns::{SavedYarns, yarns, yarns_from};
+
+use crate::yarns_file::ENDING;
 
 #[cfg(feature = "toml")]
 pub(crate) use design_file::limits;
@@ -129,6 +134,7 @@ fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
         Some("k" | "knitout") => {
             Err(ReadError::Feature { file: path.into(), what: "knitout files", feature: "knitout" })
         }
+        Some(ENDING) => Err(ReadError::WithoutDesign { file: path.into() }),
         _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml, .k, .knitout" }),
     }
 }

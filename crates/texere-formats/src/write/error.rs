@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use texere_core::PipelineError;
 use texere_core::counted;
+use texere_core::{BoundaryError, PipelineError};
 use thiserror::Error;
 
 /// A mesh or a draft that can't be written. After any of these there is no new file, and an old one is as it was.
@@ -168,6 +168,9 @@ pub enum WriteError {
         /// Most squares.
         squares: usize,
     },
+    /// The boundary of a repeat that is another one's.
+    #[error("the boundary is not that of the yarns")]
+    Boundary(#[from] BoundaryError),
     /// A yarn refers to a material that the mesh does not have.
     #[error("yarn {yarn} is of material {material}, but there are {materials}")]
     UnknownMaterial {

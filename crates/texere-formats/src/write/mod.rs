@@ -8,6 +8,8 @@
 //! Beside meshes there are [drafts](fn@draft) and [pictures](fn@picture), in PNG, and designs that are read again, as [WIF](fn@wif) or
 //! as texere's own [design file](fn@toml).
 //!
+//! [Yarns](fn@yarns) are saved in files of their own (`.yarns`), which are read again to the bit, so that cloth at rest need not settle again.
+//!
 //! What a file holds does not depend on the mesh's [`Topology`](texere_core::Topology), nor on where its chunks are cut: a plan knows its
 //! triangles, so that no index has to come from a device, and a ring that chunks repeat is written once. So the triangles of a yarn share
 //! vertices from its first ring to its last: it is one piece for a reader that joins nothing of itself. Only caps have vertices of their
@@ -43,6 +45,7 @@ mod target;
 #[cfg(test)]
 mod tests;
 mod unfinished;
+mod yarns;
 
 #[cfg(feature = "toml")]
 pub use design::{toml, toml_to};
@@ -61,3 +64,4 @@ pub use output::Output;
 #[cfg(feature = "pictures")]
 pub use picture::{picture, picture_to};
 pub use unfinished::abandon;
+pub use yarns::{repeat, repeat_to, yarns, yarns_to};

@@ -57,6 +57,17 @@ impl Output {
         self.clone().place().map(drop)
     }
 
+    /// The output itself, if its path ends in `expected`, in upper or lower case.
+    ///
+    /// **Errors**: [`WriteError::NotEnding`].
+    pub(super) fn ending(self, expected: &'static str) -> Result<Self, WriteError> {
+        if self.path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(expected)) {
+            Ok(self)
+        } else {
+            Err(WriteError::NotEnding { path: self.path, expected })
+        }
+    }
+
     /// The place that the path stands for, checked as by [`Output::check`].
     pub(super) fn place(self) -> Result<Place, WriteError> {
         let real = follow(&self.path).map_err(|source| WriteError::io("create", &self.path, source))?;

@@ -45,7 +45,7 @@ use wif::WifFile;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn wif(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, WriteError> {
-    let output = ending(output.into(), "wif")?;
+    let output = output.into().ending("wif")?;
     let file = WifFile::new(design)?;
     file.write(Target::create(output)?)?.commit()?;
     Ok(file.left_out)
@@ -86,7 +86,7 @@ pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErro
 /// ```
 #[cfg(feature = "toml")]
 pub fn toml(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, WriteError> {
-    let output = ending(output.into(), "toml")?;
+    let output = output.into().ending("toml")?;
     let file = TomlFile::new(design)?;
     file.write(Target::create(output)?)?.commit()?;
     Ok(file.left_out)
@@ -100,15 +100,6 @@ pub fn toml_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErr
     let file = TomlFile::new(design)?;
     file.write(Target::straight(out))?.done()?;
     Ok(file.left_out)
-}
-
-/// Gives `output` back if it ends so.
-fn ending(output: Output, expected: &'static str) -> Result<Output, WriteError> {
-    if output.path().extension().is_some_and(|ending| ending.eq_ignore_ascii_case(expected)) {
-        Ok(output)
-    } else {
-        Err(WriteError::NotEnding { path: output.path().to_owned(), expected })
-    }
 }
 
 /// The woven design in a design.

@@ -1,0 +1,66 @@
+//! Cloth at rest that is saved, and taken in place of a design.
+
+use std::fs;
+
+use crate::rest::DESIGNS;
+use crate::{stderr, stdout, texere};
+
+#[test]
+fn a_saved_cloth_has_the_mesh_of_its_design() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    for (name, text) in DESIGNS {
+        let [design, saved] = ["toml", "yarns"].map(|ending| path(&format!("{name}.{ending}")));
+        fs::write(&design, text).unwrap();
+        let said = stdout(&texere(&["mesh", &design, "--device", "cpu", "-o", &saved]));
+        assert!(said.contains("settling: ") && said.contains(" control points, "), "{said}");
+        for ending in ["ply", "glb"] {
+            let [own, other] = ["own", "other"].map(|which| path(&format!("{name}-{which}.{ending}")));
+            for (input, output) in [(&design, &own), (&saved, &other)] {
+                stdout(&texere(&["mesh", input, "--device", "cpu", "--caps", "-o", output]));
+            }
+            assert!(fs::read(own).unwrap() == fs::read(other).unwrap(), "{name}: another {ending}");
+        }
+        let again = path(&format!("{name}-again.yarns"));
+        stdout(&texere(&["mesh", &saved, "-o", &again]));
+        assert!(fs::read(&saved).unwrap() == fs::read(again).unwrap(), "{name} is saved otherwise");
+    }
+}
+
+#[test]
+fn what_takes_a_design_says_so_of_a_saved_cloth() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (design, saved, broken) = (path("cloth.toml"), path("cloth.yarns"), path("broken.yarns"));
+    fs::write(&design, DESIGNS[0].1).unwrap();
+    stdout(&texere(&["mesh", &design, "--no-settle", "-o", &saved]));
+    let bytes = fs::read(&saved).unwrap();
+    fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
+    let (ply, other) = (path("cloth.ply"), path("other.yarns"));
+    let alone = "holds saved yarns alone";
+    let cases: [(&[&str], i32, &str); 12] = [
+        (&["inspect", &saved], 3, alone),
+        (&["check", &saved], 3, alone),
+        (&["draft", &saved, "--text"], 3, alone),
+        (&["convert", &saved, &path("cloth.wif")], 3, alone),
+        (&["mesh", &saved, "-o", &ply, "--settle"], 2, "--settle needs a design"),
+        (
+            &["mesh", &saved, "-o", &ply, "--settling-plot", &path("x.svg")],
+            2,
+            "--settling-plot needs a design",
+        ),
+        (&["mesh", &saved, "-o", &ply, "--section", "circle"], 2, "--section needs a design"),
+        (&["mesh", &saved, "-o", &saved], 2, "which must stay"),
+        (&["mesh", &design, "-o", &other, "--tension", "0.5"], 2, "splines of tension 0, not 0.5"),
+        (&["mesh", &broken, "-o", &ply], 3, "byte 16: the length in bytes is"),
+        (&["mesh", &path("none.yarns"), "-o", &ply], 1, "can't read"),
+        (&["mesh", &design, "-o", &path("cloth.obj")], 2, "there are: glb, ply; and yarns, without a mesh"),
+    ];
+    for (args, code, said) in cases {
+        let output = texere(args);
+        assert_eq!(output.status.code(), Some(code), "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(said), "{args:?}: {}", stderr(&output));
+    }
+    assert!(fs::read(&saved).unwrap() == bytes, "the saved cloth is another one");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "something was written");
+}

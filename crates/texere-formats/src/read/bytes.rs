@@ -1,0 +1,156 @@
+//! A binary file from its first byte to its last. Nothing is taken for granted of it: what is not there is refused with its place.
+
+use std::fmt::Display;
+use std::path::Path;
+
+use super::ReadError;
+use super::error::{said, shown};
+
+/// The bytes of a file that are still to be read.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bytes<'a> {
+    file: &'a Path,
+    whole: &'a [u8],
+    left: &'a [u8],
+}
+
+impl<'a> Bytes<'a> {
+    pub(super) const fn new(file: &'a Path, bytes: &'a [u8]) -> Self {
+        Self { file, whole: bytes, left: bytes }
+    }
+
+    /// The place of the next byte in the file, from 0.
+    pub(super) const fn at(&self) -> u64 {
+        (self.whole.len() - self.left.len()) as u64
+    }
+
+    /// The error for a `field` at byte `at` that is no such thing.
+    pub(super) fn refused(
+        &self,
+        at: u64,
+        field: &'static str,
+        value: impl Display,
+        expected: impl Display,
+    ) -> ReadError {
+        ReadError::Bytes {
+            file: self.file.into(),
+            at,
+            field,
+            value: shown(&value.to_string()),
+            expected: said(&expected.to_string()),
+        }
+    }
+
+    /// The next `N` bytes.
+    pub(super) fn take<const N: usize>(&mut self, field: &'static str) -> Result<[u8; N], ReadError> {
+        let Some((bytes, left)) = self.left.split_first_chunk() else {
+            return Err(self.cut_short(field, N));
+        };
+        self.left = left;
+        Ok(*bytes)
+    }
+
+    fn cut_short(&self, field: &'static str, bytes: usize) -> ReadError {
+        let value = format_args!("cut off after {} bytes", self.left.len());
+        self.refused(self.at(), field, value, format_args!("{bytes} bytes"))
+    }
+
+    pub(super) fn word(&mut self, field: &'static str) -> Result<u32, ReadError> {
+        self.take(field).map(u32::from_le_bytes)
+    }
+
+    pub(super) fn long(&mut self, field: &'static str) -> Result<u64, ReadError> {
+        self.take(field).map(u64::from_le_bytes)
+    }
+
+    pub(super) fn float(&mut self, field: &'static str) -> Result<f32, ReadError> {
+        self.take(field).map(f32::from_le_bytes)
+    }
+
+    /// Four bytes that say nothing, and so have to be 0.
+    pub(super) fn unused(&mut self, field: &'static str) -> Result<(), ReadError> {
+        let at = self.at();
+        match self.word(field)? {
+            0 => Ok(()),
+            other => Err(self.refused(at, field, other, 0)),
+        }
+    }
+
+    /// A text of so many bytes.
+    pub(super) fn text(&mut self, field: &'static str, bytes: usize) -> Result<String, ReadError> {
+        let at = self.at();
+        let Some((text, left)) = self.left.split_at_checked(bytes) else {
+            return Err(self.cut_short(field, bytes));
+        };
+        self.left = left;
+        let Ok(text) = str::from_utf8(text) else {
+            let start = &text[..text.len().min(64)];
+            return Err(self.refused(at, field, start.escape_ascii(), "UTF-8"));
+        };
+        let mut name = String::new();
+        name.try_reserve_exact(bytes)
+            .map_err(|_| ReadError::OutOfMemory { what: field, bytes: bytes as u64 })?;
+        name.push_str(text);
+        Ok(name)
+    }
+
+    /// A number of things that take `each` bytes at least: no more than the bytes left have room for.
+    pub(super) fn count(&mut self, field: &'static str, each: u64) -> Result<usize, ReadError> {
+        let at = self.at();
+        let count = self.long(field)?;
+        self.room_for(at, field, count, each)
+    }
+
+    /// Checks that the bytes left have room for `count` things of `each` bytes at least. The number stands at byte `at`.
+    pub(super) fn room_for(
+        &self,
+        at: u64,
+        field: &'static str,
+        count: u64,
+        each: u64,
+    ) -> Result<usize, ReadError> {
+        let most = self.left.len() as u64 / each;
+        if count > most {
+            let expected = format_args!("{most} at most, for which there are bytes");
+            return Err(self.refused(at, field, count, expected));
+        }
+        // At most as many as there are bytes in memory.
+        Ok(count as usize)
+    }
+
+    /// Reads the file's length and checks it.
+    pub(super) fn check_length(&mut self, field: &'static str) -> Result<(), ReadError> {
+        let at = self.at();
+        let (length, is) = (self.long(field)?, self.whole.len() as u64);
+        if length == is {
+            Ok(())
+        } else {
+            Err(self.refused(at, field, length, format_args!("{is}, the file's own")))
+        }
+    }
+
+    /// Checks the CRC-32 that the file ends with, four bytes over all that stand before, and takes it off what is left.
+    pub(super) fn check_sum(&mut self, field: &'static str) -> Result<(), ReadError> {
+        let Some((left, stated)) = self.left.split_last_chunk() else {
+            return Err(self.cut_short(field, 4));
+        };
+        let end = self.whole.len() - stated.len();
+        let (stated, is) = (u32::from_le_bytes(*stated), crc32fast::hash(&self.whole[..end]));
+        if stated != is {
+            let expected = format_args!("{is:#010x}, that of the bytes before it: they have changed since");
+            return Err(self.refused(end as u64, field, format_args!("{stated:#010x}"), expected));
+        }
+        (self.left, self.whole) = (left, &self.whole[..end]);
+        Ok(())
+    }
+
+    /// Checks that nothing is left.
+    pub(super) fn end(&self) -> Result<(), ReadError> {
+        match self.left.len() {
+            0 => Ok(()),
+            more => {
+                Err(self.refused(self.at(), "what follows the last list", format_args!("{more} bytes"), "0"))
+            }
+        }
+    }
+}

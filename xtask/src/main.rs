@@ -16,8 +16,9 @@ use demo::vulkan;
 use steps::{Steps, root};
 
 /// Crates that go to crates.io.
-const PUBLISHED: [&str; 13] = [
+const PUBLISHED: [&str; 14] = [
     "texere-core",
+    "texere-contact",
     "texere-fabric",
     "texere-formats",
     "texere-cpu",

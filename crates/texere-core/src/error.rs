@@ -1,6 +1,6 @@
 //! Errors: one enum for each boundary.
 
-use crate::counted;
+use crate::{OutOfMemory, counted};
 use thiserror::Error;
 
 /// A section with invalid parameters.
@@ -427,14 +427,9 @@ pub enum BackendError {
         /// The backend's name.
         name: String,
     },
-    /// Memory could not be allocated.
-    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
-    OutOfMemory {
-        /// What for.
-        what: &'static str,
-        /// How many bytes.
-        bytes: u64,
-    },
+    /// Memory could not be had.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
     /// Yarns that lie so thick over one another that a settling would have to look at too many pairs of them.
     #[error(
         "more than {limit} pairs of neighbours among {chords}: too many yarns lie in one place to settle", chords = counted(*.chords, "chord"))]
@@ -561,6 +556,12 @@ pub enum SessionError {
     Backend(#[from] BackendError),
 }
 
+impl From<OutOfMemory> for SessionError {
+    fn from(error: OutOfMemory) -> Self {
+        Self::Backend(error.into())
+    }
+}
+
 /// What can end a run of the whole pipeline.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -586,5 +587,11 @@ impl From<SessionError> for PipelineError {
             SessionError::Plan(error) => Self::Plan(error),
             misuse => Self::Session(misuse),
         }
+    }
+}
+
+impl From<OutOfMemory> for PipelineError {
+    fn from(error: OutOfMemory) -> Self {
+        Self::Backend(error.into())
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! [`Yarns`] hold control points, offsets and what belongs to each yarn. A [`Plan`] works out every count and offset
 //! for one choice of [`Settings`]. A [`Backend`] turns control points into [`Ring`]s and rings into a [`Mesh`];
-//! [`Pipeline`] drives it. The definitions that every backend must agree on are here too: [`Segment`] (the spline),
+//! [`Pipeline`] drives it. A [`YarnPlace`] is one place on a yarn. The definitions that every backend must agree on are here too: [`Segment`] (the spline),
 //! [`Frame`], [`Turn`] and [`Section`].
 //!
 //! Lengths are in mm, angles in radians unless a name says turns. x runs along the weft or course, y along the warp or
@@ -30,11 +30,13 @@ mod lean;
 mod live;
 mod mapped;
 mod material;
+mod memory;
 mod mesh;
 mod null;
 mod packed;
 mod padded;
 mod pipeline;
+mod place;
 mod plan;
 mod point;
 mod ray;
@@ -70,11 +72,13 @@ pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use lean::up_between;
 pub use live::{Change, LiveMesh};
 pub use material::{HAIRINESS_LIMIT, Material};
+pub use memory::{OutOfMemory, filled, room, room_for, zeroed};
 pub use mesh::{ChunkDraw, Draw, Mesh, MeshMut, MeshPiece};
 pub use null::NullBackend;
 pub use packed::{PackedVertex, Quantum};
-pub use padded::{PaddedPoints, renew_virtual_ends, zeroed};
+pub use padded::{PaddedPoints, neighbours, renew_virtual_ends};
 pub use pipeline::{Pipeline, Progress};
+pub use place::YarnPlace;
 pub use plan::{
     BLOCK_RINGS, Block, Bounds, Cap, Chunk, Chunks, Counts, Edits, Limits, MeshPlace, Part, Plan, RINGS_MAX,
     Settings, TablesId, WINDOW_POINTS, YARN_RINGS_MAX,

@@ -1,7 +1,7 @@
 //! What can go wrong between a design and its yarns.
 
-use texere_core::counted;
-use texere_core::{BoundaryError, Origin, PlanError, SectionError, YarnError};
+use texere_contact::ContactError;
+use texere_core::{BoundaryError, Origin, OutOfMemory, SectionError, YarnError, counted};
 use thiserror::Error;
 
 use crate::warp::Lap;
@@ -88,13 +88,8 @@ pub enum FabricError {
         operation: u64,
     },
     /// Memory could not be had.
-    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
-    OutOfMemory {
-        /// What for.
-        what: &'static str,
-        /// How many bytes.
-        bytes: u64,
-    },
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
     /// A crossing outside the cloth.
     #[error("no crossing of end {end} and pick {pick}; the cloth has {ends} and {picks}", ends = counted(*.ends, "end"), picks = counted(*.picks, "pick"))]
     NoCrossing {
@@ -336,31 +331,9 @@ pub enum FabricError {
         /// Most taken.
         high: f32,
     },
-    /// A tension, or points between control points, that no mesh is made with.
+    /// What was made of the structure could not be measured.
     #[error(transparent)]
-    Settings(#[from] PlanError),
-    /// More control points than clearance is measured for.
-    #[error("clearance of {points}; {limit} are measured at most", points = counted(*.points, "control point"))]
-    ClearancePoints {
-        /// Control points of all yarns.
-        points: u64,
-        /// Most taken.
-        limit: u64,
-    },
-    /// More control intervals than linking is compared for, with all their copies in a repeat that they reach into.
-    #[error("linking of {intervals} with their copies; {limit} are compared at most", intervals = counted(*.intervals, "control interval"))]
-    LinkingSize {
-        /// Intervals of all yarns, with their copies.
-        intervals: u64,
-        /// Most taken.
-        limit: u64,
-    },
-    /// Yarns whose linking can't be compared, for they are not the same ones.
-    #[error("yarn {yarn} after is not the same as before: another number of control points, or another yarn")]
-    OtherLayout {
-        /// The first yarn that differs, from 0.
-        yarn: usize,
-    },
+    Contact(ContactError),
     /// A boundary that is not that of the yarns.
     #[error("the boundary is not that of the yarns")]
     Boundary(#[from] BoundaryError),
@@ -549,6 +522,17 @@ impl FabricError {
             | Self::KnitNeedle { operation, .. }
             | Self::KnitCarriers { operation } => Some(*operation),
             _ => None,
+        }
+    }
+}
+
+impl From<ContactError> for FabricError {
+    /// Short memory and a request to stop keep their names, whatever met them.
+    fn from(error: ContactError) -> Self {
+        match error {
+            ContactError::OutOfMemory(error) => Self::OutOfMemory(error),
+            ContactError::Cancelled => Self::Cancelled,
+            error => Self::Contact(error),
         }
     }
 }

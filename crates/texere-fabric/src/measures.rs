@@ -3,10 +3,9 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Material, Segment, Yarns};
+use texere_contact::{part_length_mm, round_length_mm};
+use texere_core::{ControlPoint, Material, Segment, Yarns, neighbours};
 
-use crate::clearance::neighbours;
-use crate::length::{part_length_mm, round_length_mm};
 use crate::reach::{Reach, mean_reach};
 use crate::woven::Sample;
 use crate::yarn_size::INCH_MM;
@@ -270,7 +269,7 @@ fn mean_half_width(points: &[ControlPoint]) -> f64 {
 }
 
 /// Length of yarn of each material, mm, in the materials' order; `lengths` are the yarns' (see
-/// [`lengths_mm`](crate::lengths_mm)).
+/// [`lengths_mm`](texere_contact::lengths_mm)).
 #[must_use]
 pub fn lengths_by_material(yarns: &Yarns, lengths: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; yarns.materials().len()];

@@ -20,23 +20,20 @@ impl FabricError {
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match *self {
-            Self::OutOfMemory { .. }
+            Self::OutOfMemory(_)
             | Self::Cancelled
-            | Self::Settings(_)
             | Self::NoCrossing { .. }
             | Self::NoMaterial { .. }
-            | Self::OtherLayout { .. }
             | Self::OtherYarns { .. }
             | Self::OtherCloth { .. } => return None,
             Self::Boundary(ref error) => return error.subject(),
+            Self::Contact(ref error) => return error.subject(),
             Self::Yarns(ref error) => return error.subject(),
             Self::Size { .. }
             | Self::Crossings { .. }
             | Self::Points { .. }
             | Self::Repeat { .. }
             | Self::ThreadCount { .. }
-            | Self::ClearancePoints { .. }
-            | Self::LinkingSize { .. }
             | Self::KnitPoints { .. } => Subject::Size,
             Self::KnitSize { .. }
             | Self::KnitRuns { .. }

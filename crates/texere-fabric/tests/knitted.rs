@@ -3,6 +3,7 @@
 
 use std::ops::ControlFlow;
 
+use texere_contact::clearance;
 use texere_core::settling::Length;
 use texere_core::{ControlPoint, Ends, Material, Origin, Section, Settings, Yarns};
 use texere_cpu::ParallelBackend;
@@ -10,7 +11,7 @@ use texere_fabric::weft::{
     Beds, CarrierSet, Cells, Chart, Direction, Gauge, Instruction, KnitYarn, Knitted, Machine, Needle,
     Operation, Program, Stitches,
 };
-use texere_fabric::{FabricError, Finish, Finished, Structure, clearance};
+use texere_fabric::{FabricError, Finish, Finished, Structure};
 
 /// A yarn of 0.2 mm and 30 tex.
 fn knit(stitches: Stitches, copies: [u32; 2]) -> Result<Knitted, FabricError> {

@@ -2,10 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
+use texere_contact::lengths_mm;
 use texere_core::{ControlPoint, Material, Section, Yarn, Yarns};
 use texere_fabric::{
-    Crimp, Drawdown, FabricError, Measures, Shape, Thread, Weave, Woven, lengths_by_material, lengths_mm,
-    thickness_mm, weight_g,
+    Crimp, Drawdown, FabricError, Measures, Shape, Thread, Weave, Woven, lengths_by_material, thickness_mm,
+    weight_g,
 };
 
 fn material(tex: Option<f32>) -> Material {

@@ -251,7 +251,7 @@ fn threads_in_one_place_give_sound_yarns() {
         cloth.set_shape(Shape::Round);
         let yarns = cloth.yarns().unwrap();
         assert_eq!(yarns.points().len() as u64, cloth.point_count());
-        assert!(texere_fabric::clearance(&yarns, &Settings::default()).is_ok());
+        assert!(texere_contact::clearance(&yarns, &Settings::default()).is_ok());
     }
 }
 

@@ -1,14 +1,15 @@
 //! A warp-knitted cloth: its bars, how close its loops lie, and what its yarns are like.
 
 use glam::DVec3;
-use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns};
+use texere_core::{
+    Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnPlace, Yarns, room_for,
+};
 
 use super::path::{Cloth, Thread};
 use super::{Bar, check};
-use crate::memory::room_for;
 use crate::settling::settled_together;
 use crate::weft::{self, Cells, Gauge, KnitYarn};
-use crate::{FabricError, Piece, Repeat, StitchPlace, YarnPlace};
+use crate::{FabricError, Piece, Repeat, StitchPlace};
 
 /// A warp-knitted cloth: its guide bars, with sizes and yarns.
 ///

@@ -1,14 +1,13 @@
 //! A knitted cloth: its stitches, how close they lie, and what its yarns are like.
 
 use rayon::prelude::*;
-use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns};
+use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns, room_for};
 
 use super::layers::Layers;
 use super::path::Cloth;
 use super::pen::Laid;
 use super::shape::Shape;
 use super::{Gauge, Stitches, Strand, check};
-use crate::memory::room_for;
 use crate::reach::Reach;
 use crate::settling::settled_together;
 use crate::{FabricError, POINTS_MAX, Piece, Repeat};

@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
+use texere_core::zeroed;
+
 use super::drawdown::WORD;
-use crate::memory::zeroed;
 use crate::{CROSSINGS_MAX, Drawdown, FabricError};
 
 /// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.

@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use texere_core::zeroed;
+
 use crate::FabricError;
-use crate::memory::zeroed;
 
 /// The most ends, and the most picks, of a cloth.
 ///

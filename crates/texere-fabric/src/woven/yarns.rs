@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns};
+use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns, zeroed};
 
 use super::bend::Bend;
 use super::path::{self, Station, ThreadPath};
@@ -11,7 +11,6 @@ use super::selvedge::{self, TURN_POINTS};
 use super::shape::Set;
 use super::{POINTS_MAX, Thread, Woven};
 use crate::FabricError;
-use crate::memory::zeroed;
 
 /// The source of a control point that is next to no crossing: a yarn's first and last, and its turns at a selvedge.
 pub const NO_CROSSING: u32 = u32::MAX;

@@ -230,7 +230,8 @@ impl Keys {
 
 #[cfg(test)]
 mod tests {
-    use texere_core::{BackendError, CrossingsError, SectionError, SettlingError, YarnError};
+    use texere_contact::ContactError;
+    use texere_core::{BackendError, CrossingsError, OutOfMemory, SectionError, SettlingError, YarnError};
     use texere_fabric::FabricError;
     use texere_fabric::warp::Lap;
 
@@ -305,8 +306,11 @@ mod tests {
             (FabricError::Carrier { carrier: 1, yarns: 0 }.into(), "knit.yarns"),
             (FabricError::KnitPoints { points: 9, limit: 1 }.into(), "weave.ends"),
             (FabricError::KnitRepeat { points: 9, limit: 1 }.into(), "knit.chart"),
-            (FabricError::ClearancePoints { points: 9, limit: 1 }.into(), "weave.ends"),
-            (FabricError::LinkingSize { intervals: 9, limit: 1 }.into(), "weave.ends"),
+            (
+                FabricError::Contact(ContactError::ClearancePoints { points: 9, limit: 1 }).into(),
+                "weave.ends",
+            ),
+            (FabricError::Contact(ContactError::LinkingSize { intervals: 9, limit: 1 }).into(), "weave.ends"),
             (FabricError::Copies { loops: 9, limit: 1 }.into(), "knit.repeat"),
             (FabricError::Laps { laps: 9, limit: 1 }.into(), "warp_knit.wales"),
             (FabricError::Bars { bars: 0, limit: 1 }.into(), "warp_knit.bars"),
@@ -383,7 +387,7 @@ mod tests {
         // Calls that do not fit a cloth are no fault of its design.
         for error in [
             FabricError::Cancelled,
-            FabricError::OutOfMemory { what: "loops", bytes: 1 },
+            FabricError::OutOfMemory(OutOfMemory { what: "loops", bytes: 1 }),
             FabricError::OtherCloth { yarn: 1 },
             FabricError::NoCrossing { end: 9, pick: 9, ends: 1, picks: 1 },
         ] {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use texere_contact::ContactError;
 use texere_core::{BackendError, Origin, SettlingError};
 use texere_fabric::weft::{CarrierSet, Direction, Instruction, Needle};
 use texere_fabric::{FabricError, FinishError};
@@ -243,8 +244,14 @@ fn errors_of_the_cloth_have_their_lines() {
         (FinishError::Settling(long), "4: ;;Gauge"),
         (FabricError::KnitPoints { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
         (FabricError::KnitRepeat { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
-        (FabricError::ClearancePoints { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
-        (FabricError::LinkingSize { intervals: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
+        (
+            FabricError::Contact(ContactError::ClearancePoints { points: 9, limit: 1 }).into(),
+            "9: split + f1 b1 2",
+        ),
+        (
+            FabricError::Contact(ContactError::LinkingSize { intervals: 9, limit: 1 }).into(),
+            "9: split + f1 b1 2",
+        ),
         (FabricError::Stitches { what: "no loops" }.into(), "9: split + f1 b1 2"),
         (SettlingError::TooMany { what: "chords", count: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
         (crowded.into(), "9: split + f1 b1 2"),

@@ -1,5 +1,7 @@
 //! Loops that are made, and yarn that is laid.
 
+use texere_core::room_for;
+
 use super::super::super::stitches::HALVES;
 use super::super::super::{Bed, Direction, Fate, Head, LoopKind, LoopRef, Needle, Step, Stitch};
 use super::super::beds::{Held, Slot};
@@ -8,7 +10,6 @@ use super::super::courses::Above;
 use super::super::{Fault, FaultKind, PARENTS_MAX};
 use super::Run;
 use crate::FabricError;
-use crate::memory::room_for;
 
 /// A stitch that is to be made.
 #[derive(Debug, Clone, Copy)]

@@ -2,6 +2,8 @@
 
 mod making;
 
+use texere_core::room_for;
+
 use super::super::stitches::HALVES;
 use super::super::{
     CarrierSet, Fate, Head, Instruction, LoopKind, LoopRef, Needle, Operation, Program, Stitch,
@@ -11,7 +13,6 @@ use super::carriers::Carriers;
 use super::courses::Above;
 use super::{FAULTS_LISTED, Fault, FaultKind, Machine, NEEDLE_MAX, STACK_MAX};
 use crate::FabricError;
-use crate::memory::room_for;
 
 /// What a loop has come to, and how its head hangs then.
 pub(super) type End = (Fate, Head);

@@ -5,12 +5,11 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 use texere_core::{
     ControlPoint, Frame, PlanError, Sampling, Section, Segment, Turn, YARN_RINGS_MAX, Yarn, Yarns,
+    neighbours, zeroed,
 };
 
 use super::interval::Cubic;
-use super::line::neighbours;
-use crate::FabricError;
-use crate::memory::zeroed;
+use crate::ContactError;
 use crate::watch::Watch;
 
 /// The rolls of all yarns whose surface depends on them.
@@ -35,14 +34,14 @@ pub(super) struct IntervalRolls {
 }
 
 impl Rolls {
-    /// **Errors**: [`FabricError::Settings`] for a yarn of more rings than a plan takes; [`FabricError::OutOfMemory`];
-    /// [`FabricError::Cancelled`] where `watch` says so.
+    /// **Errors**: [`ContactError::Settings`] for a yarn of more rings than a plan takes; [`ContactError::OutOfMemory`];
+    /// [`ContactError::Cancelled`] where `watch` says so.
     pub(super) fn new(
         yarns: &Yarns,
         sampling: Sampling,
         frame: Frame,
         watch: &Watch<'_>,
-    ) -> Result<Self, FabricError> {
+    ) -> Result<Self, ContactError> {
         let layout = yarns.layout();
         let twist = |(number, yarn): (usize, &Yarn)| {
             let turns = (f64::from(yarn.twist) / TAU) as f32;
@@ -75,7 +74,7 @@ impl Rolls {
     }
 
     /// Writes the roll at each control point of a yarn, and gives back what each ring gives back.
-    fn along(&self, yarns: &Yarns, yarn: usize, starts: &mut [Turn]) -> Result<f64, FabricError> {
+    fn along(&self, yarns: &Yarns, yarn: usize, starts: &mut [Turn]) -> Result<f64, ContactError> {
         let (points, closed) = (yarns.yarn_points(yarn).unwrap_or(&[]), yarns.layout().yarns()[yarn].closed);
         let Some(twist) = self.twists[yarn] else { return Ok(0.0) };
         let rings = self.sampling.rings(points.len() as u64, closed);

@@ -60,8 +60,10 @@ pub use warning::FabricWarning;
 pub use woven::{
     CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, Loom, NO_CROSSING,
     POINTS_MAX, Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Sett,
-    Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenRest,
+    Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenError,
+    WovenRest,
 };
+pub use yarn_check::ThreadError;
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,
     tex_from_metric_count, turns_per_m, twist_from_turns_per_m,

@@ -126,7 +126,7 @@ impl Measures {
     /// that many have: what is measured is whole repeats, as they lie among others. What depends on tex is measured in repeats of the weave and
     /// of the yarns' tex, or in the whole cloth where that is no longer.
     ///
-    /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         let ratios = Sample::new(cloth, yarns)?.ratios(tension);
@@ -199,7 +199,7 @@ impl Own {
 impl Cover {
     /// The cover of `cloth` by `yarns`, from their mean widths and its threads' spacings.
     ///
-    /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         Ok(Self::of(cloth, yarns, cloth.whole(), cloth.whole_by_weight()))

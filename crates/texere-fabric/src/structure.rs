@@ -217,8 +217,8 @@ impl Structure {
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         match self {
             Self::Woven(design) => design.set_section(section),
-            Self::Weft(knit) => knit.set_section(section),
-            Self::Warp(knit) => knit.set_section(section),
+            Self::Weft(knit) => Ok(knit.set_section(section)?),
+            Self::Warp(knit) => Ok(knit.set_section(section)?),
         }
     }
 
@@ -234,7 +234,7 @@ impl Structure {
 
     /// Yarn consumption, weight and thickness; of woven cloth crimp and cover, of a knit its loops. `yarns` are the structure's own, their splines of `tension`.
     ///
-    /// **Errors**: [`FabricError::OtherCloth`] where these are not the structure's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the structure's yarns.
     pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns, tension),

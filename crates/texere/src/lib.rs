@@ -156,9 +156,9 @@ pub use texere_fabric::{
     FaultKind, Faults, Finish, FinishError, Finished, JamReport, Jams, KnitMeasures, Loom, Measures,
     NO_CROSSING, Piece, Pieces, Pitch, Press, Relief, Remedy, Repeat, Sett, Settled, Shape, Shedding,
     StitchPlace, Stretch, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn,
-    ThreadPlace, Tightness, Verdict, Weave, Woven, WovenDesign, WovenRest, diameter_mm, settle,
-    tex_from_cotton_count, tex_from_denier, tex_from_diameter, tex_from_metric_count, turns_per_m,
-    twist_from_turns_per_m, warp, weft,
+    ThreadError, ThreadPlace, Tightness, Verdict, Weave, Woven, WovenDesign, WovenError, WovenRest,
+    diameter_mm, settle, tex_from_cotton_count, tex_from_denier, tex_from_diameter, tex_from_metric_count,
+    turns_per_m, twist_from_turns_per_m, warp, weft,
 };
 pub use texere_formats::write::{
     Format, Output, Written, abandon, file as write_file, mesh as write, mesh_to as write_to, stream,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use texere_core::{OutOfMemory, SectionError, counted};
 use texere_fabric::warp::ChainError;
 use texere_fabric::weft::ChartError;
-use texere_fabric::{FabricError, hyphen_look_alike};
+use texere_fabric::{FabricError, WovenError, hyphen_look_alike};
 use thiserror::Error;
 
 /// A place in a design file.
@@ -268,7 +268,7 @@ pub enum ReadError {
         /// Where.
         place: Place,
         /// Why.
-        source: FabricError,
+        source: WovenError,
     },
     /// A chart that can't be knitted.
     #[error("{place} is no chart")]

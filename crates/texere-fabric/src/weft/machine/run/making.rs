@@ -10,6 +10,7 @@ use super::super::courses::Above;
 use super::super::{Fault, FaultKind, PARENTS_MAX};
 use super::Run;
 use crate::FabricError;
+use crate::weft::WeftError;
 
 /// A stitch that is to be made.
 #[derive(Debug, Clone, Copy)]
@@ -135,7 +136,7 @@ impl Run<'_> {
             if start + held.len() > PARENTS_MAX {
                 let (what, count) = ("loops that others are drawn through", (start + held.len()) as u64);
                 let (limit, operation) = (PARENTS_MAX as u64, self.operation);
-                return Err(FabricError::KnitSize { what, count, limit, operation });
+                return Err(WeftError::KnitSize { what, count, limit, operation }.into());
             }
             let round = self.round;
             let parent = |held: &Held| LoopRef {

@@ -23,7 +23,6 @@ mod boundary;
 mod counted;
 pub mod crossings;
 mod engine;
-mod error;
 mod frame;
 mod half;
 mod lean;
@@ -57,16 +56,13 @@ mod yarns;
 
 pub use arrange::Placement;
 pub use attribute::{ArcLength, Attribute, corner_angle};
-pub use backend::{Backend, DeviceInfo, DeviceKind, Schedule};
-pub use boundary::{Boundary, Ends};
+pub use backend::{Backend, BackendError, DeviceInfo, DeviceKind, Schedule};
+pub use boundary::{Boundary, BoundaryError, Ends};
 pub use counted::counted;
 pub use crossings::{Crossings, CrossingsError, CrossingsPlan, CrossingsSettler};
 pub use engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
     take_over_host,
-};
-pub use error::{
-    BackendError, BoundaryError, PipelineError, PlanError, SectionError, SessionError, YarnError,
 };
 pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
 pub use lean::up_between;
@@ -77,18 +73,18 @@ pub use mesh::{ChunkDraw, Draw, Mesh, MeshMut, MeshPiece};
 pub use null::NullBackend;
 pub use packed::{PackedVertex, Quantum};
 pub use padded::{PaddedPoints, neighbours, renew_virtual_ends};
-pub use pipeline::{Pipeline, Progress};
+pub use pipeline::{Pipeline, PipelineError, Progress};
 pub use place::YarnPlace;
 pub use plan::{
-    BLOCK_RINGS, Block, Bounds, Cap, Chunk, Chunks, Counts, Edits, Limits, MeshPlace, Part, Plan, RINGS_MAX,
-    Settings, TablesId, WINDOW_POINTS, YARN_RINGS_MAX,
+    BLOCK_RINGS, Block, Bounds, Cap, Chunk, Chunks, Counts, Edits, Limits, MeshPlace, Part, Plan, PlanError,
+    RINGS_MAX, Settings, TablesId, WINDOW_POINTS, YARN_RINGS_MAX,
 };
 pub use point::{COORDINATE_LIMIT, ControlPoint, Halves, RADIUS_MAX, RADIUS_MIN};
 pub use ray::Ray;
 pub use ring::{Ring, Stance, Trajectory};
 pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
-pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionPoint, triangulate};
-pub use session::{Session, Traffic};
+pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionError, SectionPoint, triangulate};
+pub use session::{Session, SessionError, Traffic};
 pub use settling::{Settler, Settling, SettlingError, SettlingPlan, settle};
 pub use spline::{
     ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment,
@@ -100,4 +96,6 @@ pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
 pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};
 pub use twist::{TWIST_STEP, TWIST_SUBDIVISIONS_MAX, Undersampled};
 pub use vertex::Vertex;
-pub use yarns::{Layout, Origin, TWIST_LIMIT, Yarn, Yarns, YarnsBuilder, check_material, check_points};
+pub use yarns::{
+    Layout, Origin, TWIST_LIMIT, Yarn, YarnError, Yarns, YarnsBuilder, check_material, check_points,
+};

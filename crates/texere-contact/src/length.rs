@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Yarns, neighbours};
+use texere_core::{ControlPoint, Yarns, neighbours, tangent_factor};
 
 /// Distances from the middle and weights of the ten-point Gauss-Legendre rule on \[0, 1\], whose points lie in pairs
 /// (Abramowitz and Stegun, table 25.4).
@@ -36,7 +36,7 @@ const TASK: usize = 4096;
 /// ```
 #[must_use]
 pub fn lengths_mm(yarns: &Yarns, tension: f32) -> Vec<f64> {
-    let s = (1.0 - f64::from(tension)) / 2.0;
+    let s = tangent_factor(tension);
     let layout = yarns.layout();
     (0..layout.yarns().len())
         .into_par_iter()
@@ -52,7 +52,7 @@ pub fn length_mm(yarns: &Yarns, tension: f32) -> f64 {
 
 /// Length of one round of a yarn that goes on `shift` further, mm: with the way from its last control point to its next round.
 pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -> f64 {
-    let s = (1.0 - f64::from(tension)) / 2.0;
+    let s = tangent_factor(tension);
     let count = points.len() as isize;
     let at = |number: isize| {
         let [x, y, z] = position(points[number.rem_euclid(count) as usize]);
@@ -64,7 +64,7 @@ pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -
 
 /// Length of those intervals of an open yarn that lie between a range of its points, mm. Points beyond bend its ends.
 pub fn part_length_mm(points: &[ControlPoint], part: Range<usize>, tension: f32) -> f64 {
-    let s = (1.0 - f64::from(tension)) / 2.0;
+    let s = tangent_factor(tension);
     let last = part.end.min(points.len()).saturating_sub(1);
     (part.start..last).map(|first| interval_length(neighbours(points, false, first).map(position), s)).sum()
 }

@@ -1,6 +1,6 @@
 //! Which yarns lie under a point of the cloth.
 
-use texere_core::{ControlPoint, Segment, YarnPlace, Yarns, neighbours};
+use texere_core::{ControlPoint, Segment, YarnPlace, Yarns, neighbours, tangent_factor};
 
 /// Places at which each control interval is tried: between two of them a yarn that bends round another moves less than half its
 /// radius.
@@ -24,7 +24,7 @@ const STEPS: u16 = 24;
 /// ```
 #[must_use]
 pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlace> {
-    let s = (1.0 - tension) / 2.0;
+    let s = tangent_factor(tension);
     let layout = yarns.layout();
     let mut found = Vec::new();
     for (number, yarn) in layout.yarns().iter().enumerate() {

@@ -88,7 +88,7 @@ pub use session::{Session, SessionError, Traffic};
 pub use settling::{Settler, Settling, SettlingError, SettlingPlan, settle};
 pub use spline::{
     ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment,
-    ZERO_VELOCITY,
+    ZERO_VELOCITY, tangent_factor,
 };
 pub use steep::UPRIGHT_TURN;
 pub use subject::Subject;

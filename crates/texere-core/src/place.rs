@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::padded::neighbours;
-use crate::{ControlPoint, Segment, Yarns};
+use crate::{ControlPoint, Segment, Yarns, tangent_factor};
 
 /// One place of a yarn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +42,7 @@ impl YarnPlace {
         if interval >= intervals || !(0.0..=1.0).contains(&t) {
             return None;
         }
-        let segment = Segment::new(&neighbours(points, closed, interval), (1.0 - tension) / 2.0);
+        let segment = Segment::new(&neighbours(points, closed, interval), tangent_factor(tension));
         let position = segment.sample(t as f32).centre.to_array().map(f64::from);
         let nearer = (interval + usize::from(t > 0.5)) % points.len();
         let source = yarns.sources().and_then(|sources| sources.get(range.start + nearer).copied());

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use texere_contact::{part_length_mm, round_length_mm};
-use texere_core::{ControlPoint, Material, Segment, Yarns, neighbours};
+use texere_core::{ControlPoint, Material, Segment, Yarns, neighbours, tangent_factor};
 
 use crate::reach::{Reach, mean_reach};
 use crate::woven::Sample;
@@ -297,7 +297,7 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
 /// That of the intervals that begin at those control points of each yarn.
 fn thickness_within(yarns: &Yarns, tension: f32, own: impl Fn(usize) -> Range<usize> + Sync) -> f64 {
     let reaches: Vec<Reach> = yarns.layout().sections().iter().map(Reach::new).collect();
-    let s = (1.0 - tension) / 2.0;
+    let s = tangent_factor(tension);
     let extent = |yarn: usize| {
         let what = yarns.layout().yarns()[yarn];
         let reach = &reaches[what.section as usize];

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 use texere_core::{
     ControlPoint, Frame, PlanError, Sampling, Section, Segment, Turn, YARN_RINGS_MAX, Yarn, Yarns,
-    neighbours, zeroed,
+    neighbours, tangent_factor, zeroed,
 };
 
 use super::interval::Cubic;
@@ -107,8 +107,7 @@ impl Rolls {
     fn starts_at(&self, yarns: &Yarns, yarn: usize, window: [ControlPoint; 4]) -> Turn {
         let carried = matches!(self.twists[yarn], Some((Frame::RotationMinimizing, _)));
         let (Some(ups), true) = (yarns.layout().ups(yarn), carried) else { return Turn::ZERO };
-        let cubic =
-            Cubic::new(window, (1.0 - f64::from(self.sampling.tension())) / 2.0).with_ups([ups[0], ups[1]]);
+        let cubic = Cubic::new(window, tangent_factor(self.sampling.tension())).with_ups([ups[0], ups[1]]);
         let [_, velocity, _] = cubic.path(0.0);
         Turn::from_turns(cubic.lean(0.0, velocity.normalize_or_zero()) as f32)
     }

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
 use glam::{DVec2, Vec3A};
-use texere_core::{Sampling, YarnPlace, Yarns, room_for};
+use texere_core::{Sampling, YarnPlace, Yarns, room_for, tangent_factor};
 
 use super::approach::{Side, refine};
 use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BESIDE, Contact};
@@ -109,7 +109,7 @@ impl<'a> Probe<'a> {
             supports,
             ways: line::ways(yarns.points()),
             near,
-            s: (1.0 - f64::from(sampling.tension())) / 2.0,
+            s: tangent_factor(sampling.tension()),
         }
     }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3, Vec3A};
 use rayon::prelude::*;
-use texere_core::{Boundary, ControlPoint, Yarns, room_for};
+use texere_core::{Boundary, ControlPoint, Yarns, room_for, tangent_factor};
 
 use super::passage::{WINDOW_INTERVALS, WINDOW_REACH};
 use super::strand::Strand;
@@ -70,7 +70,7 @@ impl<'a> Shapes<'a> {
             let alike = both.take_while(|((one, other), (end, other_end))| one == other && end == other_end);
             return Err(ContactError::OtherLayout { yarn: alike.count() });
         }
-        let s = (1.0 - f64::from(tension)) / 2.0;
+        let s = tangent_factor(tension);
         let mut shapes = Self { yarns: [before, after], boundary, s, motions: Vec::new() };
         let mut motions = Vec::new();
         room_for(&mut motions, before.points().len(), "how far control points have moved")?;

@@ -6,7 +6,7 @@ use super::check::{check, limited, mean_diameter, scale, thickest};
 use super::pass::FREE_MOST;
 use super::strand::{BEYOND, Strand, tag};
 use super::{Interval, Length, MARGIN, Place, Scale, Settling, SettlingError};
-use crate::{BackendError, Ends, zeroed};
+use crate::{BackendError, Ends, tangent_factor, zeroed};
 
 /// Intervals have at least so many chords.
 const CHORDS_MIN: u32 = 2;
@@ -96,7 +96,7 @@ impl SettlingPlan {
             let first = (start + yarn as u64 * (BEYOND[0] + BEYOND[1]) + BEYOND[0]) as u32;
             strands.push(Strand { first, points: (end - start) as u32, ends, length: 0 });
         }
-        let s = (1.0 - settling.spline_tension) / 2.0;
+        let s = tangent_factor(settling.spline_tension);
         let spans = Spans {
             diameter: mean_diameter(points),
             thickest: thickest(points),

@@ -8,7 +8,7 @@ use texere_core::crossings::{
     Crossing, Crossings, CrossingsPass, CrossingsPlan, CrossingsRest, CrossingsSeen, CrossingsSettler, Set,
     Thread, settle,
 };
-use texere_core::{Backend, BackendError, Limits, Schedule};
+use texere_core::{Backend, BackendError, Limits, OutOfMemory, Schedule};
 use texere_cpu::SerialBackend;
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
@@ -357,7 +357,7 @@ fn small_memories_do_the_same_or_are_refused_by_name() {
                 assert!(found == whole, "another end");
                 None
             }
-            Err(BackendError::OutOfMemory { what, .. }) => Some(what),
+            Err(BackendError::OutOfMemory(OutOfMemory { what, .. })) => Some(what),
             Err(error) => panic!("{error}"),
         };
         let each: Vec<_> = (7..17)

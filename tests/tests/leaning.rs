@@ -7,12 +7,13 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 use texere_conformance::cases::{design, small_designs};
 use texere_conformance::schedule::able_devices;
+use texere_contact::clearance;
 use texere_core::{
     BackendError, ControlPoint, Frame, LiveMesh, Material, Mesh, MeshPiece, Pipeline, Placement, Plan, Ray,
     Section, SessionError, Settings, Topology, Vertex, Yarn, YarnError, Yarns,
 };
 use texere_cpu::{ParallelBackend, Picker, SerialBackend};
-use texere_fabric::{Finish, Thread, Weave, Woven, clearance};
+use texere_fabric::{Finish, Thread, Weave, Woven};
 
 /// A plain weave of flat threads that lie close, in `section`.
 fn cloth(section: Section, twist: f32) -> Yarns {

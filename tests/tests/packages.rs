@@ -127,18 +127,33 @@ fn no_gpu_backend_needs_a_cpu_backend_or_the_other_gpu_backend() {
 #[test]
 fn what_needs_no_gpu_has_none() {
     let shared = ["texere-gpu", "texere-kernels", "texere-shaders"];
-    let without = ["texere-core", "texere-fabric", "texere-formats", "texere-cpu"];
+    let without = ["texere-core", "texere-contact", "texere-fabric", "texere-formats", "texere-cpu"];
     assert_without(&without, &[&GPU[..], &shared].concat());
 }
 
 /// What both GPU backends share knows neither of them, and both have it.
 #[test]
 fn what_gpu_backends_share_names_no_interface() {
-    let fabrics = ["texere-cpu", "texere-fabric", "texere-formats", "texere-kernels", "texere-shaders"];
+    let fabrics = [
+        "texere-cpu",
+        "texere-contact",
+        "texere-fabric",
+        "texere-formats",
+        "texere-kernels",
+        "texere-shaders",
+    ];
     assert_without(&["texere-gpu"], &[&GPU[..], &fabrics].concat());
     for backend in ["texere-opencl", "texere-wgpu"] {
         assert!(needs(backend, "--all-features").contains("texere-gpu"), "{backend}");
     }
+}
+
+/// What is measured on yarns alone knows no structure: of texere's own packages it has the core.
+#[test]
+fn contacts_know_no_structure() {
+    let needs = needs("texere-contact", "--all-features");
+    let own: Vec<_> = needs.iter().filter(|name| name.starts_with("texere")).collect();
+    assert_eq!(own, ["texere-core"]);
 }
 
 #[test]

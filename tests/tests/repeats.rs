@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 
 use texere_conformance::rest::{self, Chart, Gauge, Length, Start, weft_knit, yarns};
+use texere_contact::{Clearance, clearance, length_mm};
 use texere_core::{Boundary, Ends, Settings, Yarns};
 use texere_cpu::ParallelBackend;
-use texere_fabric::{Clearance, Finish, Piece, Repeat, Settled, clearance, length_mm, settle};
+use texere_fabric::{Finish, Piece, Repeat, Settled, settle};
 
 /// Garter of so many wales and courses, whose loops pierce one another at the start.
 fn garter(size: usize) -> Start {
@@ -32,7 +33,7 @@ fn settled(piece: &Piece) -> Settled {
 
 /// The nearest contact that no cut end is part of.
 fn inner(yarns: &Yarns, found: &Clearance) -> f64 {
-    let is_cut = |place: &texere_fabric::YarnPlace| {
+    let is_cut = |place: &texere_core::YarnPlace| {
         let points = yarns.yarn_points(place.yarn).map_or(0, <[_]>::len);
         place.interval == 0 || place.interval + 2 >= points
     };

@@ -8,7 +8,9 @@ use texere_conformance::rest::{
 };
 use texere_conformance::{SabotagedSettler, SettlingSabotage, near_devices};
 use texere_core::settling::{Form, Pass, Place, Rest, Seen, Settler, Settling, SettlingPlan, tag};
-use texere_core::{Backend, BackendError, Boundary, ControlPoint, Limits, Schedule, Yarn, Yarns};
+use texere_core::{
+    Backend, BackendError, Boundary, ControlPoint, Limits, OutOfMemory, Schedule, Yarn, Yarns,
+};
 use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_opencl::OpenClBackend;
 
@@ -279,7 +281,7 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
             assert!(found == whole, "another end");
             None
         }
-        Err(BackendError::OutOfMemory { what, .. }) => Some(what),
+        Err(BackendError::OutOfMemory(OutOfMemory { what, .. })) => Some(what),
         Err(error) => panic!("{error}"),
     };
     // From 1 kB to 32 MB.

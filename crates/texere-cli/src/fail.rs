@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 use texere::crossings::CrossingsError;
 use texere::{
-    BackendError, FabricError, FinishError, PipelineError, PlanError, ReadError, Refusal, RenderError,
-    Settings, SettlingError, WriteError,
+    BackendError, ContactError, FabricError, FinishError, OutOfMemory, PipelineError, PlanError, ReadError,
+    Refusal, RenderError, Settings, SettlingError, WriteError,
 };
 
 use crate::terminal::line;
@@ -134,16 +134,16 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
     // What is wrong with a file that the design names comes in a box.
     let named = || error.downcast_ref::<Box<ReadError>>().map(|error| &**error);
     let read = error.downcast_ref().or_else(named).map(|error| match error {
-        ReadError::Io { .. } | ReadError::NotAFile { .. } | ReadError::OutOfMemory { .. } => WORLD,
+        ReadError::Io { .. } | ReadError::NotAFile { .. } | ReadError::OutOfMemory(_) => WORLD,
         _ => DESIGN,
     });
     let fabric = error.downcast_ref().map(|error| match error {
-        FabricError::OutOfMemory { .. } => WORLD,
+        FabricError::OutOfMemory(_) => WORLD,
         _ => DESIGN,
     });
     let finish = error.downcast_ref().map(|error| match error {
-        FinishError::Settling(SettlingError::OutOfMemory { .. })
-        | FinishError::Crossings(CrossingsError::OutOfMemory { .. }) => WORLD,
+        FinishError::Settling(SettlingError::OutOfMemory(_))
+        | FinishError::Crossings(CrossingsError::OutOfMemory(_)) => WORLD,
         _ => DESIGN,
     });
     let plan = error.downcast_ref().map(|_: &PlanError| USAGE);
@@ -209,7 +209,9 @@ impl From<Refusal> for Fail {
     fn from(error: Refusal) -> Self {
         match error {
             // The tension of splines is the command line's.
-            Refusal::Other(FinishError::Fabric(FabricError::Settings(error))) => error.into(),
+            Refusal::Other(FinishError::Fabric(FabricError::Contact(ContactError::Settings(error)))) => {
+                error.into()
+            }
             Refusal::Other(FinishError::Fabric(error)) => error.into(),
             Refusal::Other(FinishError::Backend(error)) => error.into(),
             Refusal::Other(error) => Self { code: code_of(&error), source: error.into() },
@@ -254,9 +256,9 @@ mod tests {
     fn refusals_have_the_code_of_their_cause() {
         let place = || Place { file: "a.k".into(), line: 3, field: "knit + f1 1".into() };
         let crowded = || FinishError::Backend(BackendError::Crowded { chords: 2, limit: 1 });
-        let short = || FabricError::OutOfMemory { what: "control points", bytes: 1 << 40 };
+        let short = || FabricError::OutOfMemory(OutOfMemory { what: "control points", bytes: 1 << 40 });
         let other = |error: FinishError| Refusal::Other(error);
-        let settings = FabricError::Settings(PlanError::Tension { tension: 2.0 });
+        let settings = FabricError::Contact(ContactError::Settings(PlanError::Tension { tension: 2.0 }));
         let none = BackendError::NoDevice { wanted: "abacus".into(), found: vec!["cpu".into()] };
         let cases = [
             (Refusal::Key { place: place(), source: crowded() }, DESIGN),
@@ -264,11 +266,17 @@ mod tests {
             (other(crowded()), DESIGN),
             (other(short().into()), WORLD),
             (
-                other(FinishError::Settling(SettlingError::OutOfMemory { what: "chords", bytes: 1 << 40 })),
+                other(FinishError::Settling(SettlingError::OutOfMemory(OutOfMemory {
+                    what: "chords",
+                    bytes: 1 << 40,
+                }))),
                 WORLD,
             ),
             (
-                other(FinishError::Crossings(CrossingsError::OutOfMemory { what: "chords", bytes: 1 << 40 })),
+                other(FinishError::Crossings(CrossingsError::OutOfMemory(OutOfMemory {
+                    what: "chords",
+                    bytes: 1 << 40,
+                }))),
                 WORLD,
             ),
             (other(settings.into()), USAGE),
@@ -300,32 +308,33 @@ mod tests {
 
     #[test]
     fn memory_devices_and_files_are_no_fault_of_the_design_or_the_command_line() {
-        let short = || FabricError::OutOfMemory { what: "control points", bytes: 1 << 40 };
+        let short = || FabricError::OutOfMemory(OutOfMemory { what: "control points", bytes: 1 << 40 });
         let denied = || ErrorKind::PermissionDenied.into();
         let image = || ReadError::Io { file: "motif.png".into(), source: denied() };
         let place = Place { file: "cloth.toml".into(), line: 3, field: "weave.image".into() };
         let world: [Fail; 10] = [
             short().into(),
-            ReadError::OutOfMemory { what: "crossings", bytes: 1 << 40 }.into(),
+            ReadError::OutOfMemory(OutOfMemory { what: "crossings", bytes: 1 << 40 }).into(),
             ReadError::Named { place, source: image().into() }.into(),
             ReadError::Fabric { file: "cloth.toml".into(), source: short() }.into(),
             ReadError::Io { file: "cloth.toml".into(), source: denied() }.into(),
-            BackendError::OutOfMemory { what: "vertices", bytes: 1 << 40 }.into(),
+            BackendError::OutOfMemory(OutOfMemory { what: "vertices", bytes: 1 << 40 }).into(),
             BackendError::NoDevice { wanted: "wgpu".into(), found: vec![] }.into(),
-            RenderError::Backend(BackendError::OutOfMemory { what: "screen", bytes: 1 << 40 }).into(),
+            RenderError::Backend(BackendError::OutOfMemory(OutOfMemory { what: "screen", bytes: 1 << 40 }))
+                .into(),
             WriteError::Io { action: "write", path: "cloth.ply".into(), source: denied() }.into(),
-            WriteError::Pipeline(PipelineError::Backend(BackendError::OutOfMemory {
+            WriteError::Pipeline(PipelineError::Backend(BackendError::OutOfMemory(OutOfMemory {
                 what: "rings",
                 bytes: 1,
-            }))
+            })))
             .into(),
         ];
         assert_eq!(world.each_ref().map(|fail| fail.code), [WORLD; 10]);
         let design: [Fail; 3] = [
-            FabricError::Settings(PlanError::Tension { tension: 2.0 }).into(),
+            FabricError::Contact(ContactError::Settings(PlanError::Tension { tension: 2.0 })).into(),
             ReadError::Fabric {
                 file: "a.wif".into(),
-                source: FabricError::Settings(PlanError::Tension { tension: 2.0 }),
+                source: FabricError::Contact(ContactError::Settings(PlanError::Tension { tension: 2.0 })),
             }
             .into(),
             WriteError::DraftTooLarge { ends: 1, picks: 1, width: 1, height: 1, limit: 0 }.into(),

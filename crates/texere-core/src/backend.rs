@@ -1,9 +1,13 @@
 //! The backend trait: object-safe, blocking where it must wait, free of any GPU type.
 
+mod error;
+
 use std::fmt;
 use std::sync::Arc;
 
-use crate::{BackendError, CrossingsPlan, CrossingsSettler, Engine, Limits, Plan, Settler, SettlingPlan};
+use crate::{CrossingsPlan, CrossingsSettler, Engine, Limits, Plan, Settler, SettlingPlan};
+
+pub use self::error::BackendError;
 
 /// What kind of machine a device is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

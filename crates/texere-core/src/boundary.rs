@@ -1,6 +1,10 @@
 //! Where yarns end, close up, or go on beyond their control points, and the repeat that they go on in.
 
-use crate::{BoundaryError, COORDINATE_LIMIT, Layout};
+mod error;
+
+use crate::{COORDINATE_LIMIT, Layout};
+
+pub use self::error::BoundaryError;
 
 /// What comes after a yarn's last control point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

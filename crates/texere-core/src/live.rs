@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::{
-    Backend, BackendError, Chunk, Limits, PaddedPoints, Part, Plan, SessionError, Topology, Traffic, Vertex,
+    Backend, BackendError, Chunk, Limits, OutOfMemory, PaddedPoints, Part, Plan, SessionError, Topology,
+    Traffic, Vertex,
 };
 
 /// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and made again.
@@ -93,7 +94,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         };
         let bytes = plan.resident_bytes() + chunks.iter().map(bytes).sum::<u64>();
         if bytes > limits.memory_bytes {
-            return Err(BackendError::OutOfMemory { what: "the whole mesh", bytes }.into());
+            return Err(BackendError::OutOfMemory(OutOfMemory { what: "the whole mesh", bytes }).into());
         }
         let all = (0..plan.layout().yarns().len()).map(|yarn| (yarn, 0..plan.rings(yarn)));
         Ok(Self {

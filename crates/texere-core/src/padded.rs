@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::{BackendError, ControlPoint, Plan};
+use crate::{ControlPoint, OutOfMemory, Plan, zeroed};
 
 /// The control points of a fabric, padded as [`Plan::padded_offsets`] says, so that no kernel has end cases.
 ///
@@ -25,8 +25,8 @@ pub struct PaddedPoints {
 impl PaddedPoints {
     /// Room for the control points of `plan`, all zero.
     ///
-    /// **Errors**: [`BackendError::OutOfMemory`].
-    pub fn new(plan: &Plan) -> Result<Self, BackendError> {
+    /// **Errors**: [`OutOfMemory`].
+    pub fn new(plan: &Plan) -> Result<Self, OutOfMemory> {
         let count = plan.padded_offsets().last().copied().unwrap_or(0);
         Ok(Self { points: zeroed("control points", count)? })
     }
@@ -94,12 +94,16 @@ pub fn renew_virtual_ends(padded: &mut [ControlPoint], closed: bool) {
     }
 }
 
-/// `count` zeroed values, in fresh pages that the system maps only when they are touched.
-///
-/// **Errors**: [`BackendError::OutOfMemory`], naming `what`.
-pub fn zeroed<T: bytemuck::Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, BackendError> {
-    let out_of_memory =
-        || BackendError::OutOfMemory { what, bytes: count.saturating_mul(size_of::<T>() as u64) };
-    let length = usize::try_from(count).map_err(|_| out_of_memory())?;
-    bytemuck::allocation::try_zeroed_vec(length).map_err(|()| out_of_memory())
+/// The four points that steer interval `first`, with the paper's virtual ends where an open yarn has none.
+#[inline]
+pub fn neighbours(points: &[ControlPoint], closed: bool, first: usize) -> [ControlPoint; 4] {
+    if let Some(&[before, start, end, after]) = points.get(first.wrapping_sub(1)..first.wrapping_add(3)) {
+        return [before, start, end, after];
+    }
+    let count = points.len();
+    let at = |index: usize| points[index % count];
+    let (start, end) = (at(first), at(first + 1));
+    let before = if closed || first > 0 { at(first + count - 1) } else { start.reflected(&end) };
+    let after = if closed || first + 2 < count { at(first + 2) } else { end.reflected(&start) };
+    [before, start, end, after]
 }

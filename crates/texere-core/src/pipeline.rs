@@ -1,13 +1,17 @@
 //! The pipeline: plans the work and drives any backend.
 
+mod error;
+
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::{
     Attribute, Backend, Bounds, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PackedVertex, PaddedPoints,
-    PipelineError, Plan, Quantum, Ring, Session, SessionError, Settings, Settler, Topology, Trajectory,
-    Undersampled, Yarns, zeroed,
+    Plan, Quantum, Ring, Session, SessionError, Settings, Settler, Topology, Trajectory, Undersampled, Yarns,
+    zeroed,
 };
+
+pub use self::error::PipelineError;
 
 /// Control points a call of upload: 16 MB, so that progress is reported and a cancellation noticed in between.
 const UPLOAD_POINTS: usize = 1 << 20;

@@ -1,6 +1,6 @@
 //! Sampling of the spline: its tension, and how many rings it gets.
 
-use crate::{ArcLength, ControlPoint, PlanError, Sample, Segment};
+use crate::{ArcLength, ControlPoint, PlanError, Sample, Segment, tangent_factor};
 
 /// Tension of the spline and points inserted between control points (the paper's u and K).
 ///
@@ -41,7 +41,7 @@ impl Sampling {
         if subdivisions > SUBDIVISIONS_MAX {
             return Err(PlanError::Subdivisions { subdivisions, limit: SUBDIVISIONS_MAX });
         }
-        let s = (1.0 - tension) / 2.0;
+        let s = tangent_factor(tension);
         Ok(Self { tension, subdivisions, s, step: 1.0 / (subdivisions as f32 + 1.0) })
     }
 

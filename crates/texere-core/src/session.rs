@@ -1,5 +1,7 @@
 //! One fabric on one device: the rules of its calls, and what is in flight.
 
+mod error;
+
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -7,9 +9,9 @@ use crate::engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
 };
 use crate::settling::{Settler, Strand};
-use crate::{
-    Backend, BackendError, Chunk, ControlPoint, Limits, MeshMut, Plan, Ring, SessionError, TablesId, Vertex,
-};
+use crate::{Backend, BackendError, Chunk, ControlPoint, Limits, MeshMut, Plan, Ring, TablesId, Vertex};
+
+pub use self::error::SessionError;
 
 /// Bytes that a session has moved between host and device, so far. A backend that works in the host's own memory lends
 /// its results where they lie, so it reads none back.

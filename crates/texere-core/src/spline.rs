@@ -3,7 +3,7 @@
 //! Everything is evaluated on differences from the interval's first point, which is added last: from absolute
 //! coordinates the tangent of a yarn ten metres from the origin would be off by 3e-3 rad.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use glam::Vec3;
 
@@ -100,8 +100,21 @@ pub const ARC_EVEN: f32 = 0.5;
 /// The parts that a length is worked out in where the spline's speed is uneven.
 pub const ARC_PANELS: u32 = 16;
 
+/// s = (1 - tension) / 2, the factor of the spline's tangents (the paper's equation 2), in the precision of `T`.
+///
+/// ```
+/// use texere_core::tangent_factor;
+/// assert_eq!(tangent_factor::<f32>(0.0), 0.5); // Catmull-Rom
+/// assert_eq!(tangent_factor::<f64>(0.75), 0.125);
+/// ```
+#[must_use]
+#[inline]
+pub fn tangent_factor<T: From<f32> + Sub<Output = T> + Div<Output = T>>(tension: f32) -> T {
+    (T::from(1.0) - T::from(tension)) / T::from(2.0)
+}
+
 impl Segment {
-    /// The segment between `points[1]` and `points[2]`, with `s = (1 - tension) / 2` (the paper's equation 2).
+    /// The segment between `points[1]` and `points[2]`, with the [factor of tangents](tangent_factor) `s`.
     #[must_use]
     #[inline]
     pub fn new(points: &[ControlPoint; 4], s: f32) -> Self {

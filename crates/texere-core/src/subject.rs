@@ -84,7 +84,7 @@ impl SettlingError {
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match self {
-            Self::OutOfMemory { .. } | Self::Pinned { .. } => return None,
+            Self::OutOfMemory(_) | Self::Pinned { .. } => return None,
             Self::Boundary(error) => return error.subject(),
             Self::ShortRepeat { axis: 'x', .. } | Self::LongInterval { axis: 'x', .. } => Subject::Wales,
             Self::ShortRepeat { .. } | Self::LongInterval { .. } => Subject::Courses,
@@ -105,7 +105,7 @@ impl CrossingsError {
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match self {
-            Self::OutOfMemory { .. } | Self::Drawdown { .. } => return None,
+            Self::OutOfMemory(_) | Self::Drawdown { .. } => return None,
             Self::TooFew { .. } | Self::TooMany { .. } => Subject::Size,
             Self::Setting { setting, .. } => match *setting {
                 "tension of the warp" => Subject::WarpTension,
@@ -178,7 +178,7 @@ impl BackendError {
             | Self::NoEditing
             | Self::NoSettling { .. }
             | Self::NoCrossings { .. }
-            | Self::OutOfMemory { .. }
+            | Self::OutOfMemory(_)
             | Self::DeviceLost { .. }
             | Self::Unsupported { .. }
             | Self::Compile { .. }

@@ -5,7 +5,10 @@ use std::fmt;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::{ControlPoint, Origin, SUBDIVISIONS_MAX, Section, Settings, Yarn, Yarns, renew_virtual_ends};
+use crate::{
+    ControlPoint, Origin, SUBDIVISIONS_MAX, Section, Settings, Yarn, Yarns, renew_virtual_ends,
+    tangent_factor,
+};
 
 /// By how much twist turns a section from one ring to the next at most, radians, where it shows: 30 degrees.
 ///
@@ -177,7 +180,7 @@ fn turn_of_interval(yarn: &Yarn, points: &[ControlPoint], tension: f32) -> f64 {
     padded.extend_from_slice(points);
     padded.resize(points.len() + if yarn.closed { 4 } else { 2 }, points[0]);
     renew_virtual_ends(&mut padded, yarn.closed);
-    let s = f64::from(1.0 - tension) / 2.0;
+    let s = f64::from(tangent_factor::<f32>(tension));
     let fastest = padded.windows(4).map(|window| fastest(window, s)).fold(0.0, f64::max);
     // A closed yarn gives back up to half a turn along its way, so that its ends meet.
     let closing = if yarn.closed { std::f64::consts::PI / points.len() as f64 } else { 0.0 };

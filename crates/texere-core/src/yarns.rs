@@ -1,5 +1,7 @@
 //! The yarns of a fabric: flat control points, offsets, and what belongs to each yarn.
 
+mod error;
+
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
@@ -12,8 +14,9 @@ use crate::lean::Leaning;
 use crate::stand::Stand;
 use crate::{
     COORDINATE_LIMIT, ControlPoint, Edits, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section,
-    YarnError,
 };
+
+pub use self::error::YarnError;
 
 /// Where in the structure a yarn comes from, counted from 1 as weavers and knitters do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use texere_core::{
     ArcLength, Attribute, AttributeSink, BackendError, Chunk, ControlPoint, Engine, MeshMut, MeshPiece,
-    MeshSink, PackedSink, PackedVertex, PaddedPoints, Plan, Ring, RingSink, ScanChunks, Slot, StageTimings,
-    Vertex, zeroed,
+    MeshSink, OutOfMemory, PackedSink, PackedVertex, PaddedPoints, Plan, Ring, RingSink, ScanChunks, Slot,
+    StageTimings, Vertex, zeroed,
 };
 
 use crate::pages;
@@ -83,7 +83,7 @@ pub(crate) fn resize<T: bytemuck::Zeroable>(
     what: &'static str,
     buffer: &mut Vec<T>,
     length: u64,
-) -> Result<(), BackendError> {
+) -> Result<(), OutOfMemory> {
     if (buffer.capacity() as u64) < length {
         *buffer = zeroed(what, length)?;
     }

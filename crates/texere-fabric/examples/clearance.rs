@@ -6,8 +6,9 @@
 
 use std::time::Instant;
 
+use texere_contact::clearance;
 use texere_core::{Material, Section, Settings};
-use texere_fabric::{FabricError, Shape, Thread, Weave, Woven, clearance};
+use texere_fabric::{FabricError, Shape, Thread, Weave, Woven};
 
 fn main() -> Result<(), FabricError> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

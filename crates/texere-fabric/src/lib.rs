@@ -18,8 +18,8 @@
 //! structure; a [`Repeat`] settles once and is copied.
 //!
 //! Beside structures there are the measures that designers ask for: [`Measures`] (yarn consumption, crimp, cover, weight,
-//! thickness), [`clearance()`] (whether yarns pierce one another), [`linking()`] (whether they have passed through one
-//! another when they were moved), [`length_mm`] of yarn, and the diameter of a yarn of known weight ([`diameter_mm`]).
+//! thickness), and the diameter of a yarn of known weight ([`diameter_mm`]). What is measured on yarns alone, whatever their structure, is in
+//! [`texere_contact`].
 //!
 //! ```
 //! use texere_core::{Material, Section};
@@ -32,55 +32,38 @@
 //! # Ok::<(), texere_fabric::FabricError>(())
 //! ```
 
-mod clearance;
 mod diagnosis;
-mod drawn;
 mod error;
-mod grid;
-mod length;
-mod linking;
 mod look_alike;
 mod measures;
-mod memory;
 mod reach;
 mod settling;
 mod structure;
 mod subject;
-mod under;
 mod warning;
 pub mod warp;
-mod watch;
 pub mod weft;
 mod woven;
 mod yarn_check;
 mod yarn_size;
 
-pub use clearance::{
-    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
-    Clearance, Contact, Crowd, YarnPlace, clearance, clearance_with_progress,
-};
 pub use diagnosis::{
-    CLEAR, ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
+    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
     StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
 };
-pub use drawn::{Drawn, WRUNG, drawn, finer};
 pub use error::FabricError;
-pub use length::{length_mm, lengths_mm};
-pub use linking::{
-    LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
-    WINDOW_REACH, linking, linking_with_progress,
-};
 pub use look_alike::{hyphen_look_alike, slash_look_alike};
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, Settled, settle};
 pub use structure::Structure;
-pub use under::yarns_under;
 pub use warning::FabricWarning;
 pub use woven::{
     CROSSINGS_MAX, Crimp, Draft, Drawdown, FLATNESS_MAX, FLATNESS_MIN, JamReport, Loom, NO_CROSSING,
     POINTS_MAX, Pitch, REPEAT_MAX, Relief, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Sett,
-    Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenRest,
+    Shape, Shedding, Stretch, THREADS_MAX, Thread, Tightness, Weave, Woven, WovenDesign, WovenError,
+    WovenRest,
 };
+pub use yarn_check::ThreadError;
 pub use yarn_size::{
     COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,
     tex_from_metric_count, turns_per_m, twist_from_turns_per_m,

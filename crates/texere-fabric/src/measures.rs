@@ -3,10 +3,9 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Material, Segment, Yarns};
+use texere_contact::{part_length_mm, round_length_mm};
+use texere_core::{ControlPoint, Material, Segment, Yarns, neighbours, tangent_factor};
 
-use crate::clearance::neighbours;
-use crate::length::{part_length_mm, round_length_mm};
 use crate::reach::{Reach, mean_reach};
 use crate::woven::Sample;
 use crate::yarn_size::INCH_MM;
@@ -127,7 +126,7 @@ impl Measures {
     /// that many have: what is measured is whole repeats, as they lie among others. What depends on tex is measured in repeats of the weave and
     /// of the yarns' tex, or in the whole cloth where that is no longer.
     ///
-    /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         let ratios = Sample::new(cloth, yarns)?.ratios(tension);
@@ -200,7 +199,7 @@ impl Own {
 impl Cover {
     /// The cover of `cloth` by `yarns`, from their mean widths and its threads' spacings.
     ///
-    /// **Errors**: [`FabricError::OtherCloth`] where these are not the cloth's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the cloth's yarns.
     pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
         Ok(Self::of(cloth, yarns, cloth.whole(), cloth.whole_by_weight()))
@@ -270,7 +269,7 @@ fn mean_half_width(points: &[ControlPoint]) -> f64 {
 }
 
 /// Length of yarn of each material, mm, in the materials' order; `lengths` are the yarns' (see
-/// [`lengths_mm`](crate::lengths_mm)).
+/// [`lengths_mm`](texere_contact::lengths_mm)).
 #[must_use]
 pub fn lengths_by_material(yarns: &Yarns, lengths: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; yarns.materials().len()];
@@ -298,7 +297,7 @@ pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
 /// That of the intervals that begin at those control points of each yarn.
 fn thickness_within(yarns: &Yarns, tension: f32, own: impl Fn(usize) -> Range<usize> + Sync) -> f64 {
     let reaches: Vec<Reach> = yarns.layout().sections().iter().map(Reach::new).collect();
-    let s = (1.0 - tension) / 2.0;
+    let s = tangent_factor(tension);
     let extent = |yarn: usize| {
         let what = yarns.layout().yarns()[yarn];
         let reach = &reaches[what.section as usize];

@@ -2,14 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use texere_core::{Backend, Section, Settings, Yarns};
+use texere_core::{Backend, Section, Settings, YarnPlace, Yarns};
 
 use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, Pieces, ThreadPlace};
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
     FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, Stretch, WovenDesign,
-    YarnPlace,
 };
 
 /// How the yarns of a fabric interlace. There are methods for what can be asked of any kind.
@@ -171,7 +170,9 @@ impl Structure {
     ///
     /// ```
     /// use texere_core::{Material, Section};
-    /// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign, YarnPlace, yarns_under};
+    /// use texere_contact::yarns_under;
+    /// use texere_core::YarnPlace;
+    /// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign};
     /// let plain = Weave::parse("plain")?.drawdown(8, 6)?;
     /// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 8], vec![Thread::new(1.0, 0.2); 6]);
     /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
@@ -216,8 +217,8 @@ impl Structure {
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         match self {
             Self::Woven(design) => design.set_section(section),
-            Self::Weft(knit) => knit.set_section(section),
-            Self::Warp(knit) => knit.set_section(section),
+            Self::Weft(knit) => Ok(knit.set_section(section)?),
+            Self::Warp(knit) => Ok(knit.set_section(section)?),
         }
     }
 
@@ -233,7 +234,7 @@ impl Structure {
 
     /// Yarn consumption, weight and thickness; of woven cloth crimp and cover, of a knit its loops. `yarns` are the structure's own, their splines of `tension`.
     ///
-    /// **Errors**: [`FabricError::OtherCloth`] where these are not the structure's yarns.
+    /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the structure's yarns.
     pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns, tension),
@@ -245,7 +246,7 @@ impl Structure {
     /// How near yarns come to one another and how tightly they bend, at places that a designer can find: see
     /// [`Woven::clearance`](crate::Woven::clearance).
     ///
-    /// **Errors**: those of [`clearance_with_progress`](crate::clearance_with_progress).
+    /// **Errors**: those of [`clearance_with_progress`](texere_contact::clearance_with_progress).
     pub fn clearance(
         &self,
         yarns: &Yarns,
@@ -297,7 +298,7 @@ impl Structure {
     }
 
     /// What is wrong with the fabric once it has settled to `finished`, its splines of `tension`: jams are not looked for, since threads that
-    /// have found room show it in their clearance. Contacts of a ratio below `touching` pierce; [`CLEAR`](crate::CLEAR) is what
+    /// have found room show it in their clearance. Contacts of a ratio below `touching` pierce; [`CLEAR`](texere_contact::CLEAR) is what
     /// [`Finished::verdict`] goes by.
     ///
     /// **Errors**: those of [`Structure::clearance`].

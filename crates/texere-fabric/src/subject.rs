@@ -2,9 +2,11 @@
 
 use texere_core::{Origin, Subject};
 
-use crate::{FabricError, FinishError};
+use crate::warp::WarpError;
+use crate::weft::WeftError;
+use crate::{FabricError, FinishError, ThreadError, WovenError};
 
-// As in the core, neither has an arm for all others.
+// As in the core, none has an arm for all others.
 
 impl FabricError {
     /// What of the cloth it is about. None of memory, of somebody who asked to stop, of what no design says, and of calls that don't fit the
@@ -12,71 +14,104 @@ impl FabricError {
     ///
     /// ```
     /// use texere_core::{Origin, Subject};
-    /// use texere_fabric::FabricError;
-    /// let error = FabricError::Radius { thread: Origin::End(3), radius_mm: 0.0, low: 0.1, high: 1.0 };
-    /// assert_eq!(error.subject(), Some(Subject::Thickness(Origin::End(3))));
+    /// use texere_fabric::{FabricError, ThreadError};
+    /// let error = ThreadError::Radius { thread: Origin::End(3), radius_mm: 0.0, low: 0.1, high: 1.0 };
+    /// assert_eq!(FabricError::from(error).subject(), Some(Subject::Thickness(Origin::End(3))));
     /// assert_eq!(FabricError::Cancelled.subject(), None);
     /// ```
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
+        match self {
+            Self::Woven(error) => error.subject(),
+            Self::Weft(error) => Some(error.subject()),
+            Self::Warp(error) => Some(error.subject()),
+            Self::Thread(error) => Some(error.subject()),
+            Self::Contact(error) => error.subject(),
+            Self::Boundary(error) => error.subject(),
+            Self::Yarns(error) => error.subject(),
+            Self::OutOfMemory(_) | Self::Cancelled | Self::OtherYarns { .. } => None,
+        }
+    }
+}
+
+impl WovenError {
+    /// What of the cloth it is about. None of calls that don't fit the cloth.
+    #[must_use]
+    pub fn subject(&self) -> Option<Subject> {
         Some(match *self {
-            Self::OutOfMemory { .. }
-            | Self::Cancelled
-            | Self::Settings(_)
-            | Self::NoCrossing { .. }
-            | Self::NoMaterial { .. }
-            | Self::OtherLayout { .. }
-            | Self::OtherYarns { .. }
-            | Self::OtherCloth { .. } => return None,
-            Self::Boundary(ref error) => return error.subject(),
-            Self::Yarns(ref error) => return error.subject(),
+            Self::NoCrossing { .. } | Self::NoMaterial { .. } | Self::OtherCloth { .. } => return None,
             Self::Size { .. }
             | Self::Crossings { .. }
             | Self::Points { .. }
             | Self::Repeat { .. }
-            | Self::ThreadCount { .. }
-            | Self::ClearancePoints { .. }
-            | Self::LinkingSize { .. }
-            | Self::KnitPoints { .. } => Subject::Size,
-            Self::KnitSize { .. }
-            | Self::KnitRuns { .. }
-            | Self::KnitRepeat { .. }
-            | Self::KnitNeedle { .. }
-            | Self::KnitCarriers { .. }
-            | Self::TieUp { .. }
+            | Self::ThreadCount { .. } => Subject::Size,
+            Self::TieUp { .. }
             | Self::Notation { .. }
             | Self::NoWeave { .. }
             | Self::Hyphen { .. }
             | Self::Slash { .. }
             | Self::SatinMove { .. }
             | Self::NoSatin { .. }
-            | Self::TwillMove { .. }
-            | Self::Stitches { .. }
-            | Self::NoLoops => Subject::Structure,
-            Self::Laps { .. } | Self::WarpRepeat { what: "wale", .. } => Subject::Width,
-            Self::WarpRepeat { .. } => Subject::Height,
-            Self::Copies { .. } => Subject::Copies,
+            | Self::TwillMove { .. } => Subject::Structure,
             Self::Spacing { thread, .. } => Subject::Spacing(thread),
             Self::Extent { set: "ends", .. } => Subject::Ends,
             Self::Extent { .. } => Subject::Picks,
-            Self::Radius { thread, .. } => Subject::Thickness(thread),
             Self::Flatness { thread, .. } | Self::Half { thread, .. } => Subject::Flatness(thread),
             Self::Stiffness { thread, .. } => Subject::Stiffness(thread),
-            Self::Twist { thread, .. } => Subject::Twist(thread),
-            Self::UnknownMaterial { thread, .. } => Subject::Color(thread),
-            Self::UnknownSection { thread, .. } => Subject::Section(thread),
-            Self::Section { .. } => Subject::Section(Origin::Unknown),
             Self::Crimp { .. } => Subject::Crimp,
+        })
+    }
+}
+
+impl WeftError {
+    /// What of the cloth it is about.
+    #[must_use]
+    pub fn subject(&self) -> Subject {
+        match *self {
+            Self::KnitPoints { .. } => Subject::Size,
+            Self::KnitSize { .. }
+            | Self::KnitRuns { .. }
+            | Self::KnitRepeat { .. }
+            | Self::KnitNeedle { .. }
+            | Self::KnitCarriers { .. }
+            | Self::Stitches { .. } => Subject::Structure,
+            Self::Copies { .. } => Subject::Copies,
             Self::Gauge { what: "wales", .. } => Subject::Wales,
             Self::Gauge { what: "courses", .. } => Subject::Courses,
             Self::Gauge { .. } => Subject::Loops,
             Self::Carrier { .. } => Subject::Carriers,
+        }
+    }
+}
+
+impl WarpError {
+    /// What of the cloth it is about.
+    #[must_use]
+    pub fn subject(&self) -> Subject {
+        match *self {
+            Self::NoLoops => Subject::Structure,
+            Self::Laps { .. } | Self::WarpRepeat { what: "wale", .. } => Subject::Width,
+            Self::WarpRepeat { .. } => Subject::Height,
             Self::Bars { .. } => Subject::Bars,
             Self::GuideYarn { bar, .. } => Subject::Threading(bar),
             Self::BarOffset { bar, .. } => Subject::Offset(bar),
             Self::RunIn { bar, .. } => Subject::RunIn(bar),
             Self::JacquardCourses { bar, .. } | Self::JacquardLap { bar, .. } => Subject::Jacquard(bar),
-        })
+        }
+    }
+}
+
+impl ThreadError {
+    /// What of the cloth it is about.
+    #[must_use]
+    pub const fn subject(&self) -> Subject {
+        match *self {
+            Self::Radius { thread, .. } => Subject::Thickness(thread),
+            Self::Twist { thread, .. } => Subject::Twist(thread),
+            Self::UnknownMaterial { thread, .. } => Subject::Color(thread),
+            Self::UnknownSection { thread, .. } => Subject::Section(thread),
+            Self::Section { .. } => Subject::Section(Origin::Unknown),
+        }
     }
 }
 

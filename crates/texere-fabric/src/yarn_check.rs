@@ -1,13 +1,68 @@
 //! What yarns are checked for, whatever structure they are in.
 
-use texere_core::{Material, RADIUS_MAX, RADIUS_MIN, Section, TWIST_LIMIT, Yarn};
+use texere_core::{Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, SectionError, TWIST_LIMIT, Yarn};
+use thiserror::Error;
 
-use crate::FabricError;
+/// A thread of any structure that can't be taken.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ThreadError {
+    /// A radius that is not a number, not positive, or no yarn's.
+    #[error("radius of {thread} is {radius_mm} mm, outside {low} to {high} mm")]
+    Radius {
+        /// The thread.
+        thread: Origin,
+        /// Its radius, mm.
+        radius_mm: f32,
+        /// Thinnest taken, mm.
+        low: f32,
+        /// Thickest taken, mm.
+        high: f32,
+    },
+    /// A twist that is not finite or too steep.
+    #[error("twist of {thread} is {twist} rad/mm, beyond ±{limit}")]
+    Twist {
+        /// The thread.
+        thread: Origin,
+        /// Its twist, rad/mm.
+        twist: f32,
+        /// The steepest taken, rad/mm.
+        limit: f32,
+    },
+    /// A thread refers to a material that is missing.
+    #[error("{thread} is of material {material}, but there are {materials}")]
+    UnknownMaterial {
+        /// The thread.
+        thread: Origin,
+        /// Its material, from 0.
+        material: u32,
+        /// How many there are.
+        materials: usize,
+    },
+    /// A thread refers to a section that is missing.
+    #[error("{thread} has section {section}, but there are {sections}")]
+    UnknownSection {
+        /// The thread.
+        thread: Origin,
+        /// Its section, from 0.
+        section: u32,
+        /// How many there are.
+        sections: usize,
+    },
+    /// A section whose numbers are not sound.
+    #[error("section {section} is not sound")]
+    Section {
+        /// Which one, from 0.
+        section: usize,
+        /// Why.
+        source: SectionError,
+    },
+}
 
 /// Whether the numbers of all sections are sound.
-pub(crate) fn sections(sections: &[Section]) -> Result<(), FabricError> {
+pub(crate) fn sections(sections: &[Section]) -> Result<(), ThreadError> {
     for (section, each) in sections.iter().enumerate() {
-        each.validate().map_err(|source| FabricError::Section { section, source })?;
+        each.validate().map_err(|source| ThreadError::Section { section, source })?;
     }
     Ok(())
 }
@@ -19,20 +74,20 @@ pub(crate) fn yarn(
     radius_mm: f32,
     materials: &[Material],
     sections: &[Section],
-) -> Result<(), FabricError> {
+) -> Result<(), ThreadError> {
     let Yarn { material, section, twist, origin: thread, closed: _ } = *yarn;
     let (materials, sections) = (materials.len(), sections.len());
     if !(RADIUS_MIN..=RADIUS_MAX).contains(&radius_mm) {
-        return Err(FabricError::Radius { thread, radius_mm, low: RADIUS_MIN, high: RADIUS_MAX });
+        return Err(ThreadError::Radius { thread, radius_mm, low: RADIUS_MIN, high: RADIUS_MAX });
     }
     if !(-TWIST_LIMIT..=TWIST_LIMIT).contains(&twist) {
-        return Err(FabricError::Twist { thread, twist, limit: TWIST_LIMIT });
+        return Err(ThreadError::Twist { thread, twist, limit: TWIST_LIMIT });
     }
     if material as usize >= materials {
-        return Err(FabricError::UnknownMaterial { thread, material, materials });
+        return Err(ThreadError::UnknownMaterial { thread, material, materials });
     }
     if section as usize >= sections {
-        return Err(FabricError::UnknownSection { thread, section, sections });
+        return Err(ThreadError::UnknownSection { thread, section, sections });
     }
     Ok(())
 }

@@ -8,11 +8,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DVec3, Vec4Swizzles};
 use proptest::prelude::*;
-use texere_core::{ControlPoint, Material, PlanError, Section, Segment, Settings, Yarn, Yarns};
-use texere_fabric::{
-    CLEARANCE_ACCURACY, CLEARANCE_NEAR, CONTACTS_LISTED, Contact, FabricError, NO_CROSSING, Shape, Thread,
-    Weave, Woven, YarnPlace, clearance,
-};
+use texere_contact::{CLEARANCE_ACCURACY, CLEARANCE_NEAR, CONTACTS_LISTED, Contact, ContactError, clearance};
+use texere_core::{ControlPoint, Material, PlanError, Section, Segment, Settings, Yarn, YarnPlace, Yarns};
+use texere_fabric::{NO_CROSSING, Shape, Thread, Weave, Woven};
 
 use oracle::{ellipse, refined_clearance, round_clearance, surface_clearance};
 
@@ -423,7 +421,7 @@ fn a_yarn_of_too_many_rings_is_refused() {
     let settings = Settings { subdivisions: 1023, ..Settings::default() };
     let refused = clearance(&yarns.build().unwrap(), &settings);
     assert!(
-        matches!(refused, Err(FabricError::Settings(PlanError::YarnRings { yarn: 0, .. }))),
+        matches!(refused, Err(ContactError::Settings(PlanError::YarnRings { yarn: 0, .. }))),
         "{refused:?}"
     );
 }
@@ -484,7 +482,7 @@ fn yarns_of_one_place_and_of_all_sizes_are_measured() {
     assert!(report.min < 1e-3 && !report.min.is_nan());
     for tension in [-0.1, 1.0, f32::NAN] {
         let refused = clearance(&cloth(Section::Circle), &tense(tension));
-        assert!(matches!(refused, Err(FabricError::Settings(PlanError::Tension { .. }))));
+        assert!(matches!(refused, Err(ContactError::Settings(PlanError::Tension { .. }))));
     }
 }
 

@@ -10,11 +10,11 @@ use std::f32::consts::TAU;
 use std::ops::ControlFlow;
 
 use proptest::prelude::*;
-use texere_core::{ControlPoint, Section, Settings, Yarn, Yarns};
-use texere_fabric::{
-    CLEARANCE_BESIDE, CLEARANCE_PAIRS, Clearance, FabricError, Shape, Thread, clearance,
-    clearance_with_progress,
+use texere_contact::{
+    CLEARANCE_BESIDE, CLEARANCE_PAIRS, Clearance, ContactError, clearance, clearance_with_progress,
 };
+use texere_core::{ControlPoint, Section, Settings, Yarn, Yarns};
+use texere_fabric::{Shape, Thread};
 
 use cloths::{cloth, weave, weaves};
 use oracle::round_clearance;
@@ -213,7 +213,7 @@ fn progress_is_told_and_heard() {
         last = done;
         if done > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    assert_eq!(stopped, Err(FabricError::Cancelled));
+    assert_eq!(stopped, Err(ContactError::Cancelled));
     assert!(last < 0.7, "{last}");
 }
 

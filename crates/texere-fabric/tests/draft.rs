@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
 use proptest::prelude::*;
-use texere_fabric::{Draft, FabricError, Shedding};
+use texere_fabric::{Draft, FabricError, Shedding, WovenError};
 
 /// Whether the draft's definition puts the warp up: an end's shaft is among those lifted, or not, with a sinking shed.
 fn up(draft: &Draft, end: usize, pick: usize) -> bool {
@@ -67,9 +67,9 @@ fn numbers_may_be_as_large_as_they_like() {
 fn empty_and_oversized_drafts_are_refused() {
     let draft = |ends: usize, shedding| Draft { threading: vec![vec![1]; ends], shedding, rising_shed: true };
     let none = draft(0, Shedding::LiftPlan(vec![vec![1]]));
-    assert!(matches!(none.drawdown(), Err(FabricError::Size { ends: 0, picks: 1, .. })));
+    assert!(matches!(none.drawdown(), Err(FabricError::Woven(WovenError::Size { ends: 0, picks: 1, .. }))));
     let none = draft(1, Shedding::TieUp { tie_up: vec![], treadling: vec![] });
-    assert!(matches!(none.drawdown(), Err(FabricError::Size { ends: 1, picks: 0, .. })));
+    assert!(matches!(none.drawdown(), Err(FabricError::Woven(WovenError::Size { ends: 1, picks: 0, .. }))));
     let wide = draft(1_000_000, Shedding::TieUp { tie_up: vec![vec![1]; 5000], treadling: vec![vec![1]; 4] });
-    assert!(matches!(wide.drawdown(), Err(FabricError::TieUp { treadles: 5000, .. })));
+    assert!(matches!(wide.drawdown(), Err(FabricError::Woven(WovenError::TieUp { treadles: 5000, .. }))));
 }

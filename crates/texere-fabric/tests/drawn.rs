@@ -1,8 +1,8 @@
 //! Which tubes of polygons a mesh draws inside out: those bent tighter than their section reaches inwards, whatever its shape.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use texere_contact::{Drawn, drawn};
 use texere_core::{ControlPoint, Section, Settings, Yarn, Yarns};
-use texere_fabric::{Drawn, drawn};
 
 /// Half the width of the yarn, mm.
 const RADIUS: f32 = 0.1;

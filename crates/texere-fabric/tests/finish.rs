@@ -5,15 +5,16 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use texere_contact::clearance;
 use texere_core::settling::{Length, Pass, Place, Seen, Settler, SettlingPlan};
 use texere_core::{
     Backend, BackendError, Boundary, ControlPoint, DeviceInfo, Ends, Engine, Material, NullBackend, Origin,
-    Plan, Section, Settings, Yarn, Yarns,
+    Plan, Section, Settings, Yarn, YarnPlace, Yarns,
 };
 use texere_cpu::ParallelBackend;
 use texere_fabric::{
     FabricError, Finish, FinishError, Piece, Relief, Repeat, Settled, Structure, Thread, Weave, Woven,
-    WovenDesign, YarnPlace, clearance, settle,
+    WovenDesign, settle,
 };
 
 /// A plain weave of 8 ends and picks of 0.3 mm, of every three two `pitch` diameters apart. The third is 2.6 from both.
@@ -235,7 +236,7 @@ fn copies_that_can_not_be_are_refused() {
     let none = repeat([0, 4]);
     assert!(matches!(none.laid(&none.piece.yarns), Err(FabricError::Yarns(_))));
     let all = repeat([u32::MAX; 2]);
-    assert!(matches!(all.laid(&all.piece.yarns), Err(FabricError::OutOfMemory { .. })));
+    assert!(matches!(all.laid(&all.piece.yarns), Err(FabricError::OutOfMemory(_))));
     let others = plain(2.0).yarns().unwrap();
     assert!(matches!(one.laid(&others), Err(FabricError::OtherYarns { planned: 10, .. })));
 }

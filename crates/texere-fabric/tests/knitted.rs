@@ -3,14 +3,15 @@
 
 use std::ops::ControlFlow;
 
+use texere_contact::clearance;
 use texere_core::settling::Length;
 use texere_core::{ControlPoint, Ends, Material, Origin, Section, Settings, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::weft::{
     Beds, CarrierSet, Cells, Chart, Direction, Gauge, Instruction, KnitYarn, Knitted, Machine, Needle,
-    Operation, Program, Stitches,
+    Operation, Program, Stitches, WeftError,
 };
-use texere_fabric::{FabricError, Finish, Finished, Structure, clearance};
+use texere_fabric::{FabricError, Finish, Finished, Structure};
 
 /// A yarn of 0.2 mm and 30 tex.
 fn knit(stitches: Stitches, copies: [u32; 2]) -> Result<Knitted, FabricError> {
@@ -178,13 +179,13 @@ fn what_is_no_cloth_is_refused_by_name() {
     says(knit(chart("k"), [1 << 31, 1]).unwrap_err().to_string(), "too many wales");
     says(knit(chart("k"), [0, 1]).unwrap_err().to_string(), "no copy");
     let much = knit(chart("k"), [1 << 20, 1 << 20]).unwrap_err();
-    assert!(matches!(much, FabricError::KnitPoints { .. }), "{much}");
+    assert!(matches!(much, FabricError::Weft(WeftError::KnitPoints { .. })), "{much}");
     let gauge = |gauge| {
         let yarns = vec![KnitYarn::new(0.1)];
         Knitted::new(chart("k"), gauge, yarns, vec![Material::default()], vec![Section::Circle], [1, 1])
     };
     for wrong in [Gauge::new(0.0, 1.0), Gauge::new(1.0, f64::NAN), Gauge::munden(-2.0)] {
-        assert!(matches!(gauge(wrong), Err(FabricError::Gauge { .. })), "{wrong:?}");
+        assert!(matches!(gauge(wrong), Err(FabricError::Weft(WeftError::Gauge { .. }))), "{wrong:?}");
     }
 }
 
@@ -218,9 +219,9 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
     held.extend((0..20_000).map(|_| (right(999), 1)));
     held.extend((0..1000).map(|needle| (left(999 - needle), 2)));
     for (what, operations) in [("floats", floats), ("rises", rises), ("held", held)] {
-        assert!(matches!(made(operations), Err(FabricError::KnitRuns { .. })), "{what}");
+        assert!(matches!(made(operations), Err(FabricError::Weft(WeftError::KnitRuns { .. }))), "{what}");
     }
-    assert!(matches!(knit(chart("k"), [9973, 9973]), Err(FabricError::Copies { .. })));
+    assert!(matches!(knit(chart("k"), [9973, 9973]), Err(FabricError::Weft(WeftError::Copies { .. }))));
     assert!(knit(chart("k"), [10_000, 10_000]).is_ok());
 }
 

@@ -2,9 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
+use texere_contact::lengths_mm;
 use texere_core::{ControlPoint, Material, Section, Yarn, Yarns};
 use texere_fabric::{
-    Crimp, Drawdown, FabricError, Measures, Shape, Thread, Weave, Woven, lengths_by_material, lengths_mm,
+    Crimp, Drawdown, FabricError, Measures, Shape, Thread, Weave, Woven, WovenError, lengths_by_material,
     thickness_mm, weight_g,
 };
 
@@ -148,5 +149,5 @@ fn yarns_of_another_cloth_are_refused() {
     let mut other = cloth.clone();
     other.set_selvedge(true);
     let error = Measures::new(&cloth, &other.yarns().unwrap(), 0.0).unwrap_err();
-    assert!(matches!(error, FabricError::OtherCloth { yarn: 101 }), "{error}");
+    assert!(matches!(error, FabricError::Woven(WovenError::OtherCloth { yarn: 101 })), "{error}");
 }

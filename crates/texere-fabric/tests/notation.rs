@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends at what it did not expect")]
 
-use texere_fabric::{FabricError, Weave};
+use texere_fabric::{Weave, WovenError};
 
 /// Checks a weave against a drawing: `#` warp up, first pick at the bottom, over as many repeats as it shows.
 #[track_caller]
@@ -180,7 +180,7 @@ fn every_thread_of_a_reversed_twill_changes_sides() {
 #[track_caller]
 fn refuses(text: &str, position: usize, expected: &str) {
     match Weave::parse(text) {
-        Err(FabricError::Notation { text: shown, position: at, expected: wanted }) => {
+        Err(WovenError::Notation { text: shown, position: at, expected: wanted }) => {
             assert_eq!((shown.as_str(), at, wanted), (text, position, expected));
         }
         other => panic!("{text}: {other:?}"),
@@ -275,31 +275,31 @@ fn what_can_not_be_woven_is_refused() {
         let error = Weave::parse(text).unwrap_err();
         let shown = text.to_owned();
         let position = text.find('(').unwrap() + 2;
-        assert_eq!(error, FabricError::SatinMove { text: shown, position, step, ends: 8 });
+        assert_eq!(error, WovenError::SatinMove { text: shown, position, step, ends: 8 });
     }
     for ends in [1, 2, 3, 4, 6] {
         let text = format!("satin {ends}");
         let error = Weave::parse(&text).unwrap_err();
-        assert_eq!(error, FabricError::NoSatin { text, position: 7, ends });
+        assert_eq!(error, WovenError::NoSatin { text, position: 7, ends });
     }
     // With a move of 2 the odd ends of 3/1 never go down; with a move of 4 no end ever changes.
     for (text, step, end) in [("3/1(2)", 2, 1), ("3/1(4)", 4, 1), ("1/1*3/1(2)", 2, 1), ("2/2(-4)", -4, 1)] {
         let error = Weave::parse(text).unwrap_err();
         let position = text.find('(').unwrap() + 2;
-        assert_eq!(error, FabricError::TwillMove { text: text.into(), position, step, end });
+        assert_eq!(error, WovenError::TwillMove { text: text.into(), position, step, end });
     }
 }
 
 #[test]
 fn hostile_texts_neither_panic_nor_fill_memory() {
     let long = "1/1*".repeat(1_000_000);
-    assert!(matches!(Weave::parse(&long), Err(FabricError::Repeat { ends: 4098, .. })));
-    assert!(matches!(Weave::parse("4096/4096"), Err(FabricError::Repeat { .. })));
-    assert!(matches!(Weave::parse("2/2(4096+4096)"), Err(FabricError::Repeat { ends: 8192, .. })));
-    assert!(matches!(Weave::parse("matt 4096"), Err(FabricError::Repeat { ends: 8192, .. })));
-    assert!(matches!(Weave::parse("herringbone 2/2(4096)"), Err(FabricError::Repeat { ends: 8192, .. })));
-    assert!(matches!(Weave::parse("pointed 2/2(4096)"), Err(FabricError::Repeat { ends: 8190, .. })));
-    let Err(FabricError::NoWeave { text, .. }) = Weave::parse(&"é".repeat(1_000_000)) else { panic!() };
+    assert!(matches!(Weave::parse(&long), Err(WovenError::Repeat { ends: 4098, .. })));
+    assert!(matches!(Weave::parse("4096/4096"), Err(WovenError::Repeat { .. })));
+    assert!(matches!(Weave::parse("2/2(4096+4096)"), Err(WovenError::Repeat { ends: 8192, .. })));
+    assert!(matches!(Weave::parse("matt 4096"), Err(WovenError::Repeat { ends: 8192, .. })));
+    assert!(matches!(Weave::parse("herringbone 2/2(4096)"), Err(WovenError::Repeat { ends: 8192, .. })));
+    assert!(matches!(Weave::parse("pointed 2/2(4096)"), Err(WovenError::Repeat { ends: 8190, .. })));
+    let Err(WovenError::NoWeave { text, .. }) = Weave::parse(&"é".repeat(1_000_000)) else { panic!() };
     assert_eq!(text.chars().count(), 61);
 }
 
@@ -386,7 +386,7 @@ fn an_irregular_satin_is_drawn_by_its_binding_points() {
     refuses("satin 6(1 3 5 2 6 3)", 19, order);
     refuses("satin 6(1 3 5 2 6 7)", 19, order);
     refuses("satin 6(1 3 5 2 6 4", 20, order);
-    assert!(matches!(Weave::parse("satin 3"), Err(FabricError::NoSatin { .. })));
+    assert!(matches!(Weave::parse("satin 3"), Err(WovenError::NoSatin { .. })));
 }
 
 #[test]

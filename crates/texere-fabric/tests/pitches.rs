@@ -6,8 +6,9 @@
 
 mod cloths;
 
+use texere_contact::clearance;
 use texere_core::{Section, Settings};
-use texere_fabric::{Crimp, Drawdown, FabricWarning, Relief, Shape, Thread, Weave, clearance};
+use texere_fabric::{Crimp, Drawdown, FabricWarning, Relief, Shape, Thread, Weave};
 
 use cloths::{cloth, jam, weaves};
 

@@ -4,8 +4,7 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use texere_core::{ControlPoint, Yarn, Yarns};
-use texere_fabric::YarnPlace;
+use texere_core::{ControlPoint, Yarn, YarnPlace, Yarns};
 
 /// A yarn through `points`, after another one.
 fn yarns(points: &[[f32; 3]], closed: bool) -> Yarns {

@@ -5,7 +5,9 @@
 mod oracle;
 
 use texere_core::{Material, Origin, Section};
-use texere_fabric::{Crimp, FabricError, Relief, Shape, Thread, Weave, Woven, WovenDesign};
+use texere_fabric::{
+    Crimp, FabricError, Relief, Shape, Thread, ThreadError, Weave, Woven, WovenDesign, WovenError,
+};
 
 fn cloth(weave: &str, [end, pick]: [Thread; 2], section: Section) -> Woven {
     let drawdown = Weave::parse(weave).unwrap().drawdown(8, 8).unwrap();
@@ -124,7 +126,10 @@ fn threads_too_thin_to_shrink_are_left_alone() {
     let mut cloth = cloth("plain", [Thread::new(1e-6, 1.0), Thread::new(1.0, 1e-4)], Section::Circle);
     let before = cloth.clone();
     let error = cloth.relieve(Relief::Shrink).unwrap_err();
-    assert!(matches!(error, FabricError::Radius { thread: Origin::End(1), .. }), "{error}");
+    assert!(
+        matches!(error, FabricError::Thread(ThreadError::Radius { thread: Origin::End(1), .. })),
+        "{error}"
+    );
     assert_eq!(cloth, before);
 }
 
@@ -153,11 +158,11 @@ fn a_design_with_another_lift_is_one_that_was_given_so() {
 
     let before = edited.cloth().clone();
     let error = edited.set_lift(8, 0, true).unwrap_err();
-    assert_eq!(error, FabricError::NoCrossing { end: 9, pick: 1, ends: 8, picks: 8 });
+    assert_eq!(error, FabricError::Woven(WovenError::NoCrossing { end: 9, pick: 1, ends: 8, picks: 8 }));
     edited.set_color(0, [1, 2, 3]).unwrap();
     assert_eq!(edited.cloth().materials()[0].srgb, [1, 2, 3]);
     assert_eq!(edited.as_given().materials()[0].srgb, [1, 2, 3]);
     let error = edited.set_color(1, [1, 2, 3]).unwrap_err();
-    assert_eq!(error, FabricError::NoMaterial { material: 1, materials: 1 });
+    assert_eq!(error, WovenError::NoMaterial { material: 1, materials: 1 });
     assert_eq!(edited.cloth().yarns().unwrap().points(), before.yarns().unwrap().points());
 }

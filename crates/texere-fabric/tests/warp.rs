@@ -9,10 +9,10 @@ use texere_core::{Material, Origin, Section};
 use texere_cpu::SerialBackend;
 use texere_fabric::warp::{
     Bar, CHAIN_COURSES, Chain, Displacements, LAPPINGS, Lap, LapKind, NEEDLES_MOST, SPACE_MAX, Threading,
-    WarpKnitted,
+    WarpError, WarpKnitted,
 };
-use texere_fabric::weft::{Cells, Gauge, KnitYarn};
-use texere_fabric::{FabricError, Finish, Structure};
+use texere_fabric::weft::{Cells, Gauge, KnitYarn, WeftError};
+use texere_fabric::{FabricError, Finish, Structure, ThreadError};
 
 fn chain(text: &str) -> Chain {
     Chain::parse(text, 1).unwrap()
@@ -243,38 +243,52 @@ fn what_is_no_cloth_is_refused() {
     let refused = |bars: Vec<Bar>, size, copies| knit(bars, size, copies).unwrap_err();
     let four = [4, 4];
     let one = [1, 1];
-    assert!(matches!(refused(vec![], four, one), FabricError::Bars { .. }));
-    assert!(matches!(refused(vec![bar(); 65], four, one), FabricError::Bars { .. }));
+    assert!(matches!(refused(vec![], four, one), FabricError::Warp(WarpError::Bars { .. })));
+    assert!(matches!(refused(vec![bar(); 65], four, one), FabricError::Warp(WarpError::Bars { .. })));
     let other = Bar { threading: Threading::full(u32::MAX), ..bar() };
-    assert!(matches!(refused(vec![other], four, one), FabricError::GuideYarn { bar: 1, .. }));
+    assert!(matches!(
+        refused(vec![other], four, one),
+        FabricError::Warp(WarpError::GuideYarn { bar: 1, .. })
+    ));
     let empty = Bar { threading: Threading::of(vec![]), ..bar() };
-    assert_eq!(refused(vec![empty], four, one), FabricError::NoLoops);
+    assert_eq!(refused(vec![empty], four, one), FabricError::Warp(WarpError::NoLoops));
     let inlay = Bar::new(chain("0-0/1-1"));
-    assert_eq!(refused(vec![inlay], four, one), FabricError::NoLoops);
+    assert_eq!(refused(vec![inlay], four, one), FabricError::Warp(WarpError::NoLoops));
     for offset in [i32::MIN, i32::MAX] {
         let far = Bar { offset, ..bar() };
-        assert!(matches!(refused(vec![bar(), far], four, one), FabricError::BarOffset { bar: 2, .. }));
+        assert!(matches!(
+            refused(vec![bar(), far], four, one),
+            FabricError::Warp(WarpError::BarOffset { bar: 2, .. })
+        ));
     }
     for mm in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
         let run_in = Bar { run_in_mm: Some(mm), ..bar() };
-        assert!(matches!(refused(vec![run_in], four, one), FabricError::RunIn { bar: 1, .. }));
+        assert!(matches!(
+            refused(vec![run_in], four, one),
+            FabricError::Warp(WarpError::RunIn { bar: 1, .. })
+        ));
     }
     let jacquard = Displacements::new([1, 1], vec![vec![[0, 0]]], |_, _| 0);
     let other = Bar { jacquard, ..bar() };
-    let courses = FabricError::JacquardCourses { bar: 1, courses: 1, chain: 2 };
+    let courses = FabricError::Warp(WarpError::JacquardCourses { bar: 1, courses: 1, chain: 2 });
     assert_eq!(refused(vec![other], four, one), courses);
     // What is displaced goes round three needles: 2-0 by 1-0 is 3-0.
     let wide = Displacements::new([1, 1], vec![vec![[1, 0], [0, 0]]], |_, _| 0);
     let wide = Bar { jacquard: wide, ..Bar::new(chain("2-0/1-2//")) };
-    let lap = FabricError::JacquardLap { bar: 2, course: 1, lap: Lap { from: 3, to: 0 }, limit: 2 };
+    let lap = FabricError::Warp(WarpError::JacquardLap {
+        bar: 2,
+        course: 1,
+        lap: Lap { from: 3, to: 0 },
+        limit: 2,
+    });
     assert_eq!(refused(vec![bar(), wide], four, one), lap);
     // To the other side it goes round one.
     let narrow = Displacements::new([1, 1], vec![vec![[0, 1], [0, 0]]], |_, _| 0);
     let narrow = Bar { jacquard: narrow, ..Bar::new(chain("2-0/1-2//")) };
     knit(vec![narrow], four, one).unwrap().yarns().unwrap();
-    let odd = FabricError::WarpRepeat { what: "course", size: 3, multiple: 2 };
+    let odd = FabricError::Warp(WarpError::WarpRepeat { what: "course", size: 3, multiple: 2 });
     assert_eq!(refused(vec![bar()], [4, 3], one), odd);
-    assert!(matches!(refused(vec![bar()], [0, 2], one), FabricError::WarpRepeat { .. }));
+    assert!(matches!(refused(vec![bar()], [0, 2], one), FabricError::Warp(WarpError::WarpRepeat { .. })));
     for copies in [[0, 1], [u32::MAX, u32::MAX], [u32::MAX, 1]] {
         knit(vec![bar()], four, copies).unwrap_err();
     }
@@ -283,7 +297,7 @@ fn what_is_no_cloth_is_refused() {
     let gauge = Gauge::new(f64::NAN, 1.0);
     let parts = (vec![KnitYarn::new(0.05)], vec![Material::default()], vec![Section::Circle]);
     let made = WarpKnitted::new(vec![bar()], gauge, 4, 2, parts.0, parts.1, parts.2, one);
-    assert!(matches!(made.unwrap_err(), FabricError::Gauge { .. }));
+    assert!(matches!(made.unwrap_err(), FabricError::Weft(WeftError::Gauge { .. })));
     // Yarn 2, which is as thin as nothing, hangs from guide 2 of the back bar first.
     let threading = Threading::of(vec![Some(0), Some(1)]);
     let parts =
@@ -291,7 +305,9 @@ fn what_is_no_cloth_is_refused() {
     let bars = vec![bar(), Bar { threading, ..bar() }];
     let made = WarpKnitted::new(bars, Gauge::new(1.0, 1.0), 4, 2, parts.0, parts.1, parts.2, one);
     let guide = Origin::Guide { bar: 2, guide: 2 };
-    assert!(matches!(made.unwrap_err(), FabricError::Radius { thread, .. } if thread == guide));
+    assert!(
+        matches!(made.unwrap_err(), FabricError::Thread(ThreadError::Radius { thread, .. }) if thread == guide)
+    );
 }
 
 #[test]

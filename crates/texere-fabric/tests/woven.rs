@@ -4,7 +4,9 @@
 
 use proptest::prelude::*;
 use texere_core::{ControlPoint, Material, Origin, Section, Settings, YarnError, Yarns};
-use texere_fabric::{Drawdown, FabricError, FabricWarning, NO_CROSSING, Shape, Thread, Weave, Woven};
+use texere_fabric::{
+    Drawdown, FabricError, FabricWarning, NO_CROSSING, Shape, Thread, ThreadError, Weave, Woven, WovenError,
+};
 
 fn woven(drawdown: Drawdown, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Woven, FabricError> {
     let sections = vec![Section::Circle, Section::Ellipse { aspect: 2.0 }];
@@ -187,41 +189,55 @@ fn what_is_wrong_with_a_thread_is_named() {
         weft[1].spacing_mm = spacing;
         let error = woven(plain(2, 3), vec![THREAD; 2], weft).unwrap_err();
         assert!(
-            matches!(error, FabricError::Spacing { thread: t, spacing_mm, .. } if t == thread && spacing_mm == spacing)
+            matches!(error, FabricError::Woven(WovenError::Spacing { thread: t, spacing_mm, .. }) if t == thread && spacing_mm == spacing)
         );
     }
     let error = with(|thread| thread.spacing_mm = f64::NAN);
     assert_eq!(error.to_string(), "spacing of pick 2 is NaN mm, outside 0.000001 to 1000000 mm");
-    assert!(matches!(with(|t| t.radius_mm = f32::NAN), FabricError::Radius { thread: t, .. } if t == thread));
-    assert!(matches!(with(|t| t.radius_mm = 0.0), FabricError::Radius { thread: t, .. } if t == thread));
-    assert!(matches!(with(|t| t.twist = f32::NAN), FabricError::Twist { thread: t, .. } if t == thread));
-    assert!(matches!(with(|t| t.stiffness = 0.0), FabricError::Stiffness { thread: t, .. } if t == thread));
+    assert!(
+        matches!(with(|t| t.radius_mm = f32::NAN), FabricError::Thread(ThreadError::Radius { thread: t, .. }) if t == thread)
+    );
+    assert!(
+        matches!(with(|t| t.radius_mm = 0.0), FabricError::Thread(ThreadError::Radius { thread: t, .. }) if t == thread)
+    );
+    assert!(
+        matches!(with(|t| t.twist = f32::NAN), FabricError::Thread(ThreadError::Twist { thread: t, .. }) if t == thread)
+    );
+    assert!(
+        matches!(with(|t| t.stiffness = 0.0), FabricError::Woven(WovenError::Stiffness { thread: t, .. }) if t == thread)
+    );
     let missing = with(|t| t.material = 2);
-    assert_eq!(missing, FabricError::UnknownMaterial { thread, material: 2, materials: 2 });
+    assert_eq!(
+        missing,
+        FabricError::Thread(ThreadError::UnknownMaterial { thread, material: 2, materials: 2 })
+    );
     let missing = with(|t| t.section = u32::MAX);
-    assert_eq!(missing, FabricError::UnknownSection { thread, section: u32::MAX, sections: 2 });
+    assert_eq!(
+        missing,
+        FabricError::Thread(ThreadError::UnknownSection { thread, section: u32::MAX, sections: 2 })
+    );
 }
 
 #[test]
 fn what_is_wrong_with_the_whole_is_named() {
     let error = woven(plain(2, 3), vec![THREAD; 3], vec![THREAD; 3]).unwrap_err();
-    assert_eq!(error, FabricError::ThreadCount { set: "end", threads: 3, planned: 2 });
+    assert_eq!(error, FabricError::Woven(WovenError::ThreadCount { set: "end", threads: 3, planned: 2 }));
     let error = woven(plain(2, 3), vec![THREAD; 2], vec![]).unwrap_err();
-    assert_eq!(error, FabricError::ThreadCount { set: "pick", threads: 0, planned: 3 });
+    assert_eq!(error, FabricError::Woven(WovenError::ThreadCount { set: "pick", threads: 0, planned: 3 }));
 
     let wide = Thread { spacing_mm: 1e6, ..THREAD };
     let error = woven(plain(2000, 1), vec![wide; 2000], vec![THREAD]).unwrap_err();
-    assert!(matches!(error, FabricError::Extent { set: "ends", extent_mm: 2e9, .. }));
+    assert!(matches!(error, FabricError::Woven(WovenError::Extent { set: "ends", extent_mm: 2e9, .. })));
 
     let sections = vec![Section::Circle, Section::Ellipse { aspect: f32::NAN }];
     let error = Woven::new(plain(1, 1), vec![THREAD], vec![THREAD], vec![Material::default()], sections);
-    assert!(matches!(error, Err(FabricError::Section { section: 1, .. })));
+    assert!(matches!(error, Err(FabricError::Thread(ThreadError::Section { section: 1, .. }))));
 
     // 2^32 crossings make a drawdown, but twice as many control points.
     let (ends, picks) = (65_536, 65_536);
     let error = woven(Drawdown::new(ends, picks).unwrap(), vec![THREAD; ends], vec![THREAD; picks]);
     assert!(
-        matches!(error, Err(FabricError::Points { points, .. }) if points == 2 * (65_536 * 65_536 + 2 * 65_536))
+        matches!(error, Err(FabricError::Woven(WovenError::Points { points, .. })) if points == 2 * (65_536 * 65_536 + 2 * 65_536))
     );
 }
 
@@ -251,7 +267,7 @@ fn threads_in_one_place_give_sound_yarns() {
         cloth.set_shape(Shape::Round);
         let yarns = cloth.yarns().unwrap();
         assert_eq!(yarns.points().len() as u64, cloth.point_count());
-        assert!(texere_fabric::clearance(&yarns, &Settings::default()).is_ok());
+        assert!(texere_contact::clearance(&yarns, &Settings::default()).is_ok());
     }
 }
 

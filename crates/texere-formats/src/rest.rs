@@ -185,7 +185,7 @@ impl<'a> Resting<'a> {
         let on = |share| progress(done + (1.0 - done) * share);
         let report = match design.structure.settle(&design.finish, tension, device, on) {
             Ok(finished) => RestReport::Finished(finished),
-            Err(FinishError::Crossings(error)) if !matches!(error, CrossingsError::OutOfMemory { .. }) => {
+            Err(FinishError::Crossings(error)) if !matches!(error, CrossingsError::OutOfMemory(_)) => {
                 let yarns = design.yarns().map_err(|error| design.refused(error))?;
                 RestReport::Refused { yarns, reason: design.refused(error) }
             }

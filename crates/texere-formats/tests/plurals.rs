@@ -1,9 +1,14 @@
 //! One thing is one thing in every message that counts.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use texere_core::{BackendError, CrossingsError, PlanError, SectionError, SettlingError, YarnError};
+use texere_contact::ContactError;
+use texere_core::{
+    BackendError, CrossingsError, OutOfMemory, PlanError, SectionError, SettlingError, YarnError,
+};
 use texere_fabric::FabricError as Fabric;
-use texere_fabric::weft::ChartError;
+use texere_fabric::WovenError;
+use texere_fabric::warp::WarpError;
+use texere_fabric::weft::{ChartError, WeftError};
 use texere_formats::{ReadError, WriteError};
 
 /// The first words of a message that say `1` of several.
@@ -49,46 +54,46 @@ fn errors_say_one_of_one() {
         PlanError::NoRoom { yarn: 0, points: 1, room: 0 }.to_string(),
         PlanError::TooFewPoints { yarn: 0, points: 1, least: 2 }.to_string(),
         PlanError::BlockTooLarge { rings: 1, what: "rings", needed: 1, limit: 1 }.to_string(),
-        BackendError::OutOfMemory { what: "rings", bytes: 1 }.to_string(),
+        BackendError::OutOfMemory(OutOfMemory { what: "rings", bytes: 1 }).to_string(),
         BackendError::Crowded { chords: 1, limit: 3 }.to_string(),
         SettlingError::TooFewPoints { yarn: 0, points: 1, least: 2 }.to_string(),
         SettlingError::LongInterval { yarn: 0, axis: 'x', chords: 1, limit: 0 }.to_string(),
         SettlingError::LongYarns { points: 1, chords: 1, limit: 0 }.to_string(),
-        SettlingError::OutOfMemory { what: "chords", bytes: 1 }.to_string(),
+        SettlingError::OutOfMemory(OutOfMemory { what: "chords", bytes: 1 }).to_string(),
         CrossingsError::Drawdown { ups: 1, ends: 1, picks: 1 }.to_string(),
         CrossingsError::TooFew { what: "end", count: 1, least: 2 }.to_string(),
     ];
     let fabric = [
-        Fabric::Size { ends: 1, picks: 1, limit: 9 },
-        Fabric::Crossings { ends: 1, picks: 1, crossings: 2, limit: 1 },
-        Fabric::Points { ends: 1, picks: 1, points: 1, limit: 0 },
-        Fabric::KnitRuns { passed: 9, loops: 1, limit: 2, told: None },
-        Fabric::OutOfMemory { what: "loops", bytes: 1 },
-        Fabric::NoCrossing { end: 2, pick: 2, ends: 1, picks: 1 },
-        Fabric::TieUp { treadles: 1, ends: 1, limit: 0 },
-        Fabric::NoSatin { text: "satin".into(), position: 6, ends: 1 },
-        Fabric::SatinMove { text: "satin".into(), position: 6, step: 3, ends: 1 },
-        Fabric::Repeat { ends: 1, picks: 1, limit: 0 },
-        Fabric::ThreadCount { set: "pick", threads: 1, planned: 2 },
-        Fabric::ClearancePoints { points: 1, limit: 0 },
-        Fabric::LinkingSize { intervals: 1, limit: 0 },
-        Fabric::OtherYarns { points: 1, planned: 2 },
-        Fabric::Copies { loops: 1, limit: 0 },
-        Fabric::KnitPoints { points: 9, limit: 1 },
-        Fabric::KnitRepeat { points: 9, limit: 1 },
-        Fabric::Laps { laps: 1, limit: 0 },
-        Fabric::Bars { bars: 1, limit: 0 },
-        Fabric::BarOffset { bar: 2, offset: 1, limit: 0 },
-        Fabric::JacquardCourses { bar: 2, courses: 1, chain: 2 },
-        Fabric::WarpRepeat { what: "wale", size: 1, multiple: 2 },
+        WovenError::Size { ends: 1, picks: 1, limit: 9 }.to_string(),
+        WovenError::Crossings { ends: 1, picks: 1, crossings: 2, limit: 1 }.to_string(),
+        WovenError::Points { ends: 1, picks: 1, points: 1, limit: 0 }.to_string(),
+        WeftError::KnitRuns { passed: 9, loops: 1, limit: 2, told: None }.to_string(),
+        Fabric::OutOfMemory(OutOfMemory { what: "loops", bytes: 1 }).to_string(),
+        WovenError::NoCrossing { end: 2, pick: 2, ends: 1, picks: 1 }.to_string(),
+        WovenError::TieUp { treadles: 1, ends: 1, limit: 0 }.to_string(),
+        WovenError::NoSatin { text: "satin".into(), position: 6, ends: 1 }.to_string(),
+        WovenError::SatinMove { text: "satin".into(), position: 6, step: 3, ends: 1 }.to_string(),
+        WovenError::Repeat { ends: 1, picks: 1, limit: 0 }.to_string(),
+        WovenError::ThreadCount { set: "pick", threads: 1, planned: 2 }.to_string(),
+        Fabric::OtherYarns { points: 1, planned: 2 }.to_string(),
+        WeftError::Copies { loops: 1, limit: 0 }.to_string(),
+        WeftError::KnitPoints { points: 9, limit: 1 }.to_string(),
+        WeftError::KnitRepeat { points: 9, limit: 1 }.to_string(),
+        WarpError::Laps { laps: 1, limit: 0 }.to_string(),
+        WarpError::Bars { bars: 1, limit: 0 }.to_string(),
+        WarpError::BarOffset { bar: 2, offset: 1, limit: 0 }.to_string(),
+        WarpError::JacquardCourses { bar: 2, courses: 1, chain: 2 }.to_string(),
+        WarpError::WarpRepeat { what: "wale", size: 1, multiple: 2 }.to_string(),
     ];
     let others = [
+        ContactError::ClearancePoints { points: 1, limit: 0 }.to_string(),
+        ContactError::LinkingSize { intervals: 1, limit: 0 }.to_string(),
         ChartError::Size { wales: 1, rows: 1, limit: 0 }.to_string(),
         ReadError::TooLarge { file: "a.wif".into(), bytes: 1, limit: 0 }.to_string(),
-        ReadError::OutOfMemory { what: "a draft", bytes: 1 }.to_string(),
+        ReadError::OutOfMemory(OutOfMemory { what: "a draft", bytes: 1 }).to_string(),
         WriteError::DraftTooLarge { ends: 1, picks: 1, width: 2, height: 2, limit: 0 }.to_string(),
     ];
-    for said in core.into_iter().chain(fabric.iter().map(ToString::to_string)).chain(others) {
+    for said in core.into_iter().chain(fabric).chain(others) {
         assert_eq!(several(&said), None, "{said}");
     }
 }

@@ -337,7 +337,7 @@ fn what_is_given_room_does_not_pierce() {
                 let draft = format!("[THREADING]\n{straight}[TIEUP]\n{tie_up}[TREADLING]\n{straight}");
                 let design = read_text(format!("{warp}{weft}{draft}")).unwrap();
                 let clearance =
-                    texere_fabric::clearance(&design.yarns().unwrap(), &Settings::default()).unwrap().min;
+                    texere_contact::clearance(&design.yarns().unwrap(), &Settings::default()).unwrap().min;
                 // Of threads that touch by construction the spline between control points comes to 0.99.
                 assert!(clearance > 0.985, "{clearance}: {warp}{weft}{draft}");
             }

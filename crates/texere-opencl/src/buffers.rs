@@ -12,7 +12,7 @@ use opencl3::command_queue::{
 };
 use opencl3::event::wait_for_events;
 use opencl3::memory::{CL_MAP_READ, CL_MEM_READ_WRITE, create_buffer};
-use texere_core::BackendError;
+use texere_core::{BackendError, OutOfMemory};
 
 use crate::clock::{Clock, Stage};
 use crate::faults::not_allocated;
@@ -34,7 +34,8 @@ impl Buffer {
             return Ok(Self::default());
         }
         let refused = |call| not_allocated(&opened.name, call, what, bytes);
-        let size = usize::try_from(bytes).map_err(|_| BackendError::OutOfMemory { what, bytes })?;
+        let size =
+            usize::try_from(bytes).map_err(|_| BackendError::OutOfMemory(OutOfMemory { what, bytes }))?;
         // SAFETY: no host memory is handed over.
         let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
         let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
@@ -285,7 +286,7 @@ impl Staging {
             }?;
             clock.note(Stage::Readback, &event);
             flush(opened.transfers.raw()).map_err(opened.failed("clFlush"))?;
-            Ok(event)
+            Ok::<_, BackendError>(event)
         };
         let mut running = if count > 0 { Some(launch(&mut self.pieces, 0)?) } else { None };
         let mut first = 0;

@@ -5,7 +5,7 @@ use opencl3::error_codes::{
     CL_INVALID_CONTEXT, CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_OUT_OF_HOST_MEMORY, CL_OUT_OF_RESOURCES,
     CL_PLATFORM_NOT_FOUND_KHR, ClError, DLOPEN_RUNTIME_LOAD_FAILED,
 };
-use texere_core::BackendError;
+use texere_core::{BackendError, OutOfMemory};
 use thiserror::Error;
 
 /// What OpenCL said: the `source` of a [`BackendError::Driver`] or [`BackendError::DeviceLost`].
@@ -73,7 +73,7 @@ pub(crate) fn not_allocated(
         CL_MEM_OBJECT_ALLOCATION_FAILURE
         | CL_OUT_OF_RESOURCES
         | CL_OUT_OF_HOST_MEMORY
-        | CL_INVALID_BUFFER_SIZE => BackendError::OutOfMemory { what, bytes },
+        | CL_INVALID_BUFFER_SIZE => BackendError::OutOfMemory(OutOfMemory { what, bytes }),
         _ => failed(device, call)(code),
     }
 }

@@ -1,7 +1,7 @@
 //! What may still be taken of a device's memory.
 
 use bytemuck::Pod;
-use texere_core::{BackendError, Limits};
+use texere_core::{BackendError, Limits, OutOfMemory};
 
 use crate::buffers::Buffer;
 use crate::opened::Opened;
@@ -21,7 +21,7 @@ impl Room {
     /// Takes `bytes` for `what` off it.
     fn take(&mut self, what: &'static str, bytes: u64) -> Result<u64, BackendError> {
         if bytes > self.binding_bytes || bytes > self.memory_bytes {
-            return Err(BackendError::OutOfMemory { what, bytes });
+            return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
         }
         self.memory_bytes -= bytes;
         Ok(bytes)

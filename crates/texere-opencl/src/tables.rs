@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use texere_core::{BackendError, Limits, Plan, Turn, index_pattern};
+use texere_core::{BackendError, Limits, OutOfMemory, Plan, Turn, index_pattern};
 use texere_gpu::{YarnRow, cap_pattern, lean_count, lean_rows};
 
 use crate::buffers::Buffer;
@@ -30,7 +30,7 @@ impl Tables {
         // The scan numbers points by u32.
         let points = plan.padded_offsets().last().copied().unwrap_or(0);
         if bytes > limits.binding_bytes || points > u64::from(u32::MAX) {
-            return Err(BackendError::OutOfMemory { what, bytes });
+            return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
         }
         let mut tables = Self {
             // Zeros, as on every backend, until they are uploaded.

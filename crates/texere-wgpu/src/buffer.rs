@@ -1,6 +1,6 @@
 //! Device memory that grows.
 
-use texere_core::BackendError;
+use texere_core::{BackendError, OutOfMemory};
 use wgpu::BufferUsages;
 
 use crate::gpu::Gpu;
@@ -27,7 +27,7 @@ impl Buffer {
             if self.usage.contains(BufferUsages::STORAGE)
                 && bytes > gpu.device.limits().max_storage_buffer_binding_size
             {
-                return Err(BackendError::OutOfMemory { what: self.what, bytes });
+                return Err(BackendError::OutOfMemory(OutOfMemory { what: self.what, bytes }));
             }
             self.buffer = gpu.buffer(self.what, bytes, self.usage)?;
         }

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use texere_core::BackendError;
+use texere_core::{BackendError, OutOfMemory};
 use wgpu::{BufferUsages, ErrorFilter, PollError, PollType, SubmissionIndex};
 
 /// How long a submission may take before the wait for it is given up. A chunk takes milliseconds on a GPU and seconds
@@ -115,11 +115,11 @@ impl Gpu {
         self.check_alive()?;
         let size = bytes.max(1).next_multiple_of(BUFFER_STEP);
         if size > self.device.limits().max_buffer_size {
-            return Err(BackendError::OutOfMemory { what, bytes });
+            return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
         }
         let descriptor = wgpu::BufferDescriptor { label: Some(what), size, usage, mapped_at_creation: false };
         let buffer = self.caught(|| self.device.create_buffer(&descriptor)).map_err(|error| match error {
-            wgpu::Error::OutOfMemory { .. } => BackendError::OutOfMemory { what, bytes },
+            wgpu::Error::OutOfMemory { .. } => BackendError::OutOfMemory(OutOfMemory { what, bytes }),
             source => BackendError::Driver { call: "Device::create_buffer", source: source.into() },
         });
         self.check_alive()?;

@@ -1,7 +1,7 @@
 //! What may still be taken of a device's memory.
 
 use bytemuck::Pod;
-use texere_core::{BackendError, Limits};
+use texere_core::{BackendError, Limits, OutOfMemory};
 use wgpu::BufferUsages;
 
 use crate::gpu::Gpu;
@@ -29,7 +29,7 @@ impl Room {
         bytes: u64,
     ) -> Result<wgpu::Buffer, BackendError> {
         if bytes > self.binding_bytes || bytes > self.memory_bytes {
-            return Err(BackendError::OutOfMemory { what, bytes });
+            return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
         }
         self.memory_bytes -= bytes;
         gpu.buffer(what, bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)

@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use texere_conformance::drive::Lent;
 use texere_core::{
-    Backend, BackendError, Chunk, Frame, Layout, Limits, MeshMut, MeshPiece, Plan, Quantum, Ring, Section,
-    Session, Settings, Traffic, Vertex, Yarn,
+    Backend, BackendError, Chunk, Frame, Layout, Limits, MeshMut, MeshPiece, OutOfMemory, Plan, Quantum,
+    Ring, Section, Session, Settings, Traffic, Vertex, Yarn,
 };
 use texere_cpu::SerialBackend;
 use texere_wgpu::{Schedule, WgpuBackend};
@@ -130,7 +130,7 @@ fn more_points_than_a_buffer_holds_is_a_named_error() {
     let points = most / 16 + 1;
     let layout = Layout::new(vec![Yarn::default()], vec![0, points], vec![Section::Circle]).unwrap();
     let plan = Plan::new(layout.into(), Settings { subdivisions: 0, ..Settings::default() }).unwrap();
-    let Err(BackendError::OutOfMemory { what, bytes }) = backend().engine(plan.into()) else {
+    let Err(BackendError::OutOfMemory(OutOfMemory { what, bytes })) = backend().engine(plan.into()) else {
         panic!("no error")
     };
     assert_eq!((what, bytes), ("control points", (points + 2) * 16));

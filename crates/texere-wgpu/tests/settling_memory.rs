@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use texere_conformance::rest::{settling_plan, starts};
 use texere_core::settling::{Form, Pass, Place, SettlingPlan, tag};
-use texere_core::{Backend, BackendError, Limits};
+use texere_core::{Backend, BackendError, Limits, OutOfMemory};
 use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::INSTALL;
@@ -39,7 +39,7 @@ fn small_memories_settle_the_same_or_are_refused_by_name() {
             assert!(found == whole, "another end");
             None
         }
-        Err(BackendError::OutOfMemory { what, .. }) => Some(what),
+        Err(BackendError::OutOfMemory(OutOfMemory { what, .. })) => Some(what),
         Err(error) => panic!("{error}"),
     };
     let mut device = open();

@@ -131,15 +131,21 @@ pub use device::{Devices, devices, open};
 #[cfg(feature = "render")]
 pub use device::{open_renderer, picture_device};
 pub use live::{Live, LiveError, Update};
+pub use texere_contact::{
+    CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
+    Contact, ContactError, Crowd, Drawn, LINKING_CHANGE, Linking, Passage, WRUNG, clearance,
+    clearance_with_progress, drawn, finer, length_mm, lengths_mm, linking, linking_with_progress,
+    yarns_under,
+};
 pub use texere_core::{
     ArcLength, Attribute, BLOCK_RINGS, Backend, BackendError, Block, Boundary, BoundaryError, Bounds,
     COORDINATE_LIMIT, Cap, Change, Chunk, ChunkDraw, Chunks, ControlPoint, Counts, DeviceInfo, DeviceKind,
     Edits, Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace,
-    NullBackend, Origin, PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan, PlanError,
-    Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section,
+    NullBackend, Origin, OutOfMemory, PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan,
+    PlanError, Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section,
     SectionError, SectionPoint, Settings, SettlingError, Subject, TWIST_LIMIT, TWIST_STEP,
     TWIST_SUBDIVISIONS_MAX, TablesId, Topology, Trajectory, Undersampled, Vertex, YARN_RINGS_MAX, Yarn,
-    YarnError, Yarns, YarnsBuilder, counted, crossings, settling,
+    YarnError, YarnPlace, Yarns, YarnsBuilder, counted, crossings, settling,
 };
 pub use texere_core::{
     Draw, End, Engine, Layout, MeshMut, Part, ScanChunks, Session, SessionError, Slot, StageTimings, Traffic,
@@ -147,15 +153,13 @@ pub use texere_core::{
 };
 pub use texere_cpu::{Hit, PickError, Picker};
 pub use texere_fabric::{
-    CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
-    ClothClearance, Contact, Cover, Crimp, Crossing, Crowd, Cure, Diagnosis, Draft, Drawdown, Drawn,
-    FabricError, FabricWarning, FaultKind, Faults, Finish, FinishError, Finished, JamReport, Jams,
-    KnitMeasures, LINKING_CHANGE, Linking, Loom, Measures, NO_CROSSING, Passage, Piece, Pieces, Pitch, Press,
-    Relief, Remedy, Repeat, Sett, Settled, Shape, Shedding, StitchPlace, Stretch, Structure, Thread,
-    ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Tightness, Verdict, WRUNG, Weave,
-    Woven, WovenDesign, WovenRest, YarnPlace, clearance, clearance_with_progress, diameter_mm, drawn, finer,
-    length_mm, lengths_mm, linking, linking_with_progress, settle, tex_from_cotton_count, tex_from_denier,
-    tex_from_diameter, tex_from_metric_count, turns_per_m, twist_from_turns_per_m, warp, weft, yarns_under,
+    ClothClearance, Cover, Crimp, Crossing, Cure, Diagnosis, Draft, Drawdown, FabricError, FabricWarning,
+    FaultKind, Faults, Finish, FinishError, Finished, JamReport, Jams, KnitMeasures, Loom, Measures,
+    NO_CROSSING, Piece, Pieces, Pitch, Press, Relief, Remedy, Repeat, Sett, Settled, Shape, Shedding,
+    StitchPlace, Stretch, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn,
+    ThreadError, ThreadPlace, Tightness, Verdict, Weave, Woven, WovenDesign, WovenError, WovenRest,
+    diameter_mm, settle, tex_from_cotton_count, tex_from_denier, tex_from_diameter, tex_from_metric_count,
+    turns_per_m, twist_from_turns_per_m, warp, weft,
 };
 pub use texere_formats::write::{
     Format, Output, Written, abandon, file as write_file, mesh as write, mesh_to as write_to, stream,

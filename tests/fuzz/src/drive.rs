@@ -5,9 +5,10 @@ use std::io::sink;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use texere_contact::clearance;
 use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology, Yarns};
 use texere_cpu::ParallelBackend;
-use texere_fabric::{FabricError, Finish, FinishError, Structure, clearance};
+use texere_fabric::{FabricError, Finish, FinishError, Structure};
 use texere_formats::read::{self, SavedYarns, read};
 use texere_formats::write::{self, Side};
 use texere_formats::{Design, WriteError};

@@ -11,8 +11,8 @@ use proptest::test_runner::{Config, TestRunner};
 use texere_conformance::{REGISTRY, editing_devices};
 use texere_core::{
     Attribute, Backend, BackendError, ControlPoint, DeviceKind, Edits, End, Frame, Limits, LiveMesh, Mesh,
-    MeshPiece, Pipeline, PipelineError, Plan, Schedule, Section, SessionError, Settings, Topology, Vertex,
-    Yarn, Yarns,
+    MeshPiece, OutOfMemory, Pipeline, PipelineError, Plan, Schedule, Section, SessionError, Settings,
+    Topology, Vertex, Yarn, Yarns,
 };
 
 /// The most control points of a yarn: several blocks' rings.
@@ -410,7 +410,9 @@ fn a_mesh_beyond_the_memory_is_refused() {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default()).unwrap());
     let limits = Limits { memory_bytes: 2 << 20, ..Limits::NONE };
     let refused = LiveMesh::with_engine(device.engine(plan.clone()).unwrap(), &limits, plan).unwrap_err();
-    let SessionError::Backend(BackendError::OutOfMemory { bytes, .. }) = refused else { panic!("{refused}") };
+    let SessionError::Backend(BackendError::OutOfMemory(OutOfMemory { bytes, .. })) = refused else {
+        panic!("{refused}")
+    };
     // 5,002 padded points of 16 bytes; 9,999 rings of six vertices of 24 bytes; 9,998 gaps of 36 indices of four bytes. The rings that
     // chunks repeat come on top.
     let repeated = bytes - (5_002 * 16 + 9_999 * 6 * 24 + 9_998 * 36 * 4);

@@ -1,8 +1,8 @@
 //! What a weaver or a knitter calls the place of a hit.
 
 use texere_conformance::cases;
-use texere_core::{Origin, Ray, Settings};
-use texere_fabric::{Crossing, StitchPlace, ThreadPlace, YarnPlace};
+use texere_core::{Origin, Ray, Settings, YarnPlace};
+use texere_fabric::{Crossing, StitchPlace, ThreadPlace};
 use texere_formats::Design;
 
 use super::judge::{mesh_of, picker_of};

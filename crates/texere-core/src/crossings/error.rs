@@ -1,6 +1,6 @@
 //! What may be wrong with a problem.
 
-use crate::counted;
+use crate::{OutOfMemory, counted};
 use thiserror::Error;
 
 /// A cloth whose crossings can't be settled as asked.
@@ -65,12 +65,7 @@ pub enum CrossingsError {
         /// The most that is taken.
         high: f32,
     },
-    /// Memory could not be allocated.
-    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
-    OutOfMemory {
-        /// What for.
-        what: &'static str,
-        /// How many bytes.
-        bytes: u64,
-    },
+    /// Memory could not be had.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
 }

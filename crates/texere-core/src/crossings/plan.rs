@@ -1,7 +1,7 @@
 //! The plan: every count and table of a problem, made on the host before anything is launched.
 
 use super::{Block, Crossing, Crossings, CrossingsError, CrossingsPass, Lie, Set, Thread, terms};
-use crate::{BackendError, RADIUS_MAX, RADIUS_MIN, zeroed};
+use crate::{BackendError, RADIUS_MAX, RADIUS_MIN, room, zeroed};
 
 /// A repeat has at least so many threads of either set.
 const THREADS_MIN: usize = 2;
@@ -376,13 +376,6 @@ fn rows(threads: &[Thread], unit: f32, height: f32, repeat: bool) -> Result<Vec<
 /// How many levels a set has.
 fn levels(threads: &[Thread]) -> u32 {
     threads.iter().map(|thread| thread.level).max().unwrap_or(0) + 1
-}
-
-fn room<T>(what: &'static str, count: usize) -> Result<Vec<T>, CrossingsError> {
-    let mut all = Vec::new();
-    all.try_reserve_exact(count)
-        .map_err(|_| CrossingsError::OutOfMemory { what, bytes: (count * size_of::<T>()) as u64 })?;
-    Ok(all)
 }
 
 fn copied<T: Copy>(what: &'static str, from: &[T]) -> Result<Vec<T>, CrossingsError> {

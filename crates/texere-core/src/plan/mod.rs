@@ -7,6 +7,7 @@ mod chunk_tables;
 mod counts;
 mod cut;
 mod edits;
+mod error;
 mod limits;
 mod locate;
 mod offsets;
@@ -18,6 +19,7 @@ pub use chunk::{Cap, Chunk, Part, TablesId};
 pub use counts::Counts;
 pub use cut::{Chunks, WINDOW_POINTS};
 pub use edits::Edits;
+pub use error::PlanError;
 pub use limits::Limits;
 pub use locate::MeshPlace;
 
@@ -31,7 +33,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use crate::{
-    ControlPoint, Frame, Layout, PlanError, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Section,
+    ControlPoint, Frame, Layout, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Section,
     SectionPoint, Topology, Turn, Yarn, triangulate,
 };
 

@@ -1,13 +1,13 @@
 //! Cross-sections: the outline that stands on every ring.
 
+mod error;
 mod outline;
 mod triangulate;
 
+pub use error::SectionError;
 pub use triangulate::triangulate;
 
 use bytemuck::{Pod, Zeroable};
-
-use crate::SectionError;
 
 /// The shape of a yarn's cross-section, in units of the yarn's radius.
 ///

@@ -1,7 +1,5 @@
 //! What is asked of a settling, checked; and the lengths that follow from all its control points.
 
-use bytemuck::Zeroable;
-use bytemuck::allocation::try_zeroed_vec;
 use glam::DVec3;
 
 use super::{Length, Scale, Settling, SettlingError};
@@ -77,10 +75,4 @@ pub(super) fn thickest(points: &[ControlPoint]) -> f32 {
 pub(super) fn mean_diameter(points: &[ControlPoint]) -> f32 {
     let sum: f64 = points.iter().map(|point| f64::from(point.half_width() + point.half_height())).sum();
     (sum / points.len().max(1) as f64) as f32
-}
-
-/// `count` zeroed values for `what`.
-pub(super) fn room<T: Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, SettlingError> {
-    let made = usize::try_from(count).ok().and_then(|count| try_zeroed_vec(count).ok());
-    made.ok_or(SettlingError::OutOfMemory { what, bytes: count.saturating_mul(size_of::<T>() as u64) })
 }

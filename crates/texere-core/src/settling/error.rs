@@ -3,7 +3,7 @@
 use crate::counted;
 use thiserror::Error;
 
-use crate::BoundaryError;
+use crate::{BoundaryError, OutOfMemory};
 
 /// A cloth that can't be settled as asked.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -79,14 +79,9 @@ pub enum SettlingError {
         /// How many are taken at most.
         limit: u64,
     },
-    /// Memory could not be allocated.
-    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
-    OutOfMemory {
-        /// What for.
-        what: &'static str,
-        /// How many bytes.
-        bytes: u64,
-    },
+    /// Memory could not be had.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
     /// A setting that is out of its range.
     #[error("{setting} is {value}, not between {low} and {high}")]
     Setting {

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::check::{check, limited, mean_diameter, room, scale, thickest};
+use super::check::{check, limited, mean_diameter, scale, thickest};
 use super::pass::FREE_MOST;
 use super::strand::{BEYOND, Strand, tag};
 use super::{Interval, Length, MARGIN, Place, Scale, Settling, SettlingError};
-use crate::{BackendError, Ends};
+use crate::{BackendError, Ends, tangent_factor, zeroed};
 
 /// Intervals have at least so many chords.
 const CHORDS_MIN: u32 = 2;
@@ -96,7 +96,7 @@ impl SettlingPlan {
             let first = (start + yarn as u64 * (BEYOND[0] + BEYOND[1]) + BEYOND[0]) as u32;
             strands.push(Strand { first, points: (end - start) as u32, ends, length: 0 });
         }
-        let s = (1.0 - settling.spline_tension) / 2.0;
+        let s = tangent_factor(settling.spline_tension);
         let spans = Spans {
             diameter: mean_diameter(points),
             thickest: thickest(points),
@@ -118,14 +118,14 @@ impl SettlingPlan {
                 },
             ),
             counts: SettlingCounts { points: layout.point_count(), places, chords: 0 },
-            tags: room("what places are", places)?,
-            yarns: room("the yarns of places", places)?,
-            chords: room("the chords of places", places + 1)?,
-            lengths: room("the lengths of intervals", places)?,
+            tags: zeroed("what places are", places)?,
+            yarns: zeroed("the yarns of places", places)?,
+            chords: zeroed("the chords of places", places + 1)?,
+            lengths: zeroed("the lengths of intervals", places)?,
             along: Vec::new(),
             places: Vec::new(),
         };
-        let mut padded = room("places", places)?;
+        let mut padded = zeroed("places", places)?;
         plan.pad(points.iter().map(|point| scale.place(point)), &mut padded);
         plan.places = padded;
         plan.tag(layout.offsets(), &settling.pinned);
@@ -359,7 +359,7 @@ impl SettlingPlan {
         let longest = self.strands.iter().map(whole).fold(0.0, f64::max);
         let unit = (f64::from(thinnest) / 1024.0).max(longest / f64::from(1 << 29));
         self.spans.along = unit as f32;
-        self.along = room("where chords lie along yarns", chords)?;
+        self.along = zeroed("where chords lie along yarns", chords)?;
         let units = |length: f64| (length / unit).round() as u32;
         for yarn in 0..self.strands.len() {
             let mut sum = 0.0;

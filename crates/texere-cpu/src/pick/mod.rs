@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use texere_core::{
-    BLOCK_RINGS, BackendError, Bounds, ControlPoint, Edits, MeshPlace, PaddedPoints, Plan, Ray, Turn,
+    BLOCK_RINGS, Bounds, ControlPoint, Edits, MeshPlace, OutOfMemory, PaddedPoints, Plan, Ray, Turn,
     YarnError, check_points, index_pattern,
 };
 use thiserror::Error;
@@ -26,7 +26,7 @@ use crate::serial::scan_yarn;
 /// Blocks of a yarn that one rayon item makes boxes for, at least.
 const BLOCKS_LEAST: usize = 64;
 
-/// What a ray hits first. `texere_fabric::YarnPlace::at` takes its yarn, interval and `t`, and a structure's `place` says what a weaver or a
+/// What a ray hits first. [`YarnPlace::at`](texere_core::YarnPlace::at) takes its yarn, interval and `t`, and a structure's `place` says what a weaver or a
 /// knitter calls that.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
@@ -73,7 +73,7 @@ pub enum PickError {
     },
     /// There is not enough memory.
     #[error("there is not enough memory")]
-    Memory(#[from] BackendError),
+    OutOfMemory(#[from] OutOfMemory),
 }
 
 /// Says which triangle of the mesh of a cloth a ray hits first: its yarn, ring and side.
@@ -125,7 +125,7 @@ pub struct Picker {
 impl Picker {
     /// A picker of the mesh of `plan` with these control points, those of all its yarns.
     ///
-    /// **Errors**: [`PickError::PointCount`], [`PickError::Points`] for a point that is not sound, [`PickError::Memory`].
+    /// **Errors**: [`PickError::PointCount`], [`PickError::Points`] for a point that is not sound, [`PickError::OutOfMemory`].
     pub fn new(plan: Arc<Plan>, points: &[ControlPoint]) -> Result<Self, PickError> {
         let planned = plan.layout().point_count();
         if points.len() as u64 != planned {
@@ -201,7 +201,7 @@ impl Picker {
     /// Takes many yarns at once. `plan` is what [`Plan::edited_all`] has made of the picker's own for them.
     ///
     /// **Errors**: [`PickError::NoYarn`], [`PickError::OtherPlan`], [`PickError::PointCount`] of a yarn, and [`PickError::Points`]: all leave
-    /// everything as it was. [`PickError::Memory`], after which a picker is of no more use.
+    /// everything as it was. [`PickError::OutOfMemory`], after which a picker is of no more use.
     pub fn set_yarns(&mut self, plan: Arc<Plan>, edits: &Edits<'_>) -> Result<(), PickError> {
         let Some((&first, _)) = edits.first_key_value() else { return Ok(()) };
         let yarns = self.yarns.len();
@@ -252,7 +252,7 @@ fn differ_by(one: &Plan, other: &Plan, edits: &Edits<'_>) -> bool {
 }
 
 /// The rolls of all yarns.
-fn scanned(plan: &Plan, points: &PaddedPoints) -> Result<Rolls, BackendError> {
+fn scanned(plan: &Plan, points: &PaddedPoints) -> Result<Rolls, OutOfMemory> {
     let mut rolls = Rolls::default();
     if !plan.needs_scan() {
         return Ok(rolls);

@@ -3,11 +3,12 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
+use texere_contact::WRUNG;
 use texere_core::Settings;
 
 use super::pieces::Pieces;
 use super::places::{ClothClearance, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn};
-use crate::{FabricError, Pitch, WRUNG, Woven};
+use crate::{FabricError, Pitch, Woven};
 
 /// The most jammed threads that are listed one by one.
 pub const JAMS_LISTED: usize = 100;
@@ -28,7 +29,7 @@ pub struct Diagnosis {
 pub struct Faults {
     /// The worst place that is too crowded to be measured, if there is one.
     pub crowded: Option<ThreadCrowd>,
-    /// Contacts that pierce, worst first, [`CONTACTS_LISTED`](crate::CONTACTS_LISTED) at most.
+    /// Contacts that pierce, worst first, [`CONTACTS_LISTED`](texere_contact::CONTACTS_LISTED) at most.
     pub pierces: Vec<ThreadContact>,
     /// The tightest bend, where it is tighter than the tube is thick.
     pub folds: Option<ThreadBend>,
@@ -131,7 +132,7 @@ impl Woven {
     /// Looks for what is wrong with the cloth: measures its clearance at the default tension, and compares its pitches with
     /// those that its threads need. Contacts of a ratio below `touching` pierce; 0.985 is what splines through touching
     /// threads come to. `progress` gets the share that is done, as in
-    /// [`clearance_with_progress`](crate::clearance_with_progress).
+    /// [`clearance_with_progress`](texere_contact::clearance_with_progress).
     ///
     /// **Errors**: those of [`Woven::yarns`] and of [`Woven::clearance`].
     ///

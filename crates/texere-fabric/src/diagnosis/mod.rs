@@ -14,4 +14,4 @@ pub use pieces::Pieces;
 pub use places::{
     ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };
-pub use verdict::{CLEAR, Verdict};
+pub use verdict::Verdict;

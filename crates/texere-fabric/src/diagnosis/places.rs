@@ -3,9 +3,10 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
-use texere_core::{Origin, Settings, Yarns};
+use texere_contact::{Contact, Crowd, clearance_with_progress, drawn};
+use texere_core::{Origin, Settings, YarnPlace, Yarns};
 
-use crate::{Contact, Crowd, FabricError, NO_CROSSING, Woven, YarnPlace, clearance_with_progress, drawn};
+use crate::{FabricError, NO_CROSSING, Woven};
 
 /// A crossing of a woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -91,42 +92,42 @@ pub struct ThreadCrowd {
 /// The tightest bend of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadBend {
-    /// Radius of curvature over how far the section reaches into the bend: see [`Clearance::curvature_min`](crate::Clearance::curvature_min). Infinite where
+    /// Radius of curvature over how far the section reaches into the bend: see [`Clearance::curvature_min`](texere_contact::Clearance::curvature_min). Infinite where
     /// all threads are straight.
     pub radii: f64,
     /// Where that is. None where all threads are straight.
     pub place: Option<ThreadPlace>,
 }
 
-/// How a mesh of a cloth comes out: see [`Drawn`](crate::Drawn).
+/// How a mesh of a cloth comes out: see [`Drawn`](texere_contact::Drawn).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadDrawn {
-    /// See [`Drawn::width`](crate::Drawn::width).
+    /// See [`Drawn::width`](texere_contact::Drawn::width).
     pub width: f64,
     /// Where that is.
     pub width_at: Option<ThreadPlace>,
-    /// See [`Drawn::inwards`](crate::Drawn::inwards).
+    /// See [`Drawn::inwards`](texere_contact::Drawn::inwards).
     pub inwards: u64,
     /// Where the first of them is.
     pub inwards_at: Option<ThreadPlace>,
 }
 
-/// [`Clearance`](crate::Clearance), with places that are named by thread and crossing.
+/// [`Clearance`](texere_contact::Clearance), with places that are named by thread and crossing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClothClearance {
-    /// See [`Clearance::min`](crate::Clearance::min).
+    /// See [`Clearance::min`](texere_contact::Clearance::min).
     pub min: f64,
-    /// See [`Clearance::contacts`](crate::Clearance::contacts).
+    /// See [`Clearance::contacts`](texere_contact::Clearance::contacts).
     pub contacts: u64,
-    /// See [`Clearance::below_one`](crate::Clearance::below_one).
+    /// See [`Clearance::below_one`](texere_contact::Clearance::below_one).
     pub below_one: u64,
-    /// See [`Clearance::piercing`](crate::Clearance::piercing).
+    /// See [`Clearance::piercing`](texere_contact::Clearance::piercing).
     pub piercing: u64,
-    /// See [`Clearance::worst`](crate::Clearance::worst).
+    /// See [`Clearance::worst`](texere_contact::Clearance::worst).
     pub worst: Vec<ThreadContact>,
-    /// See [`Clearance::histogram`](crate::Clearance::histogram).
+    /// See [`Clearance::histogram`](texere_contact::Clearance::histogram).
     pub histogram: Vec<u64>,
-    /// See [`Clearance::crowd`](crate::Clearance::crowd).
+    /// See [`Clearance::crowd`](texere_contact::Clearance::crowd).
     pub crowd: Option<ThreadCrowd>,
     /// The tightest bend.
     pub bend: ThreadBend,

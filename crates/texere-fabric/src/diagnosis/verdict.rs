@@ -2,15 +2,10 @@
 
 use std::fmt;
 
+use texere_contact::{CLEAR, Clearance};
 use texere_core::settling::Length;
 
-use crate::{Clearance, Finished, Settled, WovenRest};
-
-/// Surfaces as clear as this share of touching do not pierce one another.
-///
-/// Splines through points at which round threads just touch come to 0.987 between them (poplin, docs/SETTLING.md), and woven cloth at rest is
-/// brought to 0.986: at 0.99 both would be faults.
-pub const CLEAR: f64 = 0.985;
+use crate::{Finished, Settled, WovenRest};
 
 /// How yarns may be off the length that they are to have, as a share: what settling asks for.
 const LENGTH: f32 = 0.01;

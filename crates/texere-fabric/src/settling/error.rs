@@ -1,6 +1,7 @@
 //! What can go wrong while yarns settle.
 
-use texere_core::{BackendError, CrossingsError, Origin, SettlingError};
+use texere_contact::ContactError;
+use texere_core::{BackendError, CrossingsError, Origin, OutOfMemory, SettlingError};
 use thiserror::Error;
 
 use crate::FabricError;
@@ -48,4 +49,16 @@ pub enum FinishError {
     /// The device failed, or settles nothing.
     #[error(transparent)]
     Backend(#[from] BackendError),
+}
+
+impl From<ContactError> for FinishError {
+    fn from(error: ContactError) -> Self {
+        Self::Fabric(error.into())
+    }
+}
+
+impl From<OutOfMemory> for FinishError {
+    fn from(error: OutOfMemory) -> Self {
+        Self::Fabric(error.into())
+    }
 }

@@ -35,7 +35,7 @@ impl Finished {
         }
     }
 
-    /// Whether it is at rest: no surface pierces another ([`CLEAR`](crate::CLEAR)) or folds, and yarns of a knit keep their lengths and
+    /// Whether it is at rest: no surface pierces another ([`CLEAR`](texere_contact::CLEAR)) or folds, and yarns of a knit keep their lengths and
     /// their linking. Then `check` finds neither, too.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {

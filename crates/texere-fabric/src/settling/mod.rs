@@ -9,8 +9,9 @@ mod settled;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use texere_contact::{clearance_with_progress, linking_with_progress};
 use texere_core::settling::{self, Rest, SettlingPlan};
-use texere_core::{Backend, Layout, Settings, Yarns};
+use texere_core::{Backend, Layout, Settings, YarnPlace, Yarns};
 
 pub use self::error::FinishError;
 pub use self::finished::Finished;
@@ -20,7 +21,7 @@ pub(crate) use self::repeat::settled_together;
 pub use self::settled::{Finish, Press, Settled};
 
 use self::settled::unchanged;
-use crate::{FabricError, YarnPlace, clearance_with_progress, linking_with_progress, thickness_mm};
+use crate::{FabricError, thickness_mm};
 
 /// The share of the progress at which passes end, and linking is compared.
 const PASSED: f64 = 0.9;
@@ -36,7 +37,7 @@ const COMPARED: f64 = 0.95;
 /// the places.
 ///
 /// **Errors**: [`FinishError::Settling`] for what can't be settled as asked, [`FinishError::Backend`] for a backend that settles
-/// nothing or a device that fails, and the errors of [`linking()`](crate::linking()) and [`clearance()`](crate::clearance()).
+/// nothing or a device that fails, and the errors of [`linking()`](texere_contact::linking()) and [`clearance()`](texere_contact::clearance()).
 ///
 /// ```
 /// use std::ops::ControlFlow;

@@ -1,11 +1,10 @@
 //! A piece of cloth that is to settle.
 
+use texere_contact::{lengths_mm, round_length_mm};
 use texere_core::settling::Settling;
 use texere_core::{Boundary, ControlPoint, Ends, YarnError, Yarns};
 
 use super::Finish;
-use crate::length::round_length_mm;
-use crate::lengths_mm;
 
 /// A piece of cloth that is to settle: its yarns, how it goes on at its edges, and what holds it there.
 #[derive(Debug, Clone)]

@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
-use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, Yarns};
+use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, Yarns, room_for};
 
 use super::Piece;
 use crate::FabricError;
-use crate::memory::room_for;
 
 /// A repeat that settles has so many wales and courses at least, if the cloth has as many: what lies over its seam is then another
 /// stitch.

@@ -1,9 +1,10 @@
 //! What is asked of a settling, and what came of it.
 
+use texere_contact::{Clearance, Linking};
 use texere_core::settling::{Length, Pass, Rest, Seen};
-use texere_core::{Origin, Yarns};
+use texere_core::{Origin, YarnPlace, Yarns};
 
-use crate::{Clearance, FabricWarning, Linking, YarnPlace};
+use crate::FabricWarning;
 
 /// What is asked of yarns that settle: lengths, a press and passes of knits, tensions and a calender of woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,8 +3,9 @@
 use texere_core::Origin;
 
 use super::laps::laps;
-use super::{Bar, Laid, LapKind, NEEDLES_MOST};
+use super::{Bar, Laid, LapKind, NEEDLES_MOST, WarpError};
 use crate::settling::settled_together;
+use crate::weft::WeftError;
 use crate::weft::check::{passed_max, repeat_points, tiled};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
 
@@ -27,26 +28,26 @@ const LAP_POINTS: u64 = 2;
 const LOOP_POINTS: u64 = 9;
 
 /// Whether bars are sound, and refer only to yarns that there are.
-pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), FabricError> {
+pub(super) fn bars(bars: &[Bar], yarns: usize) -> Result<(), WarpError> {
     if !(1..=BARS_MAX).contains(&bars.len()) {
-        return Err(FabricError::Bars { bars: bars.len(), limit: BARS_MAX });
+        return Err(WarpError::Bars { bars: bars.len(), limit: BARS_MAX });
     }
     for (bar, each) in (1..).zip(bars) {
         if let Some(yarn) = each.threading.guides().iter().flatten().find(|yarn| **yarn as usize >= yarns) {
-            return Err(FabricError::GuideYarn { bar, yarn: u64::from(*yarn) + 1, yarns });
+            return Err(WarpError::GuideYarn { bar, yarn: u64::from(*yarn) + 1, yarns });
         }
         if each.offset.unsigned_abs() > OFFSET_MAX.unsigned_abs() {
-            return Err(FabricError::BarOffset { bar, offset: each.offset, limit: OFFSET_MAX });
+            return Err(WarpError::BarOffset { bar, offset: each.offset, limit: OFFSET_MAX });
         }
         if let Some(mm) = each.run_in_mm.filter(|mm| !(SPACING_MIN..=SPACING_MAX).contains(mm)) {
-            return Err(FabricError::RunIn { bar, mm, low: SPACING_MIN, high: SPACING_MAX });
+            return Err(WarpError::RunIn { bar, mm, low: SPACING_MIN, high: SPACING_MAX });
         }
         let (courses, chain) = (each.jacquard.as_ref().map(|image| image.courses()), each.chain.courses());
         if let Some(courses) = courses.filter(|courses| *courses != chain) {
-            return Err(FabricError::JacquardCourses { bar, courses, chain });
+            return Err(WarpError::JacquardCourses { bar, courses, chain });
         }
         if let Some((course, lap)) = each.displaced().find(|(_, lap)| lap.overlap().abs() > NEEDLES_MOST) {
-            return Err(FabricError::JacquardLap { bar, course: course + 1, lap, limit: NEEDLES_MOST });
+            return Err(WarpError::JacquardLap { bar, course: course + 1, lap, limit: NEEDLES_MOST });
         }
     }
     Ok(())
@@ -60,7 +61,7 @@ pub(super) fn first_guide(bars: &[Bar], yarn: u32) -> Origin {
 }
 
 /// Wales and courses after which all bars begin again, if `size` are multiples of them.
-pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], FabricError> {
+pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], WarpError> {
     let periods = bars.iter().map(|bar| {
         let [guides, rounds] = bar.jacquard.as_ref().map_or([1, 1], |image| image.size());
         let threading = [bar.threading.period() as u64, bar.chain.courses() as u64 * u64::from(rounds)];
@@ -69,7 +70,7 @@ pub(super) fn repeat(bars: &[Bar], size: [u32; 2]) -> Result<[u32; 2], FabricErr
     let repeat = periods.fold([1, 1], |all, own| [0, 1].map(|axis| common(all[axis], own[axis])));
     for (axis, what) in ["wale", "course"].into_iter().enumerate() {
         if size[axis] == 0 || !u64::from(size[axis]).is_multiple_of(repeat[axis]) {
-            return Err(FabricError::WarpRepeat { what, size: size[axis], multiple: repeat[axis] });
+            return Err(WarpError::WarpRepeat { what, size: size[axis], multiple: repeat[axis] });
         }
     }
     Ok(repeat.map(|count| count as u32))
@@ -96,16 +97,16 @@ pub(super) fn size(
     let points = laid.saturating_mul(LAP_POINTS).saturating_mul(area(copies));
     let far = (0..2).any(|axis| u64::from(piece[axis]) * u64::from(copies[axis]) > SIDE_MAX);
     if laid > LAID_MAX {
-        return Err(FabricError::Laps { laps: laid, limit: LAID_MAX });
+        return Err(WarpError::Laps { laps: laid, limit: LAID_MAX }.into());
     }
     if points > POINTS_MAX {
-        return Err(FabricError::KnitPoints { points, limit: POINTS_MAX });
+        return Err(WeftError::KnitPoints { points, limit: POINTS_MAX }.into());
     }
     if far {
-        return Err(FabricError::Stitches { what: "too many wales or courses" });
+        return Err(WeftError::Stitches { what: "too many wales or courses" }.into());
     }
     if copies.contains(&0) {
-        return Err(FabricError::Stitches { what: "no copy of the repeat" });
+        return Err(WeftError::Stitches { what: "no copy of the repeat" }.into());
     }
     let (mut loops, mut inlays, mut passed, mut points) = (0_u64, 0_u64, 0_u64, 0_u64);
     for laid in laps(bars, repeat[0], repeat[1]) {
@@ -116,16 +117,16 @@ pub(super) fn size(
         repeat_points(points)?;
     }
     if loops == 0 {
-        return Err(FabricError::NoLoops);
+        return Err(WarpError::NoLoops.into());
     }
     let laps = loops + inlays;
     let limit = passed_max(laps);
     if passed > limit {
-        return Err(FabricError::KnitRuns { passed, loops: laps, limit, told: None });
+        return Err(WeftError::KnitRuns { passed, loops: laps, limit, told: None }.into());
     }
     let whole = [0, 1].map(|axis| piece[axis] * copies[axis] / repeat[axis]);
     let tiles = settled_together(repeat, whole);
-    tiled(tiles, u64::from(repeat[0]) * u64::from(repeat[1]) * bars.len() as u64)
+    Ok(tiled(tiles, u64::from(repeat[0]) * u64::from(repeat[1]) * bars.len() as u64)?)
 }
 
 /// Control points of a lap and its underlap, about. Pieces of underlaps are 0.4 wales long.

@@ -1,14 +1,15 @@
 //! A warp-knitted cloth: its bars, how close its loops lie, and what its yarns are like.
 
 use glam::DVec3;
-use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns};
+use texere_core::{
+    Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnPlace, Yarns, room_for,
+};
 
 use super::path::{Cloth, Thread};
 use super::{Bar, check};
-use crate::memory::room_for;
 use crate::settling::settled_together;
 use crate::weft::{self, Cells, Gauge, KnitYarn};
-use crate::{FabricError, Piece, Repeat, StitchPlace, YarnPlace};
+use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 
 /// A warp-knitted cloth: its guide bars, with sizes and yarns.
 ///
@@ -48,10 +49,10 @@ impl WarpKnitted {
     /// A cloth of these bars, the front one first, on so many wales and courses. So many copies of that lie side by side along x and y.
     /// The gauge's loop length counts for nothing: bars have run-ins.
     ///
-    /// **Errors**: [`FabricError::Bars`], [`FabricError::GuideYarn`], [`FabricError::BarOffset`], [`FabricError::RunIn`] and
-    /// [`FabricError::JacquardCourses`] for bars that none are, [`FabricError::WarpRepeat`] for wales and courses that are no multiples
-    /// of those after which the bars begin again, [`FabricError::NoLoops`], [`FabricError::Gauge`] for distances that no
-    /// cloth has, [`FabricError::KnitPoints`] and [`FabricError::KnitRepeat`] for more control points than are taken, and errors of the
+    /// **Errors**: [`WarpError::Bars`](crate::warp::WarpError::Bars), [`WarpError::GuideYarn`](crate::warp::WarpError::GuideYarn), [`WarpError::BarOffset`](crate::warp::WarpError::BarOffset), [`WarpError::RunIn`](crate::warp::WarpError::RunIn) and
+    /// [`WarpError::JacquardCourses`](crate::warp::WarpError::JacquardCourses) for bars that none are, [`WarpError::WarpRepeat`](crate::warp::WarpError::WarpRepeat) for wales and courses that are no multiples
+    /// of those after which the bars begin again, [`WarpError::NoLoops`](crate::warp::WarpError::NoLoops), [`WeftError::Gauge`](crate::weft::WeftError::Gauge) for distances that no
+    /// cloth has, [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) and [`WeftError::KnitRepeat`](crate::weft::WeftError::KnitRepeat) for more control points than are taken, and errors of the
     /// yarns' radius, twist, material and section.
     #[allow(clippy::too_many_arguments, reason = "each is a fact of its own about the cloth")]
     pub fn new(
@@ -75,9 +76,9 @@ impl WarpKnitted {
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.
-    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
-        section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
+        section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
         self.yarns.iter_mut().for_each(|yarn| yarn.section = 0);
         Ok(())
@@ -157,7 +158,7 @@ impl WarpKnitted {
     /// Needle 0 lies half a wale from x = 0, the feet of the first course at y = 0. Origins are [`Origin::Guide`], bars and guides
     /// counted from 1. The source of a control point is the course of its lap, from 1.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`], [`FabricError::KnitPoints`] for more control points than are taken, and
+    /// **Errors**: [`FabricError::OutOfMemory`], [`WeftError::KnitPoints`](crate::weft::WeftError::KnitPoints) for more control points than are taken, and
     /// [`FabricError::Yarns`] where they can't be taken.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;

@@ -2,9 +2,9 @@
 
 use std::cmp::Reverse;
 
+use texere_core::{OutOfMemory, room_for};
+
 use super::{Bar, Laid, Lap, LapKind};
-use crate::FabricError;
-use crate::memory::room_for;
 
 /// The place of a loop among those on its needle: bar by bar from the front, and in each bar guide by guide.
 #[derive(Debug, Clone, Copy, Default)]
@@ -47,7 +47,7 @@ pub(super) struct Loops {
 
 impl Loops {
     /// `laid` are all laps of a repeat of so many wales and courses, in their order.
-    pub(super) fn new(laid: Vec<Laid>, bars: &[Bar], size: [u32; 2]) -> Result<Self, FabricError> {
+    pub(super) fn new(laid: Vec<Laid>, bars: &[Bar], size: [u32; 2]) -> Result<Self, OutOfMemory> {
         let needles = size[0] as usize * size[1] as usize;
         let (mut shares, mut all, mut own) = (Vec::new(), Vec::new(), Vec::new());
         room_for(&mut shares, laid.len(), "loops")?;

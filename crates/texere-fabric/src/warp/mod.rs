@@ -13,6 +13,7 @@ mod bar;
 mod chain;
 mod check;
 mod cut;
+mod error;
 mod knitted;
 mod laps;
 mod library;
@@ -24,6 +25,7 @@ mod settle;
 
 pub use bar::{Bar, Displacements, Threading};
 pub use chain::{CHAIN_COURSES, Chain, Lap, LapKind, NEEDLES_MOST, SPACE_MAX};
+pub use error::WarpError;
 pub use knitted::WarpKnitted;
 pub use laps::Laid;
 pub use library::LAPPINGS;

@@ -11,15 +11,13 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use texere_core::ControlPoint;
+use texere_contact::round_length_mm;
+use texere_core::{ControlPoint, OutOfMemory, room_for};
 
 use super::laps::laps;
 use super::loops::Loops;
 use super::settle::RACK;
 use super::{Bar, Laid, LapKind};
-use crate::FabricError;
-use crate::length::round_length_mm;
-use crate::memory::room_for;
 use crate::weft::{Cells, Gauge};
 
 /// Height of a loop from foot to head, in courses, where its bar has no run-in.
@@ -103,7 +101,7 @@ impl<'a> Cloth<'a> {
         diameter: f64,
         size: [u32; 2],
         cells: Cells,
-    ) -> Result<Self, FabricError> {
+    ) -> Result<Self, OutOfMemory> {
         let mut laid = Vec::new();
         room_for(&mut laid, size[0] as usize * size[1] as usize * bars.len(), "laps")?;
         laid.extend(laps(bars, size[0], size[1]));
@@ -118,7 +116,7 @@ impl<'a> Cloth<'a> {
     }
 
     /// Gives a bar's loops the height at which its yarns are of that length in the mean, mm, or the nearest height to it.
-    fn reach(&mut self, bar: usize, length_mm: f64) -> Result<(), FabricError> {
+    fn reach(&mut self, bar: usize, length_mm: f64) -> Result<(), OutOfMemory> {
         let [mut low, mut high] = HEIGHTS;
         for _ in 0..HEIGHT_STEPS {
             self.heights[bar] = (low + high) / 2.0;
@@ -129,7 +127,7 @@ impl<'a> Cloth<'a> {
     }
 
     /// Mean length of the yarns of a bar, mm; `None` of a bar without yarns.
-    fn mean_length_mm(&self, bar: usize) -> Result<Option<f64>, FabricError> {
+    fn mean_length_mm(&self, bar: usize) -> Result<Option<f64>, OutOfMemory> {
         let height = f64::from(self.size[1]) * self.gauge.course_mm;
         let own = (0..self.loops.laid.len()).step_by(self.size[1] as usize);
         let own: Vec<_> = own.filter(|lap| self.loops.laid[*lap].bar as usize == bar).collect();
@@ -139,7 +137,7 @@ impl<'a> Cloth<'a> {
             let mut points = Vec::new();
             room_for(&mut points, thread.len(), "points of a yarn")?;
             points.extend(thread.into_iter().map(point));
-            Ok::<_, FabricError>(round_length_mm(&points, [0.0, height], 0.0))
+            Ok::<_, OutOfMemory>(round_length_mm(&points, [0.0, height], 0.0))
         };
         let lengths = own.par_iter().map(length).collect::<Result<Vec<_>, _>>()?;
         Ok((!own.is_empty()).then(|| lengths.iter().sum::<f64>() / own.len() as f64))
@@ -147,14 +145,14 @@ impl<'a> Cloth<'a> {
 
     /// The yarns of all guides that are threaded.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`].
-    pub(super) fn lay(&self) -> Result<Vec<Thread>, FabricError> {
+    /// **Errors**: [`OutOfMemory`].
+    pub(super) fn lay(&self) -> Result<Vec<Thread>, OutOfMemory> {
         let courses = self.size[1] as usize;
         (0..self.loops.laid.len() / courses).into_par_iter().map(|yarn| self.thread(yarn * courses)).collect()
     }
 
     /// The yarn whose first lap has that number.
-    fn thread(&self, first: usize) -> Result<Thread, FabricError> {
+    fn thread(&self, first: usize) -> Result<Thread, OutOfMemory> {
         let laps = first..first + self.size[1] as usize;
         let mut laid: Vec<Vec<DVec3>> = Vec::new();
         room_for(&mut laid, laps.len(), "laps of a yarn")?;

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
+use texere_core::{OutOfMemory, room_for};
+
 use super::layers::{Layers, STEP};
 use super::{Bed, Direction, Step, Stitches};
-use crate::FabricError;
-use crate::memory::room_for;
 
 /// What a yarn does at a needle.
 #[derive(Debug, Clone, Copy)]
@@ -34,12 +34,12 @@ const SHORT: f32 = 0.75;
 
 /// What a yarn does from its beginning to its end, or in one round; and how many wales and courses further it then goes on.
 ///
-/// **Errors**: [`FabricError::OutOfMemory`].
+/// **Errors**: [`OutOfMemory`].
 pub(super) fn cells(
     stitches: &Stitches,
     layers: &Layers,
     strand: usize,
-) -> Result<(Vec<Cell>, Option<[i64; 2]>), FabricError> {
+) -> Result<(Vec<Cell>, Option<[i64; 2]>), OutOfMemory> {
     let steps = stitches.strands[strand].steps.iter().enumerate();
     let told = steps.map(|(index, step)| told(stitches, layers, [strand, index], step));
     let onward = match (stitches.strands[strand].onward, stitches.repeat) {
@@ -92,7 +92,7 @@ fn told(stitches: &Stitches, layers: &Layers, at: [usize; 2], step: &Step) -> Ce
 ///
 /// Where the other lies further out in the direction in which the yarn came, it floats on to there and turns; where it lies
 /// further back, it turns at once and floats back.
-fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), FabricError> {
+fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
     let way = f64::from(other.at - one.at) * one.direction;
     let turns = one.direction != other.direction;
     let (passed, gap, on) = (passed_on_way(way, turns), way.abs().round() as u32, way > 0.0);

@@ -5,7 +5,7 @@ use texere_core::{Material, Origin, Section, Yarn};
 use super::cells::passed_on_way;
 use super::form::point_count;
 use super::layers::held_until;
-use super::{Direction, Fate, Gauge, KnitYarn, LoopRef, Step, Stitches, Strand, Visit};
+use super::{Direction, Fate, Gauge, KnitYarn, LoopRef, Step, Stitches, Strand, Visit, WeftError};
 use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN, yarn_check};
 
 /// The furthest that a needle lies from the first one, in wales.
@@ -32,11 +32,11 @@ const REPEAT_POINTS_MAX: u64 = 12_600_000;
 const PASSED_MAX: u64 = 1 << 16;
 const PASSED_BESIDE_A_LOOP: u64 = 64;
 
-pub(crate) fn gauge(gauge: &Gauge) -> Result<(), FabricError> {
+pub(crate) fn gauge(gauge: &Gauge) -> Result<(), WeftError> {
     let Gauge { wale_mm, course_mm, loop_length_mm } = *gauge;
     let lengths = [("wales", wale_mm), ("courses", course_mm), ("loops", loop_length_mm.unwrap_or(1.0))];
     match lengths.into_iter().find(|(_, mm)| !(SPACING_MIN..=SPACING_MAX).contains(mm)) {
-        Some((what, mm)) => Err(FabricError::Gauge { what, mm, low: SPACING_MIN, high: SPACING_MAX }),
+        Some((what, mm)) => Err(WeftError::Gauge { what, mm, low: SPACING_MIN, high: SPACING_MAX }),
         None => Ok(()),
     }
 }
@@ -58,8 +58,8 @@ pub(crate) fn yarns(
 }
 
 /// Whether stitches refer only to what there is, with a yarn for each carrier.
-pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricError> {
-    let sound = |sound: bool, what| if sound { Ok(()) } else { Err(FabricError::Stitches { what }) };
+pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), WeftError> {
+    let sound = |sound: bool, what| if sound { Ok(()) } else { Err(WeftError::Stitches { what }) };
     let far = |at: f32| at.abs() <= WALES_MAX;
     let refers = |other: LoopRef| {
         (other.number as usize) < stitches.loops.len()
@@ -92,7 +92,7 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricEr
     }
     for strand in &stitches.strands {
         if strand.carrier as usize >= yarns {
-            return Err(FabricError::Carrier { carrier: strand.carrier + 1, yarns });
+            return Err(WeftError::Carrier { carrier: strand.carrier + 1, yarns });
         }
         let onward = strand
             .onward
@@ -108,7 +108,7 @@ pub(super) fn stitches(stitches: &Stitches, yarns: usize) -> Result<(), FabricEr
 }
 
 /// Whether the cloth has no more control points than are taken: a low estimate, before any is made.
-pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricError> {
+pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), WeftError> {
     let held = stitches.loops.iter().filter_map(|stitch| {
         let until = held_until(stitches, stitch.fate)?;
         Some(until.saturating_sub(i64::from(stitch.course)).unsigned_abs())
@@ -118,25 +118,25 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), FabricEr
     let (passed, loops) = (passed.saturating_add(held.saturating_mul(2)), stitches.loops.len() as u64);
     let limit = passed_max(loops);
     if passed > limit {
-        return Err(FabricError::KnitRuns { passed, loops, limit, told: furthest(stitches) });
+        return Err(WeftError::KnitRuns { passed, loops, limit, told: furthest(stitches) });
     }
     let points = repeat_points(points(stitches))?;
     let sides = stitches.repeat.unwrap_or([1, 1]).into_iter().zip(copies);
     if sides.into_iter().any(|(size, copies)| u64::from(size) * u64::from(copies) > u64::from(SIDE_MAX)) {
-        return Err(FabricError::Stitches { what: "too many wales or courses" });
+        return Err(WeftError::Stitches { what: "too many wales or courses" });
     }
     let copies = if stitches.repeat.is_some() { u64::from(copies[0]) * u64::from(copies[1]) } else { 1 };
     let points = points.saturating_mul(copies);
     if copies == 0 {
-        return Err(FabricError::Stitches { what: "no copy of the repeat" });
+        return Err(WeftError::Stitches { what: "no copy of the repeat" });
     }
-    if points > POINTS_MAX { Err(FabricError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
+    if points > POINTS_MAX { Err(WeftError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
 }
 
 /// So many control points of a repeat, unless they are too many to be laid as one.
-pub(crate) fn repeat_points(points: u64) -> Result<u64, FabricError> {
+pub(crate) fn repeat_points(points: u64) -> Result<u64, WeftError> {
     if points > REPEAT_POINTS_MAX {
-        return Err(FabricError::KnitRepeat { points, limit: REPEAT_POINTS_MAX });
+        return Err(WeftError::KnitRepeat { points, limit: REPEAT_POINTS_MAX });
     }
     Ok(points)
 }
@@ -172,10 +172,10 @@ pub(crate) const fn passed_max(loops: u64) -> u64 {
 }
 
 /// Whether the repeats of so many loops or laps that settle together are not too many.
-pub(crate) fn tiled(tiles: [u32; 2], loops: u64) -> Result<(), FabricError> {
+pub(crate) fn tiled(tiles: [u32; 2], loops: u64) -> Result<(), WeftError> {
     let count = u64::from(tiles[0]) * u64::from(tiles[1]);
     if count > 1 && count.saturating_mul(loops) > TILED_MAX {
-        return Err(FabricError::Copies { loops: count.saturating_mul(loops), limit: TILED_MAX });
+        return Err(WeftError::Copies { loops: count.saturating_mul(loops), limit: TILED_MAX });
     }
     Ok(())
 }

@@ -1,17 +1,16 @@
 //! A knitted cloth: its stitches, how close they lie, and what its yarns are like.
 
 use rayon::prelude::*;
-use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns};
+use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns, room_for};
 
 use super::layers::Layers;
 use super::path::Cloth;
 use super::pen::Laid;
 use super::shape::Shape;
-use super::{Gauge, Stitches, Strand, check};
-use crate::memory::room_for;
+use super::{Gauge, Stitches, Strand, WeftError, check};
 use crate::reach::Reach;
 use crate::settling::settled_together;
-use crate::{FabricError, POINTS_MAX, Piece, Repeat};
+use crate::{FabricError, POINTS_MAX, Piece, Repeat, ThreadError};
 
 /// A yarn of a knitted cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,9 +60,9 @@ impl Knitted {
     /// A cloth of these stitches, with a yarn for each carrier. Where the stitches are one repeat, so many copies of it lie side by
     /// side along x and y; else `copies` counts for nothing.
     ///
-    /// **Errors**: [`FabricError::Gauge`] for distances that no cloth has, [`FabricError::Stitches`] for stitches that refer to
-    /// what there is not, [`FabricError::Carrier`] for a carrier without a yarn, [`FabricError::KnitPoints`] and
-    /// [`FabricError::KnitRepeat`] for more control points than are taken, and errors of the yarns' radius, twist, material and section.
+    /// **Errors**: [`WeftError::Gauge`] for distances that no cloth has, [`WeftError::Stitches`] for stitches that refer to
+    /// what there is not, [`WeftError::Carrier`] for a carrier without a yarn, [`WeftError::KnitPoints`] and
+    /// [`WeftError::KnitRepeat`] for more control points than are taken, and errors of the yarns' radius, twist, material and section.
     pub fn new(
         stitches: Stitches,
         gauge: Gauge,
@@ -84,9 +83,9 @@ impl Knitted {
 
     /// Gives every yarn the same section.
     ///
-    /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.
-    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
-        section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
+        section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
         self.yarns.iter_mut().for_each(|yarn| yarn.section = 0);
         self.shape = Shape::new(&self.gauge, thickest(used(&self.stitches, &self.yarns), &self.sections));
@@ -232,7 +231,7 @@ impl Knitted {
             offsets.push(points.len() as u64);
         }
         if points.len() as u64 > POINTS_MAX {
-            return Err(FabricError::KnitPoints { points: points.len() as u64, limit: POINTS_MAX });
+            return Err(WeftError::KnitPoints { points: points.len() as u64, limit: POINTS_MAX }.into());
         }
         let layout = Layout::new(table, offsets, self.sections.clone())?;
         let yarns = Yarns::new(layout, self.materials.clone(), points)?.with_sources(sources)?;

@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
+use texere_core::{OutOfMemory, filled, room_for};
+
 use super::stitches::HALVES;
 use super::{Bed, Fate, Head, Step, Stitch, Stitches, Visit};
-use crate::FabricError;
-use crate::memory::{filled, room_for};
 
 /// Loops further apart than so many wales have needles between them that are passed.
 pub(super) const STEP: f32 = 1.6;
@@ -77,8 +77,8 @@ pub(super) enum Behind {
 }
 
 impl Layers {
-    /// **Errors**: [`FabricError::OutOfMemory`].
-    pub(super) fn new(stitches: &Stitches) -> Result<Self, FabricError> {
+    /// **Errors**: [`OutOfMemory`].
+    pub(super) fn new(stitches: &Stitches) -> Result<Self, OutOfMemory> {
         let mut layers = Self {
             hanging: HashMap::new(),
             repeat: stitches.repeat,
@@ -144,7 +144,7 @@ impl Layers {
     }
 
     /// Notes each loop in every course in which it hangs on a needle.
-    fn hang(&mut self, stitches: &Stitches) -> Result<(), FabricError> {
+    fn hang(&mut self, stitches: &Stitches) -> Result<(), OutOfMemory> {
         for stitch in &stitches.loops {
             let bed = |bed| usize::from(bed == Bed::Back);
             let own = self.at(self.place(i64::from(stitch.course), stitch.at))?;
@@ -159,9 +159,9 @@ impl Layers {
     }
 
     /// What is noted of a place, nothing so far if it is new.
-    fn at(&mut self, place: Place) -> Result<&mut [Hanging; 2], FabricError> {
+    fn at(&mut self, place: Place) -> Result<&mut [Hanging; 2], OutOfMemory> {
         let bytes = (self.hanging.len() as u64 + 1) * size_of::<(Place, [Hanging; 2])>() as u64;
-        let refused = |_| FabricError::OutOfMemory { what: "needles that hold loops", bytes };
+        let refused = |_| OutOfMemory { what: "needles that hold loops", bytes };
         self.hanging.try_reserve(1).map_err(refused)?;
         Ok(self.hanging.entry(place).or_default())
     }
@@ -176,7 +176,7 @@ pub(super) fn held_until(stitches: &Stitches, fate: Fate) -> Option<i64> {
 }
 
 /// For each loop that crosses others of its course on their way to other needles, how many legs lie over its own.
-fn crossed(stitches: &Stitches) -> Result<Vec<Option<u16>>, FabricError> {
+fn crossed(stitches: &Stitches) -> Result<Vec<Option<u16>>, OutOfMemory> {
     let loops = &stitches.loops;
     let mut levels = filled("loops", loops.len(), None)?;
     let leans = loops.iter().map(|stitch| (stitch.head.at - stitch.at).abs());
@@ -219,7 +219,7 @@ fn cross(one: &Stitch, other: &Stitch) -> bool {
 ///
 /// Yarns cross where one goes from its loops to floating behind those of another, or from bed to bed: there the one that is laid
 /// later lies above. Yarns that only knit side by side on one bed don't cross.
-fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, FabricError> {
+fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, OutOfMemory> {
     let strands = &stitches.strands;
     let (mut all, mut passes) = (Vec::new(), Vec::new());
     room_for(&mut all, strands.len(), "yarns of a knit")?;
@@ -244,7 +244,7 @@ fn ranks(stitches: &Stitches) -> Result<Vec<Vec<Rank>>, FabricError> {
 }
 
 /// Adds the passes of a strand, in order.
-fn passes_of(stitches: &Stitches, strand: usize, passes: &mut Vec<Pass>) -> Result<(), FabricError> {
+fn passes_of(stitches: &Stitches, strand: usize, passes: &mut Vec<Pass>) -> Result<(), OutOfMemory> {
     let mut steps = Vec::new();
     room_for(&mut steps, stitches.strands[strand].steps.len(), "stitches of a yarn")?;
     steps.extend(stitches.strands[strand].steps.iter().map(|step| stitches.visit(step)));

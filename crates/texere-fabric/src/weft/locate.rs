@@ -1,9 +1,9 @@
 //! Which stitch of a knit a place on a yarn belongs to.
 
-use texere_core::Yarns;
+use texere_core::{YarnPlace, Yarns};
 
 use super::knitted::{Knitted, extent};
-use crate::{StitchPlace, YarnPlace};
+use crate::StitchPlace;
 
 impl Knitted {
     /// The stitch at a place on one of the cloth's `yarns`. None where no loop comes from the place's source: in floats, and where

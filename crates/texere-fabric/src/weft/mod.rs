@@ -11,6 +11,7 @@
 mod cells;
 mod chart;
 pub(crate) mod check;
+mod error;
 mod form;
 mod gauge;
 pub(crate) mod knitted;
@@ -29,6 +30,7 @@ mod tile;
 pub use chart::{
     Backing, Beds, CHART_CELLS_MAX, CHART_MOVED_MAX, CHART_SIDE_MAX, CHART_YARNS_MAX, Cell, Chart, ChartError,
 };
+pub use error::WeftError;
 pub use gauge::Gauge;
 pub use knitted::{Cells, KnitYarn, Knitted};
 pub use machine::{FAULTS_LISTED, Fault, FaultKind, Knit, LOOPS_MAX, Machine, NEEDLE_MAX, STACK_MAX};

@@ -1,6 +1,7 @@
 //! The way of a yarn: from loop to loop, behind the needles that it passes, and round at the edges.
 
 use glam::DVec3;
+use texere_core::OutOfMemory;
 
 use super::cells::{Cell, cells};
 use super::form::{Form, side};
@@ -8,7 +9,6 @@ use super::layers::{Behind, Layers};
 use super::pen::{Laid, Pen};
 use super::shape::{ARC, Shape};
 use super::{Cells, Fate, Stitches};
-use crate::FabricError;
 
 /// Yarns that share a course lie so many diameters apart where they cross, if the course has room for it.
 const CROSSING: f64 = 1.0;
@@ -37,8 +37,8 @@ pub(super) struct Cloth<'a> {
 impl Cloth<'_> {
     /// Lays a yarn, one round of it where it goes on in the next repeat.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`].
-    pub(super) fn lay(&self, strand: usize) -> Result<Laid, FabricError> {
+    /// **Errors**: [`OutOfMemory`].
+    pub(super) fn lay(&self, strand: usize) -> Result<Laid, OutOfMemory> {
         let (cells, onward) = cells(self.stitches, self.layers, strand)?;
         let (Some(first), Some(last)) = (cells.first(), cells.last()) else { return Ok(Laid::default()) };
         let mut pen = Pen::default();
@@ -102,7 +102,7 @@ impl Cloth<'_> {
     }
 
     /// What a yarn does at a needle.
-    fn cell(&self, pen: &mut Pen, cell: &Cell) -> Result<(), FabricError> {
+    fn cell(&self, pen: &mut Pen, cell: &Cell) -> Result<(), OutOfMemory> {
         match cell.number {
             Some(number) => {
                 let (points, head) = self.form(cell, number).points(cell.direction);
@@ -128,7 +128,7 @@ impl Cloth<'_> {
     }
 
     /// The yarn between two needles.
-    fn join(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) -> Result<(), FabricError> {
+    fn join(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
         if one.direction != other.direction {
             return self.turn(pen, strand, one, other);
         }
@@ -154,7 +154,7 @@ impl Cloth<'_> {
     }
 
     /// The yarn turns round beside the outer of two needles.
-    fn turn(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) -> Result<(), FabricError> {
+    fn turn(&self, pen: &mut Pen, strand: usize, one: &Cell, other: &Cell) -> Result<(), OutOfMemory> {
         let Shape { wale, course, diameter, .. } = *self.shape;
         let outwards = one.direction;
         let outer = f64::max(outwards * self.x(one.at), outwards * self.x(other.at)) + 0.5 * wale;
@@ -180,7 +180,7 @@ impl Cloth<'_> {
     }
 
     /// The beginning of a yarn.
-    fn begin(&self, pen: &mut Pen, first: &Cell) -> Result<(), FabricError> {
+    fn begin(&self, pen: &mut Pen, first: &Cell) -> Result<(), OutOfMemory> {
         pen.room(2)?;
         let [near, far] = self.loose(first, -first.direction);
         pen.source(first.source);
@@ -193,7 +193,7 @@ impl Cloth<'_> {
     }
 
     /// The end of a yarn.
-    fn end(&self, pen: &mut Pen, last: &Cell) -> Result<(), FabricError> {
+    fn end(&self, pen: &mut Pen, last: &Cell) -> Result<(), OutOfMemory> {
         pen.room(2)?;
         pen.tail();
         for point in self.loose(last, last.direction) {

@@ -1,10 +1,9 @@
 //! Control points as they are written down, cell by cell.
 
 use glam::DVec3;
+use texere_core::{OutOfMemory, room_for};
 
 use super::shape::cardinal;
-use crate::FabricError;
-use crate::memory::room_for;
 
 /// Control points of a cell where all have as many: those of a plain loop and the arc before it.
 const EVEN: usize = 12;
@@ -33,8 +32,8 @@ pub(super) struct Pen {
 impl Pen {
     /// Makes room for so many points more.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`].
-    pub(super) fn room(&mut self, points: usize) -> Result<(), FabricError> {
+    /// **Errors**: [`OutOfMemory`].
+    pub(super) fn room(&mut self, points: usize) -> Result<(), OutOfMemory> {
         room_for(&mut self.laid.points, points, "points of a yarn")?;
         room_for(&mut self.laid.sources, points, "sources of a yarn's points")
     }
@@ -73,8 +72,8 @@ impl Pen {
     /// As many points in each cell, along the curve through those that were written. `onward` is how far the yarn's next round
     /// lies from this one. What comes before the first cell and after the last stays as it is.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`].
-    pub(super) fn even(self, onward: Option<DVec3>) -> Result<Laid, FabricError> {
+    /// **Errors**: [`OutOfMemory`].
+    pub(super) fn even(self, onward: Option<DVec3>) -> Result<Laid, OutOfMemory> {
         let Laid { points, sources, pinned } = &self.laid;
         let count = points.len() as isize;
         let at = |number: isize| match onward {

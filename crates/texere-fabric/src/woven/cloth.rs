@@ -6,7 +6,7 @@ use super::thread::{
     FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread, middles,
 };
 use super::{Crimp, Drawdown, Shape};
-use crate::{FabricError, yarn_check};
+use crate::{FabricError, ThreadError, WovenError, yarn_check};
 
 /// The most control points of a cloth: 64 GiB of them.
 pub const POINTS_MAX: u64 = 1 << 32;
@@ -65,7 +65,7 @@ impl Woven {
         let (ends, picks) = (drawdown.ends(), drawdown.picks());
         for (set, threads, planned) in [("end", warp.len(), ends), ("pick", weft.len(), picks)] {
             if threads != planned {
-                return Err(FabricError::ThreadCount { set, threads, planned });
+                return Err(WovenError::ThreadCount { set, threads, planned }.into());
             }
         }
         yarn_check::sections(&sections)?;
@@ -75,14 +75,14 @@ impl Woven {
         let (longer, wider) = (picks as u64 + 2, ends as u64 + 2);
         let points = ends as u64 * longer + picks as u64 * wider;
         if points > POINTS_MAX {
-            return Err(FabricError::Points { ends, picks, points, limit: POINTS_MAX });
+            return Err(WovenError::Points { ends, picks, points, limit: POINTS_MAX }.into());
         }
         cloth.check_threads(&cloth.warp, Origin::End)?;
         cloth.check_threads(&cloth.weft, Origin::Pick)?;
         for (set, extent_mm) in ["ends", "picks"].into_iter().zip(cloth.size_mm()) {
             let limit = f64::from(COORDINATE_LIMIT);
             if extent_mm > limit {
-                return Err(FabricError::Extent { set, extent_mm, limit });
+                return Err(WovenError::Extent { set, extent_mm, limit }.into());
             }
         }
         Ok(cloth)
@@ -111,42 +111,46 @@ impl Woven {
         for (number, each) in (1..).zip(threads) {
             let thread = origin(number);
             if !(SPACING_MIN..=SPACING_MAX).contains(&each.spacing_mm) {
-                return Err(FabricError::Spacing {
+                return Err(WovenError::Spacing {
                     thread,
                     spacing_mm: each.spacing_mm,
                     low: SPACING_MIN,
                     high: SPACING_MAX,
-                });
+                }
+                .into());
             }
             let Thread { material, section, twist, radius_mm, .. } = *each;
             let yarn = Yarn { material, section, closed: false, twist, origin: thread };
             yarn_check::yarn(&yarn, radius_mm, &self.materials, &self.sections)?;
             if !(FLATNESS_MIN..=FLATNESS_MAX).contains(&each.flatness) {
-                return Err(FabricError::Flatness {
+                return Err(WovenError::Flatness {
                     thread,
                     flatness: each.flatness,
                     low: FLATNESS_MIN,
                     high: FLATNESS_MAX,
-                });
+                }
+                .into());
             }
             if !(STIFFNESS_MIN..=STIFFNESS_MAX).contains(&each.stiffness) {
-                return Err(FabricError::Stiffness {
+                return Err(WovenError::Stiffness {
                     thread,
                     stiffness: each.stiffness,
                     low: STIFFNESS_MIN,
                     high: STIFFNESS_MAX,
-                });
+                }
+                .into());
             }
             let [half_width, half_height] = each.halves_mm();
             for (side, half_mm) in [("width", half_width), ("height", half_height)] {
                 if !(RADIUS_MIN..=RADIUS_MAX).contains(&half_mm) {
-                    return Err(FabricError::Half {
+                    return Err(WovenError::Half {
                         thread,
                         side,
                         half_mm,
                         low: RADIUS_MIN,
                         high: RADIUS_MAX,
-                    });
+                    }
+                    .into());
                 }
             }
         }
@@ -177,8 +181,8 @@ impl Woven {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Errors**: [`FabricError::NoCrossing`] outside the cloth.
-    pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
+    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth.
+    pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), WovenError> {
         self.drawdown.set(end, pick, up)
     }
 
@@ -232,19 +236,18 @@ impl Woven {
 
     /// Gives material number `material`, from 0, another colour, sRGB.
     ///
-    /// **Errors**: [`FabricError::NoMaterial`].
-    pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), FabricError> {
+    /// **Errors**: [`WovenError::NoMaterial`].
+    pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), WovenError> {
         let materials = self.materials.len();
-        let place =
-            self.materials.get_mut(material).ok_or(FabricError::NoMaterial { material, materials })?;
+        let place = self.materials.get_mut(material).ok_or(WovenError::NoMaterial { material, materials })?;
         place.srgb = srgb;
         Ok(())
     }
 
     /// Replaces material number `material`, from 0.
-    pub(super) fn set_material(&mut self, material: usize, with: Material) -> Result<(), FabricError> {
+    pub(super) fn set_material(&mut self, material: usize, with: Material) -> Result<(), WovenError> {
         let materials = self.materials.len();
-        *self.materials.get_mut(material).ok_or(FabricError::NoMaterial { material, materials })? = with;
+        *self.materials.get_mut(material).ok_or(WovenError::NoMaterial { material, materials })? = with;
         Ok(())
     }
 
@@ -256,7 +259,7 @@ impl Woven {
 
     /// Flattens all threads alike: width over height of each, with its area.
     ///
-    /// **Errors**: [`FabricError::Flatness`] outside \[[`FLATNESS_MIN`], [`FLATNESS_MAX`]\], and [`FabricError::Half`] for a thread
+    /// **Errors**: [`WovenError::Flatness`] outside \[[`FLATNESS_MIN`], [`FLATNESS_MAX`]\], and [`WovenError::Half`] for a thread
     /// that would be too thin or too wide; the cloth is then as it was.
     pub fn set_flatness(&mut self, flatness: f32) -> Result<(), FabricError> {
         let flattened = |set: &[Thread]| set.iter().map(|thread| Thread { flatness, ..*thread }).collect();
@@ -269,9 +272,9 @@ impl Woven {
 
     /// Gives all threads one section.
     ///
-    /// **Errors**: [`FabricError::Section`] where its numbers are not sound; the cloth is then as it was.
-    pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
-        section.validate().map_err(|source| FabricError::Section { section: 0, source })?;
+    /// **Errors**: [`ThreadError::Section`] where its numbers are not sound; the cloth is then as it was.
+    pub fn set_section(&mut self, section: Section) -> Result<(), ThreadError> {
+        section.validate().map_err(|source| ThreadError::Section { section: 0, source })?;
         self.sections = vec![section];
         for thread in self.warp.iter_mut().chain(&mut self.weft) {
             thread.section = 0;
@@ -304,8 +307,8 @@ impl Woven {
 
     /// Chooses how warp and weft share the crimp.
     ///
-    /// **Errors**: [`FabricError::Crimp`] for a share outside \[0, 1\]; the cloth is then as it was.
-    pub fn set_crimp(&mut self, crimp: Crimp) -> Result<(), FabricError> {
+    /// **Errors**: [`WovenError::Crimp`] for a share outside \[0, 1\]; the cloth is then as it was.
+    pub fn set_crimp(&mut self, crimp: Crimp) -> Result<(), WovenError> {
         crimp.validate()?;
         self.crimp = crimp;
         Ok(())

@@ -1,7 +1,7 @@
 //! How warp and weft share the way that they swing out of the cloth's middle.
 
 use super::thread::Thread;
-use crate::FabricError;
+use crate::WovenError;
 
 /// How the distance that crossing threads keep is split between the warp and the weft.
 ///
@@ -30,11 +30,11 @@ pub enum Crimp {
 pub(super) const SHARE_MIN: f32 = 0.2;
 
 impl Crimp {
-    /// **Errors**: [`FabricError::Crimp`] for a share outside \[0, 1\].
-    pub(super) fn validate(self) -> Result<(), FabricError> {
+    /// **Errors**: [`WovenError::Crimp`] for a share outside \[0, 1\].
+    pub(super) fn validate(self) -> Result<(), WovenError> {
         match self {
             Self::WarpShare(share) if !(0.0..=1.0).contains(&share) => {
-                Err(FabricError::Crimp { share, low: 0.0, high: 1.0 })
+                Err(WovenError::Crimp { share, low: 0.0, high: 1.0 })
             }
             _ => Ok(()),
         }
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn a_share_outside_nought_to_one_is_refused() {
         for share in [-0.01, 1.01, f32::NAN, f32::INFINITY] {
-            assert!(matches!(Crimp::WarpShare(share).validate(), Err(FabricError::Crimp { .. })));
+            assert!(matches!(Crimp::WarpShare(share).validate(), Err(WovenError::Crimp { .. })));
         }
         assert!([0.0, 1.0].iter().all(|share| Crimp::WarpShare(*share).validate().is_ok()));
     }

@@ -3,7 +3,7 @@
 use texere_core::Section;
 
 use super::{Draft, JamReport, Relief, Woven};
-use crate::FabricError;
+use crate::{FabricError, WovenError};
 
 /// A woven cloth as a designer describes it.
 ///
@@ -97,7 +97,7 @@ impl WovenDesign {
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```
     ///
-    /// **Errors**: [`FabricError::NoCrossing`] outside the cloth, and those of [`Woven::relieve`]; the design is then as it was.
+    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth, and those of [`Woven::relieve`]; the design is then as it was.
     pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
         let mut changed = self.as_given().clone();
         changed.drawdown_mut().set(end, pick, up)?;
@@ -108,8 +108,8 @@ impl WovenDesign {
 
     /// Gives material number `material`, from 0, another colour, sRGB.
     ///
-    /// **Errors**: [`FabricError::NoMaterial`].
-    pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), FabricError> {
+    /// **Errors**: [`WovenError::NoMaterial`].
+    pub fn set_color(&mut self, material: usize, srgb: [u8; 3]) -> Result<(), WovenError> {
         for cloth in self.given.iter_mut().chain([&mut self.cloth]) {
             cloth.set_color(material, srgb)?;
         }
@@ -118,7 +118,7 @@ impl WovenDesign {
 
     /// Gives all threads of the cloth as it was given one section, and relieves it again.
     ///
-    /// **Errors**: [`FabricError::Section`] where its numbers are not sound, and those of [`Woven::relieve`]; the design is
+    /// **Errors**: [`ThreadError::Section`](crate::ThreadError::Section) where its numbers are not sound, and those of [`Woven::relieve`]; the design is
     /// then as it was.
     pub fn set_section(&mut self, section: Section) -> Result<(), FabricError> {
         let mut changed = self.given.as_ref().unwrap_or(&self.cloth).clone();

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
+use texere_core::zeroed;
+
 use super::drawdown::WORD;
-use crate::memory::zeroed;
-use crate::{CROSSINGS_MAX, Drawdown, FabricError};
+use crate::{CROSSINGS_MAX, Drawdown, FabricError, WovenError};
 
 /// A weaver's draft: which shafts carry each end, and which shafts each pick lifts.
 ///
@@ -75,7 +76,7 @@ impl Draft {
 
     /// The cloth that this draft weaves: the warp is up where one of the end's shafts is among those that the pick lifts.
     ///
-    /// **Errors**: those of [`Drawdown::new`]; [`FabricError::TieUp`] where treadles times ends exceed
+    /// **Errors**: those of [`Drawdown::new`]; [`WovenError::TieUp`] where treadles times ends exceed
     /// [`CROSSINGS_MAX`].
     pub fn drawdown(&self) -> Result<Drawdown, FabricError> {
         let mut drawdown = Drawdown::new(self.ends(), self.picks())?;
@@ -121,7 +122,7 @@ impl Draft {
     ) -> Result<HashMap<u32, Lift>, FabricError> {
         let (treadles, ends) = (tie_up.len(), self.ends());
         if treadles as u64 > CROSSINGS_MAX / ends.max(1) as u64 {
-            return Err(FabricError::TieUp { treadles, ends, limit: CROSSINGS_MAX });
+            return Err(WovenError::TieUp { treadles, ends, limit: CROSSINGS_MAX }.into());
         }
         let row = |tied: &[u32]| {
             let mut row = zeroed("a tie-up", ends.div_ceil(WORD) as u64)?;

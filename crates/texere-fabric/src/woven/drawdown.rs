@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use crate::FabricError;
-use crate::memory::zeroed;
+use texere_core::zeroed;
+
+use crate::{FabricError, WovenError};
 
 /// The most ends, and the most picks, of a cloth.
 ///
@@ -49,15 +50,15 @@ impl fmt::Debug for Drawdown {
 impl Drawdown {
     /// A drawdown with every warp down.
     ///
-    /// **Errors**: [`FabricError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of either;
-    /// [`FabricError::Crossings`] for more than [`CROSSINGS_MAX`]; [`FabricError::OutOfMemory`].
+    /// **Errors**: [`WovenError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of either;
+    /// [`WovenError::Crossings`] for more than [`CROSSINGS_MAX`]; [`FabricError::OutOfMemory`].
     pub fn new(ends: usize, picks: usize) -> Result<Self, FabricError> {
         if !(1..=THREADS_MAX).contains(&ends) || !(1..=THREADS_MAX).contains(&picks) {
-            return Err(FabricError::Size { ends, picks, limit: THREADS_MAX });
+            return Err(WovenError::Size { ends, picks, limit: THREADS_MAX }.into());
         }
         let crossings = ends as u64 * picks as u64;
         if crossings > CROSSINGS_MAX {
-            return Err(FabricError::Crossings { ends, picks, crossings, limit: CROSSINGS_MAX });
+            return Err(WovenError::Crossings { ends, picks, crossings, limit: CROSSINGS_MAX }.into());
         }
         let row = ends.div_ceil(WORD);
         Ok(Self { ends, picks, row, words: zeroed("a drawdown", row as u64 * picks as u64)? })
@@ -137,10 +138,10 @@ impl Drawdown {
 
     /// Puts the warp up or down where `end` and `pick` cross, both from 0.
     ///
-    /// **Errors**: [`FabricError::NoCrossing`] outside the cloth.
-    pub fn set(&mut self, end: usize, pick: usize, up: bool) -> Result<(), FabricError> {
+    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth.
+    pub fn set(&mut self, end: usize, pick: usize, up: bool) -> Result<(), WovenError> {
         if end >= self.ends || pick >= self.picks {
-            return Err(FabricError::NoCrossing {
+            return Err(WovenError::NoCrossing {
                 end: end.saturating_add(1),
                 pick: pick.saturating_add(1),
                 ends: self.ends,
@@ -230,7 +231,7 @@ mod tests {
         assert!(!drawdown.up(65, 0) && !drawdown.up(0, 2) && !drawdown.up(usize::MAX, usize::MAX));
         assert_eq!(
             drawdown.set(65, 0, true),
-            Err(FabricError::NoCrossing { end: 66, pick: 1, ends: 65, picks: 2 })
+            Err(WovenError::NoCrossing { end: 66, pick: 1, ends: 65, picks: 2 })
         );
         assert!(drawdown.set(usize::MAX, usize::MAX, true).is_err());
     }
@@ -258,11 +259,14 @@ mod tests {
 
     #[test]
     fn sizes_are_checked_before_memory_is_taken() {
-        assert!(matches!(Drawdown::new(0, 5), Err(FabricError::Size { ends: 0, .. })));
-        assert!(matches!(Drawdown::new(5, usize::MAX), Err(FabricError::Size { picks: usize::MAX, .. })));
+        assert!(matches!(Drawdown::new(0, 5), Err(FabricError::Woven(WovenError::Size { ends: 0, .. }))));
+        assert!(matches!(
+            Drawdown::new(5, usize::MAX),
+            Err(FabricError::Woven(WovenError::Size { picks: usize::MAX, .. }))
+        ));
         assert!(matches!(
             Drawdown::new(1_000_000, 1_000_000),
-            Err(FabricError::Crossings { crossings: 1_000_000_000_000, .. })
+            Err(FabricError::Woven(WovenError::Crossings { crossings: 1_000_000_000_000, .. }))
         ));
     }
 }

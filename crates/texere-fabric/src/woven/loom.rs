@@ -9,7 +9,7 @@ use texere_core::{ControlPoint, Material, Yarn};
 use super::Woven;
 use super::path::Station;
 use super::yarns::{Kind, Measured, Pass};
-use crate::{FabricError, yarn_check};
+use crate::{FabricError, WovenError, yarn_check};
 
 /// A cloth on the loom: its lifts are changed, and the yarns that this changes are laid anew, each for itself.
 ///
@@ -71,31 +71,26 @@ impl Loom {
 
     /// Says whether the warp is up at a crossing, both counted from 0. Gives the numbers of the yarns that this changes; none where it was so before.
     ///
-    /// **Errors**: [`FabricError::NoCrossing`] outside the cloth.
-    pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<Vec<usize>, FabricError> {
+    /// **Errors**: [`WovenError::NoCrossing`] outside the cloth.
+    pub fn set_lift(&mut self, end: usize, pick: usize, up: bool) -> Result<Vec<usize>, WovenError> {
         self.set_lifts(end..end.saturating_add(1), pick..pick.saturating_add(1), |_, _| up)
     }
 
     /// Says whether the warp is up at all crossings of some ends and picks, counted from 0. Gives the numbers of the yarns that this changes, in order.
     ///
-    /// **Errors**: [`FabricError::NoCrossing`] where a crossing lies outside the cloth, which is then as it was.
+    /// **Errors**: [`WovenError::NoCrossing`] where a crossing lies outside the cloth, which is then as it was.
     pub fn set_lifts(
         &mut self,
         ends: Range<usize>,
         picks: Range<usize>,
         up: impl Fn(usize, usize) -> bool,
-    ) -> Result<Vec<usize>, FabricError> {
+    ) -> Result<Vec<usize>, WovenError> {
         let first_pick = self.cloth.warp().len();
         let drawdown = self.cloth.drawdown_mut();
         if ends.end > drawdown.ends() || picks.end > drawdown.picks() {
             // Counted from 1, as weavers do.
             let (end, pick) = (ends.end, picks.end);
-            return Err(FabricError::NoCrossing {
-                end,
-                pick,
-                ends: drawdown.ends(),
-                picks: drawdown.picks(),
-            });
+            return Err(WovenError::NoCrossing { end, pick, ends: drawdown.ends(), picks: drawdown.picks() });
         }
         let (mut changed_ends, mut changed_picks) = (BTreeSet::new(), BTreeSet::new());
         for pick in picks {
@@ -116,8 +111,8 @@ impl Loom {
 
     /// Replaces material number `material`, from 0. No yarn lies otherwise for it.
     ///
-    /// **Errors**: [`FabricError::NoMaterial`].
-    pub fn set_material(&mut self, material: usize, with: Material) -> Result<(), FabricError> {
+    /// **Errors**: [`WovenError::NoMaterial`].
+    pub fn set_material(&mut self, material: usize, with: Material) -> Result<(), WovenError> {
         self.cloth.set_material(material, with)
     }
 

@@ -1,7 +1,7 @@
 //! Reads the notation of weaves; [`super::Weave`] has its grammar.
 
 use super::library::{CREPE, HONEYCOMB, Reversal, drawn};
-use crate::FabricError;
+use crate::WovenError;
 use crate::{hyphen_look_alike, slash_look_alike};
 
 /// The most ends, and the most picks, in the repeat of a weave.
@@ -82,9 +82,6 @@ const NAMES: [(&str, &[&str]); 11] = [
     ("crepe", &["crape", "oatmeal"]),
 ];
 
-/// The names that a person may want to hear of.
-pub(crate) const TOLD: &str = "plain (tabby), twill, satin, sateen, matt (hopsack, basket), herringbone, pointed, honeycomb (waffle), crepe, or floats such as 2/2";
-
 /// Cloths that no drawdown says, by name, and what is expected instead.
 const NOT_DRAWN: [(&[&str], &str); 2] = [
     (
@@ -94,7 +91,7 @@ const NOT_DRAWN: [(&[&str], &str); 2] = [
     (&["leno", "gauze"], "a weave whose ends do not cross one another (leno is not made)"),
 ];
 
-pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
+pub(super) fn parse(text: &str) -> Result<Notation, WovenError> {
     let mut cursor = Cursor { text, rest: text };
     let name = text.split_whitespace().next().unwrap_or_default();
     let named = |(names, _): &&(&[&str], _)| names.iter().any(|known| known.eq_ignore_ascii_case(name));
@@ -116,7 +113,7 @@ pub(super) fn parse(text: &str) -> Result<Notation, FabricError> {
 }
 
 /// A satin's number and move, or the order of its binding points, after its name.
-fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, FabricError> {
+fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, WovenError> {
     cursor.need(ENDS)?;
     let position = cursor.position();
     let ends = cursor.number(NUMBER)?;
@@ -126,14 +123,14 @@ fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, FabricEr
     let legal =
         |step: usize| (2..ends.saturating_sub(1)).contains(&step) && greatest_divisor(step, ends) == 1;
     let Some(smallest) = (2..ends).find(|&step| legal(step)) else {
-        return Err(FabricError::NoSatin { text: cursor.shown(), position, ends });
+        return Err(WovenError::NoSatin { text: cursor.shown(), position, ends });
     };
     let step = if cursor.sign('(') {
         let position = cursor.position();
         let written = cursor.step()?;
         let step = written.rem_euclid(ends as i64) as usize;
         if !legal(step) {
-            return Err(FabricError::SatinMove { text: cursor.shown(), position, step: written, ends });
+            return Err(WovenError::SatinMove { text: cursor.shown(), position, step: written, ends });
         }
         cursor.close()?;
         step
@@ -146,7 +143,7 @@ fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, FabricEr
 }
 
 /// The ends that the picks of a satin bind, from 0; `None` where there is a move or nothing.
-fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, FabricError> {
+fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, WovenError> {
     let before = cursor.rest;
     let (mut order, mut bound) = (Vec::new(), vec![false; ends]);
     if cursor.sign('(') && cursor.rest.trim_start().starts_with(|c: char| c.is_ascii_digit()) {
@@ -172,7 +169,7 @@ fn order(cursor: &mut Cursor<'_>, ends: usize) -> Result<Option<Vec<usize>>, Fab
 }
 
 /// A matt weave by its name: as many ends together as picks.
-fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
+fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, WovenError> {
     cursor.need(THREADS)?;
     let left = cursor.number(NUMBER)?;
     let right = if cursor.sign('/') { cursor.number(NUMBER)? } else { left };
@@ -182,7 +179,7 @@ fn matt(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
 }
 
 /// A twill's floats and the ends after which its line reverses.
-fn reversed(cursor: &mut Cursor<'_>, reversal: Reversal) -> Result<Notation, FabricError> {
+fn reversed(cursor: &mut Cursor<'_>, reversal: Reversal) -> Result<Notation, WovenError> {
     let [all, ends, more] = match reversal {
         Reversal::Cut => [
             "the floats of a twill and, in brackets, after how many ends it reverses: herringbone 2/2(8)",
@@ -211,7 +208,7 @@ fn reversed(cursor: &mut Cursor<'_>, reversal: Reversal) -> Result<Notation, Fab
 }
 
 /// A twill or a matt weave. Which hand a twill has may be said before its floats or behind them.
-fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
+fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, WovenError> {
     let before = cursor.hand();
     cursor.word("twill");
     cursor.need(FLOATS)?;
@@ -238,7 +235,7 @@ fn floats(cursor: &mut Cursor<'_>) -> Result<Notation, FabricError> {
 }
 
 /// Floats up and down in turn, thread by thread.
-fn row(cursor: &mut Cursor<'_>) -> Result<Vec<bool>, FabricError> {
+fn row(cursor: &mut Cursor<'_>) -> Result<Vec<bool>, WovenError> {
     let mut base = Vec::new();
     let mut up = cursor.number(NUMBER)?;
     loop {
@@ -248,7 +245,7 @@ fn row(cursor: &mut Cursor<'_>) -> Result<Vec<bool>, FabricError> {
         let down = cursor.number(NUMBER)?;
         let ends = base.len() + up + down;
         if ends > REPEAT_MAX {
-            return Err(FabricError::Repeat { ends, picks: ends, limit: REPEAT_MAX });
+            return Err(WovenError::Repeat { ends, picks: ends, limit: REPEAT_MAX });
         }
         base.resize(base.len() + up, true);
         base.resize(ends, false);
@@ -265,14 +262,14 @@ fn twill(
     position: usize,
     base: Vec<bool>,
     written: i64,
-) -> Result<Notation, FabricError> {
+) -> Result<Notation, WovenError> {
     let ends = base.len();
     let step = written.rem_euclid(ends as i64) as usize;
     // An end meets every float that lies a multiple of this further along the row, and no other.
     let apart = greatest_divisor(step, ends);
     for end in 0..apart {
         if base.iter().skip(end).step_by(apart).all(|&up| up == base[end]) {
-            return Err(FabricError::TwillMove {
+            return Err(WovenError::TwillMove {
                 text: cursor.shown(),
                 position,
                 step: written,
@@ -291,15 +288,6 @@ fn nearest(word: &str) -> Option<&'static str> {
     far.filter(|(far, name)| *far <= name.len() / 3 + 1 && *far < word.chars().count())
         .min()
         .map(|(_, name)| name)
-}
-
-/// An irregular satin of so many ends as textbooks have it, where there is no regular one.
-pub(crate) const fn irregular_satin(ends: usize) -> &'static str {
-    match ends {
-        6 => "; an irregular one names the end that each pick binds: satin 6(1 3 5 2 6 4)",
-        4 => "; an irregular one names the end that each pick binds: satin 4(1 2 4 3)",
-        _ => "",
-    }
 }
 
 /// The greatest common divisor; that of 0 and `b` is `b`.
@@ -329,7 +317,7 @@ impl Cursor<'_> {
     }
 
     /// Takes the name of a weave and gives the one that it is known by; `None` where none stands, as before floats.
-    fn name(&mut self) -> Result<Option<&'static str>, FabricError> {
+    fn name(&mut self) -> Result<Option<&'static str>, WovenError> {
         let before = self.rest;
         if self.hand().is_some() {
             self.rest = before;
@@ -345,7 +333,7 @@ impl Cursor<'_> {
             return Err(self.fail(NUMBER));
         }
         let written = self.rest.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
-        Err(FabricError::NoWeave { text: self.shown(), position: self.position(), near: nearest(written) })
+        Err(WovenError::NoWeave { text: self.shown(), position: self.position(), near: nearest(written) })
     }
 
     /// Takes the hand of a twill: 1 for a right-hand (Z) one, -1 for a left-hand (S) one.
@@ -363,16 +351,16 @@ impl Cursor<'_> {
     }
 
     /// Refuses a text that ends here.
-    fn need(&self, expected: &'static str) -> Result<(), FabricError> {
+    fn need(&self, expected: &'static str) -> Result<(), WovenError> {
         if self.next().is_empty() { Err(self.fail(expected)) } else { Ok(()) }
     }
 
-    fn close(&mut self) -> Result<(), FabricError> {
+    fn close(&mut self) -> Result<(), WovenError> {
         if self.sign(')') { Ok(()) } else { Err(self.fail("\")\"")) }
     }
 
     /// Takes a number from 1 to [`REPEAT_MAX`].
-    fn number(&mut self, expected: &'static str) -> Result<usize, FabricError> {
+    fn number(&mut self, expected: &'static str) -> Result<usize, WovenError> {
         self.rest = self.rest.trim_start();
         let digits = self.rest.len() - self.rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
         let split = self.rest.split_at_checked(digits);
@@ -386,7 +374,7 @@ impl Cursor<'_> {
     }
 
     /// Takes a move.
-    fn step(&mut self) -> Result<i64, FabricError> {
+    fn step(&mut self) -> Result<i64, WovenError> {
         let negative = self.sign('-');
         let number = self.number(NUMBER)? as i64;
         Ok(if negative { -number } else { number })
@@ -416,13 +404,13 @@ impl Cursor<'_> {
         &next[..next.chars().next().map_or(0, char::len_utf8)]
     }
 
-    fn fail(&self, expected: &'static str) -> FabricError {
+    fn fail(&self, expected: &'static str) -> WovenError {
         if let Some(sign) = hyphen_look_alike(self.next()) {
-            return FabricError::Hyphen { text: self.shown(), position: self.position(), sign };
+            return WovenError::Hyphen { text: self.shown(), position: self.position(), sign };
         }
         if let Some(sign) = slash_look_alike(self.next()) {
-            return FabricError::Slash { text: self.shown(), position: self.position(), sign };
+            return WovenError::Slash { text: self.shown(), position: self.position(), sign };
         }
-        FabricError::Notation { text: self.shown(), position: self.position(), expected }
+        WovenError::Notation { text: self.shown(), position: self.position(), expected }
     }
 }

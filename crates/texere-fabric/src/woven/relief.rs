@@ -5,7 +5,7 @@ use texere_core::{Origin, RADIUS_MAX, RADIUS_MIN};
 use super::crimp::{Crimp, SHARE_MIN};
 use super::jam::{Gap, ROUNDING, reach};
 use super::{FLATNESS_MAX, Shape, Thread, Woven};
-use crate::FabricError;
+use crate::{FabricError, ThreadError, WovenError};
 
 /// What to do where threads lie closer together than those that cross them can pass between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -115,7 +115,7 @@ impl Woven {
     /// A pitch counts as enough from 1.03 (half the crimp each) to 1.18 times (a fifth) the least one: only there the
     /// spline keeps the threads clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
     ///
-    /// **Errors**: [`FabricError::Radius`] or [`FabricError::Half`] where a thread would have to be thinner than [`RADIUS_MIN`]; the cloth is
+    /// **Errors**: [`ThreadError::Radius`] or [`WovenError::Half`] where a thread would have to be thinner than [`RADIUS_MIN`]; the cloth is
     /// then as it was.
     ///
     /// ```
@@ -190,12 +190,12 @@ impl Woven {
         for ((thread, each), wider) in ends.chain(picks) {
             let radius_mm = each.radius_mm * scaled;
             if radius_mm < RADIUS_MIN {
-                return Err(FabricError::Radius { thread, radius_mm, low, high });
+                return Err(ThreadError::Radius { thread, radius_mm, low, high }.into());
             }
             let [half_width, half_height] = each.halves_mm();
             let halves = [("width", half_width * scaled * wider), ("height", half_height * scaled / wider)];
             if let Some((side, half_mm)) = halves.into_iter().find(|(_, half)| !(low..=high).contains(half)) {
-                return Err(FabricError::Half { thread, side, half_mm, low, high });
+                return Err(WovenError::Half { thread, side, half_mm, low, high }.into());
             }
         }
         if change.share != self.warp_share() {

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::notation::{self, Notation, REPEAT_MAX};
-use crate::{Drawdown, FabricError};
+use crate::{Drawdown, FabricError, WovenError};
 
 /// One repeat of a weave, from its usual notation.
 ///
@@ -85,25 +85,25 @@ impl Eq for Weave {}
 impl Weave {
     /// The weave that repeats `repeat`.
     ///
-    /// **Errors**: [`FabricError::Repeat`] for more than [`REPEAT_MAX`] ends or picks.
-    pub fn new(repeat: Drawdown) -> Result<Self, FabricError> {
+    /// **Errors**: [`WovenError::Repeat`] for more than [`REPEAT_MAX`] ends or picks.
+    pub fn new(repeat: Drawdown) -> Result<Self, WovenError> {
         Self { repeat: Repeat::Woven(repeat) }.checked()
     }
 
     /// Reads the notation of a weave.
     ///
-    /// **Errors**: [`FabricError::NoWeave`] for a name that no weave has, [`FabricError::Hyphen`] and [`FabricError::Slash`] for
-    /// signs that only look like these, [`FabricError::Notation`] where the text departs from the grammar otherwise,
-    /// [`FabricError::SatinMove`], [`FabricError::NoSatin`] and [`FabricError::TwillMove`] for what can't be woven,
-    /// [`FabricError::Repeat`].
-    pub fn parse(text: &str) -> Result<Self, FabricError> {
+    /// **Errors**: [`WovenError::NoWeave`] for a name that no weave has, [`WovenError::Hyphen`] and [`WovenError::Slash`] for
+    /// signs that only look like these, [`WovenError::Notation`] where the text departs from the grammar otherwise,
+    /// [`WovenError::SatinMove`], [`WovenError::NoSatin`] and [`WovenError::TwillMove`] for what can't be woven,
+    /// [`WovenError::Repeat`].
+    pub fn parse(text: &str) -> Result<Self, WovenError> {
         Self { repeat: Repeat::Written(notation::parse(text)?) }.checked()
     }
 
-    fn checked(self) -> Result<Self, FabricError> {
+    fn checked(self) -> Result<Self, WovenError> {
         let (ends, picks) = self.repeat();
         if ends > REPEAT_MAX || picks > REPEAT_MAX {
-            return Err(FabricError::Repeat { ends, picks, limit: REPEAT_MAX });
+            return Err(WovenError::Repeat { ends, picks, limit: REPEAT_MAX });
         }
         Ok(self)
     }
@@ -137,9 +137,9 @@ impl Weave {
 }
 
 impl FromStr for Weave {
-    type Err = FabricError;
+    type Err = WovenError;
 
-    fn from_str(text: &str) -> Result<Self, FabricError> {
+    fn from_str(text: &str) -> Result<Self, WovenError> {
         Self::parse(text)
     }
 }

@@ -3,15 +3,14 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns};
+use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns, zeroed};
 
 use super::bend::Bend;
 use super::path::{self, Station, ThreadPath};
 use super::selvedge::{self, TURN_POINTS};
 use super::shape::Set;
 use super::{POINTS_MAX, Thread, Woven};
-use crate::FabricError;
-use crate::memory::zeroed;
+use crate::{FabricError, WovenError};
 
 /// The source of a control point that is next to no crossing: a yarn's first and last, and its turns at a selvedge.
 pub const NO_CROSSING: u32 = u32::MAX;
@@ -59,7 +58,7 @@ impl Woven {
     /// With a selvedge ([`Woven::set_selvedge`]) consecutive picks that are alike in material, section and twist are one
     /// yarn, whose origin is its first pick. Odd picks run along +x, even ones back.
     ///
-    /// **Errors**: [`FabricError::Points`] for more than [`POINTS_MAX`] control points, [`FabricError::OutOfMemory`],
+    /// **Errors**: [`WovenError::Points`] for more than [`POINTS_MAX`] control points, [`FabricError::OutOfMemory`],
     /// and [`FabricError::Yarns`] for what only the whole shows.
     ///
     /// **Source**: one control point a crossing is the paper's count; the height of a crossing and round threads follow
@@ -81,7 +80,7 @@ impl Woven {
         offsets.push(total);
         if total > POINTS_MAX {
             let (ends, picks) = (self.warp().len(), self.weft().len());
-            return Err(FabricError::Points { ends, picks, points: total, limit: POINTS_MAX });
+            return Err(WovenError::Points { ends, picks, points: total, limit: POINTS_MAX }.into());
         }
 
         let mut points: Vec<ControlPoint> = zeroed("control points", total)?;
@@ -133,15 +132,15 @@ impl Woven {
         })
     }
 
-    /// **Errors**: [`FabricError::OtherCloth`] where `yarns` are not the cloth's.
-    pub(crate) fn owns(&self, yarns: &Yarns) -> Result<(), FabricError> {
+    /// **Errors**: [`WovenError::OtherCloth`] where `yarns` are not the cloth's.
+    pub(crate) fn owns(&self, yarns: &Yarns) -> Result<(), WovenError> {
         let own = self.passes().into_iter().filter_map(|pass| self.yarn(&pass));
         let (mut own, mut theirs) = (own, yarns.layout().yarns().iter());
         for yarn in 0.. {
             match (own.next(), theirs.next()) {
                 (None, None) => break,
                 (Some(own), Some(theirs)) if own == *theirs => {}
-                _ => return Err(FabricError::OtherCloth { yarn }),
+                _ => return Err(WovenError::OtherCloth { yarn }),
             }
         }
         Ok(())

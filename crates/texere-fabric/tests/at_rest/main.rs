@@ -9,12 +9,12 @@ mod surfaces;
 use std::ops::ControlFlow;
 
 use glam::DVec2;
+use texere_contact::clearance;
 use texere_core::settling::Length;
 use texere_core::{Material, Section, Settings, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{
-    Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, clearance,
-    tex_from_cotton_count,
+    Drawdown, Finish, Relief, Structure, Thread, Woven, WovenDesign, WovenRest, tex_from_cotton_count,
 };
 
 use surfaces::Surfaces;

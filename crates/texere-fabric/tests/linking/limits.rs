@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use proptest::prelude::*;
+use texere_contact::{ContactError, linking, linking_with_progress};
 use texere_core::{Boundary, BoundaryError, ControlPoint, Ends, Settings, Yarn, Yarns};
-use texere_fabric::{FabricError, linking, linking_with_progress};
 
 use crate::knits::{D, Knit, as_it_is};
 use crate::{compared, moved, noise, yarns_of};
@@ -46,7 +46,7 @@ fn work_is_bounded_and_told_and_can_be_stopped() {
         calls += 1;
         if calls < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
-    assert_eq!((stopped, calls), (Err(FabricError::Cancelled), 3));
+    assert_eq!((stopped, calls), (Err(ContactError::Cancelled), 3));
 }
 
 #[test]
@@ -58,20 +58,23 @@ fn other_yarns_and_other_boundaries_are_refused() {
         linking(&before, after, boundary, settings).unwrap_err()
     };
     let settings = Settings::default();
-    assert_eq!(refused(&knit.yarns(2, as_it_is), &boundary, &settings), FabricError::OtherLayout { yarn: 0 });
+    assert_eq!(
+        refused(&knit.yarns(2, as_it_is), &boundary, &settings),
+        ContactError::OtherLayout { yarn: 0 }
+    );
     let fewer = Knit::jersey(5.0, 3, 2).yarns(1, as_it_is);
-    assert_eq!(refused(&fewer, &boundary, &settings), FabricError::OtherLayout { yarn: 2 });
+    assert_eq!(refused(&fewer, &boundary, &settings), ContactError::OtherLayout { yarn: 2 });
     let other = Boundary::without_repeat(fewer.layout());
     assert_eq!(
         refused(&before, &other, &settings),
-        FabricError::Boundary(BoundaryError::EndsCount { ends: 2, yarns: 3 })
+        ContactError::Boundary(BoundaryError::EndsCount { ends: 2, yarns: 3 })
     );
     let taut = Settings { tension: 2.0, ..settings };
-    assert!(matches!(refused(&before, &boundary, &taut), FabricError::Settings(_)));
+    assert!(matches!(refused(&before, &boundary, &taut), ContactError::Settings(_)));
     // In a repeat of a millionth of a millimetre all its copies would lie in one place.
     let tiny = Boundary::new(before.layout(), [1e-6; 2], vec![Ends::Repeats([1, 0]); 3]).unwrap();
     let after = moved(&before, |yarn, _, [x, y, z]| [x, y, z + yarn as f32]);
-    assert!(matches!(refused(&after, &tiny, &settings), FabricError::LinkingSize { .. }));
+    assert!(matches!(refused(&after, &tiny, &settings), ContactError::LinkingSize { .. }));
 }
 
 #[test]
@@ -130,7 +133,7 @@ proptest! {
         let boundary = Boundary::new(before.layout(), repeat, ends.collect()).unwrap();
         match linking(&before, &after, &boundary, &Settings::default()) {
             Ok(found) => prop_assert!(found.largest.is_finite() && found.worst.len() as u64 <= found.passages),
-            Err(error) => prop_assert!(matches!(error, FabricError::LinkingSize { .. }), "{error}"),
+            Err(error) => prop_assert!(matches!(error, ContactError::LinkingSize { .. }), "{error}"),
         }
     }
 }

@@ -13,8 +13,9 @@ mod stitches;
 use std::collections::BTreeSet;
 use std::f32::consts::TAU;
 
+use texere_contact::{LINKING_CHANGE, Linking, linking};
 use texere_core::{Boundary, ControlPoint, Origin, Section, Settings, Yarn, Yarns};
-use texere_fabric::{LINKING_CHANGE, Linking, Shape, Thread, Woven, linking};
+use texere_fabric::{Shape, Thread, Woven};
 
 use cloths::{cloth, random_bits, weaves};
 use knits::D;

@@ -1,7 +1,7 @@
 //! Repeats: yarns that meet their neighbours' copies, and go on over the edge.
 
+use texere_contact::{LINKING_CHANGE, Linking, linking};
 use texere_core::{Boundary, Ends, Settings, Yarns};
-use texere_fabric::{LINKING_CHANGE, Linking, linking};
 
 use crate::knits::{D, Knit, as_it_is};
 use crate::{HARMLESS, SEEN, moved, noise, pairs, yarns_of};

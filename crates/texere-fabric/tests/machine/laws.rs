@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use texere_fabric::FabricError;
 use texere_fabric::weft::{
     Bed, CarrierSet, Direction, Fate, FaultKind, Instruction, Knit, LoopKind, LoopRef, Machine, Needle,
-    Operation, Program, Step, Stitch, Stitches,
+    Operation, Program, Step, Stitch, Stitches, WeftError,
 };
 
 use crate::naive::{self, Id, Known};
@@ -210,7 +210,7 @@ proptest! {
         let Knit { stitches, faults, .. } = match Machine::default().knit(&program) {
             Ok(knit) => knit,
             Err(error) => {
-                prop_assert!(matches!(error, FabricError::KnitSize { what: "loops on a needle", .. }), "{}", error);
+                prop_assert!(matches!(error, FabricError::Weft(WeftError::KnitSize { what: "loops on a needle", .. })), "{}", error);
                 return Ok(());
             }
         };

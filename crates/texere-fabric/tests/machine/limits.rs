@@ -3,6 +3,7 @@
 use texere_fabric::FabricError;
 use texere_fabric::weft::{
     CarrierSet, Direction, Instruction, LoopKind, Machine, NEEDLE_MAX, Needle, Operation, Program, STACK_MAX,
+    WeftError,
 };
 
 fn program(instructions: impl Iterator<Item = Instruction>) -> Program {
@@ -24,7 +25,7 @@ fn what_is_too_large_is_refused() {
     let knit = |number| Instruction::Knit(Direction::Right, Needle::front(number));
     for number in [NEEDLE_MAX + 1, -NEEDLE_MAX - 1, i32::MAX, i32::MIN] {
         let needle = Needle::front(number);
-        let error = FabricError::KnitNeedle { needle, limit: NEEDLE_MAX, operation: 2 };
+        let error = FabricError::Weft(WeftError::KnitNeedle { needle, limit: NEEDLE_MAX, operation: 2 });
         assert_eq!(refused(&program([knit(0), knit(number)].into_iter())), error);
     }
     assert!(Machine::default().knit(&program([knit(NEEDLE_MAX), knit(-NEEDLE_MAX)].into_iter())).is_ok());
@@ -32,7 +33,10 @@ fn what_is_too_large_is_refused() {
     let tuck = Instruction::Tuck(Direction::Right, Needle::back(3));
     let error = refused(&program(std::iter::repeat_n(tuck, STACK_MAX + 1)));
     assert!(
-        matches!(error, FabricError::KnitSize { what: "loops on a needle", operation: 257, .. }),
+        matches!(
+            error,
+            FabricError::Weft(WeftError::KnitSize { what: "loops on a needle", operation: 257, .. })
+        ),
         "{error}"
     );
 
@@ -46,9 +50,9 @@ fn what_is_too_large_is_refused() {
 fn carriers_that_there_are_not_are_refused() {
     let mut one = program([Instruction::In].into_iter());
     one.operations[0].carriers = CarrierSet(2);
-    assert_eq!(refused(&one), FabricError::KnitCarriers { operation: 1 });
+    assert_eq!(refused(&one), FabricError::Weft(WeftError::KnitCarriers { operation: 1 }));
     one.carrier_sets.push(vec![0, 7]);
-    assert_eq!(refused(&one), FabricError::KnitCarriers { operation: 1 });
+    assert_eq!(refused(&one), FabricError::Weft(WeftError::KnitCarriers { operation: 1 }));
     assert!(Machine::default().knit(&Program::default()).is_ok());
 }
 

@@ -12,9 +12,9 @@ use std::rc::Rc;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use texere_contact::{CLEARANCE_NEAR, clearance};
 use texere_core::{ControlPoint, Frame, Pipeline, Section, Settings, Yarn, Yarns};
 use texere_cpu::SerialBackend;
-use texere_fabric::{CLEARANCE_NEAR, clearance};
 
 use cloths::{RADIUS, close, flattened, set, woven};
 use outline::Outline;

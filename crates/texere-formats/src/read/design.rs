@@ -3,10 +3,9 @@
 use std::fmt;
 use std::path::{self, PathBuf};
 
-use texere_core::{BackendError, Origin, Settings, Yarns};
-use texere_fabric::{
-    FabricError, Finish, FinishError, Stretch, Structure, ThreadPlace, YarnPlace, clearance,
-};
+use texere_contact::clearance;
+use texere_core::{BackendError, Origin, Settings, YarnPlace, Yarns};
+use texere_fabric::{FabricError, Finish, FinishError, Stretch, Structure, ThreadPlace};
 
 use super::Place;
 use super::keys::Keys;
@@ -244,7 +243,8 @@ impl Design {
     ///
     /// ```
     /// use texere_core::{Material, Section};
-    /// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign, YarnPlace};
+    /// use texere_core::YarnPlace;
+    /// use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign};
     /// use texere_formats::Design;
     /// let thread = Thread::new(1.0, 0.2);
     /// let plain = Weave::parse("plain")?.drawdown(8, 6)?;

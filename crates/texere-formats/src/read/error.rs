@@ -3,11 +3,10 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use texere_core::counted;
-use texere_core::{BoundaryError, SectionError, YarnError};
+use texere_core::{BoundaryError, OutOfMemory, SectionError, YarnError, counted};
 use texere_fabric::warp::ChainError;
 use texere_fabric::weft::ChartError;
-use texere_fabric::{FabricError, hyphen_look_alike};
+use texere_fabric::{FabricError, WovenError, hyphen_look_alike};
 use thiserror::Error;
 
 /// A place in a design file.
@@ -145,13 +144,8 @@ pub enum ReadError {
         kind: &'static str,
     },
     /// Memory could not be had.
-    #[error("out of memory: {bytes} for {what}", bytes = counted(*.bytes, "byte"))]
-    OutOfMemory {
-        /// What for.
-        what: &'static str,
-        /// How many bytes.
-        bytes: u64,
-    },
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
     /// The file is larger than any design of its kind.
     #[error("{} has {bytes}, more than {limit}", named(.file), bytes = counted(*.bytes, "byte"))]
     TooLarge {
@@ -274,7 +268,7 @@ pub enum ReadError {
         /// Where.
         place: Place,
         /// Why.
-        source: FabricError,
+        source: WovenError,
     },
     /// A chart that can't be knitted.
     #[error("{place} is no chart")]
@@ -437,7 +431,7 @@ impl ReadError {
     /// What a fabric refused of the design in `file`. Memory that is short has nothing to do with the design.
     pub(super) fn fabric(file: &Path, source: FabricError) -> Self {
         match source {
-            FabricError::OutOfMemory { what, bytes } => Self::OutOfMemory { what, bytes },
+            FabricError::OutOfMemory(error) => Self::OutOfMemory(error),
             source => Self::Fabric { file: file.into(), source },
         }
     }
@@ -445,7 +439,7 @@ impl ReadError {
     /// This error of a file that the design names at `place`. Memory that is short has nothing to do with the file.
     pub(super) fn named(self, place: Place) -> Self {
         match self {
-            Self::OutOfMemory { .. } => self,
+            Self::OutOfMemory(_) => self,
             _ => Self::Named { place, source: Box::new(self) },
         }
     }

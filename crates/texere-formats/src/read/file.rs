@@ -4,6 +4,8 @@ use std::fs::{File, Metadata, OpenOptions};
 use std::io::Read;
 use std::path::Path;
 
+use texere_core::OutOfMemory;
+
 use super::ReadError;
 
 /// A file of a design, from its start on.
@@ -47,7 +49,7 @@ pub(super) fn bytes_of(files: &Files<'_>, path: &Path, limit: u64) -> Result<Vec
     // One byte more than the limit shows that the file has grown since.
     let count = file.take(limit + 1).read_to_end(&mut bytes).map_err(|source| match source.kind() {
         std::io::ErrorKind::OutOfMemory => {
-            ReadError::OutOfMemory { what: "a design's file", bytes: bytes.len() as u64 }
+            ReadError::OutOfMemory(OutOfMemory { what: "a design's file", bytes: bytes.len() as u64 })
         }
         _ => ReadError::Io { file: path.into(), source },
     })? as u64;

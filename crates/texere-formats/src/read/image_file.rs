@@ -4,12 +4,11 @@ use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use image::{ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
-use texere_core::counted;
+use texere_core::{counted, filled, room};
 use texere_fabric::THREADS_MAX;
 
 use super::error::said;
 use super::file::{Files, Opened};
-use super::memory::{filled, room};
 use super::point_paper::{Image, Orientation};
 use super::{ReadError, bmp_file, png_file, tiff_file};
 

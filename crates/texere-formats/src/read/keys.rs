@@ -230,9 +230,11 @@ impl Keys {
 
 #[cfg(test)]
 mod tests {
-    use texere_core::{BackendError, CrossingsError, SectionError, SettlingError, YarnError};
-    use texere_fabric::FabricError;
-    use texere_fabric::warp::Lap;
+    use texere_contact::ContactError;
+    use texere_core::{BackendError, CrossingsError, OutOfMemory, SectionError, SettlingError, YarnError};
+    use texere_fabric::warp::{Lap, WarpError};
+    use texere_fabric::weft::WeftError;
+    use texere_fabric::{FabricError, ThreadError, WovenError};
 
     use super::*;
 
@@ -254,81 +256,164 @@ mod tests {
     fn every_error_of_cloth_has_its_key() {
         let (end, pick) = (Origin::End(2), Origin::Pick(3));
         let (low, high) = (0.0, 1.0);
-        let wale = || FabricError::Gauge { what: "wales", mm: 0.0, low: 0.0, high: 1.0 };
+        let wale = || FabricError::Weft(WeftError::Gauge { what: "wales", mm: 0.0, low: 0.0, high: 1.0 });
         let thread = |set, setting| CrossingsError::Thread { set, thread: 1, setting, value: 9.0, low, high };
         let ask = |setting| SettlingError::Setting { setting, value: 9.0, low, high };
         let pull = |setting| CrossingsError::Setting { setting, value: 99.0, low, high };
-        let stitches = || FabricError::Stitches { what: "none" };
+        let stitches = || FabricError::Weft(WeftError::Stitches { what: "none" });
         let cases: Vec<(FinishError, &str)> = vec![
-            (FabricError::Size { ends: 0, picks: 0, limit: 1 }.into(), "weave.ends"),
-            (FabricError::Crossings { ends: 9, picks: 9, crossings: 81, limit: 1 }.into(), "weave.ends"),
-            (FabricError::Points { ends: 9, picks: 9, points: 81, limit: 1 }.into(), "weave.ends"),
-            (FabricError::Repeat { ends: 9, picks: 9, limit: 1 }.into(), "weave.ends"),
-            (FabricError::ThreadCount { set: "end", threads: 1, planned: 2 }.into(), "weave.ends"),
-            (FabricError::TieUp { treadles: 1, ends: 2, limit: 1 }.into(), "knit.chart"),
-            (FabricError::KnitRuns { passed: 9, loops: 1, limit: 1, told: None }.into(), "knit.chart"),
-            (FabricError::KnitSize { what: "loops", count: 9, limit: 1, operation: 0 }.into(), "knit.chart"),
-            (FabricError::KnitCarriers { operation: 1 }.into(), "knit.chart"),
-            (stitches().into(), "knit.chart"),
-            (FabricError::NoLoops.into(), "knit.chart"),
+            (FabricError::Woven(WovenError::Size { ends: 0, picks: 0, limit: 1 }).into(), "weave.ends"),
             (
-                FabricError::Spacing { thread: end, spacing_mm: 0.0, low: 0.0, high: 1.0 }.into(),
+                FabricError::Woven(WovenError::Crossings { ends: 9, picks: 9, crossings: 81, limit: 1 })
+                    .into(),
+                "weave.ends",
+            ),
+            (
+                FabricError::Woven(WovenError::Points { ends: 9, picks: 9, points: 81, limit: 1 }).into(),
+                "weave.ends",
+            ),
+            (FabricError::Woven(WovenError::Repeat { ends: 9, picks: 9, limit: 1 }).into(), "weave.ends"),
+            (
+                FabricError::Woven(WovenError::ThreadCount { set: "end", threads: 1, planned: 2 }).into(),
+                "weave.ends",
+            ),
+            (FabricError::Woven(WovenError::TieUp { treadles: 1, ends: 2, limit: 1 }).into(), "knit.chart"),
+            (
+                FabricError::Weft(WeftError::KnitRuns { passed: 9, loops: 1, limit: 1, told: None }).into(),
+                "knit.chart",
+            ),
+            (
+                FabricError::Weft(WeftError::KnitSize { what: "loops", count: 9, limit: 1, operation: 0 })
+                    .into(),
+                "knit.chart",
+            ),
+            (FabricError::Weft(WeftError::KnitCarriers { operation: 1 }).into(), "knit.chart"),
+            (stitches().into(), "knit.chart"),
+            (FabricError::Warp(WarpError::NoLoops).into(), "knit.chart"),
+            (
+                FabricError::Woven(WovenError::Spacing { thread: end, spacing_mm: 0.0, low: 0.0, high: 1.0 })
+                    .into(),
                 "warp.spacing_mm",
             ),
             (
-                FabricError::Spacing { thread: pick, spacing_mm: 0.0, low: 0.0, high: 1.0 }.into(),
+                FabricError::Woven(WovenError::Spacing {
+                    thread: pick,
+                    spacing_mm: 0.0,
+                    low: 0.0,
+                    high: 1.0,
+                })
+                .into(),
                 "weft.per_cm",
             ),
-            (FabricError::Extent { set: "ends", extent_mm: 9.0, limit: 1.0 }.into(), "warp.spacing_mm"),
-            (FabricError::Extent { set: "picks", extent_mm: 9.0, limit: 1.0 }.into(), "weft.per_cm"),
-            (FabricError::Radius { thread: end, radius_mm: 0.0, low, high }.into(), "yarns.a.tex"),
-            (FabricError::Stiffness { thread: end, stiffness: 0.0, low, high }.into(), "yarns.a.stiffness"),
-            (FabricError::Flatness { thread: end, flatness: 0.0, low, high }.into(), "yarns.a.flatness"),
             (
-                FabricError::Half { thread: pick, side: "width", half_mm: 0.0, low, high }.into(),
+                FabricError::Woven(WovenError::Extent { set: "ends", extent_mm: 9.0, limit: 1.0 }).into(),
+                "warp.spacing_mm",
+            ),
+            (
+                FabricError::Woven(WovenError::Extent { set: "picks", extent_mm: 9.0, limit: 1.0 }).into(),
+                "weft.per_cm",
+            ),
+            (
+                FabricError::Thread(ThreadError::Radius { thread: end, radius_mm: 0.0, low, high }).into(),
+                "yarns.a.tex",
+            ),
+            (
+                FabricError::Woven(WovenError::Stiffness { thread: end, stiffness: 0.0, low, high }).into(),
+                "yarns.a.stiffness",
+            ),
+            (
+                FabricError::Woven(WovenError::Flatness { thread: end, flatness: 0.0, low, high }).into(),
                 "yarns.a.flatness",
             ),
-            (FabricError::Twist { thread: pick, twist: 9.0, limit: 1.0 }.into(), "yarns.a.twist_per_m"),
-            (FabricError::UnknownMaterial { thread: end, material: 9, materials: 1 }.into(), "yarns.a.color"),
-            (FabricError::UnknownSection { thread: end, section: 9, sections: 1 }.into(), "yarns.a.section"),
-            (FabricError::Section { section: 0, source: SectionError::Clockwise }.into(), "yarns.a.section"),
-            (FabricError::Crimp { share: 9.0, low, high }.into(), "cloth.warp_crimp"),
+            (
+                FabricError::Woven(WovenError::Half { thread: pick, side: "width", half_mm: 0.0, low, high })
+                    .into(),
+                "yarns.a.flatness",
+            ),
+            (
+                FabricError::Thread(ThreadError::Twist { thread: pick, twist: 9.0, limit: 1.0 }).into(),
+                "yarns.a.twist_per_m",
+            ),
+            (
+                FabricError::Thread(ThreadError::UnknownMaterial { thread: end, material: 9, materials: 1 })
+                    .into(),
+                "yarns.a.color",
+            ),
+            (
+                FabricError::Thread(ThreadError::UnknownSection { thread: end, section: 9, sections: 1 })
+                    .into(),
+                "yarns.a.section",
+            ),
+            (
+                FabricError::Thread(ThreadError::Section { section: 0, source: SectionError::Clockwise })
+                    .into(),
+                "yarns.a.section",
+            ),
+            (FabricError::Woven(WovenError::Crimp { share: 9.0, low, high }).into(), "cloth.warp_crimp"),
             (wale().into(), "knit.wales_per_cm"),
             (
-                FabricError::Gauge { what: "courses", mm: 0.0, low: 0.0, high: 1.0 }.into(),
+                FabricError::Weft(WeftError::Gauge { what: "courses", mm: 0.0, low: 0.0, high: 1.0 }).into(),
                 "knit.courses_per_cm",
             ),
             (
-                FabricError::Gauge { what: "loops", mm: 0.0, low: 0.0, high: 1.0 }.into(),
+                FabricError::Weft(WeftError::Gauge { what: "loops", mm: 0.0, low: 0.0, high: 1.0 }).into(),
                 "knit.loop_length_mm",
             ),
-            (FabricError::Carrier { carrier: 1, yarns: 0 }.into(), "knit.yarns"),
-            (FabricError::KnitPoints { points: 9, limit: 1 }.into(), "weave.ends"),
-            (FabricError::KnitRepeat { points: 9, limit: 1 }.into(), "knit.chart"),
-            (FabricError::ClearancePoints { points: 9, limit: 1 }.into(), "weave.ends"),
-            (FabricError::LinkingSize { intervals: 9, limit: 1 }.into(), "weave.ends"),
-            (FabricError::Copies { loops: 9, limit: 1 }.into(), "knit.repeat"),
-            (FabricError::Laps { laps: 9, limit: 1 }.into(), "warp_knit.wales"),
-            (FabricError::Bars { bars: 0, limit: 1 }.into(), "warp_knit.bars"),
-            (FabricError::GuideYarn { bar: 2, yarn: 1, yarns: 0 }.into(), "warp_knit.bars, bar 2: threading"),
-            (FabricError::BarOffset { bar: 2, offset: 9, limit: 1 }.into(), "warp_knit.bars, bar 2: offset"),
+            (FabricError::Weft(WeftError::Carrier { carrier: 1, yarns: 0 }).into(), "knit.yarns"),
+            (FabricError::Weft(WeftError::KnitPoints { points: 9, limit: 1 }).into(), "weave.ends"),
+            (FabricError::Weft(WeftError::KnitRepeat { points: 9, limit: 1 }).into(), "knit.chart"),
             (
-                FabricError::RunIn { bar: 2, mm: 0.0, low: 1.0, high: 2.0 }.into(),
+                FabricError::Contact(ContactError::ClearancePoints { points: 9, limit: 1 }).into(),
+                "weave.ends",
+            ),
+            (FabricError::Contact(ContactError::LinkingSize { intervals: 9, limit: 1 }).into(), "weave.ends"),
+            (FabricError::Weft(WeftError::Copies { loops: 9, limit: 1 }).into(), "knit.repeat"),
+            (FabricError::Warp(WarpError::Laps { laps: 9, limit: 1 }).into(), "warp_knit.wales"),
+            (FabricError::Warp(WarpError::Bars { bars: 0, limit: 1 }).into(), "warp_knit.bars"),
+            (
+                FabricError::Warp(WarpError::GuideYarn { bar: 2, yarn: 1, yarns: 0 }).into(),
+                "warp_knit.bars, bar 2: threading",
+            ),
+            (
+                FabricError::Warp(WarpError::BarOffset { bar: 2, offset: 9, limit: 1 }).into(),
+                "warp_knit.bars, bar 2: offset",
+            ),
+            (
+                FabricError::Warp(WarpError::RunIn { bar: 2, mm: 0.0, low: 1.0, high: 2.0 }).into(),
                 "warp_knit.bars, bar 2: run_in_mm",
             ),
             (
-                FabricError::JacquardCourses { bar: 2, courses: 1, chain: 2 }.into(),
+                FabricError::Warp(WarpError::JacquardCourses { bar: 2, courses: 1, chain: 2 }).into(),
                 "warp_knit.bars, bar 2: colors",
             ),
             (
-                FabricError::JacquardLap { bar: 2, course: 1, lap: Lap { from: 3, to: 0 }, limit: 2 }.into(),
+                FabricError::Warp(WarpError::JacquardLap {
+                    bar: 2,
+                    course: 1,
+                    lap: Lap { from: 3, to: 0 },
+                    limit: 2,
+                })
+                .into(),
                 "warp_knit.bars, bar 2: colors",
             ),
-            (FabricError::WarpRepeat { what: "wale", size: 3, multiple: 2 }.into(), "warp_knit.wales"),
-            (FabricError::WarpRepeat { what: "course", size: 3, multiple: 2 }.into(), "warp_knit.courses"),
+            (
+                FabricError::Warp(WarpError::WarpRepeat { what: "wale", size: 3, multiple: 2 }).into(),
+                "warp_knit.wales",
+            ),
+            (
+                FabricError::Warp(WarpError::WarpRepeat { what: "course", size: 3, multiple: 2 }).into(),
+                "warp_knit.courses",
+            ),
             (FabricError::Yarns(YarnError::NoYarns).into(), "weave.ends"),
-            (FabricError::NoWeave { text: "x".into(), position: 1, near: None }.into(), "knit.chart"),
-            (FabricError::Hyphen { text: "x".into(), position: 1, sign: "a dash" }.into(), "knit.chart"),
+            (
+                FabricError::Woven(WovenError::NoWeave { text: "x".into(), position: 1, near: None }).into(),
+                "knit.chart",
+            ),
+            (
+                FabricError::Woven(WovenError::Hyphen { text: "x".into(), position: 1, sign: "a dash" })
+                    .into(),
+                "knit.chart",
+            ),
             (
                 SettlingError::ShortRepeat { axis: 'x', repeat: 1.0, diameter: 1.0, least: 2.0 }.into(),
                 "knit.wales_per_cm",
@@ -383,9 +468,9 @@ mod tests {
         // Calls that do not fit a cloth are no fault of its design.
         for error in [
             FabricError::Cancelled,
-            FabricError::OutOfMemory { what: "loops", bytes: 1 },
-            FabricError::OtherCloth { yarn: 1 },
-            FabricError::NoCrossing { end: 9, pick: 9, ends: 1, picks: 1 },
+            FabricError::OutOfMemory(OutOfMemory { what: "loops", bytes: 1 }),
+            FabricError::Woven(WovenError::OtherCloth { yarn: 1 }),
+            FabricError::Woven(WovenError::NoCrossing { end: 9, pick: 9, ends: 1, picks: 1 }),
         ] {
             assert_eq!(keys.place(&error.into(), |_| None), None);
         }
@@ -396,7 +481,8 @@ mod tests {
         let mut keys = keys();
         keys.lines.push(("yarns.b".into(), 99));
         let place = |thread| {
-            let error = FabricError::Radius { thread, radius_mm: 0.0, low: 0.0, high: 1.0 };
+            let error =
+                FabricError::Thread(ThreadError::Radius { thread, radius_mm: 0.0, low: 0.0, high: 1.0 });
             keys.place(&error.into(), |_| None).map(|place| place.field)
         };
         let said = [Origin::End(1), Origin::Pick(1), Origin::Carrier(1), Origin::Guide { bar: 2, guide: 1 }];

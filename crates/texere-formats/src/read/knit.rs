@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use texere_core::{Material, Section, counted};
 use texere_fabric::weft::{
     CarrierSet, Cells, FaultKind, Gauge, Knit as Made, KnitYarn, Knitted, Machine, Operation, Program,
+    WeftError,
 };
 use texere_fabric::{FabricError, Structure, Thread};
 
@@ -120,7 +121,11 @@ impl Knit {
         let usual = Machine::default();
         let machine = Machine { float_max: self.float_max.unwrap_or(usual.float_max), ..usual };
         let refused = |error: FabricError| {
-            let number = error.operation().and_then(|number| usize::try_from(number - 1).ok());
+            let number = match &error {
+                FabricError::Weft(error) => error.operation(),
+                _ => None,
+            };
+            let number = number.and_then(|number| usize::try_from(number - 1).ok());
             match number.and_then(|number| program.operations.get(number)) {
                 Some(operation) => {
                     ReadError::Operation { place: drawn.place(operation.source), source: error }
@@ -136,7 +141,7 @@ impl Knit {
             warnings.push(format!("{}: {more} of the kinds that are told", named(file)));
         }
         let refused = |error: FabricError| match (&error, &drawn) {
-            (FabricError::KnitRuns { told: Some(told), .. }, Drawn::Lines { .. }) => {
+            (FabricError::Weft(WeftError::KnitRuns { told: Some(told), .. }), Drawn::Lines { .. }) => {
                 ReadError::Operation { place: drawn.place(*told), source: error }
             }
             _ => fabric(error),

@@ -14,7 +14,6 @@ mod keys;
 mod knit;
 #[cfg(feature = "knitout")]
 mod knitout;
-mod memory;
 #[cfg(all(feature = "images", feature = "toml"))]
 mod png_file;
 #[cfg(feature = "toml")]

@@ -4,10 +4,10 @@ use std::io::{self, SeekFrom};
 use std::path::Path;
 
 use png::{ColorType, Decoder, DecodingError, Limits};
+use texere_core::filled;
 
 use super::ReadError;
 use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, packed_numbers, undecodable};
-use super::memory::filled;
 
 /// The most pixels that a byte of a PNG stands for: DEFLATE makes at most 1,032 bytes of one, and each is eight pixels of
 /// one bit. So a short file takes no memory for pixels that it can't have.

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+use texere_core::room;
+
 use super::file::Files;
-use super::memory::room;
 use super::{ReadError, image_file};
 
 /// The most colours of a point paper: as many as a byte can number, and far more than a weaver uses.

@@ -4,13 +4,13 @@
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
+use texere_core::filled;
 use tiff::TiffError;
 use tiff::decoder::{Decoder, Limits};
 use tiff::tags::{ByteOrder, Tag};
 
 use super::ReadError;
 use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, undecodable};
-use super::memory::filled;
 use super::point_paper::{Image, Orientation};
 
 /// Values of PhotometricInterpretation, TIFF 6.0, pages 37, 69.

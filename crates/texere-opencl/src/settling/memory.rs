@@ -1,7 +1,7 @@
 //! The memory of a settling.
 
 use texere_core::settling::{Place, SettlingPlan};
-use texere_core::{BackendError, Limits};
+use texere_core::{BackendError, Limits, OutOfMemory};
 use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, StrandRow};
 use texere_kernels::{SETTLING_PULL_WEIGHTED, SETTLING_SCAN_VALUES};
 
@@ -90,7 +90,7 @@ impl Memory {
     pub(super) fn reserve_neighbours(&mut self, opened: &Opened, count: u32) -> Result<(), BackendError> {
         let (what, bytes) = ("neighbours of chords", 4 * u64::from(count));
         if count == u32::MAX {
-            return Err(BackendError::OutOfMemory { what, bytes });
+            return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
         }
         if bytes > self.neighbours.bytes() {
             self.room.memory_bytes += std::mem::take(&mut self.neighbours).bytes();

@@ -6,8 +6,8 @@ use std::process::Command;
 use crate::support::{device, plan, read, waves};
 use texere_conformance::cases;
 use texere_core::{
-    Backend, BackendError, Chunk, Frame, Limits, MeshMut, MeshPiece, PaddedPoints, Quantum, Ring, Session,
-    Settings, Topology, Vertex, Yarn,
+    Backend, BackendError, Chunk, Frame, Limits, MeshMut, MeshPiece, OutOfMemory, PaddedPoints, Quantum,
+    Ring, Session, Settings, Topology, Vertex, Yarn,
 };
 use texere_cpu::SerialBackend;
 use texere_opencl::{OpenClBackend, OpenClError, Schedule};
@@ -146,7 +146,10 @@ fn control_points_beyond_one_buffer_are_refused() {
     assert!(
         matches!(
             refused,
-            Err(BackendError::OutOfMemory { what: "control points, all in one buffer", bytes: 1632 })
+            Err(BackendError::OutOfMemory(OutOfMemory {
+                what: "control points, all in one buffer",
+                bytes: 1632
+            }))
         ),
         "{refused:?}"
     );

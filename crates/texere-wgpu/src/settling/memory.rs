@@ -1,7 +1,7 @@
 //! The memory of a settling.
 
 use texere_core::settling::{Place, SettlingPlan};
-use texere_core::{BackendError, Limits};
+use texere_core::{BackendError, Limits, OutOfMemory};
 use texere_gpu::{ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow};
 use texere_shaders::Resource;
 use texere_shaders::settling::SCAN_VALUES;
@@ -105,7 +105,7 @@ impl Memory {
     pub(super) fn reserve_neighbours(&mut self, gpu: &Gpu, count: u32) -> Result<(), BackendError> {
         let (what, bytes) = ("neighbours of chords", 4 * u64::from(count));
         if count == u32::MAX {
-            return Err(BackendError::OutOfMemory { what, bytes });
+            return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
         }
         if bytes > self.neighbours.size() {
             let mut room = Room { memory_bytes: self.room.memory_bytes + self.listed, ..self.room };

@@ -2,7 +2,7 @@
 
 use texere_core::{SessionError, YarnError};
 use texere_cpu::PickError;
-use texere_fabric::FabricError;
+use texere_fabric::{FabricError, WovenError};
 use thiserror::Error;
 
 /// Why an edit was refused.
@@ -54,4 +54,10 @@ pub enum LiveError {
     /// The mesh can't be planned, or the device failed.
     #[error(transparent)]
     Session(#[from] SessionError),
+}
+
+impl From<WovenError> for LiveError {
+    fn from(error: WovenError) -> Self {
+        Self::Fabric(error.into())
+    }
 }

@@ -1,9 +1,7 @@
 //! What can be wrong with a chart.
 
-use texere_core::counted;
+use texere_core::{OutOfMemory, counted};
 use thiserror::Error;
-
-use crate::FabricError;
 
 /// A chart that can't be knitted. Rows and columns are counted from 1 at the top left.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -113,7 +111,7 @@ pub enum ChartError {
     },
     /// Memory could not be had.
     #[error(transparent)]
-    Memory(#[from] FabricError),
+    OutOfMemory(#[from] OutOfMemory),
 }
 
 impl ChartError {

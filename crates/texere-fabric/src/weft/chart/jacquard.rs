@@ -1,7 +1,8 @@
 //! Jacquard: a picture whose colours are yarns.
 
+use texere_core::room_for;
+
 use super::{Beds, CHART_CELLS_MAX, Cell, Chart, ChartError, Course, known, sized};
-use crate::memory::room_for;
 
 /// Which back needles knit where a Jacquard picture is knitted on two beds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,9 +10,10 @@ mod tests;
 pub use error::ChartError;
 pub use jacquard::Backing;
 
+use texere_core::{filled, room_for};
+
 use super::check::MOVED_MAX;
 use super::machine::CARRIERS_MAX;
-use crate::memory::{filled, room_for};
 
 /// The most wales or rows of a chart.
 pub const CHART_SIDE_MAX: usize = 1 << 16;

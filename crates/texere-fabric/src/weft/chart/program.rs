@@ -1,7 +1,8 @@
 //! From a chart to what a machine is told.
 
+use texere_core::{filled, room_for};
+
 use super::{Beds, Cell, Chart, ChartError};
-use crate::memory::{filled, room_for};
 use crate::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};
 
 /// How far back needles lie to the right of front ones where both knit.
@@ -12,7 +13,7 @@ impl Chart {
     /// to the right in its first course, to the left in its next, and so on. An operation's source is row × wales + column of
     /// its cell, both from 0 and row 0 at the bottom; of a Jacquard picture it is that of its pixel.
     ///
-    /// **Errors**: [`ChartError::Memory`].
+    /// **Errors**: [`ChartError::OutOfMemory`].
     pub fn program(&self) -> Result<Program, ChartError> {
         let carriers = self.courses.iter().map(|course| course.yarn).max().map_or(0, |most| most + 1);
         let mut knitter = Knitter {

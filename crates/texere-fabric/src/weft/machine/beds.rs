@@ -1,9 +1,9 @@
 //! Needles and what hangs on them.
 
+use texere_core::{OutOfMemory, room_for};
+
 use super::super::stitches::HALVES;
 use super::super::{Bed, LoopRef, Needle};
-use crate::FabricError;
-use crate::memory::room_for;
 
 /// A loop that hangs on a needle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +43,7 @@ pub(super) struct Beds {
 
 impl Beds {
     /// Empty needles `low` to `low + width - 1`; where they are those of a repeat, all others are theirs in other repeats.
-    pub(super) fn new(low: i32, width: i32, repeats: bool) -> Result<Self, FabricError> {
+    pub(super) fn new(low: i32, width: i32, repeats: bool) -> Result<Self, OutOfMemory> {
         let count = 4 * usize::try_from(width).unwrap_or(0);
         let mut stacks = Vec::new();
         room_for(&mut stacks, count, "needles")?;

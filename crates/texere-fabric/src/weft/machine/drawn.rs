@@ -5,16 +5,16 @@
 //! the first place that holds it, or after the last one. A loop that was drawn through nothing and fell off its needle holds no more
 //! than a float.
 
+use texere_core::{OutOfMemory, room_for};
+
 use super::super::{Direction, Fate, LoopRef, Step};
 use super::FaultKind;
 use super::run::Run;
-use crate::FabricError;
-use crate::memory::room_for;
 
 /// Leaves out what nothing holds. A repeat is `width` needles wide.
 ///
-/// **Errors**: [`FabricError::OutOfMemory`].
-pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), FabricError> {
+/// **Errors**: [`OutOfMemory`].
+pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), OutOfMemory> {
     let holding = holding(run)?;
     let mut caught = std::mem::take(&mut run.carriers.caught);
     caught.sort_unstable();
@@ -71,7 +71,7 @@ pub(super) fn back(run: &mut Run<'_>, width: Option<i32>) -> Result<(), FabricEr
 }
 
 /// Of each loop whether it holds its yarn: none does that was drawn through nothing, and that nothing was drawn through before it fell.
-fn holding(run: &Run<'_>) -> Result<Vec<bool>, FabricError> {
+fn holding(run: &Run<'_>) -> Result<Vec<bool>, OutOfMemory> {
     let mut holding = Vec::new();
     room_for(&mut holding, run.loops.len(), "what holds a yarn")?;
     holding.extend(run.loops.iter().map(|stitch| stitch.fate != Fate::Dropped || !stitch.parents.is_empty()));
@@ -82,7 +82,7 @@ fn holding(run: &Run<'_>) -> Result<Vec<bool>, FabricError> {
 }
 
 /// Leaves out loops that no yarn makes any more. None of them is drawn through another.
-fn leave_out(run: &mut Run<'_>) -> Result<(), FabricError> {
+fn leave_out(run: &mut Run<'_>) -> Result<(), OutOfMemory> {
     let steps = || run.carriers.strands.iter().flat_map(|strand| &strand.steps);
     let made = steps().filter(|step| matches!(step, Step::Loop { .. })).count();
     if made == run.loops.len() {

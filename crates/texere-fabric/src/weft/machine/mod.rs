@@ -12,6 +12,7 @@ pub use fault::{Fault, FaultKind};
 
 use super::{Fate, Instruction, Operation, Program, Step, Stitches};
 use crate::FabricError;
+use crate::weft::WeftError;
 use beds::{Beds, Held, Slot};
 use run::Run;
 
@@ -75,8 +76,8 @@ impl Machine {
     ///
     /// No fault stops the machine: [`FaultKind`] says what is done instead.
     ///
-    /// **Errors**: [`FabricError::KnitSize`] for too many loops, carriers or loops on one needle, [`FabricError::KnitNeedle`] for
-    /// needles beyond [`NEEDLE_MAX`], [`FabricError::KnitCarriers`] for carriers that the program does not have, and
+    /// **Errors**: [`WeftError::KnitSize`] for too many loops, carriers or loops on one needle, [`WeftError::KnitNeedle`] for
+    /// needles beyond [`NEEDLE_MAX`], [`WeftError::KnitCarriers`] for carriers that the program does not have, and
     /// [`FabricError::OutOfMemory`].
     ///
     /// ```
@@ -124,16 +125,16 @@ fn state(run: &Run<'_>) -> (Vec<(usize, Held)>, f64, Option<f32>) {
 }
 
 /// Checks carriers, and counts loops.
-fn check(program: &Program) -> Result<usize, FabricError> {
+fn check(program: &Program) -> Result<usize, WeftError> {
     let size = |what, count: usize, limit: usize, operation| {
         let (count, limit) = (count as u64, limit as u64);
-        if count > limit { Err(FabricError::KnitSize { what, count, limit, operation }) } else { Ok(()) }
+        if count > limit { Err(WeftError::KnitSize { what, count, limit, operation }) } else { Ok(()) }
     };
     size("carriers", program.carriers.len(), CARRIERS_MAX, 0)?;
     size("sets of carriers", program.carrier_sets.len(), CARRIERS_MAX, 0)?;
     let mut loops = 0_usize;
     for (number, operation) in (1..).zip(&program.operations) {
-        let unknown = FabricError::KnitCarriers { operation: number };
+        let unknown = WeftError::KnitCarriers { operation: number };
         let none = Vec::new();
         let set = match program.carrier_sets.get(operation.carriers.0 as usize) {
             Some(set) => set,
@@ -154,7 +155,7 @@ fn check(program: &Program) -> Result<usize, FabricError> {
 }
 
 /// The lowest needle, and how many there are up to the highest.
-fn beds_of(program: &Program) -> Result<(i32, i32), FabricError> {
+fn beds_of(program: &Program) -> Result<(i32, i32), WeftError> {
     let (mut low, mut high) = (i32::MAX, i32::MIN);
     for (operation, Operation { instruction, .. }) in (1..).zip(&program.operations) {
         let needles = match *instruction {
@@ -167,7 +168,7 @@ fn beds_of(program: &Program) -> Result<(i32, i32), FabricError> {
         };
         for needle in needles {
             if needle.number.unsigned_abs() > NEEDLE_MAX.unsigned_abs() {
-                return Err(FabricError::KnitNeedle { needle, limit: NEEDLE_MAX, operation });
+                return Err(WeftError::KnitNeedle { needle, limit: NEEDLE_MAX, operation });
             }
             (low, high) = (low.min(needle.number), high.max(needle.number));
         }
@@ -177,7 +178,7 @@ fn beds_of(program: &Program) -> Result<(i32, i32), FabricError> {
             Ok(wales @ 1..=NEEDLE_MAX) => Ok((0, wales)),
             _ => {
                 let (what, limit) = ("needles in a repeat", NEEDLE_MAX as u64);
-                Err(FabricError::KnitSize { what, count: u64::from(width), limit, operation: 0 })
+                Err(WeftError::KnitSize { what, count: u64::from(width), limit, operation: 0 })
             }
         },
         None if low > high => Ok((0, 1)),

@@ -2,12 +2,12 @@
 
 use std::ops::ControlFlow;
 
+use texere_contact::{Contact, bends_up_to, clearance_up_to};
 use texere_core::crossings::Set;
-use texere_core::{Origin, Settings, Yarns};
+use texere_core::{Origin, Settings, YarnPlace, Yarns};
 
 use super::lay::Lies;
-use crate::clearance::{bends_up_to, clearance_up_to};
-use crate::{Contact, Drawdown, FabricError, NO_CROSSING, Woven, YarnPlace};
+use crate::{Drawdown, FabricError, NO_CROSSING, Woven};
 
 /// What every pair of surfaces is brought to.
 const WANTED: f64 = 0.988;

@@ -4,14 +4,13 @@ use std::cmp::Ordering;
 
 use rayon::prelude::*;
 use texere_core::crossings::{Crossing, CrossingsPlan, Set};
-use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
+use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns, zeroed};
 
 use super::path::{CHANGE_POINTS, Change, Station, Stop, float};
 use super::problem::{Problem, gaps};
-use crate::memory::zeroed;
 use crate::woven::selvedge::{self, TURN_POINTS};
 use crate::woven::yarns::{Pass, Pen};
-use crate::{FabricError, NO_CROSSING, POINTS_MAX, Woven};
+use crate::{FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 
 /// Crossings of a repeat at rest, mm.
 pub(super) struct Lies {
@@ -81,7 +80,7 @@ impl Lies {
         offsets.push(total);
         if total > POINTS_MAX {
             let (ends, picks) = (cloth.warp().len(), cloth.weft().len());
-            return Err(FabricError::Points { ends, picks, points: total, limit: POINTS_MAX });
+            return Err(WovenError::Points { ends, picks, points: total, limit: POINTS_MAX }.into());
         }
         let mut points: Vec<ControlPoint> = zeroed("control points", total)?;
         let mut sources: Vec<u32> = zeroed("sources", total)?;

@@ -59,7 +59,7 @@ impl Woven {
     ///
     /// **Errors**: [`FinishError::Woven`] where `finish` asks for a length, a press or a course, [`FinishError::Crossings`] for threads that
     /// can't be settled, [`FinishError::Backend`] for a backend that settles no
-    /// crossings or a device that fails, [`FinishError::Fabric`] as [`Woven::yarns`] and [`clearance()`](crate::clearance()) have it.
+    /// crossings or a device that fails, [`FinishError::Fabric`] as [`Woven::yarns`] and [`clearance()`](texere_contact::clearance()) have it.
     ///
     /// ```
     /// use std::ops::ControlFlow;

@@ -2,11 +2,12 @@
 
 use std::ops::ControlFlow;
 
+use texere_contact::lengths_mm;
 use texere_core::Backend;
 use texere_core::crossings::Set;
 
 use super::certificate::crop;
-use crate::{Finish, FinishError, Woven, lengths_mm};
+use crate::{Finish, FinishError, Woven};
 
 /// The least crimp that is left of threads that are pulled straight.
 const STRAIGHT: f64 = 0.002;

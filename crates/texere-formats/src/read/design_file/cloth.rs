@@ -50,7 +50,7 @@ impl Cloth {
     pub(super) fn lay(&self, source: &Source<'_>, woven: &mut Woven) -> Result<(), ReadError> {
         woven.set_shape(self.shape);
         woven.set_selvedge(self.selvedge);
-        woven.set_crimp(self.crimp).map_err(|error| source.fabric(error))
+        woven.set_crimp(self.crimp).map_err(|error| source.fabric(error.into()))
     }
 }
 

@@ -295,7 +295,7 @@ impl Reader<'_> {
 
     fn refused(&self, field: &str, span: Range<usize>, error: ChartError) -> ReadError {
         match error {
-            ChartError::Memory(error) => self.source.fabric(error),
+            ChartError::OutOfMemory(error) => error.into(),
             source => ReadError::Chart { place: self.source.place(field, span), source },
         }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use texere_core::{Material, Section, SectionPoint};
+use texere_core::{Material, Section, SectionPoint, room};
 use texere_fabric::{COTTON_DENSITY, Thread};
 use toml::Spanned;
 
@@ -12,7 +12,6 @@ use super::source::Source;
 use super::value::Any;
 use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
-use crate::read::memory::room;
 
 /// Coarsest and finest yarn by the English cotton count, hanks of 840 yards to the pound.
 const COTTON_COUNT: (f64, f64) = (0.01, 10_000.0);

@@ -1,6 +1,8 @@
 //! The `[warp_knit]` table: guide bars, the front one first, and how close their loops lie.
 
-use texere_fabric::warp::{Bar, Chain, ChainError, Displacements, LAPPINGS, Threading, WarpKnitted};
+use texere_fabric::warp::{
+    Bar, Chain, ChainError, Displacements, LAPPINGS, Threading, WarpError, WarpKnitted,
+};
 use texere_fabric::weft::Gauge;
 use texere_fabric::{FabricError, SPACING_MAX, SPACING_MIN, Structure, Thread};
 use toml::Spanned;
@@ -51,7 +53,7 @@ pub(super) fn read(
         Knit::yarns_of(threads, compression, &yarns.materials, &yarns.sections);
     let made = WarpKnitted::new(bars, gauge, wales?, courses?, knit_yarns, materials, sections, copies);
     let knit = made.map_err(|error| match error {
-        FabricError::WarpRepeat { what, multiple, .. } => {
+        FabricError::Warp(WarpError::WarpRepeat { what, multiple, .. }) => {
             let side = if what == "wale" { &table.wales } else { &table.courses };
             let expected = format!("a multiple of {multiple}, after which all bars begin again");
             source.bad(&format!("warp_knit.{what}s"), side, &expected)

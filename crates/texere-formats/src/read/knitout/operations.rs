@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use texere_core::room_for;
 use texere_fabric::weft::{CarrierSet, Instruction, Operation, Program};
 
 use super::carriers::Carriers;
@@ -197,10 +198,7 @@ impl<'a> Operations<'a> {
             return Err(line.refused(code, format!("{OPERATIONS_MAX} operations at most")));
         }
         if count == self.operations.capacity() {
-            let more = count.max(1024);
-            let bytes = ((count + more) * size_of::<Operation>()) as u64;
-            let refused = |_| ReadError::OutOfMemory { what: "operations of a knitting machine", bytes };
-            self.operations.try_reserve_exact(more).map_err(refused)?;
+            room_for(&mut self.operations, count.max(1024), "operations of a knitting machine")?;
         }
         self.operations.push(Operation { instruction, carriers, source: line.number as u32 });
         Ok(())

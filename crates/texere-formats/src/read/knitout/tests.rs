@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use texere_contact::ContactError;
 use texere_core::{BackendError, Origin, SettlingError};
-use texere_fabric::weft::{CarrierSet, Direction, Instruction, Needle};
-use texere_fabric::{FabricError, FinishError};
+use texere_fabric::weft::{CarrierSet, Direction, Instruction, Needle, WeftError};
+use texere_fabric::{FabricError, FinishError, ThreadError};
 
 use super::warnings::WARNINGS_MAX;
 use super::{Knitout, LoopLengths, parse};
@@ -227,10 +228,17 @@ fn errors_of_the_cloth_have_their_lines() {
         place.map(|place| format!("{} {}: {}", place.file.display(), place.line, place.field))
     };
     let (low, high) = (0.1, 1.0);
-    let radius =
-        |carrier| FabricError::Radius { thread: Origin::Carrier(carrier), radius_mm: 9.0, low, high };
-    let twist = FabricError::Twist { thread: Origin::Carrier(2), twist: 9.0, limit: 1.0 };
-    let gauge = |what| FabricError::Gauge { what, mm: 0.0, low: 0.1, high: 1.0 };
+    let radius = |carrier| {
+        FabricError::Thread(ThreadError::Radius {
+            thread: Origin::Carrier(carrier),
+            radius_mm: 9.0,
+            low,
+            high,
+        })
+    };
+    let twist =
+        FabricError::Thread(ThreadError::Twist { thread: Origin::Carrier(2), twist: 9.0, limit: 1.0 });
+    let gauge = |what| FabricError::Weft(WeftError::Gauge { what, mm: 0.0, low: 0.1, high: 1.0 });
     let long = SettlingError::LongInterval { yarn: 0, axis: 'x', chords: 9, limit: 1 };
     let crowded = BackendError::Crowded { chords: 9, limit: 1 };
     for (error, line) in [
@@ -241,11 +249,17 @@ fn errors_of_the_cloth_have_their_lines() {
         (gauge("courses").into(), "4: ;;Gauge"),
         (gauge("loops").into(), "4: ;;Gauge"),
         (FinishError::Settling(long), "4: ;;Gauge"),
-        (FabricError::KnitPoints { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
-        (FabricError::KnitRepeat { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
-        (FabricError::ClearancePoints { points: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
-        (FabricError::LinkingSize { intervals: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
-        (FabricError::Stitches { what: "no loops" }.into(), "9: split + f1 b1 2"),
+        (FabricError::Weft(WeftError::KnitPoints { points: 9, limit: 1 }).into(), "9: split + f1 b1 2"),
+        (FabricError::Weft(WeftError::KnitRepeat { points: 9, limit: 1 }).into(), "9: split + f1 b1 2"),
+        (
+            FabricError::Contact(ContactError::ClearancePoints { points: 9, limit: 1 }).into(),
+            "9: split + f1 b1 2",
+        ),
+        (
+            FabricError::Contact(ContactError::LinkingSize { intervals: 9, limit: 1 }).into(),
+            "9: split + f1 b1 2",
+        ),
+        (FabricError::Weft(WeftError::Stitches { what: "no loops" }).into(), "9: split + f1 b1 2"),
         (SettlingError::TooMany { what: "chords", count: 9, limit: 1 }.into(), "9: split + f1 b1 2"),
         (crowded.into(), "9: split + f1 b1 2"),
     ] {
@@ -253,7 +267,10 @@ fn errors_of_the_cloth_have_their_lines() {
         assert_eq!(place(text, error), Some(format!("a.k {line}")), "{said}");
     }
     // Where nothing is knitted, the first operation has to do.
-    let empty = place(";!knitout-2\nin 1\nout 1\n", FabricError::Stitches { what: "no loops" }.into());
+    let empty = place(
+        ";!knitout-2\nin 1\nout 1\n",
+        FabricError::Weft(WeftError::Stitches { what: "no loops" }).into(),
+    );
     assert_eq!(empty.as_deref(), Some("a.k 2: in 1"));
 }
 

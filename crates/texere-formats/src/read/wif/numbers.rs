@@ -1,10 +1,9 @@
 //! Numbers and lists of numbers in WIF sections.
 
-use texere_core::counted;
+use texere_core::{counted, filled};
 
 use super::ini::{Entry, Ini};
 use crate::read::error::shown;
-use crate::read::memory::filled;
 use crate::read::{Place, ReadError};
 
 /// Most shafts or treadles of a loom: enough for a Jacquard machine with a hook for each end.

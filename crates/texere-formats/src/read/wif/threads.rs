@@ -1,6 +1,6 @@
 //! Spacing, thickness and colour of each end and pick.
 
-use texere_core::{Material, Section, counted};
+use texere_core::{Material, Section, counted, filled, room};
 use texere_fabric::{Drawdown, FabricError, Thread, Woven};
 
 use super::PROGRAM;
@@ -8,7 +8,6 @@ use super::colors::{NO_COLOR, Palette};
 use super::ini::Ini;
 use super::numbers::{bad, length, numbered};
 use crate::read::ReadError;
-use crate::read::memory::{filled, room};
 
 /// Spacing where the file gives none, mm: 10 threads to the centimetre.
 const DEFAULT_SPACING_MM: f64 = 1.0;

@@ -1,5 +1,7 @@
 //! Loops that are made, and yarn that is laid.
 
+use texere_core::room_for;
+
 use super::super::super::stitches::HALVES;
 use super::super::super::{Bed, Direction, Fate, Head, LoopKind, LoopRef, Needle, Step, Stitch};
 use super::super::beds::{Held, Slot};
@@ -8,7 +10,7 @@ use super::super::courses::Above;
 use super::super::{Fault, FaultKind, PARENTS_MAX};
 use super::Run;
 use crate::FabricError;
-use crate::memory::room_for;
+use crate::weft::WeftError;
 
 /// A stitch that is to be made.
 #[derive(Debug, Clone, Copy)]
@@ -134,7 +136,7 @@ impl Run<'_> {
             if start + held.len() > PARENTS_MAX {
                 let (what, count) = ("loops that others are drawn through", (start + held.len()) as u64);
                 let (limit, operation) = (PARENTS_MAX as u64, self.operation);
-                return Err(FabricError::KnitSize { what, count, limit, operation });
+                return Err(WeftError::KnitSize { what, count, limit, operation }.into());
             }
             let round = self.round;
             let parent = |held: &Held| LoopRef {

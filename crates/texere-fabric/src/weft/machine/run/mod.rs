@@ -2,6 +2,8 @@
 
 mod making;
 
+use texere_core::room_for;
+
 use super::super::stitches::HALVES;
 use super::super::{
     CarrierSet, Fate, Head, Instruction, LoopKind, LoopRef, Needle, Operation, Program, Stitch,
@@ -11,7 +13,7 @@ use super::carriers::Carriers;
 use super::courses::Above;
 use super::{FAULTS_LISTED, Fault, FaultKind, Machine, NEEDLE_MAX, STACK_MAX};
 use crate::FabricError;
-use crate::memory::room_for;
+use crate::weft::WeftError;
 
 /// What a loop has come to, and how its head hangs then.
 pub(super) type End = (Fate, Head);
@@ -226,8 +228,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn slot(&self, needle: Needle) -> Result<Slot, FabricError> {
-        let error = FabricError::KnitNeedle { needle, limit: NEEDLE_MAX, operation: self.operation };
+    fn slot(&self, needle: Needle) -> Result<Slot, WeftError> {
+        let error = WeftError::KnitNeedle { needle, limit: NEEDLE_MAX, operation: self.operation };
         self.beds.slot(needle).ok_or(error)
     }
 
@@ -290,7 +292,7 @@ impl<'a> Run<'a> {
         let (loops, limit) = (self.beds.stack(slot).len(), self.machine.pile_max);
         if loops > STACK_MAX {
             let (what, count, limit) = ("loops on a needle", loops as u64, STACK_MAX as u64);
-            return Err(FabricError::KnitSize { what, count, limit, operation: self.operation });
+            return Err(WeftError::KnitSize { what, count, limit, operation: self.operation }.into());
         }
         if loops > limit as usize && loops - added <= limit as usize {
             self.fault(FaultKind::Piled { loops: loops as u32, limit }, Some(needle), None);

@@ -2,7 +2,8 @@
 
 use std::cmp::Ordering;
 
-use super::contact::YarnPlace;
+use texere_core::YarnPlace;
+
 use super::part::Part;
 use crate::grid::Bounds;
 

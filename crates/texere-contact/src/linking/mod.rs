@@ -25,7 +25,7 @@ use self::found::Found;
 use self::images::Images;
 use self::search::Search;
 use self::shapes::{Shape, Shapes};
-use crate::FabricError;
+use crate::ContactError;
 use crate::grid::Grid;
 use crate::watch::{Report, Watch};
 
@@ -66,10 +66,10 @@ const SEARCH: u64 = 1 << 32;
 /// cloth was turned over in its plane, for then everything is compared. Memory is 17 bytes a control point beside the
 /// yarns. The same yarns give the same result, whatever the number of threads.
 ///
-/// **Errors**: [`FabricError::OtherLayout`] for yarns of other counts, [`FabricError::Boundary`] for a boundary that
-/// is not theirs, [`FabricError::LinkingSize`] for more intervals than are compared, with their copies in a repeat
-/// that is too small for them, [`FabricError::Settings`] for a tension or points between control points that no mesh
-/// is made with, [`FabricError::OutOfMemory`].
+/// **Errors**: [`ContactError::OtherLayout`] for yarns of other counts, [`ContactError::Boundary`] for a boundary that
+/// is not theirs, [`ContactError::LinkingSize`] for more intervals than are compared, with their copies in a repeat
+/// that is too small for them, [`ContactError::Settings`] for a tension or points between control points that no mesh
+/// is made with, [`ContactError::OutOfMemory`].
 ///
 /// **Source**: Klenin and Langowski, "Computation of writhe in modeling of supercoiled DNA", Biopolymers 54, 2000,
 /// method 1a: the integral as a sum over pairs of chords.
@@ -86,10 +86,10 @@ const SEARCH: u64 = 1 << 32;
 /// };
 /// let (before, after) = (crossing(0.5)?, crossing(-0.25)?);
 /// let boundary = Boundary::without_repeat(before.layout());
-/// let linking = texere_fabric::linking(&before, &after, &boundary, &Settings::default())?;
+/// let linking = texere_contact::linking(&before, &after, &boundary, &Settings::default())?;
 /// assert!(linking.passages > 0 && linking.largest > 0.8);
 /// assert_eq!(linking.worst[0].places.map(|place| place.yarn), [0, 1]);
-/// assert_eq!(texere_fabric::linking(&before, &before, &boundary, &Settings::default())?.passages, 0);
+/// assert_eq!(texere_contact::linking(&before, &before, &boundary, &Settings::default())?.passages, 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn linking(
@@ -97,19 +97,19 @@ pub fn linking(
     after: &Yarns,
     boundary: &Boundary,
     settings: &Settings,
-) -> Result<Linking, FabricError> {
+) -> Result<Linking, ContactError> {
     linking_with_progress(before, after, boundary, settings, |_| ControlFlow::Continue(()))
 }
 
 /// [`linking()`] that calls `progress` with the share of the work that is done, from 0 to 1, from any thread. `Break`
 /// ends it.
 ///
-/// **Errors**: those of [`linking()`]; [`FabricError::Cancelled`] where `progress` asked to stop.
+/// **Errors**: those of [`linking()`]; [`ContactError::Cancelled`] where `progress` asked to stop.
 ///
 /// ```
 /// use std::ops::ControlFlow;
 /// use texere_core::{Boundary, ControlPoint, Settings, Yarn, Yarns};
-/// use texere_fabric::{FabricError, linking_with_progress};
+/// use texere_contact::{ContactError, linking_with_progress};
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// # let yarns = yarns.build()?;
@@ -121,7 +121,7 @@ pub fn linking(
 /// })?;
 /// assert_eq!(share, 1.0);
 /// let stopped = linking_with_progress(&yarns, &yarns, &boundary, &settings, |_| ControlFlow::Break(()));
-/// assert_eq!(stopped, Err(FabricError::Cancelled));
+/// assert_eq!(stopped, Err(ContactError::Cancelled));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn linking_with_progress(
@@ -130,7 +130,7 @@ pub fn linking_with_progress(
     boundary: &Boundary,
     settings: &Settings,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-) -> Result<Linking, FabricError> {
+) -> Result<Linking, ContactError> {
     compared(before, after, boundary, settings, &mut progress)
 }
 
@@ -140,7 +140,7 @@ fn compared(
     boundary: &Boundary,
     settings: &Settings,
     progress: &mut Report<'_>,
-) -> Result<Linking, FabricError> {
+) -> Result<Linking, ContactError> {
     let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
     boundary.check(before.layout())?;
     let shapes = Shapes::new(before, after, boundary, sampling.tension())?;

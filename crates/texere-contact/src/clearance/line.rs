@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Yarns};
+use texere_core::{ControlPoint, YarnPlace, Yarns, neighbours};
 
-use super::contact::{CLEARANCE_NEAR, YarnPlace};
+use super::contact::CLEARANCE_NEAR;
 use super::interval::Cubic;
 use super::support::Support;
 use crate::grid::Bounds;
@@ -202,18 +202,4 @@ impl<'a> Line<'a> {
         let position = self.cubic(point).position(t).to_array();
         YarnPlace { yarn: self.yarn, interval, t, position, source }
     }
-}
-
-/// The four points that steer interval `first`, with the paper's virtual ends where an open yarn has none.
-#[inline]
-pub(crate) fn neighbours(points: &[ControlPoint], closed: bool, first: usize) -> [ControlPoint; 4] {
-    if let Some(&[before, start, end, after]) = points.get(first.wrapping_sub(1)..first.wrapping_add(3)) {
-        return [before, start, end, after];
-    }
-    let count = points.len();
-    let at = |index: usize| points[index % count];
-    let (start, end) = (at(first), at(first + 1));
-    let before = if closed || first > 0 { at(first + count - 1) } else { start.reflected(&end) };
-    let after = if closed || first + 2 < count { at(first + 2) } else { end.reflected(&start) };
-    [before, start, end, after]
 }

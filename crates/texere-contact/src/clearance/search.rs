@@ -5,10 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
 use glam::{DVec2, Vec3A};
-use texere_core::{Sampling, Yarns};
+use texere_core::{Sampling, YarnPlace, Yarns, room_for, tangent_factor};
 
 use super::approach::{Side, refine};
-use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BESIDE, Contact, YarnPlace};
+use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BESIDE, Contact};
 use super::crowd::Crowd;
 use super::curvature;
 use super::extent::Extent;
@@ -23,9 +23,8 @@ use super::support::Support;
 use super::surface::Surface;
 use super::touch::{touch, touch_near};
 use super::tubes;
-use crate::FabricError;
+use crate::ContactError;
 use crate::grid::{Bounds, Grid};
-use crate::memory::room_for;
 use crate::watch::Watch;
 
 /// The most intervals of a cell that are simply compared with one another. Threads that are clear of one another come to
@@ -110,7 +109,7 @@ impl<'a> Probe<'a> {
             supports,
             ways: line::ways(yarns.points()),
             near,
-            s: (1.0 - f64::from(sampling.tension())) / 2.0,
+            s: tangent_factor(sampling.tension()),
         }
     }
 
@@ -132,7 +131,7 @@ impl<'a> Probe<'a> {
 
     /// All contacts of intervals that meet in `cells`, one of them at least `fresh`.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`]; [`FabricError::Cancelled`] where `watch` says so.
+    /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says so.
     pub(super) fn search(
         &self,
         grid: &Grid,
@@ -141,7 +140,7 @@ impl<'a> Probe<'a> {
         fresh: &dyn Fn(usize) -> bool,
         mut found: Found,
         watch: &Watch<'_>,
-    ) -> Result<Found, FabricError> {
+    ) -> Result<Found, ContactError> {
         let mut points = Vec::new();
         let mut parts: Vec<Part<'_>> = Vec::new();
         let mut met: Vec<Met> = Vec::new();
@@ -200,7 +199,7 @@ impl<'a> Probe<'a> {
         counts: impl Fn(&Part<'_>, &Part<'_>) -> bool,
         found: &mut Found,
         watch: &Watch<'_>,
-    ) -> Result<(), FabricError> {
+    ) -> Result<(), ContactError> {
         let crowd = Crowd::of(parts, |part| part.line.place(part.point, 0.0, self.yarns.sources()));
         if crowd.is_some_and(|crowd| crowd.fill > 1.0) {
             found.add_crowd(crowd);
@@ -240,14 +239,14 @@ impl<'a> Probe<'a> {
 
     /// The contacts of two intervals, the first one's number being the lower.
     ///
-    /// **Errors**: [`FabricError::Cancelled`] where `watch` says so.
+    /// **Errors**: [`ContactError::Cancelled`] where `watch` says so.
     fn pair(
         &self,
         [(one, first), (other, second)]: [(&Part<'_>, &Met); 2],
         rolls: &Rolls,
         found: &mut Found,
         watch: &Watch<'_>,
-    ) -> Result<(), FabricError> {
+    ) -> Result<(), ContactError> {
         let (a, b) = (first.curve(one, rolls), second.curve(other, rolls));
         let reach = a.reach + b.reach;
         let within = self.near * reach;

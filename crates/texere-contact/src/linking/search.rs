@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use texere_core::{YarnPlace, room_for};
 
 use super::SEARCH;
 use super::chords::integral;
@@ -14,10 +15,9 @@ use super::passage::{LINKING_BESIDE, LINKING_COMPARED, Passage};
 use super::shapes::{Shape, Shapes};
 use super::strand::Strand;
 use super::window::Window;
+use crate::ContactError;
 use crate::grid::Grid;
-use crate::memory::room_for;
 use crate::watch::Watch;
-use crate::{FabricError, YarnPlace};
 
 /// Intervals between two reports of progress.
 const REPORT_EVERY: u64 = 256;
@@ -44,8 +44,8 @@ impl<'a> Search<'a> {
 
     /// All passages of intervals that meet in `cells`.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`]; [`FabricError::Cancelled`] where `watch` says so.
-    pub(super) fn cells(&self, cells: Range<usize>, watch: &Watch<'_>) -> Result<Found, FabricError> {
+    /// **Errors**: [`ContactError::OutOfMemory`]; [`ContactError::Cancelled`] where `watch` says so.
+    pub(super) fn cells(&self, cells: Range<usize>, watch: &Watch<'_>) -> Result<Found, ContactError> {
         let mut found = Found::default();
         let (mut numbers, mut parts) = (Vec::new(), Vec::new());
         let mut unreported = 0;
@@ -74,7 +74,7 @@ impl<'a> Search<'a> {
     }
 
     /// The intervals of a cell, from left to right.
-    fn read(&self, cell: usize, numbers: &mut Vec<usize>, parts: &mut Vec<Part>) -> Result<(), FabricError> {
+    fn read(&self, cell: usize, numbers: &mut Vec<usize>, parts: &mut Vec<Part>) -> Result<(), ContactError> {
         numbers.clear();
         room_for(numbers, self.grid.count_in(cell), "a cell's intervals")?;
         numbers.extend(self.grid.entries(cell));

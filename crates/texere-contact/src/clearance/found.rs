@@ -2,9 +2,8 @@
 
 use std::cmp::Ordering;
 
-use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BIN, CONTACTS_LISTED, Contact};
+use super::contact::{CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BIN, CONTACTS_LISTED, Contact};
 use super::crowd::Crowd;
-use crate::CLEAR;
 
 /// Bins from 0 to [`CLEARANCE_NEAR`](crate::CLEARANCE_NEAR).
 const BINS: usize = 110;

@@ -3,9 +3,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Yarns};
-
-use crate::clearance::neighbours;
+use texere_core::{ControlPoint, Yarns, neighbours, tangent_factor};
 
 /// Distances from the middle and weights of the ten-point Gauss-Legendre rule on \[0, 1\], whose points lie in pairs
 /// (Abramowitz and Stegun, table 25.4).
@@ -32,13 +30,13 @@ const TASK: usize = 4096;
 /// use texere_core::{ControlPoint, Yarn, Yarns};
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 3.0].map(|x| ControlPoint::new(x, 4.0, 0.0, 0.1)));
-/// let lengths = texere_fabric::lengths_mm(&yarns.build()?, 0.0);
+/// let lengths = texere_contact::lengths_mm(&yarns.build()?, 0.0);
 /// assert!((lengths[0] - 3.0).abs() < 1e-12);
 /// # Ok::<(), texere_core::YarnError>(())
 /// ```
 #[must_use]
 pub fn lengths_mm(yarns: &Yarns, tension: f32) -> Vec<f64> {
-    let s = (1.0 - f64::from(tension)) / 2.0;
+    let s = tangent_factor(tension);
     let layout = yarns.layout();
     (0..layout.yarns().len())
         .into_par_iter()
@@ -53,8 +51,8 @@ pub fn length_mm(yarns: &Yarns, tension: f32) -> f64 {
 }
 
 /// Length of one round of a yarn that goes on `shift` further, mm: with the way from its last control point to its next round.
-pub(crate) fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -> f64 {
-    let s = (1.0 - f64::from(tension)) / 2.0;
+pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -> f64 {
+    let s = tangent_factor(tension);
     let count = points.len() as isize;
     let at = |number: isize| {
         let [x, y, z] = position(points[number.rem_euclid(count) as usize]);
@@ -65,8 +63,8 @@ pub(crate) fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension:
 }
 
 /// Length of those intervals of an open yarn that lie between a range of its points, mm. Points beyond bend its ends.
-pub(crate) fn part_length_mm(points: &[ControlPoint], part: Range<usize>, tension: f32) -> f64 {
-    let s = (1.0 - f64::from(tension)) / 2.0;
+pub fn part_length_mm(points: &[ControlPoint], part: Range<usize>, tension: f32) -> f64 {
+    let s = tangent_factor(tension);
     let last = part.end.min(points.len()).saturating_sub(1);
     (part.start..last).map(|first| interval_length(neighbours(points, false, first).map(position), s)).sum()
 }

@@ -2,9 +2,11 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use texere_core::{PaddedPoints, Plan, Ring, Sample, Settings, TWIST_SUBDIVISIONS_MAX, Turn, Yarns};
+use texere_core::{
+    PaddedPoints, Plan, Ring, Sample, Settings, TWIST_SUBDIVISIONS_MAX, Turn, YarnPlace, Yarns,
+};
 
-use crate::{FabricError, YarnPlace};
+use crate::ContactError;
 
 /// A tube is wrung where it is narrower than this between two rings, in radii: they are turned against one another by more than 120
 /// degrees, or two thirds of the way to a tube of no width. Twisted yarns of the usual settings come to 0.7, since a mesh has rings enough for
@@ -27,7 +29,7 @@ pub struct Drawn {
 
 /// Looks at the tubes of a mesh of `yarns` with `settings`, caps left out. Memory is that of the yarns once more.
 ///
-/// **Errors**: [`FabricError::Settings`] for settings that no mesh is made with, [`FabricError::OutOfMemory`].
+/// **Errors**: [`ContactError::Settings`] for settings that no mesh is made with, [`ContactError::OutOfMemory`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
@@ -36,18 +38,17 @@ pub struct Drawn {
 /// let twist = 3.0 * std::f32::consts::TAU;
 /// yarns.yarn(Yarn { twist, ..Yarn::default() }, &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// let yarns = yarns.build()?;
-/// let few = texere_fabric::drawn(&yarns, &Settings::default())?;
+/// let few = texere_contact::drawn(&yarns, &Settings::default())?;
 /// assert!(few.width < 1e-3 && few.is_wrung());
-/// let many = texere_fabric::drawn(&yarns, &Settings { subdivisions: 15, ..Settings::default() })?;
+/// let many = texere_contact::drawn(&yarns, &Settings { subdivisions: 15, ..Settings::default() })?;
 /// assert!(many.width > 0.8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn drawn(yarns: &Yarns, settings: &Settings) -> Result<Drawn, FabricError> {
+pub fn drawn(yarns: &Yarns, settings: &Settings) -> Result<Drawn, ContactError> {
     // A polygon has the sides that it has.
     let settings = &Settings { sides: yarns.layout().corners().unwrap_or(settings.sides), ..*settings };
     let plan = Plan::new(yarns.layout().clone(), *settings)?;
-    let mut points = PaddedPoints::new(&plan)
-        .map_err(|_| FabricError::OutOfMemory { what: "control points", bytes: plan.resident_bytes() })?;
+    let mut points = PaddedPoints::new(&plan)?;
     points.upload(&plan, 0, yarns.points());
     let each = (0..yarns.layout().yarns().len()).into_par_iter().map(|yarn| along(&plan, &points, yarn));
     let worst = each.reduce(Found::default, Found::and);
@@ -82,7 +83,7 @@ impl Drawn {
 /// what it comes to. None where no number up to [`TWIST_SUBDIVISIONS_MAX`] helps.
 ///
 /// **Errors**: those of [`drawn`].
-pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, FabricError> {
+pub fn finer(yarns: &Yarns, settings: &Settings) -> Result<Option<(u32, Drawn)>, ContactError> {
     let mut subdivisions = settings.subdivisions;
     while subdivisions < TWIST_SUBDIVISIONS_MAX {
         // So many that steps are half as long.

@@ -21,19 +21,18 @@ mod tubes;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use texere_core::{Sampling, Settings, Yarns};
+use texere_core::{Sampling, Settings, YarnPlace, Yarns};
 
 pub use self::contact::{
-    CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, CONTACTS_LISTED,
-    Contact, YarnPlace,
+    CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS,
+    CONTACTS_LISTED, Contact,
 };
 pub use self::crowd::Crowd;
-pub(crate) use self::line::neighbours;
 
 use self::found::Found;
 use self::rolls::Rolls;
 use self::search::{FULL, Probe, cell_work};
-use crate::FabricError;
+use crate::ContactError;
 use crate::grid::Grid;
 use crate::watch::{Report, Watch};
 
@@ -90,8 +89,8 @@ pub struct Clearance {
 /// about seven times as long as round ones, those with plies or twist ten to thirty times. Memory is about 9 bytes a control
 /// point beside the yarns, and 4 more where a yarn's roll matters.
 ///
-/// **Errors**: [`FabricError::ClearancePoints`] for more control points than are measured, [`FabricError::Settings`] for
-/// a tension or points between control points that no mesh is made with, [`FabricError::OutOfMemory`].
+/// **Errors**: [`ContactError::ClearancePoints`] for more control points than are measured, [`ContactError::Settings`] for
+/// a tension or points between control points that no mesh is made with, [`ContactError::OutOfMemory`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
@@ -99,25 +98,25 @@ pub struct Clearance {
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
 /// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|y| ControlPoint::new(0.5, y, 0.1875, 0.125)));
-/// let clearance = texere_fabric::clearance(&yarns.build()?, &Settings::default())?;
+/// let clearance = texere_contact::clearance(&yarns.build()?, &Settings::default())?;
 /// assert!((clearance.min - 0.75).abs() < 1e-6);
 /// assert_eq!((clearance.below_one, clearance.worst[0].places[0].yarn), (1, 0));
 /// assert!((clearance.worst[0].places[0].position[0] - 0.5).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn clearance(yarns: &Yarns, settings: &Settings) -> Result<Clearance, FabricError> {
+pub fn clearance(yarns: &Yarns, settings: &Settings) -> Result<Clearance, ContactError> {
     clearance_with_progress(yarns, settings, |_| ControlFlow::Continue(()))
 }
 
 /// [`clearance()`] that calls `progress` with the share of the work that is done, from 0 to 1, from any thread. `Break` ends
 /// it.
 ///
-/// **Errors**: those of [`clearance`]; [`FabricError::Cancelled`] where `progress` asked to stop.
+/// **Errors**: those of [`clearance`]; [`ContactError::Cancelled`] where `progress` asked to stop.
 ///
 /// ```
 /// use std::ops::ControlFlow;
 /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
-/// use texere_fabric::{FabricError, clearance_with_progress};
+/// use texere_contact::{ContactError, clearance_with_progress};
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// let yarns = yarns.build()?;
@@ -128,38 +127,38 @@ pub fn clearance(yarns: &Yarns, settings: &Settings) -> Result<Clearance, Fabric
 /// })?;
 /// assert_eq!(share, 1.0);
 /// let stopped = clearance_with_progress(&yarns, &Settings::default(), |_| ControlFlow::Break(()));
-/// assert_eq!(stopped, Err(FabricError::Cancelled));
+/// assert_eq!(stopped, Err(ContactError::Cancelled));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn clearance_with_progress(
     yarns: &Yarns,
     settings: &Settings,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-) -> Result<Clearance, FabricError> {
+) -> Result<Clearance, ContactError> {
     measured(yarns, settings, [CLEARANCE_NEAR, f64::INFINITY], &|_| true, &mut progress)
 }
 
 /// [`clearance()`] of those intervals alone for which `fresh` holds, by the number of their first control point, and of others with them: with
 /// all contacts up to a `ratio`, worst first, instead of the worst [`CONTACTS_LISTED`], and none beyond `near`.
-pub(crate) fn clearance_up_to(
+pub fn clearance_up_to(
     yarns: &Yarns,
     settings: &Settings,
     [near, ratio]: [f64; 2],
     fresh: impl Fn(usize) -> bool + Sync,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-) -> Result<Clearance, FabricError> {
+) -> Result<Clearance, ContactError> {
     measured(yarns, settings, [near, ratio], &fresh, &mut progress)
 }
 
 /// The intervals for which `fresh` holds and that bend more tightly than `ratio`, as [`Clearance::curvature_min`] has it, with where they do most.
 ///
-/// **Errors**: [`FabricError::Settings`], [`FabricError::OutOfMemory`].
-pub(crate) fn bends_up_to(
+/// **Errors**: [`ContactError::Settings`], [`ContactError::OutOfMemory`].
+pub fn bends_up_to(
     yarns: &Yarns,
     settings: &Settings,
     ratio: f64,
     fresh: impl Fn(usize) -> bool + Sync,
-) -> Result<Vec<(f64, YarnPlace)>, FabricError> {
+) -> Result<Vec<(f64, YarnPlace)>, ContactError> {
     let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
     let mut unheard = |_| ControlFlow::Continue(());
     let watch = Watch::new(0, &mut unheard);
@@ -176,11 +175,11 @@ fn measured(
     [near, ratio]: [f64; 2],
     fresh: &(dyn Fn(usize) -> bool + Sync),
     progress: &mut Report<'_>,
-) -> Result<Clearance, FabricError> {
+) -> Result<Clearance, ContactError> {
     let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
     let points = yarns.points().len();
     if points > POINTS_LIMIT {
-        return Err(FabricError::ClearancePoints { points: points as u64, limit: POINTS_LIMIT as u64 });
+        return Err(ContactError::ClearancePoints { points: points as u64, limit: POINTS_LIMIT as u64 });
     }
     let watch = Watch::new(points as u64, progress);
     let rolls = Rolls::new(yarns, sampling, settings.frame, &watch)?;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use crate::FabricError;
+use crate::ContactError;
 
 /// A caller's ear for the share of the work that is done. Behind a pointer, so that work is compiled once for all callers.
 pub(crate) type Report<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
@@ -42,8 +42,8 @@ impl<'a> Watch<'a> {
 
     /// So many units more are done.
     ///
-    /// **Errors**: [`FabricError::Cancelled`] once the caller has asked to stop.
-    pub(crate) fn advance(&self, units: u64) -> Result<(), FabricError> {
+    /// **Errors**: [`ContactError::Cancelled`] once the caller has asked to stop.
+    pub(crate) fn advance(&self, units: u64) -> Result<(), ContactError> {
         self.done.fetch_add(units, Ordering::Relaxed);
         // A thread that finds another one reporting goes on with its work.
         if let Ok(mut report) = self.report.try_lock() {
@@ -53,6 +53,6 @@ impl<'a> Watch<'a> {
                 self.stopped.store(true, Ordering::Relaxed);
             }
         }
-        if self.stopped.load(Ordering::Relaxed) { Err(FabricError::Cancelled) } else { Ok(()) }
+        if self.stopped.load(Ordering::Relaxed) { Err(ContactError::Cancelled) } else { Ok(()) }
     }
 }

@@ -4,13 +4,12 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3, Vec3A};
 use rayon::prelude::*;
-use texere_core::{Boundary, ControlPoint, Yarns};
+use texere_core::{Boundary, ControlPoint, Yarns, room_for, tangent_factor};
 
 use super::passage::{WINDOW_INTERVALS, WINDOW_REACH};
 use super::strand::Strand;
-use crate::FabricError;
+use crate::ContactError;
 use crate::grid::Bounds;
-use crate::memory::room_for;
 
 /// Control points whose moves one task adds up.
 const SUMMED: usize = 1 << 14;
@@ -57,21 +56,21 @@ pub(super) struct Shapes<'a> {
 }
 
 impl<'a> Shapes<'a> {
-    /// **Errors**: [`FabricError::OtherLayout`], [`FabricError::OutOfMemory`].
+    /// **Errors**: [`ContactError::OtherLayout`], [`ContactError::OutOfMemory`].
     pub(super) fn new(
         before: &'a Yarns,
         after: &'a Yarns,
         boundary: &'a Boundary,
         tension: f32,
-    ) -> Result<Self, FabricError> {
+    ) -> Result<Self, ContactError> {
         let [one, other] = [before, after].map(|yarns| yarns.layout());
         if one.offsets() != other.offsets() || one.yarns() != other.yarns() {
             let ends = one.offsets().iter().zip(other.offsets()).skip(1);
             let both = one.yarns().iter().zip(other.yarns()).zip(ends);
             let alike = both.take_while(|((one, other), (end, other_end))| one == other && end == other_end);
-            return Err(FabricError::OtherLayout { yarn: alike.count() });
+            return Err(ContactError::OtherLayout { yarn: alike.count() });
         }
-        let s = (1.0 - f64::from(tension)) / 2.0;
+        let s = tangent_factor(tension);
         let mut shapes = Self { yarns: [before, after], boundary, s, motions: Vec::new() };
         let mut motions = Vec::new();
         room_for(&mut motions, before.points().len(), "how far control points have moved")?;
@@ -103,7 +102,7 @@ impl<'a> Shapes<'a> {
         (yarn, number - offsets[yarn] as usize)
     }
 
-    /// The source of the middle of an interval, as [`YarnPlace`](crate::YarnPlace) has it, if the yarns before have
+    /// The source of the middle of an interval, as [`YarnPlace`](texere_core::YarnPlace) has it, if the yarns before have
     /// sources.
     pub(super) fn source(&self, yarn: usize, interval: usize) -> Option<u32> {
         let range = self.yarns[0].range(yarn)?;

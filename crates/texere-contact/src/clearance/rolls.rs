@@ -5,12 +5,11 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 use texere_core::{
     ControlPoint, Frame, PlanError, Sampling, Section, Segment, Turn, YARN_RINGS_MAX, Yarn, Yarns,
+    neighbours, tangent_factor, zeroed,
 };
 
 use super::interval::Cubic;
-use super::line::neighbours;
-use crate::FabricError;
-use crate::memory::zeroed;
+use crate::ContactError;
 use crate::watch::Watch;
 
 /// The rolls of all yarns whose surface depends on them.
@@ -35,14 +34,14 @@ pub(super) struct IntervalRolls {
 }
 
 impl Rolls {
-    /// **Errors**: [`FabricError::Settings`] for a yarn of more rings than a plan takes; [`FabricError::OutOfMemory`];
-    /// [`FabricError::Cancelled`] where `watch` says so.
+    /// **Errors**: [`ContactError::Settings`] for a yarn of more rings than a plan takes; [`ContactError::OutOfMemory`];
+    /// [`ContactError::Cancelled`] where `watch` says so.
     pub(super) fn new(
         yarns: &Yarns,
         sampling: Sampling,
         frame: Frame,
         watch: &Watch<'_>,
-    ) -> Result<Self, FabricError> {
+    ) -> Result<Self, ContactError> {
         let layout = yarns.layout();
         let twist = |(number, yarn): (usize, &Yarn)| {
             let turns = (f64::from(yarn.twist) / TAU) as f32;
@@ -75,7 +74,7 @@ impl Rolls {
     }
 
     /// Writes the roll at each control point of a yarn, and gives back what each ring gives back.
-    fn along(&self, yarns: &Yarns, yarn: usize, starts: &mut [Turn]) -> Result<f64, FabricError> {
+    fn along(&self, yarns: &Yarns, yarn: usize, starts: &mut [Turn]) -> Result<f64, ContactError> {
         let (points, closed) = (yarns.yarn_points(yarn).unwrap_or(&[]), yarns.layout().yarns()[yarn].closed);
         let Some(twist) = self.twists[yarn] else { return Ok(0.0) };
         let rings = self.sampling.rings(points.len() as u64, closed);
@@ -108,8 +107,7 @@ impl Rolls {
     fn starts_at(&self, yarns: &Yarns, yarn: usize, window: [ControlPoint; 4]) -> Turn {
         let carried = matches!(self.twists[yarn], Some((Frame::RotationMinimizing, _)));
         let (Some(ups), true) = (yarns.layout().ups(yarn), carried) else { return Turn::ZERO };
-        let cubic =
-            Cubic::new(window, (1.0 - f64::from(self.sampling.tension())) / 2.0).with_ups([ups[0], ups[1]]);
+        let cubic = Cubic::new(window, tangent_factor(self.sampling.tension())).with_ups([ups[0], ups[1]]);
         let [_, velocity, _] = cubic.path(0.0);
         Turn::from_turns(cubic.lean(0.0, velocity.normalize_or_zero()) as f32)
     }

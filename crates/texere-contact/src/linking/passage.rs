@@ -1,6 +1,6 @@
 //! What is reported of yarns that have passed through one another, and within which limits they are looked for.
 
-use crate::YarnPlace;
+use texere_core::YarnPlace;
 
 /// A change of the linking integral of two windows above which one yarn has passed through the other.
 pub const LINKING_CHANGE: f64 = 0.6;

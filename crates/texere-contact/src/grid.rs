@@ -5,8 +5,7 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use glam::{UVec3, Vec3A};
 use rayon::prelude::*;
-
-use crate::FabricError;
+use texere_core::{OutOfMemory, room};
 
 /// The most cells that an interval lies in on average, before larger cells are taken.
 pub(crate) const ENTRIES: u64 = 6;
@@ -51,11 +50,11 @@ pub(crate) struct Grid {
 impl Grid {
     /// Sorts numbered boxes into cells; `boxes(task)` gives those of one of `tasks`.
     ///
-    /// **Errors**: [`FabricError::OutOfMemory`].
+    /// **Errors**: [`OutOfMemory`].
     pub(crate) fn new<I: Iterator<Item = (usize, Bounds)>>(
         tasks: usize,
         boxes: impl Fn(usize) -> I + Sync,
-    ) -> Result<Self, FabricError> {
+    ) -> Result<Self, OutOfMemory> {
         let (whole, sides, count) = (0..tasks)
             .into_par_iter()
             .map(|task| {
@@ -181,11 +180,8 @@ impl Grid {
 }
 
 /// `count` zeros.
-fn zeroed(what: &'static str, count: u64) -> Result<Vec<AtomicU32>, FabricError> {
-    let mut zeros = Vec::new();
-    zeros
-        .try_reserve_exact(count as usize)
-        .map_err(|_| FabricError::OutOfMemory { what, bytes: count * 4 })?;
+fn zeroed(what: &'static str, count: u64) -> Result<Vec<AtomicU32>, OutOfMemory> {
+    let mut zeros = room(what, count as usize)?;
     zeros.extend((0..count).map(|_| AtomicU32::new(0)));
     Ok(zeros)
 }

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3A};
 use rayon::prelude::*;
 
 use super::shapes::Span;
-use crate::FabricError;
+use crate::ContactError;
 use crate::grid::Bounds;
 
 /// The most intervals that are compared, with their copies.
@@ -41,13 +41,13 @@ impl Image {
 impl Images {
     /// Those of the boxes in `spans`, which are numbered by the control points of which there are `points`.
     ///
-    /// **Errors**: [`FabricError::LinkingSize`].
+    /// **Errors**: [`ContactError::LinkingSize`].
     pub(super) fn new<'s, I: Iterator<Item = (usize, Bounds)>>(
         repeat: [f32; 2],
         points: u64,
         spans: &'s [Span],
         boxes: impl Fn(&'s Span) -> I + Sync,
-    ) -> Result<Self, FabricError> {
+    ) -> Result<Self, ContactError> {
         let mut images = Self { repeat: repeat.map(f64::from), most: [1; 2], points };
         let (intervals, most) = spans
             .par_iter()
@@ -60,7 +60,7 @@ impl Images {
             .reduce(|| (0, [1; 2]), |a, b| (a.0.saturating_add(b.0), larger(a.1, b.1)));
         let numbers = points.saturating_mul(most[0]).saturating_mul(most[1]);
         if intervals > LIMIT || numbers > u64::from(u32::MAX) {
-            return Err(FabricError::LinkingSize { intervals: intervals.max(numbers), limit: LIMIT });
+            return Err(ContactError::LinkingSize { intervals: intervals.max(numbers), limit: LIMIT });
         }
         images.most = most;
         Ok(images)

@@ -1,9 +1,6 @@
 //! Which yarns lie under a point of the cloth.
 
-use texere_core::{ControlPoint, Segment, Yarns};
-
-use crate::YarnPlace;
-use crate::clearance::neighbours;
+use texere_core::{ControlPoint, Segment, YarnPlace, Yarns, neighbours, tangent_factor};
 
 /// Places at which each control interval is tried: between two of them a yarn that bends round another moves less than half its
 /// radius.
@@ -20,14 +17,14 @@ const STEPS: u16 = 24;
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|y| ControlPoint::new(1.0, y, 0.3, 0.1)));
 /// let yarns = yarns.build()?;
-/// let under = |point| texere_fabric::yarns_under(&yarns, point, 0.0).iter().map(|place| place.yarn).collect::<Vec<_>>();
+/// let under = |point| texere_contact::yarns_under(&yarns, point, 0.0).iter().map(|place| place.yarn).collect::<Vec<_>>();
 /// assert_eq!(under([1.05, 0.02]), [1, 0]);
 /// assert_eq!(under([0.5, 0.02]), [0]);
 /// # Ok::<(), texere_core::YarnError>(())
 /// ```
 #[must_use]
 pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlace> {
-    let s = (1.0 - tension) / 2.0;
+    let s = tangent_factor(tension);
     let layout = yarns.layout();
     let mut found = Vec::new();
     for (number, yarn) in layout.yarns().iter().enumerate() {

@@ -1,0 +1,47 @@
+//! How yarns lie against one another and against themselves, measured on the yarns alone: no structure is known here.
+//!
+//! - [`clearance()`]: how near surfaces come to one another, where they pierce, and how tightly yarns bend.
+//! - [`linking()`]: whether yarns have passed through one another on their way from one shape to another.
+//! - [`drawn()`]: whether the tubes of a mesh are wrung or turned inside out.
+//! - [`lengths_mm`]: how long yarns are.
+//! - [`yarns_under`]: which yarns lie under a point.
+//!
+//! Places are [`YarnPlace`](texere_core::YarnPlace)s: yarn, control interval, and where in it.
+//!
+//! ```
+//! use texere_contact::{CLEAR, clearance, length_mm};
+//! use texere_core::{ControlPoint, Settings, Yarn, Yarns};
+//! // Two straight yarns of radius 0.125 mm that cross 0.1875 mm apart: they pierce.
+//! let mut yarns = Yarns::builder();
+//! yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
+//! yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|y| ControlPoint::new(0.5, y, 0.1875, 0.125)));
+//! let yarns = yarns.build()?;
+//! let found = clearance(&yarns, &Settings::default())?;
+//! assert!(found.min < CLEAR && found.piercing == 1);
+//! assert_eq!(found.worst[0].places.map(|place| place.yarn), [0, 1]);
+//! assert_eq!(length_mm(&yarns, 0.0), 4.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod clearance;
+mod drawn;
+mod error;
+mod grid;
+mod length;
+mod linking;
+mod under;
+mod watch;
+
+pub use clearance::{
+    CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS,
+    CONTACTS_LISTED, Clearance, Contact, Crowd, bends_up_to, clearance, clearance_up_to,
+    clearance_with_progress,
+};
+pub use drawn::{Drawn, WRUNG, drawn, finer};
+pub use error::ContactError;
+pub use length::{length_mm, lengths_mm, part_length_mm, round_length_mm};
+pub use linking::{
+    LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
+    WINDOW_REACH, linking, linking_with_progress,
+};
+pub use under::yarns_under;

@@ -1,0 +1,39 @@
+//! What can end a run of the pipeline.
+
+use thiserror::Error;
+
+use crate::{BackendError, OutOfMemory, PlanError, SessionError};
+
+/// What can end a run of the whole pipeline.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PipelineError {
+    /// The settings can't be planned for.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The backend failed.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+    /// A call of the session that the pipeline should not have made.
+    #[error(transparent)]
+    Session(SessionError),
+    /// The progress callback asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl From<SessionError> for PipelineError {
+    fn from(error: SessionError) -> Self {
+        match error {
+            SessionError::Backend(error) => Self::Backend(error),
+            SessionError::Plan(error) => Self::Plan(error),
+            misuse => Self::Session(misuse),
+        }
+    }
+}
+
+impl From<OutOfMemory> for PipelineError {
+    fn from(error: OutOfMemory) -> Self {
+        Self::Backend(error.into())
+    }
+}

@@ -1,0 +1,176 @@
+//! What can be wrong with yarns.
+
+use thiserror::Error;
+
+use crate::{SectionError, counted};
+
+/// Invalid yarns. Yarns and points are counted from 0, as in the slices they came from.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum YarnError {
+    /// There is no yarn at all.
+    #[error("no yarns")]
+    NoYarns,
+    /// Offsets must be one more than yarns.
+    #[error("{offsets} for {yarns}, which need one more than yarns", offsets = counted(*.offsets, "offset"), yarns = counted(*.yarns, "yarn"))]
+    OffsetCount {
+        /// Offsets given.
+        offsets: usize,
+        /// Yarns given.
+        yarns: usize,
+    },
+    /// Offsets must start at 0 and never fall.
+    #[error("offsets of yarn {yarn} run from {start} to {end}")]
+    OffsetOrder {
+        /// The yarn.
+        yarn: usize,
+        /// Its first offset.
+        start: u64,
+        /// Its second offset.
+        end: u64,
+    },
+    /// An open yarn needs two control points, a closed one three.
+    #[error("yarn {yarn} has {points}, needs {least}{}", if *.closed { " since it is closed" } else { "" }, points = counted(*.points, "control point"))]
+    TooFewPoints {
+        /// The yarn.
+        yarn: usize,
+        /// Control points it has.
+        points: u64,
+        /// Control points it needs.
+        least: u64,
+        /// Whether it is closed.
+        closed: bool,
+    },
+    /// The control points don't match the offsets.
+    #[error("{points} where {planned} were planned", points = counted(*.points, "control point"))]
+    PointCount {
+        /// Given.
+        points: u64,
+        /// Planned.
+        planned: u64,
+    },
+    /// Sources must be one per control point.
+    #[error("{sources} for {points}", sources = counted(*.sources, "source"), points = counted(*.points, "control point"))]
+    SourceCount {
+        /// Given.
+        sources: usize,
+        /// Needed.
+        points: usize,
+    },
+    /// Up directions must be one per control point.
+    #[error("{ups} for {points}", ups = counted(*.ups, "up direction"), points = counted(*.points, "control point"))]
+    UpCount {
+        /// Given.
+        ups: usize,
+        /// Needed.
+        points: usize,
+    },
+    /// An up direction must have one.
+    #[error("the up direction of point {point} of yarn {yarn} is {up:?}, which points nowhere")]
+    Up {
+        /// The yarn, from 0.
+        yarn: usize,
+        /// The point of the yarn, from 0.
+        point: usize,
+        /// Given.
+        up: [f32; 3],
+    },
+    /// There is no such yarn.
+    #[error("no yarn {yarn}; there are {yarns}")]
+    UnknownYarn {
+        /// Asked for.
+        yarn: usize,
+        /// How many there are.
+        yarns: usize,
+    },
+    /// A yarn refers to a material that is missing.
+    #[error("yarn {yarn} is of material {material}, but there are {materials}")]
+    UnknownMaterial {
+        /// The yarn.
+        yarn: usize,
+        /// Its material.
+        material: u32,
+        /// How many there are.
+        materials: usize,
+    },
+    /// A yarn refers to a section that is missing.
+    #[error("yarn {yarn} has section {section}, but there are {sections}")]
+    UnknownSection {
+        /// The yarn.
+        yarn: usize,
+        /// Its section.
+        section: u32,
+        /// How many there are.
+        sections: usize,
+    },
+    /// A section with invalid parameters.
+    #[error("section {section} is not sound")]
+    Section {
+        /// Which one.
+        section: usize,
+        /// Why.
+        source: SectionError,
+    },
+    /// A twist that is not finite or too steep.
+    #[error("yarn {yarn} has a twist of {twist} rad/mm, beyond ±{limit}")]
+    Twist {
+        /// The yarn.
+        yarn: usize,
+        /// Its twist, rad/mm.
+        twist: f32,
+        /// The steepest taken.
+        limit: f32,
+    },
+    /// A hairiness that is not a number, below 0 or beyond what is taken.
+    #[error("material {material} has a hairiness of {hairiness}, which is not between 0 and {limit}")]
+    Hairiness {
+        /// The material.
+        material: usize,
+        /// Its hairiness, Uster's H.
+        hairiness: f32,
+        /// The most taken.
+        limit: f32,
+    },
+    /// A control point with NaN or infinity in it.
+    #[error("{field} of point {point} of yarn {yarn} is {value}")]
+    NotFinite {
+        /// The yarn.
+        yarn: usize,
+        /// The point.
+        point: usize,
+        /// Which component.
+        field: &'static str,
+        /// Its value.
+        value: f32,
+    },
+    /// A control point too far from the origin.
+    #[error("{field} of point {point} of yarn {yarn} is {value} mm, beyond ±{limit} mm")]
+    TooFar {
+        /// The yarn.
+        yarn: usize,
+        /// The point.
+        point: usize,
+        /// Which component.
+        field: &'static str,
+        /// Its value, mm.
+        value: f32,
+        /// The furthest taken, mm.
+        limit: f32,
+    },
+    /// A half width or half height that is zero, negative, or no yarn's.
+    #[error("{field} of point {point} of yarn {yarn} is {size} mm, outside {low} to {high} mm")]
+    Size {
+        /// The yarn.
+        yarn: usize,
+        /// The point.
+        point: usize,
+        /// Which of the two.
+        field: &'static str,
+        /// What it is, mm; infinite for more than a half float holds.
+        size: f32,
+        /// Thinnest taken, mm.
+        low: f32,
+        /// Thickest taken, mm.
+        high: f32,
+    },
+}

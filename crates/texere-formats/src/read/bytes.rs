@@ -3,6 +3,8 @@
 use std::fmt::Display;
 use std::path::Path;
 
+use texere_core::OutOfMemory;
+
 use super::ReadError;
 use super::error::{said, shown};
 
@@ -88,8 +90,7 @@ impl<'a> Bytes<'a> {
             return Err(self.refused(at, field, start.escape_ascii(), "UTF-8"));
         };
         let mut name = String::new();
-        name.try_reserve_exact(bytes)
-            .map_err(|_| ReadError::OutOfMemory { what: field, bytes: bytes as u64 })?;
+        name.try_reserve_exact(bytes).map_err(|_| OutOfMemory { what: field, bytes: bytes as u64 })?;
         name.push_str(text);
         Ok(name)
     }

@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use bytemuck::cast;
-use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnError, Yarns};
+use texere_core::{
+    Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnError, Yarns, room,
+};
 
 use super::ReadError;
 use super::bytes::Bytes;
 use super::file::{bytes_of, open, small};
-use super::memory::room;
 use crate::yarns_file::{
     BYTES_MAX, CORNER_BYTES, HAS_SOURCES, HAS_UPS, MAGIC, MATERIAL_BYTES, SECTION_BYTES, VERSION, YARN_BYTES,
     bytes_per_point, ends, origin, section, tension,

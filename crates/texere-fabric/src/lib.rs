@@ -36,6 +36,7 @@ mod diagnosis;
 mod error;
 mod look_alike;
 mod measures;
+mod own;
 mod reach;
 mod settling;
 mod structure;

@@ -23,7 +23,7 @@ pub use self::passage::{
 
 use self::found::Found;
 use self::images::Images;
-use self::search::Search;
+use self::search::{SEARCH, Search};
 use self::shapes::{Shape, Shapes};
 use crate::ContactError;
 use crate::grid::Grid;
@@ -31,9 +31,6 @@ use crate::watch::{Report, Watch};
 
 /// Cells, and intervals, that one task takes.
 const TASK: usize = 1024;
-
-/// Units of progress of one search.
-const SEARCH: u64 = 1 << 32;
 
 /// Compares the same yarns in two shapes, before and after they were moved, and says where they have passed through one
 /// another.

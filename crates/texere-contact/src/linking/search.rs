@@ -6,7 +6,6 @@ use std::ops::Range;
 use glam::DVec3;
 use texere_core::{YarnPlace, room_for};
 
-use super::SEARCH;
 use super::chords::integral;
 use super::found::Found;
 use super::images::Images;
@@ -18,6 +17,9 @@ use super::window::Window;
 use crate::ContactError;
 use crate::grid::Grid;
 use crate::watch::Watch;
+
+/// Units of progress of one search.
+pub(super) const SEARCH: u64 = 1 << 32;
 
 /// Intervals between two reports of progress.
 const REPORT_EVERY: u64 = 256;

@@ -41,6 +41,13 @@ impl Finished {
             Self::Woven(rest) => rest.verdict(),
         }
     }
+
+    /// Whether it is at rest: no surface pierces another ([`CLEAR`](texere_contact::CLEAR)) or folds, and yarns of a knit keep their lengths and
+    /// their linking. Then `check` finds neither, too.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        self.verdict() == Verdict::AtRest
+    }
 }
 
 impl Settled {

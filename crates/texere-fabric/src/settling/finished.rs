@@ -3,7 +3,7 @@
 use texere_core::Yarns;
 
 use super::Settled;
-use crate::{FabricWarning, Verdict, WovenRest};
+use crate::{FabricWarning, WovenRest};
 
 /// A fabric that has come to rest, or as near to it as it got: see [`Structure::settle`](crate::Structure::settle).
 #[derive(Debug, Clone)]
@@ -33,13 +33,6 @@ impl Finished {
             Self::Knit(settled) => settled.yarns,
             Self::Woven(rest) => rest.yarns,
         }
-    }
-
-    /// Whether it is at rest: no surface pierces another ([`CLEAR`](texere_contact::CLEAR)) or folds, and yarns of a knit keep their lengths and
-    /// their linking. Then `check` finds neither, too.
-    #[must_use]
-    pub fn is_at_rest(&self) -> bool {
-        self.verdict() == Verdict::AtRest
     }
 
     /// What a designer should know of how it came to rest: [`FabricWarning::PressMissed`].

@@ -2,6 +2,9 @@
 
 use super::{Chain, Lap};
 
+/// Courses of a rack.
+pub(super) const RACK: f64 = 480.0;
+
 /// A guide bar.
 ///
 /// ```

@@ -5,8 +5,9 @@ use texere_core::{
     Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnPlace, Yarns, room_for,
 };
 
+use super::laps::laps;
 use super::path::{Cloth, Thread};
-use super::{Bar, check};
+use super::{Bar, Laid, check};
 use crate::settling::settled_together;
 use crate::weft::{self, Cells, Gauge, KnitYarn};
 use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
@@ -72,6 +73,26 @@ impl WarpKnitted {
         let repeat = check::repeat(&bars, laid)?;
         check::size(&bars, repeat, laid, copies)?;
         Ok(Self { bars, gauge, laid, repeat, yarns, materials, sections, copies, cells: Cells::Round })
+    }
+
+    /// The laps of all guides that hold a yarn, bar by bar and guide by guide, in the order of their courses: of [`WarpKnitted::size`] over
+    /// [`WarpKnitted::copies`], which begin again at its edges.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::warp::{Bar, Chain, WarpKnitted};
+    /// use texere_fabric::weft::{Gauge, KnitYarn};
+    /// let bars = vec![Bar::new(Chain::parse("1-0/1-2//", 1)?)];
+    /// let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    /// let yarns = vec![KnitYarn::new(0.05)];
+    /// let cloth = WarpKnitted::new(bars, Gauge::new(1.0, 0.75), 4, 2, yarns, materials, sections, [1, 1])?;
+    /// let laps: Vec<_> = cloth.laps().map(|laid| (laid.guide, laid.course, laid.lap.needle())).collect();
+    /// assert_eq!(laps[..4], [(0, 0, 0), (0, 1, 1), (1, 0, 1), (1, 1, 2)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn laps(&self) -> impl Iterator<Item = Laid> + '_ {
+        let [wales, courses] = self.laid_size();
+        laps(self.bars(), wales, courses)
     }
 
     /// Gives every yarn the same section.
@@ -149,8 +170,8 @@ impl WarpKnitted {
     #[must_use]
     pub fn loops(&self) -> u64 {
         let [across, along] = [0, 1].map(|axis| u64::from(self.size()[axis] / self.repeat[axis]));
-        let loops = |laid: super::Laid| u64::from(laid.lap.overlap().unsigned_abs());
-        super::laps::laps(&self.bars, self.repeat[0], self.repeat[1]).map(loops).sum::<u64>() * across * along
+        let loops = |laid: Laid| u64::from(laid.lap.overlap().unsigned_abs());
+        laps(&self.bars, self.repeat[0], self.repeat[1]).map(loops).sum::<u64>() * across * along
     }
 
     /// The yarns, about where they belong: bar by bar, and in each from the left.

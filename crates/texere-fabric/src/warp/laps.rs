@@ -1,7 +1,7 @@
 //! Which guide makes which lap on which needle at which course.
 
 use super::chain::is_open;
-use super::{Bar, Lap, LapKind, WarpKnitted};
+use super::{Bar, Lap, LapKind};
 
 /// A lap of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -31,28 +31,6 @@ impl Laid {
     #[must_use]
     pub const fn is_open(&self) -> bool {
         is_open(self.lap, self.underlap)
-    }
-}
-
-impl WarpKnitted {
-    /// The laps of all guides that hold a yarn, bar by bar and guide by guide, in the order of their courses: of [`WarpKnitted::size`] over
-    /// [`WarpKnitted::copies`], which begin again at its edges.
-    ///
-    /// ```
-    /// use texere_core::{Material, Section};
-    /// use texere_fabric::warp::{Bar, Chain, WarpKnitted};
-    /// use texere_fabric::weft::{Gauge, KnitYarn};
-    /// let bars = vec![Bar::new(Chain::parse("1-0/1-2//", 1)?)];
-    /// let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
-    /// let yarns = vec![KnitYarn::new(0.05)];
-    /// let cloth = WarpKnitted::new(bars, Gauge::new(1.0, 0.75), 4, 2, yarns, materials, sections, [1, 1])?;
-    /// let laps: Vec<_> = cloth.laps().map(|laid| (laid.guide, laid.course, laid.lap.needle())).collect();
-    /// assert_eq!(laps[..4], [(0, 0, 0), (0, 1, 1), (1, 0, 1), (1, 1, 2)]);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn laps(&self) -> impl Iterator<Item = Laid> + '_ {
-        let [wales, courses] = self.laid_size();
-        laps(self.bars(), wales, courses)
     }
 }
 

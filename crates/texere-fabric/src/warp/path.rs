@@ -14,9 +14,9 @@ use rayon::prelude::*;
 use texere_contact::round_length_mm;
 use texere_core::{ControlPoint, OutOfMemory, room_for};
 
+use super::bar::RACK;
 use super::laps::laps;
 use super::loops::Loops;
-use super::settle::RACK;
 use super::{Bar, Laid, LapKind};
 use crate::weft::{Cells, Gauge};
 

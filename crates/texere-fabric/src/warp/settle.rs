@@ -5,13 +5,11 @@ use std::ops::ControlFlow;
 use texere_core::settling::Length;
 use texere_core::{Backend, Origin, Yarns};
 
+use super::bar::RACK;
 use super::{Bar, WarpKnitted};
-use crate::measures::Own;
+use crate::own::Own;
 use crate::settling::settle_repeat;
 use crate::{Finish, FinishError, Measures, Piece, Repeat, Settled};
-
-/// Courses of a rack.
-pub(super) const RACK: f64 = 480.0;
 
 /// How many times its length a yarn may be given.
 const GIVEN: [f64; 2] = [0.5, 2.0];

@@ -7,41 +7,10 @@ use super::layers::Layers;
 use super::path::Cloth;
 use super::pen::Laid;
 use super::shape::Shape;
-use super::{Gauge, Stitches, Strand, WeftError, check};
+use super::{Cells, Gauge, KnitYarn, Stitches, Strand, WeftError, check};
 use crate::reach::Reach;
 use crate::settling::settled_together;
 use crate::{FabricError, POINTS_MAX, Piece, Repeat, ThreadError};
-
-/// A yarn of a knitted cloth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KnitYarn {
-    /// Its radius, mm.
-    pub radius_mm: f32,
-    /// Index into the materials.
-    pub material: u32,
-    /// Index into the sections.
-    pub section: u32,
-    /// Twist, rad per mm; positive is Z twist. [`twist_from_turns_per_m`](crate::twist_from_turns_per_m) gives it.
-    pub twist: f32,
-}
-
-impl KnitYarn {
-    /// A round, untwisted yarn of the first material and the first section.
-    #[must_use]
-    pub const fn new(radius_mm: f32) -> Self {
-        Self { radius_mm, material: 0, section: 0, twist: 0.0 }
-    }
-}
-
-/// How many control points stitches get.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Cells {
-    /// As many as their yarn needs for its bends: 12 for a plain loop, 3 where it floats.
-    #[default]
-    Round,
-    /// 12 for each needle that the yarn comes to, whether it makes a loop there or floats.
-    Even,
-}
 
 /// A weft-knitted cloth: its stitches, with sizes and yarns.
 #[derive(Debug, Clone)]

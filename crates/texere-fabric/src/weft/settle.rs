@@ -6,7 +6,7 @@ use texere_core::settling::Length;
 use texere_core::{Backend, Origin, Yarns};
 
 use super::{Knitted, Stitch};
-use crate::measures::Own;
+use crate::own::Own;
 use crate::settling::settle_repeat;
 use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled, settle};
 

@@ -6,7 +6,7 @@ use texere_core::Yarns;
 
 use super::{Drawdown, Woven};
 use crate::FabricError;
-use crate::measures::Own;
+use crate::own::Own;
 
 /// A thread that crosses so many others in one repeat alone is measured as it is: the stretch from its last crossing to its first one in the
 /// next repeat changes its crimp by less than a share of this. The repeat of fewer is woven among others.

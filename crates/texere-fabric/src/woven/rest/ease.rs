@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::path::{CHANGE_POINTS, Stop};
+use super::stop::{CHANGE_POINTS, Stop};
 
 /// How often points are moved at most.
 const EASINGS: usize = 40;

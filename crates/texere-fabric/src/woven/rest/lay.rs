@@ -6,8 +6,9 @@ use rayon::prelude::*;
 use texere_core::crossings::{Crossing, CrossingsPlan, Set};
 use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns, zeroed};
 
-use super::path::{CHANGE_POINTS, Change, Station, Stop, float};
+use super::path::{Change, Station, float};
 use super::problem::{Problem, gaps};
+use super::stop::{CHANGE_POINTS, Stop};
 use crate::woven::selvedge::{self, TURN_POINTS};
 use crate::woven::yarns::{Pass, Pen};
 use crate::{FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};

@@ -5,6 +5,7 @@ mod ease;
 mod lay;
 mod path;
 mod problem;
+mod stop;
 mod stretch;
 
 use std::ops::ControlFlow;

@@ -3,12 +3,7 @@
 use texere_core::crossings::Passage;
 
 use super::ease::ease;
-
-/// Control points between two crossings where a thread changes sides.
-///
-/// Three leave the cloths of the mills at 0.945 to 0.99 of touching, five at 0.955 to 0.994. Those of three lose up to 6 % of their area in the
-/// certificate, those of five up to 4 %.
-pub(super) const CHANGE_POINTS: usize = 5;
+use super::stop::{CHANGE_POINTS, Stop};
 
 /// Where a float has a control point next to a change of sides, as a share of the way to the next crossing: steps of the spline grow slowly then,
 /// so that it does not swing out.
@@ -41,17 +36,6 @@ pub(super) struct Station {
     pub(super) drawn: [f64; 2],
 }
 
-/// A control point of a thread's path, mm.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Stop {
-    pub(super) along: f64,
-    pub(super) across: f64,
-    pub(super) z: f64,
-    pub(super) halves: [f64; 2],
-    /// The crossed thread at which, or next to which, it lies; none at a cut end.
-    pub(super) crossing: Option<usize>,
-}
-
 impl Station {
     pub(super) fn stop(&self) -> Stop {
         Stop {
@@ -60,21 +44,6 @@ impl Station {
             z: self.z,
             halves: self.drawn,
             crossing: Some(self.number),
-        }
-    }
-}
-
-impl Stop {
-    /// The place on the straight line to `other` that lies at `along`.
-    pub(super) fn towards(&self, other: &Self, along: f64) -> Self {
-        let share = (along - self.along) / (other.along - self.along);
-        let mix = |one: f64, two: f64| one + share * (two - one);
-        Self {
-            along,
-            across: mix(self.across, other.across),
-            z: mix(self.z, other.z),
-            halves: [0, 1].map(|half| mix(self.halves[half], other.halves[half])),
-            crossing: None,
         }
     }
 }

@@ -7,7 +7,8 @@ use super::super::super::{Bed, Direction, Fate, Head, LoopKind, LoopRef, Needle,
 use super::super::beds::{Held, Slot};
 use super::super::carriers::Spot;
 use super::super::courses::Above;
-use super::super::{Fault, FaultKind, PARENTS_MAX};
+use super::super::limits::PARENTS_MAX;
+use super::super::{Fault, FaultKind};
 use super::Run;
 use crate::FabricError;
 use crate::weft::WeftError;

@@ -8,8 +8,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits, MeshMut, MeshPiece,
-    MeshSink, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Vertex,
+    Backend, BackendError, Capabilities, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits,
+    MeshMut, MeshPiece, MeshSink, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Vertex,
 };
 use texere_cpu::SerialBackend;
 
@@ -44,6 +44,7 @@ impl DeferredBackend {
             schedule: Schedule::PerRing,
             kind: DeviceKind::Other,
             limits: LIMITS,
+            can: Capabilities::default(),
             ..serial.info().clone()
         };
         Self { info, serial }

@@ -13,6 +13,7 @@ mod broken_crossings;
 mod broken_settler;
 pub mod cases;
 mod check;
+mod claims;
 pub mod compare;
 mod deferred;
 pub mod drive;

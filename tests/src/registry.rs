@@ -13,9 +13,8 @@ use crate::cases::{self, Case};
 /// All devices on which yarns of a mesh are edited, and for each that does not open the reason.
 #[must_use]
 pub fn editing_devices() -> (Vec<Arc<dyn Backend>>, Vec<String>) {
-    let entries = REGISTRY.iter().filter(|entry| entry.name != "deferred");
-    let (devices, missing): (Vec<_>, Vec<_>) = entries.map(Entry::devices).unzip();
-    let devices = devices.into_iter().flatten().filter(|device| device.info().schedule != Schedule::PerYarn);
+    let (devices, missing): (Vec<_>, Vec<_>) = REGISTRY.iter().map(Entry::devices).unzip();
+    let devices = devices.into_iter().flatten().filter(|device| device.info().can.edit);
     (devices.collect(), missing.concat())
 }
 

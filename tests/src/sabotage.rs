@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use glam::Vec3;
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, Engine, Limits, MeshMut, MeshPiece, MeshSink,
-    PackedSink, Part, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Turn, Vertex,
+    Backend, BackendError, Capabilities, Chunk, ControlPoint, DeviceInfo, Engine, Limits, MeshMut, MeshPiece,
+    MeshSink, PackedSink, Part, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Turn, Vertex,
 };
 use texere_cpu::SerialBackend;
 
@@ -149,7 +149,8 @@ impl SabotagedBackend {
     pub fn new(sabotage: Sabotage) -> Self {
         let serial = SerialBackend::new();
         let limits = Limits { blocks: 2, ..Limits::NONE };
-        let mut info = DeviceInfo { name: format!("{sabotage:?}"), limits, ..serial.info().clone() };
+        let can = Capabilities { pack: true, ..Capabilities::default() };
+        let mut info = DeviceInfo { name: format!("{sabotage:?}"), limits, can, ..serial.info().clone() };
         if matches!(sabotage, Sabotage::Eager | Sabotage::Lazy) {
             info.schedule = Schedule::PerYarn;
         }

@@ -8,23 +8,25 @@ use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
 use texere_core::settling::{Form, Pass, settled};
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, Frame, Limits, Plan, Schedule, Session, SessionError,
-    Settings, StageTimings, Vertex, Yarn, Yarns,
+    Backend, Chunk, ControlPoint, Frame, Limits, Plan, Schedule, Session, SessionError, Settings,
+    StageTimings, Vertex, Yarn, Yarns,
 };
 
 use crate::cases;
+use crate::claims::claims_hold;
 use crate::drive::Lent;
-use crate::packed::{PackedError, check_packed};
+use crate::packed::check_packed;
 use crate::rest;
 use crate::schedule::beyond;
 
 /// A guarantee's name, and the check of a device for it.
 type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);
 
-const PROMISES: [Promise; 5] = [
+const PROMISES: [Promise; 6] = [
     ("every-stage-is-timed", every_stage_is_timed),
     ("a-second-scan-is-no-work", a_second_scan_is_no_work),
     ("an-edit-moves-one-yarn", an_edit_moves_one_yarn),
+    ("what-it-can-is-what-it-does", claims_hold),
     ("packed-vertices-are-the-meshs", packed_vertices_are_the_meshs),
     ("settled-yarns-stay-on-their-device", settled_yarns_stay_on_their_device),
 ];
@@ -190,16 +192,16 @@ fn meshes(session: &mut Session, chunks: &[Chunk]) -> Result<Vec<Lent>, SessionE
     chunks.iter().map(read).collect()
 }
 
-/// Packed vertices lie where the mesh's do, in chunks as in the whole; or they are refused by name.
+/// Packed vertices lie where the mesh's do, in chunks as in the whole.
 fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
+    if !device.info().can.pack {
+        return Ok(());
+    }
     let limits = Limits { blocks: 3, ..Limits::NONE };
     for (sides, closed) in [(6, false), (5, false), (8, true), (7, true)] {
         let (settings, yarn) = all_of(device);
         let yarns = cases::winding(150, Yarn { closed, ..yarn });
-        match check_packed(&yarns, Settings { sides, ..settings }, &limits, device, false) {
-            Err(PackedError::Session(SessionError::Backend(BackendError::NoPacking))) => return Ok(()),
-            checked => checked?,
-        }
+        check_packed(&yarns, Settings { sides, ..settings }, &limits, device, false)?;
     }
     Ok(())
 }
@@ -207,6 +209,9 @@ fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
 /// Yarns that a settler has moved are meshed where it left them: as those that are read from it and sent again, but no byte goes
 /// over the host where that is not the device's own memory.
 fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed> {
+    if !device.info().can.settle {
+        return Ok(());
+    }
     let settings = all_of(device).0;
     let names = ["tuck-5", "jersey-5-piece", "plain-1.8"];
     for start in rest::starts().iter().filter(|start| names.contains(&start.name.as_str())) {
@@ -214,10 +219,7 @@ fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed
         if beyond(device.info(), &yarns, &settings) {
             continue;
         }
-        let mut settler = match device.settler(settling.clone()) {
-            Err(BackendError::NoSettling { .. }) => return Ok(()),
-            opened => opened?,
-        };
+        let mut settler = device.settler(settling.clone())?;
         settler.upload(
             yarns.points().iter().map(|point| settling.scale().place(point)).collect::<Vec<_>>().as_slice(),
         )?;

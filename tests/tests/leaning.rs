@@ -9,8 +9,8 @@ use texere_conformance::cases::{design, small_designs};
 use texere_conformance::schedule::able_devices;
 use texere_contact::clearance;
 use texere_core::{
-    BackendError, ControlPoint, Frame, LiveMesh, Material, Mesh, MeshPiece, Pipeline, Placement, Plan, Ray,
-    Section, SessionError, Settings, Topology, Vertex, Yarn, YarnError, Yarns,
+    ControlPoint, Frame, LiveMesh, Material, Mesh, MeshPiece, Pipeline, Placement, Plan, Ray, Section,
+    Settings, Topology, Vertex, Yarn, YarnError, Yarns,
 };
 use texere_cpu::{ParallelBackend, Picker, SerialBackend};
 use texere_fabric::{Finish, Thread, Weave, Woven};
@@ -269,12 +269,9 @@ fn flat_yarns_that_are_raised_are_live() {
         [(1.6, 40), (1.8, 40), (1.7, 44), (0.1, 44), (1.5, 39)].map(|(slope, count)| rising(slope, count));
     let leans: Vec<_> = edits.iter().map(|yarns| yarns.layout().leans()).collect();
     assert_eq!((flat.layout().leans(), &leans[..]), (false, &[true, true, true, false, true][..]));
-    for device in able_devices(&edits[0], &settings) {
+    for device in able_devices(&edits[0], &settings).filter(|device| device.info().can.edit) {
         let plan = Arc::new(Plan::with_room(flat.layout().clone(), settings, |_| 60).unwrap());
-        let mut live = match LiveMesh::new(&*device, plan) {
-            Err(SessionError::Backend(BackendError::NoEditing)) => continue,
-            live => live.unwrap(),
-        };
+        let mut live = LiveMesh::new(&*device, plan).unwrap();
         live.upload(0, flat.points()).unwrap();
         live.update().unwrap();
         for (number, yarns) in edits.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! `cargo xtask bundle`: all that tests and measures texere, in a folder for a machine that has a GPU and nothing else.
+//! `cargo xtask bundle`: all that tests and measures texere, in a folder for a machine that has a
+//! GPU and nothing else.
 //!
 //! Needs Debian's packages; the bundle is for the same kind of processor.
 

@@ -1,5 +1,5 @@
-//! How many instructions a ring of a mesh takes, and a control point: a check of speed that no neighbour on the machine
-//! disturbs.
+//! How many instructions a ring of a mesh takes, and a control point: a check of speed that no
+//! neighbour on the machine disturbs.
 //!
 //! `valgrind --tool=callgrind` counts them. The difference between two runs leaves out start-up.
 
@@ -15,8 +15,8 @@ const POINTS: [&str; 2] = ["crossing", "round"];
 /// How many times more often the longer run does its work than the shorter one.
 const TIMES: u32 = 10;
 
-/// By how much a count may exceed the baseline: another compiler changes some per cent, a loop that is no longer
-/// vectorised several times as much.
+/// By how much a count may exceed the baseline: another compiler changes some per cent, a loop that
+/// is no longer vectorised several times as much.
 const TOLERANCE: f64 = 1.05;
 
 /// A line for each path and kind: path, kind, instructions a ring or a control point.
@@ -80,8 +80,8 @@ fn count(steps: &mut Steps) -> Vec<(String, f64)> {
     counts
 }
 
-/// Paths of the CPU backend, and the kinds that each makes: those that the processor has, without AVX-512, which valgrind
-/// does not run. Control points have one path only.
+/// Paths of the CPU backend, and the kinds that each makes: those that the processor has, without
+/// AVX-512, which valgrind does not run. Control points have one path only.
 fn runs() -> Vec<(&'static str, &'static str)> {
     let mut runs: Vec<_> = POINTS.iter().chain(&MESHES).map(|kind| ("portable", *kind)).collect();
     if has_avx2() {

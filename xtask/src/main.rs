@@ -1,5 +1,5 @@
-//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which CI runs on every change,
-//! `cargo xtask mutate`, which it runs every week, measurements, and pictures.
+//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which CI runs on every
+//! change, `cargo xtask mutate`, which it runs every week, measurements, and pictures.
 
 mod bench_tables;
 mod bundle;
@@ -18,7 +18,8 @@ use std::process::ExitCode;
 use demo::vulkan;
 use steps::{Steps, root};
 
-/// Debian's packages that run both GPU backends on a CPU: an OpenCL loader with PoCL, a Vulkan loader with lavapipe.
+/// Debian's packages that run both GPU backends on a CPU: an OpenCL loader with PoCL, a Vulkan
+/// loader with lavapipe.
 const SOFTWARE_DEVICES: [&str; 4] =
     ["ocl-icd-libopencl1", "pocl-opencl-icd", vulkan::PACKAGES[0], vulkan::PACKAGES[1]];
 
@@ -92,8 +93,8 @@ fn test(steps: &mut Steps) {
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
 }
 
-/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation, from the versions of other
-/// crates that the workspace is tested with.
+/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation, from
+/// the versions of other crates that the workspace is tested with.
 fn consumer(steps: &mut Steps) {
     let versions = root().join("Cargo.lock");
     if let Err(error) = std::fs::copy(versions, root().join("tests/consumer/Cargo.lock")) {
@@ -103,8 +104,8 @@ fn consumer(steps: &mut Steps) {
     steps.cargo("a program that links texere, unoptimised", &program, &[]);
 }
 
-/// Installs Debian's `packages` where they are missing and can be installed. Without the software devices the suite shows a
-/// backend as ignored, or failed where `TEXERE_REQUIRE` names it.
+/// Installs Debian's `packages` where they are missing and can be installed. Without the software
+/// devices the suite shows a backend as ignored, or failed where `TEXERE_REQUIRE` names it.
 fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     let installed = |package: &str| steps.succeeds("dpkg", &["--status", package]);
     if !cfg!(target_os = "linux") || !steps.succeeds("apt-get", &["--version"]) {
@@ -117,10 +118,12 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     steps.install(what, &missing);
 }
 
-/// The most packages that a program takes on which links texere as it comes, texere's own among them.
+/// The most packages that a program takes on which links texere as it comes, texere's own among
+/// them.
 const LINKED_MOST: usize = 33;
 
-/// Each feature of the facade that the workspace always has compiles and is tested without the others, and the facade as it comes stays light.
+/// Each feature of the facade that the workspace always has compiles and is tested without the
+/// others, and the facade as it comes stays light.
 fn features(steps: &mut Steps) {
     for feature in ["", "glb", "images", "knitout", "pictures", "ply", "toml", "wif"] {
         let name = format!("the library, features: {}", if feature.is_empty() { "none" } else { feature });
@@ -158,7 +161,8 @@ fn check(steps: &mut Steps) {
     if !steps.succeeds("cargo", &["deny", "--version"]) {
         steps.cargo("install cargo-deny", &["install", "cargo-deny", "--locked"], &[]);
     }
-    // Advisories need a database that is fetched from the net at run time; the weekly workflow checks them.
+    // Advisories need a database that is fetched from the net at run time; the weekly workflow
+    // checks them.
     steps.cargo("licences and sources", &["deny", "--locked", "check", "bans", "licenses", "sources"], &[]);
     spelling(steps);
     publishing::check(steps);
@@ -167,8 +171,8 @@ fn check(steps: &mut Steps) {
 /// The version of `typos` whose words the sources are held to.
 const TYPOS: &str = "1.52.0";
 
-/// Words that are mistyped, but for those in `typos.toml`. The program comes from PyPI, built, where there is Python's installer; else cargo
-/// builds it.
+/// Words that are mistyped, but for those in `typos.toml`. The program comes from PyPI, built,
+/// where there is Python's installer; else cargo builds it.
 fn spelling(steps: &mut Steps) {
     let folder = "target/typos";
     let typos = format!("{folder}/bin/typos");

@@ -1,5 +1,5 @@
-//! The mutants that the suite has to catch: in each kernel, and in the prelude before all of them, a line with a plausible
-//! mistake.
+//! The mutants that the suite has to catch: in each kernel, and in the prelude before all of them,
+//! a line with a plausible mistake.
 
 /// One line of a kernel or of the prelude, broken.
 #[derive(Debug)]
@@ -17,7 +17,8 @@ pub(crate) struct Mutant {
 }
 
 impl Mutant {
-    /// The trials that run the kernel: those of the backend's first device, in the schedule that the file belongs to.
+    /// The trials that run the kernel: those of the backend's first device, in the schedule that
+    /// the file belongs to.
     pub(crate) fn trials(&self) -> Vec<String> {
         if self.file.contains("per_yarn") {
             vec![format!("{}:0/per-yarn", self.backend)]

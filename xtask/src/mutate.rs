@@ -1,8 +1,8 @@
 //! `cargo xtask mutate`: whether the suite sees it when a kernel is broken.
 //!
-//! Works on a copy of the repository under `target/`, with a build of its own, so that nothing broken is ever left
-//! behind. For each schedule of a backend the suite passes on the copy as it is; then, for each mutant, it must compile,
-//! find its devices, and fail.
+//! Works on a copy of the repository under `target/`, with a build of its own, so that nothing
+//! broken is ever left behind. For each schedule of a backend the suite passes on the copy as it
+//! is; then, for each mutant, it must compile, find its devices, and fail.
 
 use std::ffi::OsStr;
 use std::fs;

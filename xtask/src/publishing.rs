@@ -8,8 +8,8 @@ use crate::workspace::{Package, packages};
 /// What each package has beside its sources.
 const BESIDE: [&str; 4] = ["Cargo.toml", "LICENSE-APACHE", "LICENSE-MIT", "README.md"];
 
-/// Packs all packages that are published, in the order of their dependencies, and looks at what is in each. Nothing is built:
-/// the lints have built the same sources.
+/// Packs all packages that are published, in the order of their dependencies, and looks at what is
+/// in each. Nothing is built: the lints have built the same sources.
 pub(crate) fn check(steps: &mut Steps) {
     let packages = match packages() {
         Ok(packages) => packages,

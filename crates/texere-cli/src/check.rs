@@ -253,48 +253,7 @@ impl Report {
         line("clearance", clearance.to_string());
         line("bends", curvature.to_string());
         line("drawn", self.drawn.narrowest());
-        if let Some(crowded) = &self.faults.crowded {
-            line("crowded", crowded.to_string());
-        }
-        if let Some(pierces) = &self.faults.pierces {
-            let (count, listed) = (pierces.worst.len(), clearance.worst.len());
-            let more = if count == listed && count > 1 { " or more" } else { "" };
-            line(
-                "pierces",
-                format!("{}{more} nearer than {} of touching", counted(count, "contact"), self.touching),
-            );
-            for contact in pierces.worst.iter().take(3) {
-                let [one, other] = &contact.yarns;
-                line("", format!("{one} and {other}, {:.4}, at {}", contact.ratio, place(contact.place_mm)));
-            }
-        }
-        if let Some(folds) = &self.faults.folds {
-            line("folds", format!("a bend of {:.3} yarn radii is tighter than the tube is thick", folds.min));
-        }
-        if let Some(wrung) = &self.faults.wrung {
-            line("wrung", format!("neighbouring rings turn against one another: {}", wrung.narrowest()));
-        }
-        if let Some(turned) = &self.faults.inside_out {
-            line("inside out", turned.turned());
-        }
-        for (sett, said) in self.setts.iter().flat_map(Sets::lines) {
-            line(sett, said);
-        }
-        if let Some(jams) = &self.faults.jams {
-            line("jams", format!("{} and {}", counted(jams.ends, "end"), counted(jams.picks, "pick")));
-            for jam in jams.threads.iter().take(3) {
-                let Jammed { thread, pitch_mm, pitch_min_mm, .. } = jam;
-                line(
-                    "",
-                    format!(
-                        "{thread} is {pitch_mm:.4} mm from the one before and needs {pitch_min_mm:.4} mm"
-                    ),
-                );
-            }
-        }
-        if let Some(apart) = &self.faults.apart {
-            line("apart", apart.said.clone());
-        }
+        self.say_faults(clearance, &mut line);
         if let Some(undersampled) = &self.undersampled {
             line("warning", undersampled.clone());
         }
@@ -305,12 +264,57 @@ impl Report {
         for error in self.machine.iter().flat_map(|machine| &machine.errors) {
             line("machine", error.clone());
         }
+        self.say_cures(&mut line);
+        text
+    }
+
+    /// A line for each fault of the yarns as they are drawn, and of how close they lie.
+    fn say_faults(&self, clearance: &ClearanceReport, line: &mut impl FnMut(&str, String)) {
+        let faults = &self.faults;
+        if let Some(crowded) = &faults.crowded {
+            line("crowded", crowded.to_string());
+        }
+        if let Some(pierces) = &faults.pierces {
+            let (count, listed) = (pierces.worst.len(), clearance.worst.len());
+            let more = if count == listed && count > 1 { " or more" } else { "" };
+            let contacts = counted(count, "contact");
+            line("pierces", format!("{contacts}{more} nearer than {} of touching", self.touching));
+            for contact in pierces.worst.iter().take(3) {
+                let [one, other] = &contact.yarns;
+                line("", format!("{one} and {other}, {:.4}, at {}", contact.ratio, place(contact.place_mm)));
+            }
+        }
+        if let Some(folds) = &faults.folds {
+            line("folds", format!("a bend of {:.3} yarn radii is tighter than the tube is thick", folds.min));
+        }
+        if let Some(wrung) = &faults.wrung {
+            line("wrung", format!("neighbouring rings turn against one another: {}", wrung.narrowest()));
+        }
+        if let Some(turned) = &faults.inside_out {
+            line("inside out", turned.turned());
+        }
+        for (sett, said) in self.setts.iter().flat_map(Sets::lines) {
+            line(sett, said);
+        }
+        if let Some(jams) = &faults.jams {
+            line("jams", format!("{} and {}", counted(jams.ends, "end"), counted(jams.picks, "pick")));
+            for jam in jams.threads.iter().take(3) {
+                let Jammed { thread, pitch_mm, pitch_min_mm, .. } = jam;
+                let from = format!("{thread} is {pitch_mm:.4} mm from the one before");
+                line("", format!("{from} and needs {pitch_min_mm:.4} mm"));
+            }
+        }
+        if let Some(apart) = &faults.apart {
+            line("apart", apart.said.clone());
+        }
+    }
+
+    /// What cures the faults, or that there is nothing to cure, or why no cure is said.
+    fn say_cures(&self, line: &mut impl FnMut(&str, String)) {
         if self.clean {
             let jam = if self.has_settled() { "" } else { ", no jam" };
-            line(
-                "clean",
-                format!("nothing nearer than {} of touching, no fold{jam}, nothing wrung", self.touching),
-            );
+            let touching = self.touching;
+            line("clean", format!("nothing nearer than {touching} of touching, no fold{jam}, nothing wrung"));
         } else if self.faults.is_none() {
             // No other spacing or yarn makes a program one that a machine can knit, or binds cloth that falls apart.
         } else if self.has_settled() && self.setts.is_none() {
@@ -327,6 +331,5 @@ impl Report {
         for cure in &self.cures {
             line("cure", cure.to_string());
         }
-        text
     }
 }

@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use serde_json::json;
-use texere::BackendError;
+use serde_json::{Map, json};
+use texere::{BackendError, Capabilities};
 
 use crate::args::DevicesArgs;
 use crate::fail::Fail;
@@ -25,6 +25,7 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
                 "schedule": device.schedule.to_string(),
                 "memory_bytes": device.memory_bytes,
                 "binding_bytes": device.limits.binding_bytes,
+                "can": can(device.can).map(|(what, is)| (what.to_owned(), is.into())).into_iter().collect::<Map<_, _>>(),
             })
         });
         let missing: Vec<_> = missing.map(|(family, why)| json!({ "family": family, "why": why })).collect();
@@ -35,14 +36,34 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
     for device in &devices.found {
         let (name, kind, driver) = (&device.name, &device.kind, &device.driver);
         let memory = device.memory_bytes.map(|bytes| format!(", {} MiB", bytes >> 20)).unwrap_or_default();
+        let able: Vec<_> = can(device.can).into_iter().filter_map(|(what, is)| is.then_some(what)).collect();
         // Writing to a string can't fail.
-        let _ = writeln!(text, "{name}: {kind}, {}{memory}, {driver}, {}", device.device, device.schedule);
+        let _ = writeln!(
+            text,
+            "{name}: {kind}, {}{memory}, {driver}, {}; {}",
+            device.device,
+            device.schedule,
+            able.join(", ")
+        );
     }
     let _ = writeln!(text, "auto is {auto}: {why}");
     for (family, why) in missing {
         let _ = writeln!(text, "no {family} device: {why}");
     }
     print::text(&lines(&text))
+}
+
+/// What a device may do beside meshes, and whether it does.
+const fn can(can: Capabilities) -> [(&'static str, bool); 6] {
+    let Capabilities { settle, settle_crossings, edit, attributes, pack, draw } = can;
+    [
+        ("settle", settle),
+        ("settle-crossings", settle_crossings),
+        ("edit", edit),
+        ("attributes", attributes),
+        ("pack", pack),
+        ("draw", draw),
+    ]
 }
 
 /// An error and its causes in one line.

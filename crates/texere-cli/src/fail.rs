@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 use texere::crossings::CrossingsError;
 use texere::{
-    BackendError, ContactError, FabricError, FinishError, OutOfMemory, PipelineError, PlanError, ReadError,
-    Refusal, RenderError, Settings, SettlingError, WriteError,
+    BackendError, ContactError, FabricError, FinishError, PipelineError, PlanError, ReadError, Refusal,
+    RenderError, Settings, SettlingError, WriteError,
 };
 
 use crate::terminal::line;
@@ -247,7 +247,7 @@ impl From<texere_view::ViewError> for Fail {
 mod tests {
     use std::io::ErrorKind;
 
-    use texere::Place;
+    use texere::{OutOfMemory, Place};
 
     use super::*;
 

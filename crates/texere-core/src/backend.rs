@@ -62,7 +62,32 @@ impl fmt::Display for Schedule {
     }
 }
 
-/// A device's name, kind and limits.
+/// What a device does beside making meshes, which all of them do. What it can't is refused with the error that stands here.
+///
+/// The default is a device that makes meshes alone.
+///
+/// ```
+/// use texere_core::{Backend, NullBackend};
+/// let can = NullBackend::default().info().can;
+/// assert!(can.edit && !can.settle);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Capabilities {
+    /// Yarns come to rest by their contacts: [`Backend::settler`]. Else [`BackendError::NoSettling`].
+    pub settle: bool,
+    /// Woven cloth comes to rest by its crossings: [`Backend::crossings_settler`]. Else [`BackendError::NoCrossings`].
+    pub settle_crossings: bool,
+    /// A mesh stays on the device and is edited there: [`LiveMesh`](crate::LiveMesh). Else [`BackendError::NoEditing`].
+    pub edit: bool,
+    /// Vertices have attributes: [`Session::attributes`](crate::Session::attributes). Else [`BackendError::NoAttributes`].
+    pub attributes: bool,
+    /// Vertices are packed: [`Session::packed`](crate::Session::packed). Else [`BackendError::NoPacking`].
+    pub pack: bool,
+    /// Pictures are drawn on the device, by the crate `texere-render`. To open another one for them is [`BackendError::NoDevice`].
+    pub draw: bool,
+}
+
+/// A device's name, kind, limits and capabilities.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DeviceInfo {
     /// The name that opens it, such as `cpu`.
@@ -71,14 +96,16 @@ pub struct DeviceInfo {
     pub device: String,
     /// Driver or implementation, with its version.
     pub driver: String,
-    /// How the work is mapped onto the device, fixed when the backend was opened.
+    /// How the work is mapped onto the device, fixed when the backend was opened. [`Schedule::PerYarn`] leaves yarns out.
     pub schedule: Schedule,
     /// What kind of machine it is.
     pub kind: DeviceKind,
     /// Bytes of memory that the device has, where it says so.
     pub memory_bytes: Option<u64>,
-    /// The limits that chunks are cut to.
+    /// The limits that chunks are cut to; `binding_bytes` is the longest buffer.
     pub limits: Limits,
+    /// What the device does beside making meshes.
+    pub can: Capabilities,
     /// Whether the device's own clock measures the [`Session::timings`](crate::Session::timings) of scan, trajectory and mesh,
     /// from the start of the work to its end. Otherwise the host's clock does.
     pub timed_by_device: bool,
@@ -86,7 +113,7 @@ pub struct DeviceInfo {
 
 /// An open device. [`Session::new`](crate::Session::new) starts work on it.
 pub trait Backend: fmt::Debug + Send + Sync {
-    /// Backend, device, driver, schedule and limits.
+    /// Backend, device, driver, schedule, limits and capabilities.
     fn info(&self) -> &DeviceInfo;
 
     /// Opens an engine for a plan. The engine owns all the device memory that the work needs.

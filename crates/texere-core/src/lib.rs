@@ -56,7 +56,7 @@ mod yarns;
 
 pub use arrange::Placement;
 pub use attribute::{ArcLength, Attribute, corner_angle};
-pub use backend::{Backend, BackendError, DeviceInfo, DeviceKind, Schedule};
+pub use backend::{Backend, BackendError, Capabilities, DeviceInfo, DeviceKind, Schedule};
 pub use boundary::{Boundary, BoundaryError, Ends};
 pub use counted::counted;
 pub use crossings::{Crossings, CrossingsError, CrossingsPlan, CrossingsSettler};

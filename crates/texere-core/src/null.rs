@@ -4,8 +4,8 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use crate::{
-    AttributeSink, Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits,
-    MeshSink, PackedSink, Plan, RingSink, ScanChunks, Schedule, Slot, StageTimings,
+    AttributeSink, Backend, BackendError, Capabilities, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine,
+    Limits, MeshSink, PackedSink, Plan, RingSink, ScanChunks, Schedule, Slot, StageTimings,
 };
 
 /// A backend that writes nothing: outputs stay as they were.
@@ -32,6 +32,7 @@ impl NullBackend {
                 kind: DeviceKind::Other,
                 memory_bytes: None,
                 limits,
+                can: Capabilities { edit: true, attributes: true, pack: true, ..Capabilities::default() },
                 timed_by_device: false,
             },
         }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use texere_core::{
-    Backend, BackendError, CrossingsPlan, CrossingsSettler, DeviceInfo, DeviceKind, Engine, Limits, Plan,
-    Schedule, Settler, SettlingPlan,
+    Backend, BackendError, Capabilities, CrossingsPlan, CrossingsSettler, DeviceInfo, DeviceKind, Engine,
+    Limits, Plan, Schedule, Settler, SettlingPlan,
 };
 
 use crate::crossings::CrossingsMemory;
@@ -38,6 +38,14 @@ fn info(name: &str, schedule: Schedule, threads: usize) -> DeviceInfo {
         kind: DeviceKind::Cpu,
         memory_bytes: None,
         limits: Limits::NONE,
+        can: Capabilities {
+            settle: true,
+            settle_crossings: true,
+            edit: true,
+            attributes: true,
+            pack: true,
+            draw: false,
+        },
         timed_by_device: false,
     }
 }

@@ -9,7 +9,7 @@
 //! | control points with virtual ends, written straight to the memory that is sent | [`YarnEnds`], [`PaddedUpload`] |
 //! | the constants that kernels and shaders share with the core | [`prelude()`] |
 //! | which chunk's tables lie in a slot, so that no kernel has to check a bound | [`LoadedChunk`] |
-//! | what a device is called under a schedule, and what the schedule leaves out | [`device_name`], [`check_schedule`], [`serial_unsupported`] |
+//! | what a device is called and can under a schedule, and what the schedule leaves out | [`device_name`], [`capabilities`], [`check_schedule`], [`serial_unsupported`] |
 //! | the memory that a plan's work takes | [`device_buffers`], [`host_bytes_beside_gpu`] |
 //!
 //! ```
@@ -42,7 +42,7 @@ pub use crossings::{
 pub use loaded::LoadedChunk;
 pub use memory::{device_buffers, host_bytes_beside_gpu};
 pub use prelude::{CONSTANTS, CROSSINGS_CONSTANTS, Constant, Language, SETTLING_CONSTANTS, Value, prelude};
-pub use schedule::{check_schedule, device_name, serial_unsupported};
+pub use schedule::{capabilities, check_schedule, device_name, serial_unsupported};
 pub use settled::{BoundsRow, SettledParams, SettledRow};
 pub use settling::{
     ChordRow, EXTENT_GROUPS, ExtentRow, PlaceRow, SeenRow, SettlingParams, StrandRow, UNSEEN,

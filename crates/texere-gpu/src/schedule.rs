@@ -1,8 +1,9 @@
 //! Schedules: what a device is called under each, and what each leaves out.
 
-use texere_core::{BackendError, Frame, Plan, Schedule};
+use texere_core::{BackendError, Capabilities, Frame, Plan, Schedule};
 
-/// The name of device `index` of `interface` under `schedule`, or of the caller's own device where there is no index.
+/// The name of device `index` of `interface` under `schedule`, or of the caller's own device where
+/// there is no index.
 ///
 /// ```
 /// use texere_core::Schedule;
@@ -17,14 +18,30 @@ pub fn device_name(interface: &str, index: Option<usize>, schedule: Schedule) ->
     format!("{interface}{index}{of_schedule}")
 }
 
+/// What a GPU can under `schedule`: all settle alike, and the paper's mapping makes meshes alone.
+/// `draw` is whether pictures are drawn through its interface.
+///
+/// ```
+/// use texere_core::Schedule;
+/// use texere_gpu::capabilities;
+/// assert!(capabilities(Schedule::PerRing, false).pack);
+/// assert!(!capabilities(Schedule::PerYarn, false).pack);
+/// ```
+#[must_use]
+pub const fn capabilities(schedule: Schedule, draw: bool) -> Capabilities {
+    let ours = matches!(schedule, Schedule::PerRing);
+    Capabilities { settle: true, settle_crossings: true, edit: ours, attributes: ours, pack: ours, draw }
+}
+
 /// The error for [`Schedule::Serial`], which is a host's: no GPU has it. `name` is the device's.
 #[must_use]
 pub fn serial_unsupported(name: &str) -> BackendError {
     BackendError::Unsupported { schedule: name.into(), what: "the serial schedule".into() }
 }
 
-/// Makes sure that a GPU has `schedule`, and that it does all that `plan` asks for: [`Schedule::PerYarn`] does upright,
-/// untwisted, open yarns without caps. `name` is the device's, for the error.
+/// Makes sure that a GPU has `schedule`, and that it does all that `plan` asks for:
+/// [`Schedule::PerYarn`] does upright, untwisted, open yarns without caps. `name` is the device's,
+/// for the error.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Plan, Schedule, Settings, Yarn, Yarns};

@@ -7,7 +7,7 @@ use opencl3::device::{CL_DEVICE_TYPE_ALL, CL_DEVICE_TYPE_CPU, CL_DEVICE_TYPE_GPU
 use opencl3::error_codes::{CL_DEVICE_NOT_FOUND, CL_PLATFORM_NOT_FOUND_KHR, ClError};
 use opencl3::platform::{Platform, get_platforms};
 use texere_core::{BackendError, DeviceInfo, DeviceKind, Limits};
-use texere_gpu::device_name;
+use texere_gpu::{capabilities, device_name};
 
 use crate::Schedule;
 use crate::faults::failed;
@@ -88,6 +88,7 @@ pub(crate) fn info(
             memory_bytes: if shared { memory / 2 } else { memory / 8 * 7 },
             ..Limits::NONE
         },
+        can: capabilities(schedule, false),
         // Our own queues all take the time of their commands.
         timed_by_device: true,
         name,

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
 use texere_core::settling::{Settler, SettlingPlan};
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Session};
-use texere_gpu::device_name;
+use texere_gpu::{capabilities, device_name};
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
 use crate::Schedule;
@@ -272,6 +272,7 @@ fn describe(
             blocks: LAUNCH_BLOCKS,
             ..Limits::NONE
         },
+        can: capabilities(schedule, true),
         timed_by_device,
     }
 }

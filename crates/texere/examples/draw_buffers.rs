@@ -23,37 +23,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut live = Live::new(backend, &design.structure, Settings::default())?;
     live.update()?;
 
-    // A pipeline whose vertices are texere's.
-    let source = wgpu::ShaderSource::Wgsl(SHADER.into());
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
-    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        multiview_mask: None,
-        cache: None,
-        multisample: Default::default(),
-        primitive: Default::default(),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: None,
-            compilation_options: Default::default(),
-            buffers: &[Some(VERTEX_LAYOUT)],
-        },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: Format::Depth32Float,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: None,
-            compilation_options: Default::default(),
-            targets: &[Some(Format::Rgba8UnormSrgb.into())],
-        }),
-    });
-
     // Textures to draw into, and a pass that draws the cloth.
     let texture = |format, usage| {
         device.create_texture(&wgpu::TextureDescriptor {
@@ -85,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }),
         ..Default::default()
     });
-    pass.set_pipeline(&pipeline);
+    pass.set_pipeline(&pipeline(&device));
     texere::draw(live.mesh(), &mut pass).ok_or("not a mesh of wgpu's")?;
     drop(pass);
 
@@ -106,4 +75,37 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pixels = host.get_mapped_range(..)?;
     texere::write_picture([SIZE; 2], &pixels, std::env::temp_dir().join("herringbone.png"))?;
     Ok(())
+}
+
+/// A pipeline whose vertices are texere's.
+fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
+    let source = wgpu::ShaderSource::Wgsl(SHADER.into());
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: None,
+        multiview_mask: None,
+        cache: None,
+        multisample: Default::default(),
+        primitive: Default::default(),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: None,
+            compilation_options: Default::default(),
+            buffers: &[Some(VERTEX_LAYOUT)],
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: Format::Depth32Float,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: None,
+            compilation_options: Default::default(),
+            targets: &[Some(Format::Rgba8UnormSrgb.into())],
+        }),
+    })
 }

@@ -249,6 +249,19 @@ mod tests {
         }
     }
 
+    /// What says that it draws opens for pictures, and nothing else does.
+    #[cfg(feature = "render")]
+    #[test]
+    fn the_devices_that_draw_are_those_that_open_for_pictures() {
+        for device in devices().found {
+            match open_renderer(&device.name) {
+                Ok(_) => assert!(device.can.draw, "{}", device.name),
+                Err(BackendError::NoDevice { .. }) => assert!(!device.can.draw, "{}", device.name),
+                Err(error) => panic!("{}: {error}", device.name),
+            }
+        }
+    }
+
     #[cfg(feature = "render")]
     #[test]
     fn a_renderer_is_as_particular() {

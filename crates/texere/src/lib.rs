@@ -139,11 +139,11 @@ pub use texere_contact::{
 };
 pub use texere_core::{
     ArcLength, Attribute, BLOCK_RINGS, Backend, BackendError, Block, Boundary, BoundaryError, Bounds,
-    COORDINATE_LIMIT, Cap, Change, Chunk, ChunkDraw, Chunks, ControlPoint, Counts, DeviceInfo, DeviceKind,
-    Edits, Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece, MeshPlace,
-    NullBackend, Origin, OutOfMemory, PackedVertex, PaddedPoints, Pipeline, PipelineError, Placement, Plan,
-    PlanError, Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling, Schedule, Section,
-    SectionError, SectionPoint, Settings, SettlingError, Subject, TWIST_LIMIT, TWIST_STEP,
+    COORDINATE_LIMIT, Cap, Capabilities, Change, Chunk, ChunkDraw, Chunks, ControlPoint, Counts, DeviceInfo,
+    DeviceKind, Edits, Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece,
+    MeshPlace, NullBackend, Origin, OutOfMemory, PackedVertex, PaddedPoints, Pipeline, PipelineError,
+    Placement, Plan, PlanError, Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling,
+    Schedule, Section, SectionError, SectionPoint, Settings, SettlingError, Subject, TWIST_LIMIT, TWIST_STEP,
     TWIST_SUBDIVISIONS_MAX, TablesId, Topology, Trajectory, Undersampled, Vertex, YARN_RINGS_MAX, Yarn,
     YarnError, YarnPlace, Yarns, YarnsBuilder, counted, crossings, settling,
 };

@@ -18,6 +18,7 @@ pub(crate) fn open() -> Done<Arc<dyn Backend>> {
         kind: DeviceKind::Cpu,
         memory_bytes: None,
         limits: Limits::default(),
+        can: Capabilities::default(),
         timed_by_device: false,
     })))
 }

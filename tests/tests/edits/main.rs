@@ -11,8 +11,8 @@ use proptest::test_runner::{Config, TestRunner};
 use texere_conformance::{REGISTRY, editing_devices};
 use texere_core::{
     Attribute, Backend, BackendError, ControlPoint, DeviceKind, Edits, End, Frame, Limits, LiveMesh, Mesh,
-    MeshPiece, OutOfMemory, Pipeline, PipelineError, Plan, Schedule, Section, SessionError, Settings,
-    Topology, Vertex, Yarn, Yarns,
+    MeshPiece, OutOfMemory, Pipeline, PipelineError, Plan, Section, SessionError, Settings, Topology, Vertex,
+    Yarn, Yarns,
 };
 
 /// The most control points of a yarn: several blocks' rings.
@@ -292,8 +292,8 @@ fn edited_yarns_end_as_a_fresh_mesh() {
         let (devices, missing) = entry.devices();
         assert!(missing.is_empty(), "{missing:?}");
         for device in &devices {
-            // The deferred backend makes whole chunks alone, and the schedule per-yarn is the paper's.
-            if entry.name == "deferred" || device.info().schedule == Schedule::PerYarn {
+            // The suite holds that it is refused.
+            if !device.info().can.edit {
                 let plan = Arc::new(Plan::new(short().layout().clone(), Settings::default()).unwrap());
                 let refused = LiveMesh::new(&**device, plan).unwrap_err();
                 assert!(matches!(refused, SessionError::Backend(BackendError::NoEditing)), "{refused}");

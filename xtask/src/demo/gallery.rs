@@ -52,7 +52,8 @@ const CLOSE_UP: View = ("close-up", &["--view", "close-up"]);
 const FINE: View = ("close-up", &["--view", "close-up", "--subdivisions", "12", "--sides", "48"]);
 const CUT: View = ("cut", &["--view", "cut-warp", "--size", "800x260"]);
 
-/// The paper's cloths, whole, with the paper's own sides and subdivisions, so that they have its number of facets.
+/// The paper's cloths, whole, with the paper's own sides and subdivisions, so that they have its
+/// number of facets.
 const PAPER: [&str; 7] =
     ["163x150", "489x450", "815x750", "1141x1050", "1630x1500", "2880x1840", "figure-7a"];
 

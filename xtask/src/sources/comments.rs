@@ -5,7 +5,8 @@ use super::files::Source;
 /// The most columns of a line that has a comment.
 const COLUMNS_MOST: usize = 100;
 
-/// All lines with a comment that are wider, with their columns. Addresses, rows of tables and code in docs may be.
+/// All lines with a comment that are wider, with their columns. Addresses, rows of tables and code
+/// in docs may be.
 pub(crate) fn find(files: &[Source]) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {
@@ -90,7 +91,8 @@ fn literal(text: &str, before: Option<char>) -> usize {
     if text.starts_with('"') {
         return quoted(text, '"');
     }
-    // A quote that no other follows after one character, or a few behind a backslash, begins a lifetime.
+    // A quote that no other follows after one character, or a few behind a backslash, begins a
+    // lifetime.
     let mut after = text.chars().skip(1);
     match (text.starts_with('\''), after.next(), after.next()) {
         (true, Some('\\'), _) | (true, Some(_), Some('\'')) => quoted(text, '\''),

@@ -94,6 +94,12 @@ fn devices_are_listed_by_the_names_that_open_them() {
         let missing = all["missing"].as_array().unwrap().iter().any(|each| each["family"] == family);
         assert!(found != missing, "{all}");
     }
+    // Pictures are drawn by a GPU's interface alone; all devices settle.
+    for device in all["found"].as_array().unwrap() {
+        let (name, can) = (device["name"].as_str().unwrap(), &device["can"]);
+        assert_eq!(can["draw"], name.starts_with("wgpu"), "{device}");
+        assert_eq!((&can["settle"], &can["pack"]), (&true.into(), &true.into()), "{device}");
+    }
     let text = stdout(&texere(&["devices"]));
     assert!(names.iter().all(|name| text.contains(&format!("{name}: "))), "{text}");
 }

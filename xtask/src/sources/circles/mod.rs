@@ -1,8 +1,9 @@
 //! Files of a crate that import one another, directly or in a round.
 //!
-//! A file imports another one where it names something that is defined there, by a `use` or by a path in its code. A name is
-//! followed through what modules pass on, so that a `mod.rs` that only declares and passes on is no part of any circle.
-//! Each circle is told once, as the largest set of files from each of which all others are reached.
+//! A file imports another one where it names something that is defined there, by a `use` or by a
+//! path in its code. A name is followed through what modules pass on, so that a `mod.rs` that only
+//! declares and passes on is no part of any circle. Each circle is told once, as the largest set of
+//! files from each of which all others are reached.
 
 mod names;
 mod tree;
@@ -121,7 +122,8 @@ mod tests {
         }
     }
 
-    /// A module takes part where it defines what its own modules name, and not where it passes it on.
+    /// A module takes part where it defines what its own modules name, and not where it passes it
+    /// on.
     #[test]
     fn what_only_passes_on_is_no_part() {
         let passes_on = "mod a;\nmod b;\nuse a::A;\npub use b::B;";

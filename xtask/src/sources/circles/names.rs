@@ -38,7 +38,8 @@ pub(super) fn imports(read: &Crate) -> Imports {
 }
 
 impl Crate {
-    /// What a path stands for in a module, with the name that it is found by: a module and a function may have one name.
+    /// What a path stands for in a module, with the name that it is found by: a module and a
+    /// function may have one name.
     fn meanings<'a>(&self, module: usize, path: &'a [String], left: usize) -> Vec<(Meaning, &'a str)> {
         let Some((first, mut rest)) = path.split_first() else { return Vec::new() };
         let parent = self.modules[module].parent;
@@ -81,7 +82,8 @@ impl Crate {
         }
         let Some(left) = left.checked_sub(1) else { return found };
         for used in &module.uses {
-            // A name that is used from itself, as `use clearance::clearance`, is that of a module first.
+            // A name that is used from itself, as `use clearance::clearance`, is that of a module
+            // first.
             if used.name == name {
                 found.extend(self.meanings(number, &used.path, left).into_iter().map(|meaning| meaning.0));
             } else if used.name == "*" {

@@ -135,7 +135,8 @@ impl Paths<'_> {
         self.0.uses.push(Use { name, path, passes_on });
     }
 
-    /// Paths among the tokens of a macro, which need not be Rust. A single name may be a field there, and is left out.
+    /// Paths among the tokens of a macro, which need not be Rust. A single name may be a field
+    /// there, and is left out.
     fn tokens(&mut self, tokens: TokenStream) {
         let mut path: Vec<String> = Vec::new();
         let mut colons = 0;

@@ -203,9 +203,7 @@ impl Reader<'_> {
     /// How close stitches lie. `needles` to the inch are what a knitout file says.
     pub(super) fn gauge(&self, needles: Option<f64>) -> Result<Gauge, ReadError> {
         let (source, table) = (self.source, self.table);
-        let number = |field, value: &Option<Spanned<f64>>, (low, high)| {
-            value.as_ref().map(|value| source.number(field, value, low, high)).transpose()
-        };
+        let number = |field, value, (low, high)| source.optional(field, value, [low, high]);
         let wales = number("knit.wales_per_cm", &table.wales_per_cm, PER_CM)?;
         let courses = number("knit.courses_per_cm", &table.courses_per_cm, PER_CM)?;
         let per_inch = number("knit.needles_per_inch", &table.needles_per_inch, PER_INCH)?;

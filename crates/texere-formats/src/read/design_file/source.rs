@@ -126,6 +126,16 @@ impl<'a> Source<'a> {
         })
     }
 
+    /// A number within `range`, where the key is there.
+    pub(super) fn optional(
+        &self,
+        field: &str,
+        value: &Option<Spanned<f64>>,
+        [low, high]: [f64; 2],
+    ) -> Result<Option<f64>, ReadError> {
+        value.as_ref().map(|value| self.number(field, value, low, high)).transpose()
+    }
+
     /// A number of threads.
     pub(super) fn count(&self, field: &str, value: &Spanned<i64>) -> Result<usize, ReadError> {
         self.integer(field, value, 1, THREAD_LIMIT).map(|count| count as usize)

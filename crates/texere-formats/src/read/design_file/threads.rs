@@ -14,16 +14,16 @@ use crate::read::ReadError;
 use crate::read::error::{first_few, shown};
 
 /// Coarsest and finest yarn by the English cotton count, hanks of 840 yards to the pound.
-const COTTON_COUNT: (f64, f64) = (0.01, 10_000.0);
+const COTTON_COUNT: [f64; 2] = [0.01, 10_000.0];
 
 /// Fluffiest and densest yarn, the air in it counted, g/cm³.
-const DENSITY: (f64, f64) = (0.05, 20.0);
+const DENSITY: [f64; 2] = [0.05, 20.0];
 
 /// Limpest and stiffest yarn, in the stiffness of cotton.
-const STIFFNESS: (f64, f64) = (0.01, 100.0);
+const STIFFNESS: [f64; 2] = [0.01, 100.0];
 
 /// Yarn that stands on edge, and the flattest ribbon, as people write it: 0.1 as a f32 is a little more than that.
-const FLATNESS: (f64, f64) = (0.1, 10.0);
+const FLATNESS: [f64; 2] = [0.1, 10.0];
 
 /// The most yarns in turn of a knit.
 const TURN_MAX: usize = 100_000;
@@ -47,84 +47,10 @@ impl YarnTable {
         let mut table = Self { names: BTreeMap::new(), materials: Vec::new(), sections: Vec::new() };
         for (number, (name, spec)) in (0..).zip(specs) {
             let name = name.as_ref();
-            let field = |key: &str| format!("yarns.{name}.{key}");
-            let tex = match (&spec.tex, &spec.cotton_count) {
-                (Some(_), Some(count)) => {
-                    return Err(source.bad(&field("cotton_count"), count, "it or tex, not both"));
-                }
-                (Some(tex), None) => Some(source.number(&field("tex"), tex, TEX[0], TEX[1])?),
-                (None, Some(count)) => {
-                    let count =
-                        source.number(&field("cotton_count"), count, COTTON_COUNT.0, COTTON_COUNT.1)?;
-                    Some(texere_fabric::tex_from_cotton_count(count))
-                }
-                (None, None) => None,
-            };
-            let density = spec
-                .density
-                .as_ref()
-                .map(|density| source.number(&field("density"), density, DENSITY.0, DENSITY.1));
-            let density = density.transpose()?.unwrap_or(COTTON_DENSITY);
-            let diameter_mm = match (&spec.diameter_mm, tex) {
-                (Some(diameter), _) => {
-                    source.number(&field("diameter_mm"), diameter, LENGTH_MM[0], LENGTH_MM[1])?
-                }
-                (None, Some(tex)) => texere_fabric::diameter_mm(tex, density),
-                (None, None) => {
-                    let file = source.path.into();
-                    let needed_for = "a yarn needs a diameter, or tex or cotton_count to work it out from";
-                    return Err(ReadError::MissingKey {
-                        file,
-                        field: shown(&field("diameter_mm")),
-                        needed_for,
-                    });
-                }
-            };
-            let flatness = spec
-                .flatness
-                .as_ref()
-                .map(|flatness| source.number(&field("flatness"), flatness, FLATNESS.0, FLATNESS.1))
-                .transpose()?
-                .unwrap_or(1.0);
-            let stiffness = spec
-                .stiffness
-                .as_ref()
-                .map(|stiffness| source.number(&field("stiffness"), stiffness, STIFFNESS.0, STIFFNESS.1));
-            let twist_per_m = spec
-                .twist_per_m
-                .as_ref()
-                .map(|twist| source.number(&field("twist_per_m"), twist, -TWIST_PER_M, TWIST_PER_M))
-                .transpose()?
-                .unwrap_or(0.0);
-            let hairiness = spec
-                .hairiness
-                .as_ref()
-                .map(|hairiness| source.number(&field("hairiness"), hairiness, HAIRINESS[0], HAIRINESS[1]))
-                .transpose()?
-                .map(|hairiness| hairiness as f32);
-            let twist = texere_fabric::twist_from_turns_per_m(twist_per_m);
-            table.materials.push(Material {
-                name: name.clone(),
-                srgb: match &spec.color {
-                    Some(color) => source.rgb(&field("color"), color)?,
-                    None => Material::default().srgb,
-                },
-                tex: tex.map(|tex| tex as f32),
-                hairiness: hairiness.unwrap_or_else(|| hairiness_of(twist)),
-            });
+            let (material, thread) = yarn(source, name, spec, number)?;
+            table.materials.push(material);
             table.sections.push(section(source, name, spec)?);
-            table.names.insert(
-                name.clone(),
-                Thread {
-                    spacing_mm: 0.0,
-                    radius_mm: (diameter_mm / 2.0) as f32,
-                    flatness: flatness as f32,
-                    stiffness: stiffness.transpose()?.unwrap_or(1.0) as f32,
-                    material: number,
-                    section: number,
-                    twist,
-                },
-            );
+            table.names.insert(name.clone(), thread);
         }
         Ok(table)
     }
@@ -235,6 +161,64 @@ impl YarnTable {
             Ok(times @ 1..=1_000_000) => Ok((times, name, *thread)),
             _ => Err(source.bad(field, item, "a number from 1 to 1000000 before the yarn's name")),
         }
+    }
+}
+
+/// Yarn `number`: what it is made of, and a thread of it.
+fn yarn(
+    source: &Source<'_>,
+    name: &str,
+    spec: &YarnSpec,
+    number: u32,
+) -> Result<(Material, Thread), ReadError> {
+    let field = |key: &str| format!("yarns.{name}.{key}");
+    let number_of = |key: &str, value, range| source.optional(&field(key), value, range);
+    let (diameter_mm, tex) = thickness(source, name, spec)?;
+    let flatness = number_of("flatness", &spec.flatness, FLATNESS)?.unwrap_or(1.0);
+    let stiffness = number_of("stiffness", &spec.stiffness, STIFFNESS)?.unwrap_or(1.0);
+    let twist_per_m = number_of("twist_per_m", &spec.twist_per_m, [-TWIST_PER_M, TWIST_PER_M])?;
+    let twist = texere_fabric::twist_from_turns_per_m(twist_per_m.unwrap_or(0.0));
+    let hairiness = number_of("hairiness", &spec.hairiness, HAIRINESS)?;
+    let srgb = match &spec.color {
+        Some(color) => source.rgb(&field("color"), color)?,
+        None => Material::default().srgb,
+    };
+    let material = Material {
+        name: name.into(),
+        srgb,
+        tex: tex.map(|tex| tex as f32),
+        hairiness: hairiness.map_or_else(|| hairiness_of(twist), |hairiness| hairiness as f32),
+    };
+    let thread = Thread {
+        spacing_mm: 0.0,
+        radius_mm: (diameter_mm / 2.0) as f32,
+        flatness: flatness as f32,
+        stiffness: stiffness as f32,
+        material: number,
+        section: number,
+        twist,
+    };
+    Ok((material, thread))
+}
+
+/// A yarn's diameter in mm, as it is given or by its count, and its tex where it has a count.
+fn thickness(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<(f64, Option<f64>), ReadError> {
+    let field = |key: &str| format!("yarns.{name}.{key}");
+    let number_of = |key: &str, value, range| source.optional(&field(key), value, range);
+    if let (Some(_), Some(count)) = (&spec.tex, &spec.cotton_count) {
+        return Err(source.bad(&field("cotton_count"), count, "it or tex, not both"));
+    }
+    let count = number_of("cotton_count", &spec.cotton_count, COTTON_COUNT)?;
+    let tex = number_of("tex", &spec.tex, TEX)?.or(count.map(texere_fabric::tex_from_cotton_count));
+    let density = number_of("density", &spec.density, DENSITY)?.unwrap_or(COTTON_DENSITY);
+    match (number_of("diameter_mm", &spec.diameter_mm, LENGTH_MM)?, tex) {
+        (Some(diameter_mm), _) => Ok((diameter_mm, tex)),
+        (None, Some(count)) => Ok((texere_fabric::diameter_mm(count, density), tex)),
+        (None, None) => Err(ReadError::MissingKey {
+            file: source.path.into(),
+            field: shown(&field("diameter_mm")),
+            needed_for: "a yarn needs a diameter, or tex or cotton_count to work it out from",
+        }),
     }
 }
 

@@ -107,11 +107,7 @@ impl<'a> Reader<'a> {
         let chain = self.lapping(&field("lapping"), &table.lapping, step)?;
         let offset =
             table.offset.as_ref().map_or(Ok(0), |needles| offset(source, &field("offset"), needles))?;
-        let run_in_mm = table
-            .run_in_mm
-            .as_ref()
-            .map(|run_in| source.number(&field("run_in_mm"), run_in, SPACING_MIN, SPACING_MAX))
-            .transpose()?;
+        let run_in_mm = source.optional(&field("run_in_mm"), &table.run_in_mm, [SPACING_MIN, SPACING_MAX])?;
         let threading = self.threading(&field("threading"), table)?;
         let jacquard = self.jacquard(&field, table, &chain)?;
         Ok(Bar { chain, threading, offset, run_in_mm, jacquard })

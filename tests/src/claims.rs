@@ -1,0 +1,96 @@
+//! Whether a device does what it says that it can, and nothing else.
+
+use std::sync::Arc;
+
+use libtest_mimic::Failed;
+use texere_core::crossings::Thread;
+use texere_core::{
+    Backend, BackendError, Crossings, CrossingsPlan, LiveMesh, Pipeline, PipelineError, Plan, SessionError,
+    Settings, Yarn,
+};
+
+use crate::{cases, rest};
+
+/// Passes where all that [`DeviceInfo::can`](texere_core::DeviceInfo::can) names opens, and all
+/// else is refused as what it is. Pictures are left to those who draw them.
+pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
+    let can = device.info().can;
+    let yarns = cases::winding(100, Yarn::default());
+    let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
+    let starts = rest::starts();
+    let start = starts.first().ok_or("no start of a settling")?;
+    let threads = || vec![Thread { pitch: 0.5, diameter: 0.2, stiffness: 1.0, level: 0 }; 2];
+    let plain = CrossingsPlan::new(&Crossings::new(vec![true, false, false, true], threads(), threads()))?;
+
+    let refused = |error: &BackendError| matches!(error, BackendError::NoSettling { .. });
+    holds("settle", can.settle, device.settler(rest::settling_plan(start)), refused)?;
+    let refused = |error: &BackendError| matches!(error, BackendError::NoCrossings { .. });
+    holds("settle_crossings", can.settle_crossings, device.crossings_settler(Arc::new(plain)), refused)?;
+    let refused = |error: &SessionError| matches!(error, SessionError::Backend(BackendError::NoEditing));
+    holds("edit", can.edit, LiveMesh::new(device, plan), refused)?;
+    let refused = |error: &PipelineError| matches!(error, PipelineError::Backend(BackendError::NoAttributes));
+    holds("attributes", can.attributes, Pipeline::new(&yarns).attributes(device), refused)?;
+    let refused = |error: &PipelineError| matches!(error, PipelineError::Backend(BackendError::NoPacking));
+    holds("pack", can.pack, Pipeline::new(&yarns).packed(device), refused)
+}
+
+/// Passes where `done` succeeds just if the device says that it can.
+fn holds<T, E: std::error::Error + Send + Sync + 'static>(
+    what: &str,
+    said: bool,
+    done: Result<T, E>,
+    refused: impl Fn(&E) -> bool,
+) -> Result<(), Failed> {
+    match done {
+        Ok(_) if said => Ok(()),
+        Ok(_) => Err(format!("{what}: the device does not say that it can, and it does").into()),
+        Err(error) if refused(&error) && !said => Ok(()),
+        Err(error) if refused(&error) => Err(format!("{what}: the device says that it can: {error}").into()),
+        Err(error) => Err(error.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use texere_core::{Capabilities, DeviceInfo, Engine, NullBackend};
+    use texere_cpu::SerialBackend;
+
+    use super::*;
+
+    /// A device that says something else of itself than what it does; it settles nothing.
+    #[derive(Debug)]
+    struct Boasting(DeviceInfo, Box<dyn Backend>);
+
+    impl Backend for Boasting {
+        fn info(&self) -> &DeviceInfo {
+            &self.0
+        }
+
+        fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError> {
+            self.1.engine(plan)
+        }
+    }
+
+    #[test]
+    fn each_wrong_claim_is_found() {
+        let serial = SerialBackend::new();
+        claims_hold(&serial).unwrap();
+        claims_hold(&NullBackend::default()).unwrap();
+        let honest = Capabilities { settle: false, settle_crossings: false, ..serial.info().can };
+        let says = |can| {
+            let info = DeviceInfo { can, ..serial.info().clone() };
+            claims_hold(&Boasting(info, Box::new(SerialBackend::new())))
+        };
+        says(honest).unwrap();
+        for (what, can) in [
+            ("settle", Capabilities { settle: true, ..honest }),
+            ("settle_crossings", Capabilities { settle_crossings: true, ..honest }),
+            ("edit", Capabilities { edit: false, ..honest }),
+            ("attributes", Capabilities { attributes: false, ..honest }),
+            ("pack", Capabilities { pack: false, ..honest }),
+        ] {
+            let told = says(can).unwrap_err();
+            assert!(told.message().is_some_and(|told| told.starts_with(&format!("{what}: "))), "{told:?}");
+        }
+    }
+}

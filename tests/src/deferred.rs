@@ -7,10 +7,11 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits, MeshMut, MeshPiece,
-    MeshSink, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Vertex,
+use texere_core::backend::{
+    Chunk, Engine, MeshMut, MeshSink, Plan, RingSink, ScanChunks, Schedule, Slot, StageTimings,
 };
+use texere_core::definitions::Ring;
+use texere_core::{Backend, BackendError, ControlPoint, DeviceInfo, DeviceKind, Limits, MeshPiece, Vertex};
 use texere_cpu::SerialBackend;
 
 use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};

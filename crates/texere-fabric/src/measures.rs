@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use texere_contact::{part_length_mm, round_length_mm};
-use texere_core::{ControlPoint, Material, Segment, Yarns, neighbours, tangent_factor};
+use texere_core::definitions::{Segment, neighbours, tangent_factor};
+use texere_core::{ControlPoint, Material, Yarns};
 
 use crate::reach::{Reach, mean_reach};
 use crate::woven::Sample;

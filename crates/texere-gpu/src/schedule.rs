@@ -1,11 +1,12 @@
 //! Schedules: what a device is called under each, and what each leaves out.
 
-use texere_core::{BackendError, Frame, Plan, Schedule};
+use texere_core::backend::{Plan, Schedule};
+use texere_core::{BackendError, Frame};
 
 /// The name of device `index` of `interface` under `schedule`, or of the caller's own device where there is no index.
 ///
 /// ```
-/// use texere_core::Schedule;
+/// use texere_core::backend::Schedule;
 /// use texere_gpu::device_name;
 /// assert_eq!(device_name("opencl", Some(1), Schedule::PerRing), "opencl:1");
 /// assert_eq!(device_name("wgpu", None, Schedule::PerYarn), "wgpu/per-yarn");
@@ -27,7 +28,8 @@ pub fn serial_unsupported(name: &str) -> BackendError {
 /// untwisted, open yarns without caps. `name` is the device's, for the error.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Plan, Schedule, Settings, Yarn, Yarns};
+/// use texere_core::backend::{Plan, Schedule};
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 /// use texere_gpu::check_schedule;
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));

@@ -29,7 +29,7 @@ fn end_to_end(criterion: &mut Criterion) {
         if size != SIZES[0] {
             continue;
         }
-        let written = || texere::stream(Pipeline::new(&yarns()), &*device, &file).unwrap();
+        let written = || texere::write::stream(Pipeline::new(&yarns()), &*device, &file).unwrap();
         written();
         let bytes = std::fs::metadata(&file).unwrap().len();
         floor.bench(criterion, &Bench { fabric: "paper-glb", bytes, ..bench }, || timed(written));

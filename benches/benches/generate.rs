@@ -9,7 +9,8 @@ mod stage;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use stage::{Bench, Floor, timed};
-use texere::{ControlPoint, Shape};
+use texere::ControlPoint;
+use texere::woven::Shape;
 use texere_bench::{paper_cloth, sizes};
 
 fn generate(criterion: &mut Criterion) {

@@ -12,9 +12,10 @@ mod stage;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use stage::{Bench, Floor, timed};
-use texere::{Frame, Pipeline, Settings, Topology, Yarns};
+use texere::mesh::{Frame, Topology};
+use texere::{Pipeline, Settings, Yarns};
 use texere_bench::{DEVICES, SWEEP, one_yarn, paper_cloth, plan, session, shaped, sizes};
-use texere_core::MeshMut;
+use texere_core::backend::MeshMut;
 
 const CPU: &str = DEVICES[1];
 
@@ -59,8 +60,8 @@ fn reused(
 ) {
     let (plan, chunks) = plan(yarns, settings).unwrap();
     let (chunk, elements) = (&chunks[0], plan.counts().triangles);
-    let mut vertices = texere_core::zeroed("vertices", chunk.vertices().into()).unwrap();
-    let mut indices = texere_core::zeroed("indices", chunk.indices().into()).unwrap();
+    let mut vertices = texere_core::backend::zeroed("vertices", chunk.vertices().into()).unwrap();
+    let mut indices = texere_core::backend::zeroed("indices", chunk.indices().into()).unwrap();
     let bytes = (size_of_val(&vertices[..]) + size_of_val(&indices[..])) as u64;
     // What lies in the caches instead, where nothing of the mesh shall.
     let mut others = vec![0u32; if stage == "mesh-cold" { CACHES } else { 0 }];

@@ -4,7 +4,10 @@ use std::error::Error;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, Frame, Live, LiveMesh, Plan, Settings, Shape, Yarns};
+use texere::backend::{LiveMesh, Plan};
+use texere::mesh::Frame;
+use texere::woven::Shape;
+use texere::{Backend, Live, Settings, Yarns};
 use texere_core::ControlPoint;
 
 use crate::measure::median_time;

@@ -4,7 +4,9 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use texere::{Camera, Output, Quality, Settings};
+use texere::Settings;
+use texere::picture::{Camera, Quality};
+use texere::write::Output;
 
 use crate::stages::stages;
 
@@ -23,7 +25,7 @@ const CLOSE: f32 = 0.02;
 ///
 /// Whatever the reader, the structure, the device or the file system says.
 pub fn print(device: &str, designs: &Path, output: &Path) -> Result<(), Box<dyn Error>> {
-    let (backend, renderer) = (texere::open(device)?, texere::open_renderer(device)?);
+    let (backend, renderer) = (texere::open(device)?, texere::picture::open_renderer(device)?);
     std::fs::create_dir_all(output)?;
     println!(
         "| design, on {device} | facets, 10⁶ | the paper's | at rest | to the mesh, s | drawn, s | the paper's, s |"
@@ -43,7 +45,7 @@ pub fn print(device: &str, designs: &Path, output: &Path) -> Result<(), Box<dyn 
         let drawn = start.elapsed();
         let near = scene.picture(&Camera::close_up(&extent, middle, close, SIZE)?, Quality::default())?;
         for (picture, file) in [(picture, format!("{name}.png")), (near, format!("{name}-close-up.png"))] {
-            texere::write_picture(picture.size, &picture.rgb, Output::to(output.join(file)))?;
+            texere::write::picture(picture.size, &picture.rgb, Output::to(output.join(file)))?;
         }
         let rest = row.rests.map_or("as placed", |rests| if rests.at_rest { "yes" } else { "no" });
         println!(

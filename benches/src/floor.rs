@@ -4,8 +4,9 @@
 use std::error::Error;
 use std::time::Duration;
 
-use texere::{Backend, Frame, PackedVertex, Settings, Topology, Yarns};
-use texere_core::{SessionError, StageTimings};
+use texere::mesh::{Frame, PackedVertex, Topology};
+use texere::{Backend, Settings, Yarns};
+use texere_core::backend::{SessionError, StageTimings};
 
 use crate::fill::{Fill, Gpu};
 use crate::measure::{Bench, median_time};

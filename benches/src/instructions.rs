@@ -6,9 +6,11 @@
 
 use std::error::Error;
 
-use texere::{Frame, Settings, Shape, Topology};
+use texere::Settings;
+use texere::mesh::{Frame, Topology};
+use texere::woven::Shape;
 use texere_bench::{paper_cloth, plan, session, shaped};
-use texere_core::MeshMut;
+use texere_core::backend::MeshMut;
 use texere_cpu::ParallelBackend;
 
 /// Threads of a cloth whose mesh stays in the caches, and of one whose mesh goes past them.
@@ -57,8 +59,8 @@ fn mesh(
     let yarns = shaped(&paper_cloth(ends, picks)?.yarns()?, 0.0, flatness)?;
     let (plan, chunks) = plan(&yarns, settings)?;
     let mut session = session(&ParallelBackend::open()?, &plan, &yarns)?;
-    let mut vertices = texere_core::zeroed("vertices", chunks[0].vertices().into())?;
-    let mut indices = texere_core::zeroed("indices", chunks[0].indices().into())?;
+    let mut vertices = texere_core::backend::zeroed("vertices", chunks[0].vertices().into())?;
+    let mut indices = texere_core::backend::zeroed("indices", chunks[0].indices().into())?;
     for _ in 0..times {
         // After an upload there is something to scan; one point costs next to nothing.
         session.upload(0, &yarns.points()[..1])?;

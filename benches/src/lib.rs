@@ -26,11 +26,12 @@ pub mod tables;
 
 use std::sync::Arc;
 
-use texere::{
-    Backend, FabricError, Limits, Material, Plan, PlanError, Section, Settings, Shape, Thread, Weave, Woven,
-    Yarn, YarnError, Yarns,
-};
-use texere_core::{Chunk, Session, SessionError};
+use texere::backend::Plan;
+use texere::mesh::{Limits, PlanError};
+use texere::woven::{Shape, Thread, Weave, Woven};
+use texere::yarn::{Material, Section, YarnError};
+use texere::{Backend, FabricError, Settings, Yarn, Yarns};
+use texere_core::backend::{Chunk, Session, SessionError};
 
 /// The sizes that are benchmarked, (ends, picks): the paper's smallest cloth, its middle one, and its largest.
 pub const SIZES: [(usize, usize); 3] = [(163, 150), (815, 750), (2880, 1840)];

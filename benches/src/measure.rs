@@ -4,8 +4,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, Limits, Plan, PlanError, Settings, Yarns};
-use texere_core::{Chunk, Session, SessionError, StageTimings};
+use texere::backend::Plan;
+use texere::mesh::{Limits, PlanError};
+use texere::{Backend, Settings, Yarns};
+use texere_core::backend::{Chunk, Session, SessionError, StageTimings};
 use thiserror::Error;
 
 use crate::median;

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{
-    Backend, BackendError, Camera, Chunk, DeviceInfo, Extent, Limits, MeshPiece, Plan, Quality, Renderer,
-    Schedule, Settings, Topology, Vertex, Yarns,
-};
-use texere_core::Session;
+use texere::backend::{Chunk, Plan, Schedule};
+use texere::mesh::{Limits, MeshPiece, Topology};
+use texere::picture::{Camera, Extent, Quality, Renderer};
+use texere::{Backend, BackendError, DeviceInfo, Settings, Vertex, Yarns};
+use texere_core::backend::Session;
 use texere_wgpu::WgpuBackend;
 use wgpu::BufferUsages;
 

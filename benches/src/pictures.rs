@@ -4,7 +4,8 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use texere::{Camera, Extent, PictureTimings, Pose, Quality, RenderError, Settings};
+use texere::Settings;
+use texere::picture::{Camera, Extent, PictureTimings, Pose, Quality, RenderError};
 
 use crate::measure::median_time;
 
@@ -21,7 +22,7 @@ pub fn print(
     nearer: &[f32],
     rounds: usize,
 ) -> Result<(), Box<dyn Error>> {
-    let renderer = texere::open_renderer(device)?;
+    let renderer = texere::picture::open_renderer(device)?;
     println!("{}: {} x {} pixels\n", renderer.info().device, size[0], size[1]);
     println!("| design | view | nearer | samples | draw, ms | light, ms | copy, ms |");
     println!("|---|---|---|---|---|---|---|");

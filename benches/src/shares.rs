@@ -11,9 +11,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use rayon::ThreadPoolBuilder;
-use texere::{Frame, PackedVertex, Pipeline, Plan, Settings, Topology, Vertex, Yarns};
+use texere::backend::Plan;
+use texere::mesh::{Frame, PackedVertex, Topology};
+use texere::{Pipeline, Settings, Vertex, Yarns};
 use texere_bench::{median, paper_cloth, plan, session, shaped, stream};
-use texere_core::{Chunk, ControlPoint, MeshMut, Session};
+use texere_core::ControlPoint;
+use texere_core::backend::{Chunk, MeshMut, Session};
 use texere_cpu::ParallelBackend;
 
 /// A kind of mesh, ready to be made.
@@ -120,7 +123,7 @@ impl Case {
         &mut self,
         vertices: &mut [Vertex],
         indices: &mut [u32],
-    ) -> Result<Round, texere_core::SessionError> {
+    ) -> Result<Round, texere_core::backend::SessionError> {
         let start = Instant::now();
         let floats: &mut [f32] = bytemuck::cast_slice_mut(vertices);
         let share = if self.output == Output::Packed { 2 } else { 1 };

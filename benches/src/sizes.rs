@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use texere::{Settings, Vertex};
 use texere_bench::{median, one_yarn, paper_cloth, plan, session};
-use texere_core::MeshMut;
+use texere_core::backend::MeshMut;
 use texere_cpu::ParallelBackend;
 
 /// Ends and picks; the last one is the paper's largest cloth.

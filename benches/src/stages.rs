@@ -5,8 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, Finished, Limits, Plan, RestReport, Settings, Yarns};
-use texere_core::Session;
+use texere::backend::Plan;
+use texere::mesh::Limits;
+use texere::rest::{Finished, RestReport};
+use texere::{Backend, Settings, Yarns};
+use texere_core::backend::Session;
 
 use crate::measure::Bench;
 use crate::one_yarn;

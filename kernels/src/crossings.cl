@@ -103,7 +103,7 @@ float side_of(const Cloth *cloth, uint2 site, uint of_set) {
     return up == (of_set == WARP) ? 1.0f : -1.0f;
 }
 
-// ---- Block: the energy's slope and curvature in the eight unknowns of a crossing ----
+// ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----
 
 // Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of `own_own` has the unknowns of its own with
 // its unknown k, row k of `own_crossed` those of the other set with it. Rows count up to the diagonal.
@@ -114,12 +114,12 @@ typedef struct {
     float4 own_crossed[4];
     float4 crossed_crossed[4];
     float clearance;
-} Block;
+} CrossingBlock;
 
 // The same seen from the other set.
-Block turned(const Block *block) {
+CrossingBlock turned(const CrossingBlock *block) {
     const float4 *rows = block->own_crossed;
-    Block other;
+    CrossingBlock other;
     other.own = block->crossed;
     other.crossed = block->own;
     for (uint k = 0u; k < 4u; k++) {
@@ -135,12 +135,12 @@ Block turned(const Block *block) {
 }
 
 // A distance of two threads over what they need.
-void see(Block *block, float clearance) {
+void see(CrossingBlock *block, float clearance) {
     block->clearance = fmin(block->clearance, clearance);
 }
 
 // Adds a term for each unknown of its own, whose residual has that slope in it alone.
-void add_alone(Block *block, float4 weights, float share, float4 residuals, float slope) {
+void add_alone(CrossingBlock *block, float4 weights, float share, float4 residuals, float slope) {
     block->own += weights * residuals * slope;
     float4 more = weights * share * slope * slope;
     block->own_own[0].x += more.x;
@@ -150,7 +150,7 @@ void add_alone(Block *block, float4 weights, float share, float4 residuals, floa
 }
 
 // Adds a term whose residual has these slopes in its own unknowns.
-void add_own(Block *block, float weight, float share, float residual, float4 slopes) {
+void add_own(CrossingBlock *block, float weight, float share, float residual, float4 slopes) {
     block->own += (weight * residual) * slopes;
     float4 weighted = (weight * share) * slopes;
     block->own_own[0] += weighted.x * slopes;
@@ -160,7 +160,7 @@ void add_own(Block *block, float weight, float share, float residual, float4 slo
 }
 
 // Adds one with these slopes in its own height and half height, and in what is unknown of the other set.
-void add_between(Block *block, float weight, float share, float residual, float2 slopes, float4 crossed) {
+void add_between(CrossingBlock *block, float weight, float share, float residual, float2 slopes, float4 crossed) {
     float height = slopes.x;
     float thickness = slopes.y;
     block->own.y += weight * residual * height;
@@ -179,7 +179,7 @@ void add_between(Block *block, float weight, float share, float residual, float2
 }
 
 // Adds one with these slopes in all that is unknown here.
-void add_both(Block *block, float weight, float residual, float4 own, float4 crossed) {
+void add_both(CrossingBlock *block, float weight, float residual, float4 own, float4 crossed) {
     add_own(block, weight, 1.0f, residual, own);
     float4 weighted = weight * crossed;
     block->crossed += residual * weighted;

@@ -1,6 +1,6 @@
 // A pass: the step of every crossing, and what all of them have seen. After crossings_terms.cl.
 //
-// The twin of crossings_pass.wgsl; Block::step and CrossingsPlan in texere-core (crossings/) are the definitions.
+// The twin of crossings_pass.wgsl; CrossingBlock::step and CrossingsPlan in texere-core (crossings/) are the definitions.
 
 // ---- Eight equations by Cholesky's method, in two halves of four ----
 
@@ -69,10 +69,10 @@ typedef struct {
 } Pair;
 
 // The step down to the least of the equations.
-Pair step_of(const Block *block) {
+Pair step_of(const CrossingBlock *block) {
     const float4 *own = block->own_own;
     Root warp = root_of(own, (float4)(own[0].x, own[1].y, own[2].z, own[3].w));
-    Block other = turned(block);
+    CrossingBlock other = turned(block);
     float4 a = forwards(&warp, other.own_crossed[0]);
     float4 b = forwards(&warp, other.own_crossed[1]);
     float4 c = forwards(&warp, other.own_crossed[2]);
@@ -131,7 +131,7 @@ float move_thread(const Cloth *cloth, __global float4 *crossings, __global float
 // Moves a crossing. Gives back the longest step and the least clearance.
 float2 move_crossing(const Cloth *cloth, __global float4 *crossings, __global float4 *next, uint number) {
     uint2 site = (uint2)(number % cloth->params->ends, number / cloth->params->ends);
-    Block block = gathered(cloth, site);
+    CrossingBlock block = gathered(cloth, site);
     Pair step = step_of(&block);
     float longest = fmax(largest(step.warp), largest(step.weft));
     float share = longest > CROSSINGS_STEP ? CROSSINGS_STEP / longest : 1.0f;

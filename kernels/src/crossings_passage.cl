@@ -1,6 +1,6 @@
 // A thread that changes sides between two threads of the other set. After crossings.cl.
 //
-// The twin of crossings_passage.wgsl, and of Passage in texere-core (crossings/passage.rs).
+// The twin of crossings_passage.wgsl, and of StraightPassage in texere-core (crossings/passage.rs).
 
 // A straight passage over the first of two crossed threads and under the second one, at the slope that leaves most room.
 typedef struct {
@@ -12,7 +12,7 @@ typedef struct {
     float between;
     // What is left when both ellipses and the thread have theirs.
     float room;
-} Passage;
+} StraightPassage;
 
 // How far ellipses reach across a slope: half widths in x and z, half heights in y and w.
 float2 reach_of(float2 slope, float4 halves) {
@@ -27,7 +27,7 @@ float left_by(float across, float rise, float4 halves, float2 slope) {
     return across * slope.y + rise * slope.x - reach.x - reach.y;
 }
 
-Passage passage_of(float across, float rise, float4 halves, float thread) {
+StraightPassage passage_of(float across, float rise, float4 halves, float thread) {
     const float2 level = (float2)(1.0f, 0.0f);
     const float2 upright = (float2)(0.0f, 1.0f);
     float distance = sqrt(across * across + rise * rise);
@@ -62,7 +62,7 @@ Passage passage_of(float across, float rise, float4 halves, float thread) {
             slope = level;
         }
     }
-    Passage passage;
+    StraightPassage passage;
     passage.slope = slope;
     passage.reach = reach_of(slope, halves);
     passage.between = across * slope.y + rise * slope.x;

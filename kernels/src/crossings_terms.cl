@@ -21,7 +21,7 @@ Along along_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
 }
 
 // Shape, area, and the press.
-void add_section(const Cloth *cloth, Block *block, float4 lie, float radius) {
+void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, float radius) {
     float wide = lie.z / radius;
     float thick = lie.w / radius;
     float4 aspect = (float4)(0.0f, 0.0f, 1.0f / radius, -CROSSINGS_ASPECT / radius);
@@ -34,7 +34,7 @@ void add_section(const Cloth *cloth, Block *block, float4 lie, float radius) {
 }
 
 // A second difference along the thread, which has this slope in what is unknown here.
-void add_bend(Block *block, const ThreadRow *thread, const Along *before, const Along *middle, const Along *after,
+void add_bend(CrossingBlock *block, const ThreadRow *thread, const Along *before, const Along *middle, const Along *after,
               float slope, float share) {
     if (!before->there || !middle->there || !after->there) {
         return;
@@ -47,7 +47,7 @@ void add_bend(Block *block, const ThreadRow *thread, const Along *before, const 
 }
 
 // First differences along the thread to a crossing `gap` away: tension, and sections that change little.
-void add_difference(Block *block, float4 lie, const Along *other, float gap, float tension, float evenness) {
+void add_difference(CrossingBlock *block, float4 lie, const Along *other, float gap, float tension, float evenness) {
     if (other->there) {
         float taut = tension / gap;
         float4 weights = (float4)(CROSSINGS_SIDEWAYS_TENSION * taut, CROSSINGS_TENSION * taut, evenness, evenness);
@@ -100,7 +100,7 @@ Meeting shoulder(float side, const Along *first, const Along *last, float4 one, 
 Meeting passage(float side, const Along *first, const Along *last, float4 one, float4 two, bool second) {
     float across = first->gap + two.x - one.x;
     float rise = side * (two.y - one.y);
-    Passage found = passage_of(across, rise, (float4)(one.zw, two.zw), first->lie.w + last->lie.w);
+    StraightPassage found = passage_of(across, rise, (float4)(one.zw, two.zw), first->lie.w + last->lie.w);
     // This crossing's share of it.
     float c = found.slope.x;
     float s = found.slope.y;
@@ -115,7 +115,7 @@ Meeting passage(float side, const Along *first, const Along *last, float4 one, f
     return meeting;
 }
 
-void add_meeting(const Cloth *cloth, Block *block, uint of_set, const Along *first, const Along *last, bool second) {
+void add_meeting(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *first, const Along *last, bool second) {
     if (!first->there || !last->there) {
         return;
     }
@@ -131,7 +131,7 @@ void add_meeting(const Cloth *cloth, Block *block, uint of_set, const Along *fir
 }
 
 // What the thread has to clear between this crossing and the one so many further along it, past threads of other levels.
-void add_meeting_past(const Cloth *cloth, Block *block, uint of_set, const Along *here, int steps) {
+void add_meeting_past(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *here, int steps) {
     Along other = along_of(cloth, here->site, of_set, steps);
     if (!other.there) {
         return;
@@ -144,7 +144,7 @@ void add_meeting_past(const Cloth *cloth, Block *block, uint of_set, const Along
 }
 
 // Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
-void keep_clear(const Cloth *cloth, Block *block, float apart, float rise, float wide, float thick, float sign,
+void keep_clear(const Cloth *cloth, CrossingBlock *block, float apart, float rise, float wide, float thick, float sign,
                 float part) {
     float x = apart / wide;
     float z = rise / thick;
@@ -160,7 +160,7 @@ void keep_clear(const Cloth *cloth, Block *block, float apart, float rise, float
 }
 
 // Neighbours of one set `gap` apart half way from this crossing to the `next` one, as ellipses.
-void add_half_way(const Cloth *cloth, Block *block, uint of_set, float4 own, const Along *next, float4 neighbour, int across,
+void add_half_way(const Cloth *cloth, CrossingBlock *block, uint of_set, float4 own, const Along *next, float4 neighbour, int across,
                   float gap) {
     if (!next->there) {
         return;
@@ -176,7 +176,7 @@ void add_half_way(const Cloth *cloth, Block *block, uint of_set, float4 own, con
 
 // Neighbours of one level keep to their own places at a crossing, whatever their heights; those of two lie side by side or one above the
 // other, as ellipses. All are clear of one another beside it.
-void add_neighbour(const Cloth *cloth, Block *block, uint of_set, const Along *before, const Along *here,
+void add_neighbour(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *before, const Along *here,
                    const Along *after, int across, bool of_level) {
     uint2 site = beside(cloth, here->site, of_set, 0, across);
     if (!is_there(site)) {
@@ -201,7 +201,7 @@ void add_neighbour(const Cloth *cloth, Block *block, uint of_set, const Along *b
 }
 
 // The neighbours of a thread to one side: `steps` is how many threads away the next one of its level lies.
-void add_neighbours(const Cloth *cloth, Block *block, uint of_set, const Along *before, const Along *here,
+void add_neighbours(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *before, const Along *here,
                     const Along *after, int sign, int steps) {
     if (steps != 0) {
         add_neighbour(cloth, block, of_set, before, here, after, sign * steps, true);
@@ -222,7 +222,7 @@ float slope_of(const Cloth *cloth, uint2 site, uint of_set) {
 }
 
 // Both threads of a crossing lie one on top of the other. The block is seen from the warp.
-void add_contact(const Cloth *cloth, Block *block, uint2 site) {
+void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     float4 warp = lie_of(cloth, site, WARP);
     float4 weft = lie_of(cloth, site, WEFT);
     float side = side_of(cloth, site, WARP);
@@ -248,7 +248,7 @@ void add_contact(const Cloth *cloth, Block *block, uint2 site) {
 }
 
 // All terms of one set that a crossing is part of.
-void add_set(const Cloth *cloth, Block *block, uint2 site, uint of_set) {
+void add_set(const Cloth *cloth, CrossingBlock *block, uint2 site, uint of_set) {
     ThreadRow thread = thread_of(cloth, site, of_set);
     float radius = thread.radius;
     Along two_before = along_of(cloth, site, of_set, -2);
@@ -280,8 +280,8 @@ void add_set(const Cloth *cloth, Block *block, uint2 site, uint of_set) {
 }
 
 // All terms that a crossing is part of, seen from the warp.
-Block gathered(const Cloth *cloth, uint2 site) {
-    Block block;
+CrossingBlock gathered(const Cloth *cloth, uint2 site) {
+    CrossingBlock block;
     block.own = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
     block.crossed = block.own;
     for (uint k = 0u; k < 4u; k++) {

@@ -1,7 +1,7 @@
 //! The OpenCL C sources of texere, as text, with their entry points and workgroup sizes. No GPU interface is used here.
 //!
 //! Each stage is a file, and the WGSL stages of texere-shaders are its twins: the same names, the same order of
-//! operations. A [`Program`] is the list of files that are compiled together, shared ones first.
+//! operations. A [`KernelProgram`] is the list of files that are compiled together, shared ones first.
 //!
 //! ```
 //! use texere_kernels::{MESH, PER_RING};
@@ -126,7 +126,7 @@ pub const CROSSINGS_SEEN: EntryPoint = EntryPoint { name: "crossings_seen", grou
 
 /// Sources that are compiled together, and the entry points in them.
 #[derive(Debug, Clone, Copy)]
-pub struct Program {
+pub struct KernelProgram {
     /// Its name in messages.
     pub name: &'static str,
     /// The files, in order.
@@ -136,7 +136,7 @@ pub struct Program {
 }
 
 /// The schedule per-ring: does everything.
-pub const PER_RING: Program = Program {
+pub const PER_RING: KernelProgram = KernelProgram {
     name: "per-ring",
     sources: &[
         include_str!("common.cl"),
@@ -151,21 +151,21 @@ pub const PER_RING: Program = Program {
 };
 
 /// The schedule per-yarn: the paper's, for upright, untwisted, open yarns without caps.
-pub const PER_YARN: Program = Program {
+pub const PER_YARN: KernelProgram = KernelProgram {
     name: "per-yarn",
     sources: &[include_str!("common.cl"), include_str!("per_yarn.cl")],
     entries: &[TRAJECTORY_PER_YARN, MESH_PER_YARN],
 };
 
 /// Attributes of vertices. It is compiled apart from the others, where attributes are first wanted.
-pub const ATTRIBUTES: Program = Program {
+pub const ATTRIBUTES: KernelProgram = KernelProgram {
     name: "attributes",
     sources: &[include_str!("common.cl"), include_str!("attributes.cl")],
     entries: &[BLOCK_LENGTHS, YARN_LENGTHS, ATTRIBUTES_OF_TUBES, ATTRIBUTES_OF_CAPS],
 };
 
 /// Packed vertices. It is compiled apart from the others, where they are first wanted.
-pub const PACKING: Program = Program {
+pub const PACKING: KernelProgram = KernelProgram {
     name: "packing",
     sources: &[
         include_str!("common.cl"),
@@ -177,7 +177,7 @@ pub const PACKING: Program = Program {
 };
 
 /// A settling. It is compiled apart from the others, where a settler is first wanted.
-pub const SETTLING: Program = Program {
+pub const SETTLING: KernelProgram = KernelProgram {
     name: "settling",
     sources: &[
         include_str!("settling.cl"),
@@ -209,7 +209,7 @@ pub const SETTLING: Program = Program {
 };
 
 /// Crossings at rest. It is compiled apart from the others, where a settler of crossings is first wanted.
-pub const CROSSINGS: Program = Program {
+pub const CROSSINGS: KernelProgram = KernelProgram {
     name: "crossings",
     sources: &[
         include_str!("crossings.cl"),

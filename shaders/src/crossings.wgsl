@@ -102,11 +102,11 @@ fn side_of(site: vec2<u32>, of_set: u32) -> f32 {
     return select(-1.0, 1.0, up == (of_set == WARP));
 }
 
-// ---- Block: the energy's slope and curvature in the eight unknowns of a crossing ----
+// ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----
 
 // Seen from one set: `own` are its four unknowns, `crossed` those of the other one. Row k of `own_own` has the unknowns of its own with
 // its unknown k, row k of `own_crossed` those of the other set with it. Rows count up to the diagonal.
-struct Block {
+struct CrossingBlock {
     own: vec4<f32>,
     crossed: vec4<f32>,
     own_own: array<vec4<f32>, 4>,
@@ -116,9 +116,9 @@ struct Block {
 }
 
 // The same seen from the other set.
-fn turned(block: Block) -> Block {
+fn turned(block: CrossingBlock) -> CrossingBlock {
     let rows = block.own_crossed;
-    return Block(
+    return CrossingBlock(
         block.crossed,
         block.own,
         block.crossed_crossed,
@@ -134,12 +134,12 @@ fn turned(block: Block) -> Block {
 }
 
 // A distance of two threads over what they need.
-fn see(block: ptr<function, Block>, clearance: f32) {
+fn see(block: ptr<function, CrossingBlock>, clearance: f32) {
     (*block).clearance = min((*block).clearance, clearance);
 }
 
 // Adds a term for each unknown of its own, whose residual has that slope in it alone.
-fn add_alone(block: ptr<function, Block>, weights: vec4<f32>, share: f32, residuals: vec4<f32>, slope: f32) {
+fn add_alone(block: ptr<function, CrossingBlock>, weights: vec4<f32>, share: f32, residuals: vec4<f32>, slope: f32) {
     (*block).own += weights * residuals * slope;
     let more = weights * share * slope * slope;
     (*block).own_own[0].x += more.x;
@@ -149,7 +149,7 @@ fn add_alone(block: ptr<function, Block>, weights: vec4<f32>, share: f32, residu
 }
 
 // Adds a term whose residual has these slopes in its own unknowns.
-fn add_own(block: ptr<function, Block>, weight: f32, share: f32, residual: f32, slopes: vec4<f32>) {
+fn add_own(block: ptr<function, CrossingBlock>, weight: f32, share: f32, residual: f32, slopes: vec4<f32>) {
     (*block).own += (weight * residual) * slopes;
     let weighted = (weight * share) * slopes;
     (*block).own_own[0] += weighted.x * slopes;
@@ -159,7 +159,7 @@ fn add_own(block: ptr<function, Block>, weight: f32, share: f32, residual: f32, 
 }
 
 // Adds one with these slopes in its own height and half height, and in what is unknown of the other set.
-fn add_between(block: ptr<function, Block>, weight: f32, share: f32, residual: f32, slopes: vec2<f32>, crossed: vec4<f32>) {
+fn add_between(block: ptr<function, CrossingBlock>, weight: f32, share: f32, residual: f32, slopes: vec2<f32>, crossed: vec4<f32>) {
     let height = slopes.x;
     let thickness = slopes.y;
     (*block).own.y += weight * residual * height;
@@ -178,7 +178,7 @@ fn add_between(block: ptr<function, Block>, weight: f32, share: f32, residual: f
 }
 
 // Adds one with these slopes in all that is unknown here.
-fn add_both(block: ptr<function, Block>, weight: f32, residual: f32, own: vec4<f32>, crossed: vec4<f32>) {
+fn add_both(block: ptr<function, CrossingBlock>, weight: f32, residual: f32, own: vec4<f32>, crossed: vec4<f32>) {
     add_own(block, weight, 1.0, residual, own);
     let weighted = weight * crossed;
     (*block).crossed += residual * weighted;

@@ -1,6 +1,6 @@
 // A pass: the step of every crossing, and what all of them have seen. After crossings_terms.wgsl.
 //
-// crossings_pass.cl is the twin of this file; Block::step and CrossingsPlan in texere-core (crossings/) are the definitions.
+// crossings_pass.cl is the twin of this file; CrossingBlock::step and CrossingsPlan in texere-core (crossings/) are the definitions.
 
 // As crossings are.
 @group(0) @binding(38) var<storage, read_write> crossings: array<vec4<f32>>;
@@ -65,7 +65,7 @@ struct Pair {
 }
 
 // The step down to the least of the equations.
-fn step_of(block: Block) -> Pair {
+fn step_of(block: CrossingBlock) -> Pair {
     let own = block.own_own;
     let warp = root_of(own, vec4(own[0].x, own[1].y, own[2].z, own[3].w));
     let between = turned(block).own_crossed;

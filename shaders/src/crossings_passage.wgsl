@@ -1,9 +1,9 @@
 // A thread that changes sides between two threads of the other set. After crossings.wgsl.
 //
-// crossings_passage.cl is the twin of this file, and Passage in texere-core (crossings/passage.rs) the definition.
+// crossings_passage.cl is the twin of this file, and StraightPassage in texere-core (crossings/passage.rs) the definition.
 
 // A straight passage over the first of two crossed threads and under the second one, at the slope that leaves most room.
-struct Passage {
+struct StraightPassage {
     // Cosine and sine of the slope.
     slope: vec2<f32>,
     // How far both ellipses reach across the slope.
@@ -27,7 +27,7 @@ fn left_by(across: f32, rise: f32, halves: vec4<f32>, slope: vec2<f32>) -> f32 {
     return across * slope.y + rise * slope.x - reach.x - reach.y;
 }
 
-fn passage_of(across: f32, rise: f32, halves: vec4<f32>, thread: f32) -> Passage {
+fn passage_of(across: f32, rise: f32, halves: vec4<f32>, thread: f32) -> StraightPassage {
     let distance = sqrt(across * across + rise * rise);
     let excess = halves.xz * halves.xz - halves.yw * halves.yw;
     // The best slope of round threads, level or upright: wide ellipses leave most room at one of these.
@@ -68,5 +68,5 @@ fn passage_of(across: f32, rise: f32, halves: vec4<f32>, thread: f32) -> Passage
     }
     let reach = reach_of(slope, halves);
     let between = across * slope.y + rise * slope.x;
-    return Passage(slope, reach, between, between - reach.x - reach.y - thread);
+    return StraightPassage(slope, reach, between, between - reach.x - reach.y - thread);
 }

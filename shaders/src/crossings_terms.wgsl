@@ -23,7 +23,7 @@ fn along_of(site: vec2<u32>, of_set: u32, steps: i32) -> Along {
 }
 
 // Shape, area, and the press.
-fn add_section(block: ptr<function, Block>, lie: vec4<f32>, radius: f32) {
+fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, radius: f32) {
     let wide = lie.z / radius;
     let thick = lie.w / radius;
     let aspect = vec4(0.0, 0.0, 1.0 / radius, -CROSSINGS_ASPECT / radius);
@@ -36,7 +36,7 @@ fn add_section(block: ptr<function, Block>, lie: vec4<f32>, radius: f32) {
 }
 
 // A second difference along the thread, which has this slope in what is unknown here.
-fn add_bend(block: ptr<function, Block>, thread: ThreadRow, before: Along, middle: Along, after: Along, slope: f32, share: f32) {
+fn add_bend(block: ptr<function, CrossingBlock>, thread: ThreadRow, before: Along, middle: Along, after: Along, slope: f32, share: f32) {
     if !before.there || !middle.there || !after.there {
         return;
     }
@@ -48,7 +48,7 @@ fn add_bend(block: ptr<function, Block>, thread: ThreadRow, before: Along, middl
 }
 
 // First differences along the thread to a crossing `gap` away: tension, and sections that change little.
-fn add_difference(block: ptr<function, Block>, lie: vec4<f32>, other: Along, gap: f32, tension: f32, evenness: f32) {
+fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Along, gap: f32, tension: f32, evenness: f32) {
     if other.there {
         let taut = tension / gap;
         let weights = vec4(CROSSINGS_SIDEWAYS_TENSION * taut, CROSSINGS_TENSION * taut, evenness, evenness);
@@ -108,7 +108,7 @@ fn passage(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>,
     return Meeting(found.room - CROSSINGS_MARGIN, vec2(0.0, -1.0), crossed, clearance);
 }
 
-fn add_meeting(block: ptr<function, Block>, of_set: u32, first: Along, last: Along, second: bool) {
+fn add_meeting(block: ptr<function, CrossingBlock>, of_set: u32, first: Along, last: Along, second: bool) {
     if !first.there || !last.there {
         return;
     }
@@ -128,7 +128,7 @@ fn add_meeting(block: ptr<function, Block>, of_set: u32, first: Along, last: Alo
 }
 
 // What the thread has to clear between this crossing and the one so many further along it, past threads of other levels.
-fn add_meeting_past(block: ptr<function, Block>, of_set: u32, here: Along, steps: i32) {
+fn add_meeting_past(block: ptr<function, CrossingBlock>, of_set: u32, here: Along, steps: i32) {
     let other = along_of(here.site, of_set, steps);
     if !other.there {
         return;
@@ -145,7 +145,7 @@ fn add_meeting_past(block: ptr<function, Block>, of_set: u32, here: Along, steps
 }
 
 // Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
-fn keep_clear(block: ptr<function, Block>, apart: f32, rise: f32, wide: f32, thick: f32, sign: f32, part: f32) {
+fn keep_clear(block: ptr<function, CrossingBlock>, apart: f32, rise: f32, wide: f32, thick: f32, sign: f32, part: f32) {
     let x = apart / wide;
     let z = rise / thick;
     let clearance = sqrt(x * x + z * z);
@@ -163,7 +163,7 @@ fn keep_clear(block: ptr<function, Block>, apart: f32, rise: f32, wide: f32, thi
 }
 
 // Neighbours of one set `gap` apart half way from this crossing to the `next` one, as ellipses.
-fn add_half_way(block: ptr<function, Block>, of_set: u32, own: vec4<f32>, next: Along, neighbour: vec4<f32>, across: i32, gap: f32) {
+fn add_half_way(block: ptr<function, CrossingBlock>, of_set: u32, own: vec4<f32>, next: Along, neighbour: vec4<f32>, across: i32, gap: f32) {
     if !next.there {
         return;
     }
@@ -178,7 +178,7 @@ fn add_half_way(block: ptr<function, Block>, of_set: u32, own: vec4<f32>, next: 
 
 // Neighbours of one level keep to their own places at a crossing, whatever their heights; those of two lie side by side or one above the
 // other, as ellipses. All are clear of one another beside it.
-fn add_neighbour(block: ptr<function, Block>, of_set: u32, before: Along, here: Along, after: Along, across: i32, of_level: bool) {
+fn add_neighbour(block: ptr<function, CrossingBlock>, of_set: u32, before: Along, here: Along, after: Along, across: i32, of_level: bool) {
     let site = beside(here.site, of_set, 0, across);
     if !is_there(site) {
         return;
@@ -206,7 +206,7 @@ fn add_neighbour(block: ptr<function, Block>, of_set: u32, before: Along, here: 
 }
 
 // The neighbours of a thread to one side: `steps` is how many threads away the next one of its level lies.
-fn add_neighbours(block: ptr<function, Block>, of_set: u32, before: Along, here: Along, after: Along, side: i32, steps: i32) {
+fn add_neighbours(block: ptr<function, CrossingBlock>, of_set: u32, before: Along, here: Along, after: Along, side: i32, steps: i32) {
     if steps != 0 {
         add_neighbour(block, of_set, before, here, after, side * steps, true);
     }
@@ -231,7 +231,7 @@ fn slope_of(site: vec2<u32>, of_set: u32) -> f32 {
 }
 
 // Both threads of a crossing lie one on top of the other. The block is seen from the warp.
-fn add_contact(block: ptr<function, Block>, site: vec2<u32>) {
+fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     let warp = lie_of(site, WARP);
     let weft = lie_of(site, WEFT);
     let side = side_of(site, WARP);
@@ -256,7 +256,7 @@ fn add_contact(block: ptr<function, Block>, site: vec2<u32>) {
 }
 
 // All terms of one set that a crossing is part of.
-fn add_set(block: ptr<function, Block>, site: vec2<u32>, of_set: u32) {
+fn add_set(block: ptr<function, CrossingBlock>, site: vec2<u32>, of_set: u32) {
     let thread = thread_of(site, of_set);
     let radius = thread.radius;
     let two_before = along_of(site, of_set, -2);
@@ -287,8 +287,8 @@ fn add_set(block: ptr<function, Block>, site: vec2<u32>, of_set: u32) {
 }
 
 // All terms that a crossing is part of, seen from the warp.
-fn gathered(site: vec2<u32>) -> Block {
-    var block: Block;
+fn gathered(site: vec2<u32>) -> CrossingBlock {
+    var block: CrossingBlock;
     block.clearance = UNSEEN;
     for (var of_set = WARP; of_set <= WEFT; of_set++) {
         add_set(&block, site, of_set);

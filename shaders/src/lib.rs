@@ -118,11 +118,11 @@ pub enum Resource {
     ThreadRows = 35,
     /// Where the warp lies on the face: a bit a crossing.
     Ups = 36,
-    /// `Crossing`s as others find them.
+    /// `CrossingState`s as others find them.
     FoundCrossings = 37,
-    /// `Crossing`s as they are.
+    /// `CrossingState`s as they are.
     Crossings = 38,
-    /// `Crossing`s as others find them in the next pass.
+    /// `CrossingState`s as others find them in the next pass.
     NextCrossings = 39,
     /// What each workgroup of crossings has seen.
     CrossingsGroupRows = 40,

@@ -7,9 +7,11 @@ use std::mem::offset_of;
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Module, StorageAccess, TypeInner};
-use texere_core::crossings::{Crossing, Lie};
+use texere_core::backend::Block;
+use texere_core::crossings::{CrossingState, Lie};
+use texere_core::definitions::Ring;
 use texere_core::settling::Place;
-use texere_core::{ArcLength, Attribute, Block, ControlPoint, PackedVertex, Ring, SectionPoint, Vertex};
+use texere_core::{ArcLength, Attribute, ControlPoint, PackedVertex, SectionPoint, Vertex};
 use texere_gpu::{
     BoundsRow, CapRow, ChordRow, CrossingsParams, CrossingsSeenRow, ExtentRow, Language, Params, PlaceRow,
     SeenRow, SettledParams, SettledRow, SettlingParams, StrandRow, ThreadRow, YarnRow, prelude,
@@ -200,7 +202,7 @@ fn tables_of_crossings_lie_as_in_rust() {
         }
     );
     // Read as vectors: the order of the fields matters.
-    assert_eq!((offset_of!(Crossing, warp), offset_of!(Crossing, weft)), (0, 16));
+    assert_eq!((offset_of!(CrossingState, warp), offset_of!(CrossingState, weft)), (0, 16));
     assert_eq!([offset_of!(Lie, shift), offset_of!(Lie, height)], [0, 4]);
     assert_eq!([offset_of!(Lie, half_width), offset_of!(Lie, half_height)], [8, 12]);
     assert_eq!([offset_of!(CrossingsSeenRow, step), offset_of!(CrossingsSeenRow, clearance)], [0, 4]);
@@ -269,9 +271,9 @@ fn untyped_tables_have_elements_that_divide_the_rust_type() {
         (33, size_of::<BoundsRow>()),
         (35, size_of::<ThreadRow>()),
         (36, size_of::<u32>()),
-        (37, size_of::<Crossing>()),
-        (38, size_of::<Crossing>()),
-        (39, size_of::<Crossing>()),
+        (37, size_of::<CrossingState>()),
+        (38, size_of::<CrossingState>()),
+        (39, size_of::<CrossingState>()),
         (40, size_of::<CrossingsSeenRow>()),
         (41, size_of::<CrossingsSeenRow>()),
         (42, size_of::<ArcLength>()),

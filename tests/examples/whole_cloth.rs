@@ -9,8 +9,11 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use texere::{Backend, MeshPiece, Pipeline, Plan, Settings, Yarns};
-use texere_core::{Chunk, MeshMut, Session, Vertex, zeroed};
+use texere::backend::Plan;
+use texere::mesh::MeshPiece;
+use texere::{Backend, Pipeline, Settings, Yarns};
+use texere_core::Vertex;
+use texere_core::backend::{Chunk, MeshMut, Session, zeroed};
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use texere_core::BackendError;
 use texere_core::crossings::{
-    Crossing, Crossings, CrossingsError, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler, Set,
+    CrossingState, Crossings, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler, Set,
 };
+use texere_core::{BackendError, CrossingsError};
 
 /// The fault of a broken settler of crossings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,10 +35,10 @@ pub struct SabotagedCrossings {
     plan: Arc<CrossingsPlan>,
     /// What it works by: the same, or one without the repeat.
     by: CrossingsPlan,
-    crossings: Vec<Crossing>,
+    crossings: Vec<CrossingState>,
     /// As others find them, and as they found them a pass before.
-    found: Vec<Crossing>,
-    before: Vec<Crossing>,
+    found: Vec<CrossingState>,
+    before: Vec<CrossingState>,
 }
 
 impl SabotagedCrossings {
@@ -53,13 +53,13 @@ impl SabotagedCrossings {
             CrossingsSabotage::LostRepeat => CrossingsPlan::new(&problem.clone().repeats(false, false))?,
             _ => plan.clone(),
         };
-        let crossings = vec![Crossing::default(); plan.crossings()];
+        let crossings = vec![CrossingState::default(); plan.crossings()];
         let (found, before) = (crossings.clone(), crossings.clone());
         Ok(Self { sabotage, plan: Arc::new(plan), by, crossings, found, before })
     }
 
     /// All crossings as crossing `number` finds them.
-    fn found_by(&self, number: usize) -> Vec<Crossing> {
+    fn found_by(&self, number: usize) -> Vec<CrossingState> {
         let mut found = match self.sabotage {
             CrossingsSabotage::StaleStep => {
                 let mut found = self.before.clone();
@@ -83,7 +83,7 @@ impl CrossingsSettler for SabotagedCrossings {
         &self.plan
     }
 
-    fn upload(&mut self, crossings: &[Crossing]) -> Result<(), BackendError> {
+    fn upload(&mut self, crossings: &[CrossingState]) -> Result<(), BackendError> {
         for own in [&mut self.crossings, &mut self.found, &mut self.before] {
             own.copy_from_slice(crossings);
         }
@@ -109,7 +109,7 @@ impl CrossingsSettler for SabotagedCrossings {
         Ok(seen)
     }
 
-    fn read(&mut self, crossings: &mut [Crossing]) -> Result<(), BackendError> {
+    fn read(&mut self, crossings: &mut [CrossingState]) -> Result<(), BackendError> {
         crossings.copy_from_slice(&self.crossings);
         Ok(())
     }

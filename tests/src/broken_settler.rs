@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::Vec3;
 use texere_core::BackendError;
 use texere_core::settling::{
-    Chord, Gathered, Interval, Length, Listed, Pass, Place, Pull, Seen, Settler, SettlingPlan, freed, moves,
-    tag,
+    Chord, Gathered, Interval, Length, Listed, Pass, Place, Pull, Settler, SettlingPlan, SettlingSeen, freed,
+    moves, tag,
 };
 
 /// The fault of a broken settler.
@@ -157,15 +157,16 @@ impl Settler for SabotagedSettler {
         Ok(self.neighbours.iter().map(|own| own.len() as u64).sum())
     }
 
-    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         let pulls = self.pulls(pass);
         let plan = Arc::clone(&self.plan);
-        let mut seen = Seen::NOTHING;
+        let mut seen = SettlingSeen::NOTHING;
         for (place, pull) in
             pulls.iter().enumerate().filter(|(place, _)| plan.tags()[*place] & tag::INTERVAL != 0)
         {
             let length = (pull.arc - self.lengths[place]).abs() / self.lengths[place];
-            seen = seen.and(Seen { step: 0.0, clearance: pull.clearance, radius: pull.radius, length });
+            seen =
+                seen.and(SettlingSeen { step: 0.0, clearance: pull.clearance, radius: pull.radius, length });
         }
         let mut next = self.places.clone();
         let early = i64::from(self.sabotage == SettlingSabotage::WrongSlot);

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use texere_core::{Backend, Limits, Plan, Settings, Yarns};
+use texere_core::backend::Plan;
+use texere_core::{Backend, Limits, Settings, Yarns};
 use texere_cpu::SerialBackend;
 
 use crate::compare::{

@@ -3,11 +3,9 @@
 use std::sync::Arc;
 
 use libtest_mimic::Failed;
-use texere_core::crossings::Thread;
-use texere_core::{
-    Backend, BackendError, Crossings, CrossingsPlan, LiveMesh, Pipeline, PipelineError, Plan, SessionError,
-    Settings, Yarn,
-};
+use texere_core::backend::{LiveMesh, Plan, SessionError};
+use texere_core::crossings::{CrossingThread, Crossings, CrossingsPlan};
+use texere_core::{Backend, BackendError, Pipeline, PipelineError, Settings, Yarn};
 
 use crate::{cases, rest};
 
@@ -19,7 +17,7 @@ pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
     let starts = rest::starts();
     let start = starts.first().ok_or("no start of a settling")?;
-    let threads = || vec![Thread { pitch: 0.5, diameter: 0.2, stiffness: 1.0, level: 0 }; 2];
+    let threads = || vec![CrossingThread { pitch: 0.5, diameter: 0.2, stiffness: 1.0, level: 0 }; 2];
     let plain = CrossingsPlan::new(&Crossings::new(vec![true, false, false, true], threads(), threads()))?;
 
     let refused = |error: &BackendError| matches!(error, BackendError::NoSettling { .. });
@@ -52,7 +50,8 @@ fn holds<T, E: std::error::Error + Send + Sync + 'static>(
 
 #[cfg(test)]
 mod tests {
-    use texere_core::{Capabilities, DeviceInfo, Engine, NullBackend};
+    use texere_core::backend::{Engine, NullBackend};
+    use texere_core::{Capabilities, DeviceInfo};
     use texere_cpu::SerialBackend;
 
     use super::*;

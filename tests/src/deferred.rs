@@ -7,9 +7,12 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use texere_core::backend::{
+    Chunk, Engine, MeshMut, MeshSink, Plan, RingSink, ScanChunks, Schedule, Slot, StageTimings,
+};
+use texere_core::definitions::Ring;
 use texere_core::{
-    Backend, BackendError, Capabilities, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine, Limits,
-    MeshMut, MeshPiece, MeshSink, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Vertex,
+    Backend, BackendError, Capabilities, ControlPoint, DeviceInfo, DeviceKind, Limits, MeshPiece, Vertex,
 };
 use texere_cpu::SerialBackend;
 

@@ -3,10 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere_core::{
-    Backend, Chunk, Engine, Limits, MeshMut, MeshPiece, Plan, PlanError, Ring, Session, SessionError, Vertex,
-    Yarns,
-};
+use texere_core::backend::{Chunk, Engine, MeshMut, Plan, Session, SessionError};
+use texere_core::definitions::Ring;
+use texere_core::{Backend, Limits, MeshPiece, PlanError, Vertex, Yarns};
 use thiserror::Error;
 
 use crate::compare::{Fault, Report, RingPlace};

@@ -1,6 +1,7 @@
 //! Limits so tight that a plan is cut into several chunks.
 
-use texere_core::{Limits, Plan, PlanError};
+use texere_core::backend::Plan;
+use texere_core::{Limits, PlanError};
 
 /// The suite's own chunks hold at most this share of a plan's blocks: every case of more than one block is cut, and none
 /// into so many chunks that it takes long.

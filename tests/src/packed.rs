@@ -5,10 +5,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use texere_core::{
-    Backend, Limits, MeshPiece, MeshPlace, PackedVertex, Plan, Quantum, Session, SessionError, Settings,
-    Vertex, Yarns,
-};
+use texere_core::backend::{Plan, Session, SessionError};
+use texere_core::{Backend, Limits, MeshPiece, MeshPlace, PackedVertex, Quantum, Settings, Vertex, Yarns};
 use thiserror::Error;
 
 /// How far a normal may be turned by packing, rad: half a step of either coordinate where a step turns it most, in the middle of a face.
@@ -152,7 +150,7 @@ fn both(
 
 /// The control point at or before the first ring of the block that a vertex lies in.
 fn control_point(yarns: &Yarns, plan: &Plan, place: &MeshPlace) -> DVec3 {
-    let first = place.ring / texere_core::BLOCK_RINGS * texere_core::BLOCK_RINGS;
+    let first = place.ring / texere_core::backend::BLOCK_RINGS * texere_core::backend::BLOCK_RINGS;
     let points = yarns.yarn_points(place.yarn as usize).unwrap_or_default();
     let point = points[plan.interval(first).0 as usize % points.len()];
     DVec3::new(point.x.into(), point.y.into(), point.z.into())

@@ -1,6 +1,7 @@
 //! What memory is filled with before a stage runs.
 
-use texere_core::{Ring, Turn, Vertex};
+use texere_core::Vertex;
+use texere_core::definitions::{Ring, Turn};
 
 /// A NaN that no arithmetic gives: memory that still holds it was never written.
 const POISON: f32 = f32::from_bits(0x7fc0_bad1);

@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, OnceLock};
 
-use texere_core::{Backend, BackendError, DeviceInfo, Schedule};
+use texere_core::backend::Schedule;
+use texere_core::{Backend, BackendError, DeviceInfo};
 use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;

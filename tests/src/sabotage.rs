@@ -6,10 +6,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use glam::Vec3;
-use texere_core::{
-    Backend, BackendError, Capabilities, Chunk, ControlPoint, DeviceInfo, Engine, Limits, MeshMut, MeshPiece,
-    MeshSink, PackedSink, Part, Plan, Ring, RingSink, ScanChunks, Schedule, Slot, StageTimings, Turn, Vertex,
+use texere_core::backend::{
+    Chunk, Engine, MeshMut, MeshSink, PackedSink, Part, Plan, RingSink, ScanChunks, Schedule, Slot,
+    StageTimings,
 };
+use texere_core::definitions::{Ring, Turn};
+use texere_core::{Backend, BackendError, Capabilities, ControlPoint, DeviceInfo, Limits, MeshPiece, Vertex};
 use texere_cpu::SerialBackend;
 
 use crate::compare::Fault;

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use libtest_mimic::Failed;
-use texere_core::{Backend, BackendError, DeviceInfo, Frame, Plan, Schedule, Settings, Yarns};
+use texere_core::backend::{Plan, Schedule};
+use texere_core::{Backend, BackendError, DeviceInfo, Frame, Settings, Yarns};
 
 use crate::REGISTRY;
 use crate::registry::names;

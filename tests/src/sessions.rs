@@ -6,18 +6,15 @@ use std::time::{Duration, Instant};
 
 use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
+use texere_core::backend::{Chunk, Plan, Schedule, Session, SessionError, StageTimings};
 use texere_core::settling::{Form, Pass, settled};
-use texere_core::{
-    Backend, Chunk, ControlPoint, Frame, Limits, Plan, Schedule, Session, SessionError, Settings,
-    StageTimings, Vertex, Yarn, Yarns,
-};
+use texere_core::{Backend, ControlPoint, Frame, Limits, Settings, Vertex, Yarn, Yarns};
 
-use crate::cases;
 use crate::claims::claims_hold;
 use crate::drive::Lent;
 use crate::packed::check_packed;
-use crate::rest;
 use crate::schedule::beyond;
+use crate::{cases, rest};
 
 /// A guarantee's name, and the check of a device for it.
 type Promise = (&'static str, fn(&dyn Backend) -> Result<(), Failed>);

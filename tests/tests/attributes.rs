@@ -6,7 +6,8 @@ use std::sync::Arc;
 use texere_conformance::cases::{self, Case};
 use texere_conformance::near_devices;
 use texere_conformance::oracle::Oracle;
-use texere_core::{Attribute, Backend, Chunk, End, Frame, Plan, Session, SessionError, Settings, Yarns};
+use texere_core::backend::{Chunk, Plan, Session, SessionError};
+use texere_core::{Attribute, Backend, End, Frame, Settings, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// Parts that the test's own lengths cut each control interval into; half as many are tried beside them.

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use texere_conformance::schedule::able_devices;
+use texere_core::backend::{NullBackend, Plan};
 use texere_core::{
-    Boundary, BoundaryError, ControlPoint, Ends, Frame, Layout, Limits, Material, NullBackend, Pipeline,
-    PipelineError, Plan, PlanError, Section, SectionError, Settings, Topology, Yarn, YarnError, Yarns,
+    Boundary, BoundaryError, ControlPoint, Ends, Frame, Layout, Limits, Material, Pipeline, PipelineError,
+    PlanError, Section, SectionError, Settings, Topology, Yarn, YarnError, Yarns,
 };
 
 fn straight(count: u16) -> Vec<ControlPoint> {

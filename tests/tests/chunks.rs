@@ -8,9 +8,10 @@ use texere_conformance::compare::Report;
 use texere_conformance::drive::{DeviceOutput, Way, drive};
 use texere_conformance::limits::least;
 use texere_conformance::schedule::able_devices;
+use texere_core::backend::{Block, Chunk, MeshMut, Plan, Session, WINDOW_POINTS};
+use texere_core::definitions::Ring;
 use texere_core::{
-    Block, Chunk, ControlPoint, End, Frame, Limits, Mesh, MeshMut, Pipeline, Plan, Ring, Session, Settings,
-    Topology, Vertex, WINDOW_POINTS, Yarn, Yarns,
+    ControlPoint, End, Frame, Limits, Mesh, Pipeline, Settings, Topology, Vertex, Yarn, Yarns,
 };
 use texere_cpu::SerialBackend;
 

@@ -1,12 +1,12 @@
 //! Kernels and shaders take the core's constants from one place, and have none of their own.
 
 use texere_gpu::{CONSTANTS, CROSSINGS_CONSTANTS, Constant, SETTLING_CONSTANTS};
-use texere_kernels::{ATTRIBUTES, CROSSINGS, PACKING, PER_RING, PER_YARN, Program, SETTLING};
+use texere_kernels::{ATTRIBUTES, CROSSINGS, KernelProgram, PACKING, PER_RING, PER_YARN, SETTLING};
 
 /// All that is compiled for a mesh, for a settling or for crossings, without what stands before it, and the constants that it is to use.
 fn sources() -> [(&'static str, String, &'static [Constant]); 6] {
     let kernels =
-        |programs: &[Program]| programs.iter().flat_map(|program| program.sources).copied().collect();
+        |programs: &[KernelProgram]| programs.iter().flat_map(|program| program.sources).copied().collect();
     [
         ("kernels of a mesh", kernels(&[PER_RING, PER_YARN, ATTRIBUTES, PACKING]), &CONSTANTS),
         ("shaders of a mesh", texere_shaders::ALL.map(|shader| shader.source).concat(), &CONSTANTS),

@@ -4,11 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_conformance::{CrossingsSabotage, SabotagedCrossings, near_devices};
+use texere_core::backend::Schedule;
 use texere_core::crossings::{
-    Crossing, Crossings, CrossingsPass, CrossingsPlan, CrossingsRest, CrossingsSeen, CrossingsSettler, Set,
-    Thread, settle,
+    CrossingState, CrossingThread, Crossings, CrossingsPass, CrossingsPlan, CrossingsRest, CrossingsSeen,
+    CrossingsSettler, Set, settle,
 };
-use texere_core::{Backend, BackendError, Limits, OutOfMemory, Schedule};
+use texere_core::{Backend, BackendError, Limits, OutOfMemory};
 use texere_cpu::SerialBackend;
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
@@ -20,8 +21,12 @@ fn even(
     [ends, picks]: [usize; 2],
     up: fn(usize, usize) -> bool,
 ) -> Crossings {
-    let [warp, weft] =
-        [0, 1].map(|set| Thread { pitch: pitch[set], diameter: diameter[set], stiffness: 1.0, level: 0 });
+    let [warp, weft] = [0, 1].map(|set| CrossingThread {
+        pitch: pitch[set],
+        diameter: diameter[set],
+        stiffness: 1.0,
+        level: 0,
+    });
     let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
     Crossings::new(ups, vec![warp; ends], vec![weft; picks])
 }
@@ -33,8 +38,8 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
         bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (bits >> 8) as f32 / (1 << 23) as f32 - 1.0
     };
-    let mut threads = |count: usize, pitch: f32| -> Vec<Thread> {
-        let thread = |_| Thread {
+    let mut threads = |count: usize, pitch: f32| -> Vec<CrossingThread> {
+        let thread = |_| CrossingThread {
             pitch: pitch * (1.0 + 0.2 * chance()),
             diameter: 0.3 * (1.0 + 0.3 * chance()),
             stiffness: 1.0 + 0.5 * chance(),
@@ -49,8 +54,8 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
 
 /// Threads by turns on so many levels of each set, in plain weave within a layer where there are as many of both; else in a twill for each level.
 fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2]) -> Crossings {
-    let threads = |count: usize, levels: u32, spacing: f32| -> Vec<Thread> {
-        let thread = |number: usize| Thread {
+    let threads = |count: usize, levels: u32, spacing: f32| -> Vec<CrossingThread> {
+        let thread = |number: usize| CrossingThread {
             pitch: spacing / levels as f32,
             diameter: 0.2,
             stiffness: 1.0,
@@ -103,8 +108,8 @@ fn plan(problem: &Crossings) -> Arc<CrossingsPlan> {
     Arc::new(CrossingsPlan::new(problem).expect("a plan"))
 }
 
-fn read(settler: &mut dyn CrossingsSettler) -> Result<Vec<Crossing>, BackendError> {
-    let mut crossings = vec![Crossing::default(); settler.plan().crossings()];
+fn read(settler: &mut dyn CrossingsSettler) -> Result<Vec<CrossingState>, BackendError> {
+    let mut crossings = vec![CrossingState::default(); settler.plan().crossings()];
     settler.read(&mut crossings)?;
     Ok(crossings)
 }
@@ -113,18 +118,18 @@ fn read(settler: &mut dyn CrossingsSettler) -> Result<Vec<Crossing>, BackendErro
 #[derive(Debug, Clone, PartialEq)]
 struct Course {
     seen: Vec<CrossingsSeen>,
-    crossings: Vec<Crossing>,
+    crossings: Vec<CrossingState>,
 }
 
 /// By how much that unknown differs which differs most, in mean diameters.
-fn apart(one: &[Crossing], other: &[Crossing]) -> f32 {
+fn apart(one: &[CrossingState], other: &[CrossingState]) -> f32 {
     one.iter().zip(other).map(|(one, other)| one.difference(other)).fold(0.0, f32::max)
 }
 
 /// Eight passes from number `first` of the course on: some at once, some alone.
 fn eight_passes(
     settler: &mut dyn CrossingsSettler,
-    begin: &[Crossing],
+    begin: &[CrossingState],
     first: u32,
 ) -> Result<Course, BackendError> {
     settler.upload(begin)?;
@@ -147,7 +152,7 @@ const OFF: f32 = 1e-4;
 const ROUNDING: f32 = 5e-7;
 
 /// Where eight passes begin: with the course, where threads are thin, and where they have almost grown.
-fn beginnings(plan: &Arc<CrossingsPlan>) -> [(u32, Vec<Crossing>); 2] {
+fn beginnings(plan: &Arc<CrossingsPlan>) -> [(u32, Vec<CrossingState>); 2] {
     let thin = plan.start().expect("crossings");
     let mut serial = SerialBackend::new().crossings_settler(Arc::clone(plan)).expect("a settler");
     serial.upload(&thin).expect("an upload");
@@ -157,7 +162,7 @@ fn beginnings(plan: &Arc<CrossingsPlan>) -> [(u32, Vec<Crossing>); 2] {
     [(0, thin), (46, read(serial.as_mut()).expect("crossings"))]
 }
 
-fn reference(plan: &Arc<CrossingsPlan>, begin: &[Crossing], first: u32) -> Course {
+fn reference(plan: &Arc<CrossingsPlan>, begin: &[CrossingState], first: u32) -> Course {
     let mut serial = SerialBackend::new().crossings_settler(Arc::clone(plan)).expect("a settler");
     eight_passes(serial.as_mut(), begin, first).expect("a course")
 }
@@ -169,7 +174,7 @@ fn seen_apart(one: &CrossingsSeen, other: &CrossingsSeen) -> f32 {
 
 /// How far a course may be off: threads that only just touch, or have two slopes to choose from, make much of a rounding. So ten times
 /// what the reference's own course is off when it begins a rounding beside, and [`OFF`] at least.
-fn certain(plan: &Arc<CrossingsPlan>, begin: &[Crossing], first: u32, expected: &Course) -> f32 {
+fn certain(plan: &Arc<CrossingsPlan>, begin: &[CrossingState], first: u32, expected: &Course) -> f32 {
     let mut beside = begin.to_vec();
     for (number, value) in bytemuck::cast_slice_mut::<_, f32>(&mut beside).iter_mut().enumerate() {
         *value += ROUNDING * ((number * 7 % 5) as f32 - 2.0);
@@ -244,7 +249,7 @@ fn broken_settlers_are_caught() {
 }
 
 /// The mean of half widths, half heights and areas of each set.
-fn means(plan: &CrossingsPlan, crossings: &[Crossing]) -> Vec<f32> {
+fn means(plan: &CrossingsPlan, crossings: &[CrossingState]) -> Vec<f32> {
     let mean = |of: &dyn Fn(usize) -> f32| (0..crossings.len()).map(of).sum::<f32>() / crossings.len() as f32;
     let each = Set::BOTH.into_iter().flat_map(|set| {
         let lie = move |number: usize| crossings[number].lie(set);
@@ -260,12 +265,12 @@ fn means(plan: &CrossingsPlan, crossings: &[Crossing]) -> Vec<f32> {
 }
 
 /// Crossings with each set's mean shift taken off: a repeat lies as well a little further on.
-fn centred(crossings: &[Crossing]) -> Vec<Crossing> {
+fn centred(crossings: &[CrossingState]) -> Vec<CrossingState> {
     let mean = |set: Set| {
         crossings.iter().map(|crossing| crossing.lie(set).shift).sum::<f32>() / crossings.len() as f32
     };
     let [warp, weft] = Set::BOTH.map(mean);
-    let centre = |mut crossing: Crossing| {
+    let centre = |mut crossing: CrossingState| {
         crossing.warp.shift -= warp;
         crossing.weft.shift -= weft;
         crossing
@@ -273,7 +278,7 @@ fn centred(crossings: &[Crossing]) -> Vec<Crossing> {
     crossings.iter().copied().map(centre).collect()
 }
 
-fn rest(device: &dyn Backend, plan: &Arc<CrossingsPlan>) -> (CrossingsRest, Vec<Crossing>) {
+fn rest(device: &dyn Backend, plan: &Arc<CrossingsPlan>) -> (CrossingsRest, Vec<CrossingState>) {
     let mut settler = device.crossings_settler(Arc::clone(plan)).expect("a settler");
     let rest = settle(plan, settler.as_mut(), |_, _| ControlFlow::Continue(())).expect("rest");
     (rest, read(settler.as_mut()).expect("crossings"))

@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use texere_conformance::cases::{sections, winding};
-use texere_core::{ControlPoint, Frame, Mesh, Pipeline, Section, Session, Settings, Topology, Yarn, Yarns};
+use texere_core::backend::Session;
+use texere_core::{ControlPoint, Frame, Mesh, Pipeline, Section, Settings, Topology, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 const FRAMES: [Frame; 2] = [Frame::Upright, Frame::RotationMinimizing];
@@ -179,7 +180,8 @@ fn twist_keeps_volume_and_rings() {
 #[test]
 fn an_edited_yarn_is_as_good_as_a_new_one() {
     use std::sync::Arc;
-    use texere_core::{Backend, Limits, MeshMut, Plan, Vertex};
+    use texere_core::backend::{MeshMut, Plan};
+    use texere_core::{Backend, Limits, Vertex};
 
     let mut yarns = texere_conformance::cases::mixed();
     let settings = Settings { frame: Frame::RotationMinimizing, ..Settings::default() };

@@ -5,11 +5,13 @@ use std::sync::{Arc, OnceLock};
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
+use texere::backend::Plan;
+use texere::mesh::{Frame, LiveError, MeshPiece, Ray};
+use texere::rest::Finish;
 use texere::weft::{Beds, Cell, Chart, Gauge, KnitYarn, Knitted, Machine};
-use texere::{
-    Backend, ControlPoint, Drawdown, Finish, Frame, Live, LiveError, Material, MeshPiece, Picker, Pipeline,
-    Plan, Ray, Relief, Section, Settings, Structure, Thread, Vertex, Woven, WovenDesign, Yarn, Yarns,
-};
+use texere::woven::{Drawdown, Relief, Thread, Woven, WovenDesign};
+use texere::yarn::{Material, Section};
+use texere::{Backend, ControlPoint, Live, Picker, Pipeline, Settings, Structure, Vertex, Yarn, Yarns};
 use texere_conformance::editing_devices;
 
 const ENDS: usize = 23;

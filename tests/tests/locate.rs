@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use texere_core::backend::{LiveMesh, Plan};
 use texere_core::{
-    Backend, ControlPoint, End, Limits, LiveMesh, MeshPiece, MeshPlace, Plan, Settings, Topology, Yarn, Yarns,
+    Backend, ControlPoint, End, Limits, MeshPiece, MeshPlace, Settings, Topology, Yarn, Yarns,
 };
 use texere_cpu::SerialBackend;
 

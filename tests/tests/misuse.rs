@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_conformance::schedule::able_devices;
+use texere_core::backend::{Chunk, MeshMut, NullBackend, Plan, Session, SessionError, Slot};
 use texere_core::{
-    Backend, BackendError, Chunk, ControlPoint, Frame, Limits, MeshMut, NullBackend, Pipeline, Plan, Session,
-    SessionError, Settings, Slot, Vertex, Yarn, Yarns,
+    Backend, BackendError, ControlPoint, Frame, Limits, Pipeline, Settings, Vertex, Yarn, Yarns,
 };
 
 /// Control points a millimetre apart.

@@ -7,9 +7,10 @@ use glam::DVec3;
 use proptest::prelude::*;
 use texere_conformance::cases::{self, Case};
 use texere_conformance::{check_packed, near_devices};
+use texere_core::backend::{Plan, Schedule, Session, SessionError};
 use texere_core::{
-    Backend, BackendError, ControlPoint, Limits, PackedVertex, Pipeline, PipelineError, Plan, Quantum,
-    Schedule, Session, SessionError, Settings, Vertex, Yarn, Yarns,
+    Backend, BackendError, ControlPoint, Limits, PackedVertex, Pipeline, PipelineError, Quantum, Settings,
+    Vertex, Yarn, Yarns,
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use texere_conformance::DeferredBackend;
+use texere_core::backend::{PaddedPoints, Plan, Trajectory};
 use texere_core::{
-    Backend, ControlPoint, Frame, Limits, Mesh, PaddedPoints, Pipeline, Plan, Quantum, Section, Settings,
-    Topology, Trajectory, Vertex, Yarn, Yarns,
+    Backend, ControlPoint, Frame, Limits, Mesh, Pipeline, Quantum, Section, Settings, Topology, Vertex, Yarn,
+    Yarns,
 };
 use texere_cpu::{ParallelBackend, SerialBackend};
 

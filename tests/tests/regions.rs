@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use texere_conformance::cases::{mixed, winding};
 use texere_conformance::schedule::able_devices;
+use texere_core::backend::{LiveMesh, PaddedPoints, Plan, SessionError};
 use texere_core::{
-    Backend, Bounds, ControlPoint, End, Frame, Limits, LiveMesh, Mesh, PaddedPoints, Pipeline, Plan,
-    Progress, SessionError, Settings, Topology, Vertex, Yarn, Yarns,
+    Backend, Bounds, ControlPoint, End, Frame, Limits, Mesh, Pipeline, Progress, Settings, Topology, Vertex,
+    Yarn, Yarns,
 };
 
 /// A corner of a triangle: yarn, then its ring or (past all rings) its cap, then the point of the section.

@@ -1,7 +1,7 @@
 //! What the registry opens here.
 
 use texere_conformance::REGISTRY;
-use texere_core::Schedule;
+use texere_core::backend::Schedule;
 
 /// What no device here has, the suite does not try.
 #[test]

@@ -9,11 +9,11 @@ use texere_conformance::rest::{
     CROSSED, Chart, Ends, Gauge, Length, Start, StartYarn, Weave, check, lace, linking, random_misses,
     settle_start, settling_plan, starts, weft_knit, woven,
 };
+use texere_core::backend::NullBackend;
 use texere_core::settling::{
-    Chord, Form, Listed, Pass, Place, Seen, Settler, Settling, SettlingError, SettlingPlan, settle, settled,
-    tag,
+    Chord, Form, Listed, Pass, Place, Settler, Settling, SettlingPlan, SettlingSeen, settle, settled, tag,
 };
-use texere_core::{Backend, Boundary, BoundaryError, ControlPoint, NullBackend, Yarn, Yarns};
+use texere_core::{Backend, Boundary, BoundaryError, ControlPoint, SettlingError, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 fn cpu() -> ParallelBackend {
@@ -110,7 +110,11 @@ fn places(plan: &SettlingPlan) -> Vec<Place> {
 }
 
 /// Eight passes of either form, with neighbours listed twice: what each saw, and where everything was after it.
-fn eight_passes(plan: &SettlingPlan, settler: &mut dyn Settler, form: Form) -> Vec<(Seen, Vec<Place>)> {
+fn eight_passes(
+    plan: &SettlingPlan,
+    settler: &mut dyn Settler,
+    form: Form,
+) -> Vec<(SettlingSeen, Vec<Place>)> {
     let mut now = places(plan);
     settler.upload(&now).expect("an upload");
     let mut all = Vec::new();
@@ -232,7 +236,7 @@ fn who_watches_may_break_off() {
     // The pass that sees what came in, growth, ease, and the block form.
     for last in [1, 20, 60, 330] {
         let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
-        let (mut calls, mut best) = (0, Seen::NOTHING);
+        let (mut calls, mut best) = (0, SettlingSeen::NOTHING);
         let rest = settle(&plan, settler.as_mut(), |pass, seen| {
             calls += 1;
             if calls == 1 || pass.ease == 0.0 && seen.is_better_than(&best) {

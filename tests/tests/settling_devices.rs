@@ -7,10 +7,9 @@ use texere_conformance::rest::{
     Ends, Length, Start, StartYarn, Weave, check, settle_start, settling_plan, starts, woven,
 };
 use texere_conformance::{SabotagedSettler, SettlingSabotage, near_devices};
-use texere_core::settling::{Form, Pass, Place, Rest, Seen, Settler, Settling, SettlingPlan, tag};
-use texere_core::{
-    Backend, BackendError, Boundary, ControlPoint, Limits, OutOfMemory, Schedule, Yarn, Yarns,
-};
+use texere_core::backend::Schedule;
+use texere_core::settling::{Form, Pass, Place, Rest, Settler, Settling, SettlingPlan, SettlingSeen, tag};
+use texere_core::{Backend, BackendError, Boundary, ControlPoint, Limits, OutOfMemory, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_opencl::OpenClBackend;
 
@@ -93,7 +92,7 @@ fn begin(plan: &SettlingPlan, units: i32) -> Vec<Place> {
 struct Course {
     /// How many neighbours each list had.
     neighbours: Vec<u64>,
-    seen: Vec<Seen>,
+    seen: Vec<SettlingSeen>,
     places: Vec<Place>,
 }
 

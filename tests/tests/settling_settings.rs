@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use texere_conformance::rest::{Chart, Gauge, Length as Asked, Start, Weave, check, weft_knit, woven_piece};
 use texere_contact::{Clearance, clearance};
-use texere_core::settling::{Length, Rest, Settling, SettlingError, SettlingPlan, settle, settled};
-use texere_core::{Backend, Boundary, ControlPoint, Ends, Settings, Yarn, Yarns};
+use texere_core::settling::{Length, Rest, Settling, SettlingPlan, settle, settled};
+use texere_core::{Backend, Boundary, ControlPoint, Ends, Settings, SettlingError, Yarn, Yarns};
 use texere_cpu::ParallelBackend;
 
 /// The yarns of a start whose yarn number `yarn` has the halves `halves(yarn)`, mm, and how they go on.

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use texere_conformance::cases;
+use texere_core::backend::Chunk;
 use texere_core::{
-    Backend, Chunk, Limits, MeshPiece, Pipeline, PipelineError, Progress, Topology, Vertex, Yarn, Yarns,
+    Backend, Limits, MeshPiece, Pipeline, PipelineError, Progress, Topology, Vertex, Yarn, Yarns,
 };
 
 /// A yarn whose mesh takes half a gigabyte in each of its two buffers.

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use texere_conformance::cases;
-use texere_core::{ControlPoint, Limits, PaddedPoints, Plan, Session, Settings, Yarn, Yarns};
+use texere_core::backend::{PaddedPoints, Plan, Session};
+use texere_core::{ControlPoint, Limits, Settings, Yarn, Yarns};
 use texere_gpu::YarnEnds;
 
 /// Yarns as counts of points and whether they are closed.

@@ -6,7 +6,8 @@ mod wgpu;
 use std::fmt::Debug;
 use std::time::{Duration, Instant};
 
-use texere::{Backend, BackendError, Schedule};
+use texere::backend::Schedule;
+use texere::{Backend, BackendError};
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
 

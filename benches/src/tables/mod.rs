@@ -8,8 +8,9 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use texere::{DeviceInfo, Output, Settings};
-use texere_core::StageTimings;
+use texere::write::Output;
+use texere::{DeviceInfo, Settings};
+use texere_core::backend::StageTimings;
 
 use crate::fill::context;
 use crate::measure::{Bench, median_time};
@@ -73,7 +74,7 @@ pub fn figure_5(
         cloths.push(cloth);
     }
     print!("{}:\n\n{}", timer.info().device, markdown::phases(&cloths, &phases));
-    texere::write_file(plot::figure_5(&cloths, &phases)?.as_bytes(), output)?;
+    texere::write::file(plot::figure_5(&cloths, &phases)?.as_bytes(), output)?;
     Ok(())
 }
 
@@ -123,7 +124,7 @@ fn run(bench: &mut Bench, info: &DeviceInfo, rounds: usize) -> Result<Run, Box<d
         let fused = bench.fused()?;
         whole.push(fused.trajectory + fused.mesh);
     }
-    let fuses = info.schedule == texere::Schedule::PerRing;
+    let fuses = info.schedule == texere::backend::Schedule::PerRing;
     let staged = StageTimings {
         trajectory: median_time(&trajectory),
         mesh: median_time(&mesh),

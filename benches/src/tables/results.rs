@@ -2,8 +2,10 @@
 
 use std::time::Duration;
 
-use texere::{Counts, DeviceInfo, Plan, PlanError, Settings, Yarns};
-use texere_core::StageTimings;
+use texere::backend::Plan;
+use texere::mesh::{Counts, PlanError};
+use texere::{DeviceInfo, Settings, Yarns};
+use texere_core::backend::StageTimings;
 
 /// One device's work on one cloth.
 #[derive(Debug)]

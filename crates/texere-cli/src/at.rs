@@ -3,7 +3,9 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::{Design, NamedPlace, YarnPlace, Yarns, yarns_under};
+use texere::read::NamedPlace;
+use texere::yarn::{YarnPlace, yarns_under};
+use texere::{Design, Yarns};
 
 /// A yarn under the point. The keys of the JSON are these fields.
 #[derive(Debug, Serialize)]

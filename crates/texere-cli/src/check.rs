@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere::{Cure, Design, Diagnosis, FabricError, Faults, Pieces, Settings, counted};
+use texere::check::{Cure, Diagnosis, Faults, Pieces, counted};
+use texere::{Design, FabricError, Settings};
 
 use crate::args::{CheckArgs, undersampled};
 use crate::clearance::{ClearanceReport, ContactReport, CrowdReport, CurvatureReport, DrawnReport, place};
@@ -150,7 +151,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
         None => Vec::new(),
     };
     if diagnosis.faults.wrung.is_some() || diagnosis.faults.inside_out.is_some() {
-        let finer = texere::finer(&yarns, &settings).map_err(|error| design.refused(error))?;
+        let finer = texere::check::finer(&yarns, &settings).map_err(|error| design.refused(error))?;
         cures.extend(finer.map(|(subdivisions, _)| CureReport::finer(subdivisions, &diagnosis)));
     }
     let report = Report {
@@ -202,7 +203,7 @@ fn cures(design: &Design, diagnosis: &Diagnosis, settled: bool) -> Result<Vec<Cu
 impl From<&Faults> for FaultsReport {
     fn from(faults: &Faults) -> Self {
         let jams = faults.jams.as_ref().map(|jams| {
-            let jammed = |jam: &texere::Pitch| Jammed {
+            let jammed = |jam: &texere::woven::Pitch| Jammed {
                 thread: jam.thread.to_string(),
                 pitch_mm: jam.pitch_mm,
                 pitch_min_mm: jam.passing_mm,

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::{Serialize, Serializer};
-use texere::{
+use texere::check::{
     CLEAR, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, ClothClearance, ThreadBend, ThreadContact,
     ThreadCrowd, ThreadDrawn, ThreadPlace, counted,
 };
@@ -95,7 +95,7 @@ struct Crossing {
 
 impl Crossing {
     fn of(place: &ThreadPlace) -> Option<Self> {
-        place.crossing.map(|texere::Crossing { end, pick }| Self { end, pick })
+        place.crossing.map(|texere::check::Crossing { end, pick }| Self { end, pick })
     }
 }
 
@@ -246,7 +246,7 @@ pub(crate) fn place([x, y, z]: [f64; 3]) -> String {
 #[cfg(test)]
 mod tests {
     use serde_json::{Value, json, to_value};
-    use texere::Origin;
+    use texere::yarn::Origin;
 
     use super::*;
 

@@ -1,6 +1,7 @@
 //! `texere convert`
 
-use texere::{Output, counted};
+use texere::check::counted;
+use texere::write::Output;
 
 use crate::args::ConvertArgs;
 use crate::fail::Fail;
@@ -12,7 +13,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Fail> {
     let output = Output::to(&args.output).sparing(design.files());
     let is_wif = args.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif"));
     let left_out =
-        if is_wif { texere::write_wif(&design, output)? } else { texere::write_toml(&design, output)? };
+        if is_wif { texere::write::wif(&design, output)? } else { texere::write::toml(&design, output)? };
     for what in left_out {
         print::text(&format!("left out: {}\n", line(what)))?;
     }

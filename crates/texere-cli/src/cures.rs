@@ -4,7 +4,8 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use serde::Serialize;
-use texere::{Cure, Diagnosis, FaultKind, JamReport, Relief, Remedy, Shape};
+use texere::check::{ClothFault, Cure, Diagnosis, Remedy};
+use texere::woven::{JamReport, Relief, Shape};
 
 use crate::clearance::{as_near_as_looked, least};
 
@@ -46,7 +47,7 @@ impl CureReport {
 impl CureReport {
     /// More rings, for a mesh that is wrung or inside out: an option of the commands that draw, and no key of a design file.
     pub(crate) fn finer(subdivisions: u32, diagnosis: &Diagnosis) -> Self {
-        let drawn = [FaultKind::Wrung, FaultKind::InsideOut];
+        let drawn = [ClothFault::Wrung, ClothFault::InsideOut];
         let mut leaves = diagnosis.faults.kinds();
         leaves.retain(|kind| !drawn.contains(kind));
         Self {
@@ -136,7 +137,7 @@ impl fmt::Display for CureReport {
 }
 
 /// What a cloth does that it should not, if there is anything: "pierces itself, folds".
-pub(crate) fn phrase(faults: &[FaultKind]) -> Option<String> {
+pub(crate) fn phrase(faults: &[ClothFault]) -> Option<String> {
     let kinds: Vec<_> = faults.iter().map(ToString::to_string).collect();
     (!kinds.is_empty()).then(|| kinds.join(", "))
 }

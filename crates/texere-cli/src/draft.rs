@@ -1,7 +1,8 @@
 //! `texere draft`
 
 use texere::weft::Knitted;
-use texere::{Drawdown, Output, Side};
+use texere::woven::Drawdown;
+use texere::write::{Output, Side};
 
 use crate::args::DraftArgs;
 use crate::fail::Fail;
@@ -20,16 +21,16 @@ pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
         match (woven, knit, warp) {
             (Some(woven), ..) => print_rows(woven.cloth().drawdown(), side)?,
             (None, Some(knit), _) => print_stitches(knit, side)?,
-            (None, None, Some(warp)) => print::text(&(texere::warp_rows(warp).join("\n") + "\n"))?,
+            (None, None, Some(warp)) => print::text(&(texere::write::warp_rows(warp).join("\n") + "\n"))?,
             (None, None, None) => return Err(Fail::no_draft(&args.design)),
         }
     }
     if let Some(output) = &args.output {
         let sparing = Output::to(output).sparing(design.files());
         let [width, height] = match (woven, knit, warp) {
-            (Some(woven), ..) => texere::write_draft(woven.cloth(), woven.draft(), side, sparing)?,
-            (None, Some(knit), _) => texere::write_knit_draft(knit, side, sparing)?,
-            (None, None, Some(warp)) => texere::write_warp_draft(warp, side, sparing)?,
+            (Some(woven), ..) => texere::write::draft(woven.cloth(), woven.draft(), side, sparing)?,
+            (None, Some(knit), _) => texere::write::knit_draft(knit, side, sparing)?,
+            (None, None, Some(warp)) => texere::write::warp_draft(warp, side, sparing)?,
             (None, None, None) => return Err(Fail::no_draft(&args.design)),
         };
         // With --text, standard output is the drawdown alone.
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {
 /// Prints a row for each course, the last one on top, some rows at a time.
 fn print_stitches(knit: &Knitted, side: Side) -> Result<(), Fail> {
     let mut rows = String::new();
-    for row in texere::knit_rows(knit, side)? {
+    for row in texere::write::knit_rows(knit, side)? {
         rows.push_str(&row);
         rows.push('\n');
         if rows.len() >= GATHERED {

@@ -6,11 +6,13 @@ use std::iter::successors;
 use std::path::Path;
 use std::process::ExitCode;
 
-use texere::crossings::CrossingsError;
-use texere::{
-    BackendError, ContactError, FabricError, FinishError, PipelineError, PlanError, ReadError, Refusal,
-    RenderError, Settings, SettlingError, WriteError,
-};
+use texere::backend::OutOfMemory;
+use texere::check::ContactError;
+use texere::mesh::PlanError;
+use texere::picture::RenderError;
+use texere::read::Refusal;
+use texere::rest::{CrossingsError, FinishError, SettlingError};
+use texere::{BackendError, FabricError, PipelineError, ReadError, Settings, WriteError};
 
 use crate::terminal::line;
 
@@ -247,14 +249,14 @@ impl From<texere_view::ViewError> for Fail {
 mod tests {
     use std::io::ErrorKind;
 
-    use texere::{OutOfMemory, Place};
+    use texere::read::FilePlace;
 
     use super::*;
 
     /// What a design file asks for is its fault; memory, devices and the command line's settings are not, whoever comes upon them.
     #[test]
     fn refusals_have_the_code_of_their_cause() {
-        let place = || Place { file: "a.k".into(), line: 3, field: "knit + f1 1".into() };
+        let place = || FilePlace { file: "a.k".into(), line: 3, field: "knit + f1 1".into() };
         let crowded = || FinishError::Backend(BackendError::Crowded { chords: 2, limit: 1 });
         let short = || FabricError::OutOfMemory(OutOfMemory { what: "control points", bytes: 1 << 40 });
         let other = |error: FinishError| Refusal::Other(error);
@@ -311,7 +313,7 @@ mod tests {
         let short = || FabricError::OutOfMemory(OutOfMemory { what: "control points", bytes: 1 << 40 });
         let denied = || ErrorKind::PermissionDenied.into();
         let image = || ReadError::Io { file: "motif.png".into(), source: denied() };
-        let place = Place { file: "cloth.toml".into(), line: 3, field: "weave.image".into() };
+        let place = FilePlace { file: "cloth.toml".into(), line: 3, field: "weave.image".into() };
         let world: [Fail; 10] = [
             short().into(),
             ReadError::OutOfMemory(OutOfMemory { what: "crossings", bytes: 1 << 40 }).into(),

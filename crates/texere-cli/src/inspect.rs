@@ -3,9 +3,12 @@
 use std::fmt::{self, Write};
 
 use serde::Serialize;
+use texere::backend::Plan;
+use texere::check::{ClothClearance, counted};
+use texere::mesh::Counts;
 use texere::warp::{Bar, WarpKnitted};
 use texere::weft::Knitted;
-use texere::{ClothClearance, Counts, Design, Plan, Settings, Yarns, counted};
+use texere::{Design, Settings, Yarns};
 
 use crate::args::{InspectArgs, undersampled};
 use crate::at::{self, YarnUnder};

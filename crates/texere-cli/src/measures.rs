@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use texere::{JamReport, KnitMeasures, Material, Measures, Tightness};
+use texere::check::{KnitMeasures, Measures};
+use texere::woven::{JamReport, Tightness};
+use texere::yarn::Material;
 
 /// A number for the warp, and one for the weft.
 #[derive(Debug, Clone, Copy, Serialize)]

@@ -2,7 +2,9 @@
 
 use std::io::IsTerminal;
 
-use texere::{Backend, Output, Pipeline, Settings, Yarns, counted};
+use texere::check::counted;
+use texere::write::Output;
+use texere::{Backend, Pipeline, Settings, Yarns};
 
 use crate::args::{MeshArgs, is_yarns, undersampled};
 use crate::fail::Fail;
@@ -41,7 +43,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
 fn written(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output) -> Result<String, Fail> {
     let path = line(args.output.display());
     if is_yarns(&args.output) {
-        let bytes = texere::write_yarns(yarns, output)?;
+        let bytes = texere::write::yarns(yarns, output)?;
         let (count, points) = (yarns.layout().yarns().len(), yarns.points().len());
         let (count, points) = (counted(count, "yarn"), counted(points, "control point"));
         return Ok(format!("{path}: {count}, {points}, {bytes} bytes\n"));
@@ -49,7 +51,7 @@ fn written(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output)
     let settings = args.settings.of(yarns);
     let bar = progress::bar(std::io::stderr().is_terminal());
     let pipeline = Pipeline::new(yarns).settings(settings).progress(progress::reporter(&bar));
-    let written = texere::stream(pipeline, device, output)?;
+    let written = texere::write::stream(pipeline, device, output)?;
     bar.finish_and_clear();
     let warning = undersampled(yarns, &settings).map(|warning| format!("warning: {}\n", line(warning)));
     Ok(format!(

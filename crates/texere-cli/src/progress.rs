@@ -7,7 +7,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use texere::Progress;
+use texere::mesh::Progress;
 
 /// Shorter work shows no bar: it would only flicker.
 const QUIET_FOR: Duration = Duration::from_secs(1);

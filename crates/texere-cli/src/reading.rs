@@ -30,7 +30,7 @@ pub(crate) fn saved(
     let section = settings.section.as_ref().map(|_| "--section");
     match section.or(settling.asked()) {
         Some(option) => Err(Fail::needs_design(option, path)),
-        None => Ok(Some(texere::read_yarns(path)?.yarns)),
+        None => Ok(Some(texere::read::yarns(path)?.yarns)),
     }
 }
 

@@ -7,7 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use texere::{Background, Camera, ControlPoint, Cut, Extent, Origin, Output, Quality, Renderer, Yarns};
+use texere::picture::{Background, Camera, Cut, Extent, Quality, Renderer};
+use texere::write::Output;
+use texere::yarn::Origin;
+use texere::{ControlPoint, Yarns};
 
 use crate::args::{RenderArgs, View, undersampled};
 use crate::fail::Fail;
@@ -17,7 +20,7 @@ use crate::{drivers, print, reading, settling};
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
     let start = Instant::now();
-    let renderer = drivers::quietly(|| texere::open_renderer(&args.device))?;
+    let renderer = drivers::quietly(|| texere::picture::open_renderer(&args.device))?;
     let opened = start.elapsed();
     for number in 0..args.repeat {
         let mut stages = Stages::default();
@@ -112,7 +115,7 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
         let pixels = if args.background == Background::Nothing { picture.rgba() } else { picture.rgb };
         let [width, height] = picture.size;
         let path = line(output.path().display());
-        stages.time("write", || texere::write_picture(picture.size, &pixels, output))?;
+        stages.time("write", || texere::write::picture(picture.size, &pixels, output))?;
         let triangles = scene.plan().counts().triangles;
         let name = &renderer.info().name;
         // Writing to a string can't fail.

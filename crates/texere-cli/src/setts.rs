@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::{Sett, Woven};
+use texere::woven::{Sett, Woven};
 
 use crate::measures::Sets;
 

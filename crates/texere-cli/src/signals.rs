@@ -31,7 +31,7 @@ pub(crate) fn listen() {
     let listener = thread::Builder::new().spawn(move || {
         let Some(signal) = wait.recv().ok().and_then(|mut signals| signals.forever().next()) else { return };
         let _until_the_end = ENDING.lock();
-        texere::abandon();
+        texere::write::abandon();
         let _ = emulate_default_handler(signal);
     });
     // Where no thread can be had, signals end the program as they always do; the next write removes what is left then.

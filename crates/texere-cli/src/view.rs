@@ -3,10 +3,9 @@
 use texere_view::{Event, View};
 
 use crate::args::ViewArgs;
-use crate::drivers;
 use crate::fail::Fail;
-use crate::print;
 use crate::terminal::line;
+use crate::{drivers, print};
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
     let view = View {
@@ -37,7 +36,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
 fn leave() -> ! {
     #[cfg(unix)]
     crate::signals::give_way();
-    texere::abandon();
+    texere::write::abandon();
     #[cfg(unix)]
     signal_hook::low_level::exit(0);
     #[cfg(not(unix))]

@@ -53,7 +53,7 @@ fn saved_cloth_is_drawn_as_its_design_is() {
         warp = { yarns = [\"a\"], spacing_mm = 0.19 }\nweft = { yarns = [\"a\"], spacing_mm = 0.35 }\n";
     std::fs::write(&design, text).unwrap();
     let yarns = texere::read(&design).unwrap().rest(&*texere::open("cpu").unwrap()).run().unwrap();
-    texere::write_yarns(yarns.yarns(), &saved).unwrap();
+    texere::write::yarns(yarns.yarns(), &saved).unwrap();
     for view in ["face", "cut-warp", "cut-weft"] {
         let [own, other] = ["own.png", "other.png"].map(path);
         for (input, output) in [(&design, &own), (&saved, &other)] {

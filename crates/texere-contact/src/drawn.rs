@@ -2,9 +2,9 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use texere_core::{
-    PaddedPoints, Plan, Ring, Sample, Settings, TWIST_SUBDIVISIONS_MAX, Turn, YarnPlace, Yarns,
-};
+use texere_core::backend::{PaddedPoints, Plan};
+use texere_core::definitions::{Ring, Sample, Turn};
+use texere_core::{Settings, TWIST_SUBDIVISIONS_MAX, YarnPlace, Yarns};
 
 use crate::ContactError;
 

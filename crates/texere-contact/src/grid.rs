@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use glam::{UVec3, Vec3A};
 use rayon::prelude::*;
-use texere_core::{OutOfMemory, room};
+use texere_core::OutOfMemory;
+use texere_core::backend::room;
 
 /// The most cells that an interval lies in on average, before larger cells are taken.
 pub(crate) const ENTRIES: u64 = 6;

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Yarns, neighbours, tangent_factor};
+use texere_core::definitions::{neighbours, tangent_factor};
+use texere_core::{ControlPoint, Yarns};
 
 /// Distances from the middle and weights of the ten-point Gauss-Legendre rule on \[0, 1\], whose points lie in pairs
 /// (Abramowitz and Stegun, table 25.4).
@@ -24,7 +25,7 @@ const TASK: usize = 4096;
 
 /// Length of each yarn, mm, in the yarns' order.
 ///
-/// `tension` is that of the spline, as in [`texere_core::Sampling`]; any finite value is taken.
+/// `tension` is that of the spline, as in [`texere_core::definitions::Sampling`]; any finite value is taken.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};

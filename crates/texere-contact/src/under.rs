@@ -1,6 +1,7 @@
 //! Which yarns lie under a point of the cloth.
 
-use texere_core::{ControlPoint, Segment, YarnPlace, Yarns, neighbours, tangent_factor};
+use texere_core::definitions::{Segment, neighbours, tangent_factor};
+use texere_core::{ControlPoint, YarnPlace, Yarns};
 
 /// Places at which each control interval is tried: between two of them a yarn that bends round another moves less than half its
 /// radius.

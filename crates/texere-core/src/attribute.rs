@@ -29,7 +29,7 @@ const _: () = assert!(size_of::<Attribute>() == 24 && std::mem::offset_of!(Attri
 /// The angle of a corner of a section of so many, rad.
 ///
 /// ```
-/// assert_eq!(texere_core::corner_angle(2, 8), std::f32::consts::FRAC_PI_2);
+/// assert_eq!(texere_core::definitions::corner_angle(2, 8), std::f32::consts::FRAC_PI_2);
 /// ```
 #[must_use]
 #[inline]

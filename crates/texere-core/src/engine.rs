@@ -6,14 +6,14 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::Duration;
 
+use crate::backend::{Chunk, MeshMut, Plan, Traffic};
+use crate::definitions::Ring;
 use crate::settling::{Settler, points_of};
-use crate::{
-    Attribute, BackendError, Chunk, ControlPoint, MeshMut, MeshPiece, PackedVertex, Plan, Ring, Traffic,
-};
+use crate::{Attribute, BackendError, ControlPoint, MeshPiece, PackedVertex};
 
 /// One of an engine's places for a chunk. The chunk's tables, rings and mesh lie there until another chunk takes the slot.
 ///
-/// A [`Session`](crate::Session) has two, [`LiveMesh`](crate::LiveMesh) one for each of its chunks.
+/// A [`Session`](crate::backend::Session) has two, [`LiveMesh`](crate::backend::LiveMesh) one for each of its chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Slot(u32);
 
@@ -63,17 +63,17 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 
 /// The work on one plan on one device. It owns all memory that the work needs.
 ///
-/// A [`Session`](crate::Session) calls it, and keeps these rules, so that no engine has to check them:
+/// A [`Session`](crate::backend::Session) calls it, and keeps these rules, so that no engine has to check them:
 ///
 /// - Control points come within the plan's range. Results of the points before them are not read any more.
 /// - Where the plan needs a scan, one comes before any stage, and again after each upload.
-/// - Every chunk is the plan's own, or a [patch](crate::Plan::patch) of one. It is loaded into a slot before a stage is run for it there. After
+/// - Every chunk is the plan's own, or a [patch](crate::backend::Plan::patch) of one. It is loaded into a slot before a stage is run for it there. After
 ///   a chunk come only patches of it where its results are still wanted: they must stay where they are.
 /// - `mesh` and `packed` of an engine that [reads rings](Engine::mesh_reads_rings) come after `trajectory` in the same slot.
 /// - What is read has been made, and nothing has taken its slot since. Slices to write into are as long as the chunk says.
 ///
 /// A caller without a session has to keep them. An engine whose kernels check no bounds checks the two that memory safety
-/// depends on: the chunk is of its plan ([`Plan::owns`](crate::Plan::owns)), and is loaded in the slot. Otherwise it gives
+/// depends on: the chunk is of its plan ([`Plan::owns`](crate::backend::Plan::owns)), and is loaded in the slot. Otherwise it gives
 /// back [`BackendError::NotLoaded`].
 ///
 /// Every call may return before its work is done, except those that read.
@@ -92,13 +92,13 @@ pub trait Engine: Any + fmt::Debug + Send {
         take_over_host(self, settler)
     }
 
-    /// Whether it has as many slots as it is asked for, makes [patches](crate::Plan::patch) without touching what lies beside them, and takes edited
-    /// plans: what [`LiveMesh`](crate::LiveMesh) needs.
+    /// Whether it has as many slots as it is asked for, makes [patches](crate::backend::Plan::patch) without touching what lies beside them, and takes edited
+    /// plans: what [`LiveMesh`](crate::backend::LiveMesh) needs.
     fn is_editable(&self) -> bool {
         false
     }
 
-    /// Takes a plan that was [edited](crate::Plan::edited) from its own: `yarns` may be others, with other numbers of control points. It takes one plan several
+    /// Takes a plan that was [edited](crate::backend::Plan::edited) from its own: `yarns` may be others, with other numbers of control points. It takes one plan several
     /// times where many yarns are edited, each time with other `yarns` that lie next to one another. What is loaded in slots is forgotten, what has been made stays.
     ///
     /// Provided: refused, by an engine that is not [editable](Engine::is_editable).

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::{NO_LENGTH, Turn, atan2_turns};
+use crate::definitions::{NO_LENGTH, Turn, atan2_turns};
 
 /// How sections are oriented along a yarn. Twist turns them further in either frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -39,7 +39,7 @@ impl Basis {
     /// The upright basis for a unit `tangent`: side = z × t, normalised (+y where t is within 1e-6 of z), up = t × side.
     ///
     /// ```
-    /// use texere_core::Basis;
+    /// use texere_core::definitions::Basis;
     /// use glam::Vec3;
     /// let basis = Basis::upright(Vec3::X);
     /// assert_eq!((basis.side, basis.up), (Vec3::Y, Vec3::Z));

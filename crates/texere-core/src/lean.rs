@@ -3,8 +3,9 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::ControlPoint;
+use crate::definitions::{Basis, Sampling, Segment, Turn, atan2_turns};
 use crate::steep::{intervals, window};
-use crate::{Basis, ControlPoint, Sampling, Segment, Turn, atan2_turns};
 
 /// The up directions that the control points of a yarn stand by, with the points that they belong to.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +28,7 @@ const RIGHT_ANGLE: f64 = 1e-9;
 ///
 /// ```
 /// use glam::DVec3;
-/// use texere_core::up_between;
+/// use texere_core::definitions::up_between;
 /// // Half way along a quarter of a turn to the right, an up that stands on the plane of the turn stays, and one in it turns along.
 /// let (tangents, tangent) = ([DVec3::X, -DVec3::Y], DVec3::new(0.5, -0.5, 0.0).normalize());
 /// assert!((up_between([DVec3::Z; 2], tangents, tangent, 0.5) - DVec3::Z).length() < 1e-12);

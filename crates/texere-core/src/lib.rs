@@ -6,10 +6,16 @@
 //!                    stage 1        stage 2
 //! ```
 //!
-//! [`Yarns`] hold control points, offsets and what belongs to each yarn. A [`Plan`] works out every count and offset
-//! for one choice of [`Settings`]. A [`Backend`] turns control points into [`Ring`]s and rings into a [`Mesh`];
-//! [`Pipeline`] drives it. A [`YarnPlace`] is one place on a yarn. The definitions that every backend must agree on are here too: [`Segment`] (the spline),
-//! [`Frame`], [`Turn`] and [`Section`].
+//! [`Yarns`] hold control points, offsets and what belongs to each yarn. A [`Plan`](backend::Plan) works out every count and offset
+//! for one choice of [`Settings`]. A [`Backend`] turns control points into [`Ring`](definitions::Ring)s and rings into a [`Mesh`];
+//! [`Pipeline`] drives it.
+//!
+//! | module | holds |
+//! |---|---|
+//! | the root | what programs need: yarns, settings, pipelines, meshes, devices, errors |
+//! | [`definitions`] | the geometry that every backend must agree on to the bit: the spline, rolls, rings |
+//! | [`mod@backend`] | what a backend is written with: plans, chunks, engines, sessions |
+//! | [`settling`], [`crossings`] | how yarns come to rest, and what a device does for it |
 //!
 //! Lengths are in mm, angles in radians unless a name says turns. x runs along the weft or course, y along the warp or
 //! wale, z out of the technical face; right-handed. Triangles are counter-clockwise seen from outside.
@@ -18,10 +24,12 @@
 
 mod arrange;
 mod attribute;
-mod backend;
+pub mod backend;
 mod boundary;
 mod counted;
 pub mod crossings;
+pub mod definitions;
+mod device;
 mod engine;
 mod frame;
 mod half;
@@ -55,45 +63,26 @@ mod vertex;
 mod yarns;
 
 pub use arrange::Placement;
-pub use attribute::{ArcLength, Attribute, corner_angle};
-pub use backend::{Backend, BackendError, Capabilities, DeviceInfo, DeviceKind, Schedule};
+pub use attribute::{ArcLength, Attribute};
 pub use boundary::{Boundary, BoundaryError, Ends};
 pub use counted::counted;
-pub use crossings::{Crossings, CrossingsError, CrossingsPlan, CrossingsSettler};
-pub use engine::{
-    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
-    take_over_host,
-};
-pub use frame::{Basis, Frame, NO_MIRROR, VERTICAL};
-pub use lean::up_between;
-pub use live::{Change, LiveMesh};
+pub use crossings::error::CrossingsError;
+pub use device::{Backend, BackendError, Capabilities, DeviceInfo, DeviceKind};
+pub use frame::Frame;
+pub use live::Change;
 pub use material::{HAIRINESS_LIMIT, Material};
-pub use memory::{OutOfMemory, filled, room, room_for, zeroed};
-pub use mesh::{ChunkDraw, Draw, Mesh, MeshMut, MeshPiece};
-pub use null::NullBackend;
+pub use memory::OutOfMemory;
+pub use mesh::{Mesh, MeshPiece};
 pub use packed::{PackedVertex, Quantum};
-pub use padded::{PaddedPoints, neighbours, renew_virtual_ends};
 pub use pipeline::{Pipeline, PipelineError, Progress};
 pub use place::YarnPlace;
-pub use plan::{
-    BLOCK_RINGS, Block, Bounds, Cap, Chunk, Chunks, Counts, Edits, Limits, MeshPlace, Part, Plan, PlanError,
-    RINGS_MAX, Settings, TablesId, WINDOW_POINTS, YARN_RINGS_MAX,
-};
+pub use plan::{Bounds, Cap, Counts, Limits, MeshPlace, PlanError, RINGS_MAX, Settings, YARN_RINGS_MAX};
 pub use point::{COORDINATE_LIMIT, ControlPoint, Halves, RADIUS_MAX, RADIUS_MIN};
 pub use ray::Ray;
-pub use ring::{Ring, Stance, Trajectory};
-pub use sampling::{RingSample, SUBDIVISIONS_MAX, Sampling};
-pub use section::{SIDES_MAX, SIDES_MIN, Section, SectionError, SectionPoint, triangulate};
-pub use session::{Session, SessionError, Traffic};
-pub use settling::{Settler, Settling, SettlingError, SettlingPlan, settle};
-pub use spline::{
-    ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, Sample, Segment,
-    ZERO_VELOCITY, tangent_factor,
-};
-pub use steep::UPRIGHT_TURN;
+pub use section::{Section, SectionError, SectionPoint};
+pub use settling::error::SettlingError;
 pub use subject::Subject;
-pub use topology::{End, SHARED_GAPS, Topology, index_pattern};
-pub use turn::{ARCTANGENT, COSINE, SINE, TAN_EIGHTH, Turn, atan2_turns};
+pub use topology::{End, Topology};
 pub use twist::{TWIST_STEP, TWIST_SUBDIVISIONS_MAX, Undersampled};
 pub use vertex::Vertex;
 pub use yarns::{

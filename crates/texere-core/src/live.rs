@@ -6,20 +6,19 @@ use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
+use crate::backend::{Chunk, PaddedPoints, Part, Plan, SessionError, Traffic};
 use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
-use crate::{
-    Backend, BackendError, Chunk, Limits, OutOfMemory, PaddedPoints, Part, Plan, SessionError, Topology,
-    Traffic, Vertex,
-};
+use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
 /// A fabric's whole mesh on a device. Yarns are edited, and only what changes is sent, scanned and made again.
 ///
-/// Unlike a [`Session`](crate::Session), which works chunk by chunk in the memory of two, it keeps the meshes of all chunks. With
+/// Unlike a [`Session`](crate::backend::Session), which works chunk by chunk in the memory of two, it keeps the meshes of all chunks. With
 /// [room](Plan::with_room) in the plan a yarn may get more control points, or fewer, and all others stay where they are.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use texere_core::{ControlPoint, LiveMesh, NullBackend, Plan, Settings, Yarn, Yarns};
+/// use texere_core::backend::{LiveMesh, NullBackend, Plan};
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 /// # let mut yarns = Yarns::builder();
 /// # for y in 0..3 {
 /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));
@@ -193,7 +192,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 
     /// Waits for the attributes of chunk number `chunk` of [`LiveMesh::chunks`] and lends them piece by piece, as
-    /// [`Session::read_attributes`](crate::Session::read_attributes) does, in the order of the mesh's vertices.
+    /// [`Session::read_attributes`](crate::backend::Session::read_attributes) does, in the order of the mesh's vertices.
     ///
     /// **Errors**: [`SessionError::OutOfOrder`] before [`LiveMesh::keep_attributes`], and those of [`LiveMesh::read_mesh`].
     pub fn read_attributes(
@@ -217,7 +216,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         Ok(flow?)
     }
 
-    /// Waits for the mesh of chunk number `chunk` of [`LiveMesh::chunks`] and lends it piece by piece, as [`Session::read_mesh`](crate::Session::read_mesh)
+    /// Waits for the mesh of chunk number `chunk` of [`LiveMesh::chunks`] and lends it piece by piece, as [`Session::read_mesh`](crate::backend::Session::read_mesh)
     /// does. What there is only room for is lent, too, and means nothing: [`Chunk::parts`] say where yarns lie.
     ///
     /// **Errors**: [`SessionError::OutOfOrder`] before an update that is needed, [`SessionError::NoChunk`] past the last one, and what the

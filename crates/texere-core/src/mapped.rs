@@ -3,8 +3,9 @@
 use glam::{DMat3, DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::definitions::{Basis, Segment};
 use crate::steep::window;
-use crate::{Basis, ControlPoint, Layout, Segment, Yarn, YarnError, Yarns};
+use crate::{ControlPoint, Layout, Yarn, YarnError, Yarns};
 
 /// How far apart places are tried to find how a map stretches, as a share of the yarn's half height there.
 const NEAR: f64 = 0.01;

@@ -33,9 +33,9 @@ impl OutOfMemory {
 /// **Errors**: [`OutOfMemory`], naming `what`.
 ///
 /// ```
-/// let zeros: Vec<u32> = texere_core::zeroed("lifts", 3)?;
+/// let zeros: Vec<u32> = texere_core::backend::zeroed("lifts", 3)?;
 /// assert_eq!(zeros, [0; 3]);
-/// let refused = texere_core::zeroed::<u32>("lifts", u64::MAX).unwrap_err();
+/// let refused = texere_core::backend::zeroed::<u32>("lifts", u64::MAX).unwrap_err();
 /// assert_eq!((refused.what, refused.bytes), ("lifts", u64::MAX));
 /// # Ok::<(), texere_core::OutOfMemory>(())
 /// ```
@@ -50,7 +50,7 @@ pub fn zeroed<T: Zeroable>(what: &'static str, count: u64) -> Result<Vec<T>, Out
 /// **Errors**: [`OutOfMemory`], naming `what`.
 ///
 /// ```
-/// assert_eq!(texere_core::filled("ranks", 3, -1_i32)?, [-1; 3]);
+/// assert_eq!(texere_core::backend::filled("ranks", 3, -1_i32)?, [-1; 3]);
 /// # Ok::<(), texere_core::OutOfMemory>(())
 /// ```
 pub fn filled<T: Clone>(what: &'static str, count: usize, value: T) -> Result<Vec<T>, OutOfMemory> {
@@ -64,7 +64,7 @@ pub fn filled<T: Clone>(what: &'static str, count: usize, value: T) -> Result<Ve
 /// **Errors**: [`OutOfMemory`], naming `what`.
 ///
 /// ```
-/// let picks: Vec<u8> = texere_core::room("picks", 9)?;
+/// let picks: Vec<u8> = texere_core::backend::room("picks", 9)?;
 /// assert!(picks.is_empty() && picks.capacity() >= 9);
 /// # Ok::<(), texere_core::OutOfMemory>(())
 /// ```
@@ -80,9 +80,9 @@ pub fn room<T>(what: &'static str, count: usize) -> Result<Vec<T>, OutOfMemory> 
 ///
 /// ```
 /// let mut picks = vec![1_u8];
-/// texere_core::room_for(&mut picks, 9, "picks")?;
+/// texere_core::backend::room_for(&mut picks, 9, "picks")?;
 /// assert!(picks.capacity() >= 10);
-/// assert_eq!(texere_core::room_for(&mut picks, usize::MAX, "picks").unwrap_err().what, "picks");
+/// assert_eq!(texere_core::backend::room_for(&mut picks, usize::MAX, "picks").unwrap_err().what, "picks");
 /// # Ok::<(), texere_core::OutOfMemory>(())
 /// ```
 pub fn room_for<T>(list: &mut Vec<T>, count: usize, what: &'static str) -> Result<(), OutOfMemory> {

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::{Chunk, End, Material, Plan, SHARED_GAPS, Topology, Vertex, index_pattern};
+use crate::backend::{Chunk, Plan};
+use crate::definitions::{SHARED_GAPS, index_pattern};
+use crate::{End, Material, Topology, Vertex};
 
 /// A range of indices that draws (part of) one yarn.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -66,7 +68,8 @@ impl Plan {
     /// where one of them does not fit: with more than seven sides, if a yarn is long enough.
     ///
     /// ```
-    /// use texere_core::{ControlPoint, Plan, Settings, Topology, Yarn, Yarns};
+    /// use texere_core::backend::Plan;
+    /// use texere_core::{ControlPoint, Settings, Topology, Yarn, Yarns};
     /// # let mut yarns = Yarns::builder();
     /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
     /// # let yarns = yarns.build()?;
@@ -96,7 +99,7 @@ impl Plan {
 
     /// How to draw a chunk from buffers of its own, such as a device lends, likewise: vertices and indices count from the chunk's first.
     ///
-    /// Of a [`LiveMesh`](crate::LiveMesh) draw these and nothing else: in the room between yarns lie triangles from before an edit. They
+    /// Of a [`LiveMesh`](crate::backend::LiveMesh) draw these and nothing else: in the room between yarns lie triangles from before an edit. They
     /// change with an edit that makes a yarn longer or shorter.
     pub fn chunk_draws<'a>(&'a self, chunk: &'a Chunk) -> impl Iterator<Item = ChunkDraw> + 'a {
         self.draws_from(chunk, 0, 0).map(|draw| ChunkDraw {
@@ -202,7 +205,8 @@ pub struct MeshMut<'a> {
 /// geometry.
 ///
 /// ```
-/// use texere_core::{ControlPoint, NullBackend, Pipeline, Topology, Yarn, Yarns};
+/// use texere_core::backend::NullBackend;
+/// use texere_core::{ControlPoint, Pipeline, Topology, Yarn, Yarns};
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// # let yarns = yarns.build()?;

@@ -3,15 +3,17 @@
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
-use crate::{
-    AttributeSink, Backend, BackendError, Capabilities, Chunk, ControlPoint, DeviceInfo, DeviceKind, Engine,
-    Limits, MeshSink, PackedSink, Plan, RingSink, ScanChunks, Schedule, Slot, StageTimings,
+use crate::backend::{
+    AttributeSink, Chunk, Engine, MeshSink, PackedSink, Plan, RingSink, ScanChunks, Schedule, Slot,
+    StageTimings,
 };
+use crate::{Backend, BackendError, Capabilities, ControlPoint, DeviceInfo, DeviceKind, Limits};
 
 /// A backend that writes nothing: outputs stay as they were.
 ///
 /// ```
-/// use texere_core::{Backend, NullBackend};
+/// use texere_core::backend::NullBackend;
+/// use texere_core::Backend;
 /// assert_eq!(NullBackend::default().info().name, "null");
 /// ```
 #[derive(Debug)]

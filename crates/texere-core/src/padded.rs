@@ -2,12 +2,14 @@
 
 use std::ops::Range;
 
-use crate::{ControlPoint, OutOfMemory, Plan, zeroed};
+use crate::backend::{Plan, zeroed};
+use crate::{ControlPoint, OutOfMemory};
 
 /// The control points of a fabric, padded as [`Plan::padded_offsets`] says, so that no kernel has end cases.
 ///
 /// ```
-/// use texere_core::{ControlPoint, PaddedPoints, Plan, Settings, Yarn, Yarns};
+/// use texere_core::backend::{PaddedPoints, Plan};
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// # let yarns = yarns.build()?;
@@ -76,7 +78,8 @@ fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
 /// behind them. **Panics** for fewer than two points of its own (three when closed).
 ///
 /// ```
-/// use texere_core::{ControlPoint, renew_virtual_ends};
+/// use texere_core::backend::renew_virtual_ends;
+/// use texere_core::ControlPoint;
 /// let mut padded = [0.0, 1.0, 2.0, 0.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1));
 /// renew_virtual_ends(&mut padded, false);
 /// assert_eq!(padded.map(|point| point.x), [0.0, 1.0, 2.0, 3.0]);

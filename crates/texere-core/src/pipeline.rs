@@ -5,10 +5,12 @@ mod error;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use crate::backend::{Chunk, MeshMut, PaddedPoints, Plan, Session, SessionError, Trajectory, zeroed};
+use crate::definitions::Ring;
+use crate::settling::Settler;
 use crate::{
-    Attribute, Backend, Bounds, Chunk, Frame, Limits, Mesh, MeshMut, MeshPiece, PackedVertex, PaddedPoints,
-    Plan, Quantum, Ring, Session, SessionError, Settings, Settler, Topology, Trajectory, Undersampled, Yarns,
-    zeroed,
+    Attribute, Backend, Bounds, Frame, Limits, Mesh, MeshPiece, PackedVertex, Quantum, Settings, Topology,
+    Undersampled, Yarns,
 };
 
 pub use self::error::PipelineError;
@@ -145,7 +147,8 @@ impl<'a> Pipeline<'a> {
     /// More in [`Plan::within`]. A [`Pipeline::trajectory`] is whole all the same.
     ///
     /// ```
-    /// # use texere_core::{ControlPoint, NullBackend, Yarn, Yarns};
+    /// # use texere_core::backend::NullBackend;
+    /// # use texere_core::{ControlPoint, Yarn, Yarns};
     /// # let mut yarns = Yarns::builder();
     /// # for y in 0..100 {
     /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));
@@ -172,7 +175,8 @@ impl<'a> Pipeline<'a> {
     /// ```
     /// # fn example(yarns: &texere_core::Yarns, device: &dyn texere_core::Backend) -> Result<(), Box<dyn std::error::Error>> {
     /// use std::ops::ControlFlow;
-    /// use texere_core::{Pipeline, Settling, SettlingPlan, settle};
+    /// use texere_core::settling::{Settling, SettlingPlan, settle};
+    /// use texere_core::Pipeline;
     /// let plan = std::sync::Arc::new(SettlingPlan::new(&Settling::new(yarns))?);
     /// let mut settler = device.settler(plan.clone())?;
     /// let rest = settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(()))?;

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use crate::definitions::{Segment, tangent_factor};
 use crate::padded::neighbours;
-use crate::{ControlPoint, Segment, Yarns, tangent_factor};
+use crate::{ControlPoint, Yarns};
 
 /// One place of a yarn.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,14 +3,15 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::{Basis, Sample, SectionPoint, Turn, Vertex};
+use crate::definitions::{Basis, Sample, Turn};
+use crate::{SectionPoint, Vertex};
 
 /// One place along a yarn: everything of it that a section needs to stand there.
 ///
 /// **Shape**: twelve 4-byte values, 48 bytes. **Units**: mm; growths in mm per mm; `roll` in 2⁻³² turns.
 ///
 /// ```
-/// use texere_core::Ring;
+/// use texere_core::definitions::Ring;
 /// assert_eq!(size_of::<Ring>(), 48);
 /// ```
 #[repr(C)]

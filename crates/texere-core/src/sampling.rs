@@ -1,11 +1,12 @@
 //! Sampling of the spline: its tension, and how many rings it gets.
 
-use crate::{ArcLength, ControlPoint, PlanError, Sample, Segment, tangent_factor};
+use crate::definitions::{Sample, Segment, tangent_factor};
+use crate::{ArcLength, ControlPoint, PlanError};
 
 /// Tension of the spline and points inserted between control points (the paper's u and K).
 ///
 /// ```
-/// use texere_core::Sampling;
+/// use texere_core::definitions::Sampling;
 /// let sampling = Sampling::new(0.0, 1)?;
 /// assert_eq!(sampling.rings(152, false), 303);
 /// assert_eq!(sampling.rings(152, true), 305);

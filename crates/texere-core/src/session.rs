@@ -5,11 +5,13 @@ mod error;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use crate::backend::{Chunk, MeshMut, Plan, TablesId};
+use crate::definitions::Ring;
 use crate::engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
 };
-use crate::settling::{Settler, Strand};
-use crate::{Backend, BackendError, Chunk, ControlPoint, Limits, MeshMut, Plan, Ring, TablesId, Vertex};
+use crate::settling::{Settler, SettlingYarn};
+use crate::{Backend, BackendError, ControlPoint, Limits, Vertex};
 
 pub use self::error::SessionError;
 
@@ -32,7 +34,8 @@ pub struct Traffic {
 ///
 /// ```
 /// use std::{ops::ControlFlow, sync::Arc};
-/// use texere_core::{Backend, ControlPoint, MeshPiece, NullBackend, Plan, Session, Settings, Yarn, Yarns};
+/// use texere_core::backend::{NullBackend, Plan, Session};
+/// use texere_core::{Backend, ControlPoint, MeshPiece, Settings, Yarn, Yarns};
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// # let yarns = yarns.build()?;
@@ -151,7 +154,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// **Errors**: [`SessionError::OtherYarns`] for a settler whose yarns have other numbers of control points than the
     /// plan's, and what either device says.
     pub fn take_settled(&mut self, settler: &mut dyn Settler) -> Result<(), SessionError> {
-        let points = |strand: &Strand| u64::from(strand.points);
+        let points = |strand: &SettlingYarn| u64::from(strand.points);
         let settled = settler.plan().strands().iter().map(points);
         if !settled.eq(self.plan.layout().offsets().windows(2).map(|pair| pair[1] - pair[0])) {
             return Err(SessionError::OtherYarns);
@@ -267,7 +270,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// What shaders and textures ask of each vertex of `chunk`, in memory of its own. May return before it is done.
     ///
     /// ```
-    /// # fn example(session: &mut texere_core::Session, chunk: &texere_core::Chunk) -> Result<(), texere_core::SessionError> {
+    /// # fn example(session: &mut texere_core::backend::Session, chunk: &texere_core::backend::Chunk) -> Result<(), texere_core::backend::SessionError> {
     /// use std::ops::ControlFlow;
     /// session.measure()?; // once after uploads
     /// session.attributes(chunk)?;
@@ -315,7 +318,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// which is meant for whoever saves memory. May return before it is done.
     ///
     /// ```
-    /// # fn example(session: &mut texere_core::Session, chunk: &texere_core::Chunk) -> Result<(), texere_core::SessionError> {
+    /// # fn example(session: &mut texere_core::backend::Session, chunk: &texere_core::backend::Chunk) -> Result<(), texere_core::backend::SessionError> {
     /// use std::ops::ControlFlow;
     /// let (quantum, middle) = (session.plan().settings().quantum, [50.0, 50.0, 0.0]); // of a cloth of 100 by 100 mm
     /// session.packed(chunk)?;

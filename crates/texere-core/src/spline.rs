@@ -12,7 +12,8 @@ use crate::ControlPoint;
 /// The spline between `P[j]` and `P[j+1]`, as polynomials of t in \[0, 1\] relative to `P[j]`.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Segment};
+/// use texere_core::definitions::Segment;
+/// use texere_core::ControlPoint;
 /// // Four points on a line, s = 1/2 (Catmull-Rom): the middle of the segment is the middle of the line.
 /// let line = [0.0, 1.0, 2.0, 3.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1));
 /// let sample = Segment::new(&line, 0.5).sample(0.5);
@@ -103,7 +104,7 @@ pub const ARC_PANELS: u32 = 16;
 /// s = (1 - tension) / 2, the factor of the spline's tangents (the paper's equation 2), in the precision of `T`.
 ///
 /// ```
-/// use texere_core::tangent_factor;
+/// use texere_core::definitions::tangent_factor;
 /// assert_eq!(tangent_factor::<f32>(0.0), 0.5); // Catmull-Rom
 /// assert_eq!(tangent_factor::<f64>(0.75), 0.125);
 /// ```
@@ -183,7 +184,8 @@ impl Segment {
     /// [uneven](ARC_EVEN), in [`ARC_PANELS`] parts.
     ///
     /// ```
-    /// use texere_core::{ControlPoint, Segment};
+    /// use texere_core::definitions::Segment;
+    /// use texere_core::ControlPoint;
     /// let line = [0.0, 1.0, 2.0, 3.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1));
     /// assert!((Segment::new(&line, 0.5).length(0.0, 0.5) - 0.5).abs() < 1e-6);
     /// ```

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
+use crate::ControlPoint;
+use crate::definitions::{Basis, Turn, UPRIGHT_TURN, VERTICAL};
 use crate::lean::Leaning;
 use crate::mapped::tangent;
 use crate::steep::{carried_steps, intervals, is_flat, runs_straight, upright_turns_beyond, window, wrings};
-use crate::{Basis, ControlPoint, Turn, UPRIGHT_TURN, VERTICAL};
 
 /// By how much the upright frame of a flattened yarn may turn about it within a control interval, and by how much its ups are turned
 /// from control point to control point where it is handed over, turns: 15 degrees.

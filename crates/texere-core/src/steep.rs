@@ -6,8 +6,9 @@ use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 
+use crate::definitions::{Segment, Turn};
 use crate::lean::IntervalLean;
-use crate::{ControlPoint, Frame, Segment, Turn};
+use crate::{ControlPoint, Frame};
 
 /// By how much an upright frame may turn about a yarn within one control interval, turns: 4 degrees.
 ///

@@ -5,7 +5,8 @@ use crate::{BackendError, BoundaryError, CrossingsError, Origin, SettlingError, 
 /// What of a cloth an error is about, in the words of whoever designed it. Numbers are counted from 1.
 ///
 /// ```
-/// use texere_core::{SettlingError, Subject};
+/// use texere_core::SettlingError;
+/// use texere_core::Subject;
 /// let error = SettlingError::ShortRepeat { axis: 'x', repeat: 0.5, diameter: 0.2, least: 1.0 };
 /// assert_eq!(error.subject(), Some(Subject::Wales));
 /// ```

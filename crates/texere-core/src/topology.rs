@@ -28,7 +28,7 @@ pub const SHARED_GAPS: u64 = 8192;
 /// The indices of the quads between a ring and the next, counted from the ring's first vertex: six for each side.
 ///
 /// ```
-/// let quad = &texere_core::index_pattern(6)[..6];
+/// let quad = &texere_core::definitions::index_pattern(6)[..6];
 /// assert_eq!(quad, [0, 1, 6, 1, 7, 6]);
 /// ```
 #[must_use]

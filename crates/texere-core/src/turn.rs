@@ -13,7 +13,7 @@ use bytemuck::{Pod, Zeroable};
 /// An angle, stored as a fraction of a full turn: `u32` steps of 2π / 2³² rad (1.5e-9 rad).
 ///
 /// ```
-/// use texere_core::Turn;
+/// use texere_core::definitions::Turn;
 /// let quarter = Turn::from_turns(0.25);
 /// assert_eq!(quarter + quarter + quarter + quarter, Turn::ZERO);
 /// let (sin, cos) = quarter.sin_cos();
@@ -117,7 +117,7 @@ impl std::iter::Sum for Turn {
 /// The angle of (`x`, `y`) from the x axis as a fraction of a turn, in \[-1/2, 1/2\], within 3e-8 turns; 0 for (0, 0).
 ///
 /// ```
-/// assert_eq!(texere_core::atan2_turns(1.0, 0.0), 0.25);
+/// assert_eq!(texere_core::definitions::atan2_turns(1.0, 0.0), 0.25);
 /// ```
 #[must_use]
 #[inline]

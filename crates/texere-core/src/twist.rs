@@ -5,10 +5,9 @@ use std::fmt;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::{
-    ControlPoint, Origin, SUBDIVISIONS_MAX, Section, Settings, Yarn, Yarns, renew_virtual_ends,
-    tangent_factor,
-};
+use crate::backend::renew_virtual_ends;
+use crate::definitions::{SUBDIVISIONS_MAX, tangent_factor};
+use crate::{ControlPoint, Origin, Section, Settings, Yarn, Yarns};
 
 /// By how much twist turns a section from one ring to the next at most, radians, where it shows: 30 degrees.
 ///

@@ -10,11 +10,10 @@ use std::sync::Arc;
 use glam::Vec3;
 use rayon::prelude::*;
 
+use crate::backend::Edits;
 use crate::lean::Leaning;
 use crate::stand::Stand;
-use crate::{
-    COORDINATE_LIMIT, ControlPoint, Edits, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section,
-};
+use crate::{COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Material, RADIUS_MAX, RADIUS_MIN, Section};
 
 pub use self::error::YarnError;
 
@@ -211,7 +210,7 @@ impl Layout {
         })
     }
 
-    /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more than [`UPRIGHT_TURN`](crate::UPRIGHT_TURN)
+    /// Whether `yarn` runs so steeply somewhere that an upright frame would turn about it by more than [`UPRIGHT_TURN`](crate::definitions::UPRIGHT_TURN)
     /// within a control interval. [`Yarns::new`] finds it out; a layout without control points has no steep yarns. A flattened yarn gets
     /// [ups](Layout::ups) instead, and is steep only where ups turn over from one control point to the next.
     ///
@@ -333,7 +332,7 @@ impl Yarns {
 
     /// Gives each control point an up direction: where the yarn's height points there, instead of along z. A cloth that was bent out of its plane
     /// has them along its surface's normals, as [`Yarns::mapped`] gives them. What of it lies along the yarn does not count. Between two
-    /// points they go over into one another ([`up_between`](crate::up_between)).
+    /// points they go over into one another ([`up_between`](crate::definitions::up_between)).
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, Yarns};

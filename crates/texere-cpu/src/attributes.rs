@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use texere_core::{ArcLength, Attribute, BLOCK_RINGS, Block, Chunk, PaddedPoints, Plan, corner_angle};
+use texere_core::backend::{BLOCK_RINGS, Block, Chunk, PaddedPoints, Plan};
+use texere_core::definitions::corner_angle;
+use texere_core::{ArcLength, Attribute};
 
 use crate::engine::Work;
 use crate::rolls::block_number;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use texere_core::{
-    Backend, BackendError, Capabilities, CrossingsPlan, CrossingsSettler, DeviceInfo, DeviceKind, Engine,
-    Limits, Plan, Schedule, Settler, SettlingPlan,
-};
+use texere_core::backend::{Engine, Plan, Schedule};
+use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
+use texere_core::settling::{Settler, SettlingPlan};
+use texere_core::{Backend, BackendError, Capabilities, DeviceInfo, DeviceKind, Limits};
 
 use crate::crossings::CrossingsMemory;
 use crate::engine::CpuEngine;

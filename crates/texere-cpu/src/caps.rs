@@ -1,6 +1,7 @@
 //! The closed ends of yarns.
 
-use texere_core::{Cap, Chunk, End, MeshMut, Topology, Vertex};
+use texere_core::backend::{Chunk, MeshMut};
+use texere_core::{Cap, End, Topology, Vertex};
 
 use crate::engine::Work;
 

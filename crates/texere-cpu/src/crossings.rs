@@ -2,18 +2,19 @@
 
 use std::sync::Arc;
 
-use texere_core::crossings::{Crossing, CrossingsPass, CrossingsPlan, CrossingsSeen};
-use texere_core::{BackendError, zeroed};
+use texere_core::BackendError;
+use texere_core::backend::zeroed;
+use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, CrossingsSeen};
 
 /// Where all crossings are.
 #[derive(Debug)]
 pub(crate) struct CrossingsMemory {
     pub(crate) plan: Arc<CrossingsPlan>,
     /// As they are.
-    pub(crate) crossings: Vec<Crossing>,
+    pub(crate) crossings: Vec<CrossingState>,
     /// As others find them in the next pass, and in the one after it.
-    pub(crate) found: Vec<Crossing>,
-    pub(crate) next: Vec<Crossing>,
+    pub(crate) found: Vec<CrossingState>,
+    pub(crate) next: Vec<CrossingState>,
 }
 
 impl CrossingsMemory {
@@ -25,7 +26,7 @@ impl CrossingsMemory {
     }
 
     /// All crossings as they start.
-    pub(crate) fn upload(&mut self, crossings: &[Crossing]) {
+    pub(crate) fn upload(&mut self, crossings: &[CrossingState]) {
         self.crossings.copy_from_slice(crossings);
         self.found.copy_from_slice(crossings);
     }
@@ -40,10 +41,10 @@ impl CrossingsMemory {
 pub(crate) fn step(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,
-    found: &[Crossing],
+    found: &[CrossingState],
     number: usize,
-    crossing: &mut Crossing,
-    next: &mut Crossing,
+    crossing: &mut CrossingState,
+    next: &mut CrossingState,
 ) -> CrossingsSeen {
     let site = plan.site(number);
     let block = plan.block(pass, found, site);

@@ -5,10 +5,13 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use texere_core::backend::{
+    AttributeSink, Chunk, Engine, MeshMut, MeshSink, PackedSink, PaddedPoints, Plan, RingSink, ScanChunks,
+    Slot, StageTimings, zeroed,
+};
+use texere_core::definitions::Ring;
 use texere_core::{
-    ArcLength, Attribute, AttributeSink, BackendError, Chunk, ControlPoint, Engine, MeshMut, MeshPiece,
-    MeshSink, OutOfMemory, PackedSink, PackedVertex, PaddedPoints, Plan, Ring, RingSink, ScanChunks, Slot,
-    StageTimings, Vertex, zeroed,
+    ArcLength, Attribute, BackendError, ControlPoint, MeshPiece, OutOfMemory, PackedVertex, Vertex,
 };
 
 use crate::pages;

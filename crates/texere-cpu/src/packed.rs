@@ -1,6 +1,7 @@
 //! Packed vertices, from those of a block.
 
-use texere_core::{Chunk, PackedVertex};
+use texere_core::PackedVertex;
+use texere_core::backend::Chunk;
 
 use crate::caps::end_normal;
 use crate::engine::Work;

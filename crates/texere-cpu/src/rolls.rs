@@ -1,6 +1,7 @@
 //! Rolls at block starts: what a block needs to know of the yarn before it.
 
-use texere_core::{BLOCK_RINGS, Block, Plan, Turn};
+use texere_core::backend::{BLOCK_RINGS, Block, Plan};
+use texere_core::definitions::Turn;
 
 /// The result of a scan.
 #[derive(Debug, Clone, Default)]

@@ -1,7 +1,8 @@
 //! Yarns that flatten, in lanes: the same bits as the reference, whatever instructions the processor has.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use texere_core::{ControlPoint, Frame, Pipeline, Ring, Section, Settings, Topology, Yarn, Yarns};
+use texere_core::definitions::Ring;
+use texere_core::{ControlPoint, Frame, Pipeline, Section, Settings, Topology, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// Numbers from 0 to `below`, the same ones every time.

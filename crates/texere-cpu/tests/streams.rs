@@ -3,10 +3,8 @@
 
 use std::sync::Arc;
 
-use texere_core::{
-    Backend, ControlPoint, Frame, Limits, MeshMut, Pipeline, Plan, Session, Settings, Topology, Vertex, Yarn,
-    Yarns,
-};
+use texere_core::backend::{MeshMut, Plan, Session};
+use texere_core::{Backend, ControlPoint, Frame, Limits, Pipeline, Settings, Topology, Vertex, Yarn, Yarns};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// Two short coils, a long one, one with a growing radius and a closed one: 60,000 rings with one point inserted.

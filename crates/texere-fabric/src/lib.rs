@@ -49,7 +49,7 @@ mod yarn_check;
 mod yarn_size;
 
 pub use diagnosis::{
-    ClothClearance, Crossing, Cure, Diagnosis, FaultKind, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
+    ClothClearance, ClothFault, Crossing, Cure, Diagnosis, Faults, JAMS_LISTED, Jams, Pieces, Remedy,
     StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
 };
 pub use error::FabricError;

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Material, Segment, Yarns, neighbours, tangent_factor};
+use texere_core::definitions::{Segment, neighbours, tangent_factor};
+use texere_core::{ControlPoint, Material, Yarns};
 
 use crate::own::Own;
 use crate::reach::{Reach, mean_reach};

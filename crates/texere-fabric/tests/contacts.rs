@@ -9,7 +9,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use glam::{DVec3, Vec4Swizzles};
 use proptest::prelude::*;
 use texere_contact::{CLEARANCE_ACCURACY, CLEARANCE_NEAR, CONTACTS_LISTED, Contact, ContactError, clearance};
-use texere_core::{ControlPoint, Material, PlanError, Section, Segment, Settings, Yarn, YarnPlace, Yarns};
+use texere_core::definitions::Segment;
+use texere_core::{ControlPoint, Material, PlanError, Section, Settings, Yarn, YarnPlace, Yarns};
 use texere_fabric::{NO_CROSSING, Shape, Thread, Weave, Woven};
 
 use oracle::{ellipse, refined_clearance, round_clearance, surface_clearance};

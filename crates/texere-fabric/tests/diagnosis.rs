@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use texere_core::{Material, Origin, Section, Settings};
 use texere_fabric::{
-    Crossing, Diagnosis, FaultKind, Relief, Remedy, Shape, Structure, Thread, Weave, Woven, WovenDesign,
+    ClothFault, Crossing, Diagnosis, Relief, Remedy, Shape, Structure, Thread, Weave, Woven, WovenDesign,
 };
 
 /// Yarns of 0.3 mm at these spacings of ends and picks.
@@ -34,7 +34,10 @@ fn clean_cloth_has_no_faults() {
 fn faults_are_named_by_thread_and_crossing() {
     let jammed = cloth("3/1", [0.4, 0.66]);
     let faults = diagnose(&jammed).faults;
-    assert_eq!(faults.kinds(), [FaultKind::Pierces, FaultKind::Folds, FaultKind::Jams, FaultKind::InsideOut]);
+    assert_eq!(
+        faults.kinds(),
+        [ClothFault::Pierces, ClothFault::Folds, ClothFault::Jams, ClothFault::InsideOut]
+    );
     let jams = faults.jams.unwrap();
     assert_eq!((jams.ends, jams.picks, jams.threads[0].thread), (19, 0, Origin::End(2)));
     // A contact of an end and a pick lies where the two cross, or next to it.

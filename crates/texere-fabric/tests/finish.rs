@@ -6,10 +6,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_contact::clearance;
-use texere_core::settling::{Length, Pass, Place, Seen, Settler, SettlingPlan};
+use texere_core::backend::{Engine, NullBackend, Plan};
+use texere_core::settling::{Length, Pass, Place, Settler, SettlingPlan, SettlingSeen};
 use texere_core::{
-    Backend, BackendError, Boundary, ControlPoint, DeviceInfo, Ends, Engine, Material, NullBackend, Origin,
-    Plan, Section, Settings, Yarn, YarnPlace, Yarns,
+    Backend, BackendError, Boundary, ControlPoint, DeviceInfo, Ends, Material, Origin, Section, Settings,
+    Yarn, YarnPlace, Yarns,
 };
 use texere_cpu::ParallelBackend;
 use texere_fabric::{
@@ -110,7 +111,7 @@ impl Settler for Flipped {
         self.0.list(growth)
     }
 
-    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         self.0.pass(pass)
     }
 

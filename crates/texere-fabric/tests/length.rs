@@ -5,7 +5,8 @@
 use std::f64::consts::TAU;
 
 use texere_contact::{length_mm, lengths_mm};
-use texere_core::{ControlPoint, Material, Section, Segment, Yarn, Yarns};
+use texere_core::definitions::Segment;
+use texere_core::{ControlPoint, Material, Section, Yarn, Yarns};
 use texere_fabric::{Thread, Weave, Woven};
 
 fn one_yarn(closed: bool, points: &[ControlPoint]) -> Yarns {

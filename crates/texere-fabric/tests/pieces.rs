@@ -10,7 +10,7 @@ use texere_fabric::warp::{Bar, Chain, Laid, LapKind, Threading, WarpKnitted};
 use texere_fabric::weft::{
     CarrierSet, Direction, Gauge, Instruction, KnitYarn, Knitted, Machine, Needle, Operation, Program,
 };
-use texere_fabric::{Drawdown, FaultKind, Pieces, Relief, Structure, Thread, Weave, Woven, WovenDesign};
+use texere_fabric::{ClothFault, Drawdown, Pieces, Relief, Structure, Thread, Weave, Woven, WovenDesign};
 
 fn bar(chain: &str, threading: &[bool]) -> Bar {
     let guides = threading.iter().map(|threaded| threaded.then_some(0)).collect();
@@ -60,7 +60,7 @@ fn tricot_two_in_two_out_falls_apart_beside_empty_needles() {
 fn a_knit_is_told_as_woven_cloth_is() {
     let structure = Structure::Warp(warp(vec![bar("1-0/0-1//", FULL)], 4, 2, [1, 1]));
     let diagnosis = structure.diagnose(0.5, |_| std::ops::ControlFlow::Continue(())).unwrap();
-    assert_eq!(diagnosis.faults.kinds().last(), Some(&FaultKind::FallsApart));
+    assert_eq!(diagnosis.faults.kinds().last(), Some(&ClothFault::FallsApart));
     let said = diagnosis.faults.apart.unwrap().to_string();
     assert!(
         said.contains("nothing binds all threads into one cloth: there are 4 pieces (guide bar 1, guide 1;"),

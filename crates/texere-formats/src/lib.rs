@@ -15,7 +15,8 @@ pub mod write;
 mod yarns_file;
 
 pub use read::{
-    Design, MachineFault, NamedPlace, Place, ReadError, Refusal, SavedYarns, Structure, Told, read, read_from,
+    Design, FilePlace, MachineFault, NamedPlace, ReadError, Refusal, SavedYarns, Structure, Told, read,
+    read_from,
 };
 pub use rest::{Cloth, RestReport, Resting};
 pub use write::WriteError;

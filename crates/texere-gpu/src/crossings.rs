@@ -104,15 +104,15 @@ impl CrossingsParams {
     /// What `plan` says. The pass is still to come.
     ///
     /// ```
-    /// use texere_core::crossings::{Crossings, CrossingsPass, CrossingsPlan, Thread};
+    /// use texere_core::crossings::{Crossings, CrossingsPass, CrossingsPlan, CrossingThread};
     /// use texere_gpu::{CrossingsParams, ThreadRow, crossings_ups};
-    /// let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
+    /// let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
     /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     /// let plan = CrossingsPlan::new(&plain.repeats(true, false))?;
     /// let params = CrossingsParams::new(&plan).with_pass(&CrossingsPass::of(50), 3);
     /// assert_eq!((params.crossings, params.flags, params.penalty), (4, CrossingsParams::ENDS, 1000.0));
     /// assert_eq!((ThreadRow::all(&plan).len(), crossings_ups(&plan)), (4, vec![0b1001]));
-    /// # Ok::<(), texere_core::crossings::CrossingsError>(())
+    /// # Ok::<(), texere_core::CrossingsError>(())
     /// ```
     #[must_use]
     pub fn new(plan: &CrossingsPlan) -> Self {

@@ -13,7 +13,8 @@
 //! | the memory that a plan's work takes | [`device_buffers`], [`host_bytes_beside_gpu`] |
 //!
 //! ```
-//! use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+//! use texere_core::backend::Plan;
+//! use texere_core::{ControlPoint, Limits, Settings, Yarn, Yarns};
 //! use texere_gpu::{Params, YarnRow};
 //! let mut yarns = Yarns::builder();
 //! yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));

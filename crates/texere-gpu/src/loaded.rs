@@ -1,6 +1,7 @@
 //! Which chunk's tables an engine holds.
 
-use texere_core::{BackendError, Chunk, Plan, TablesId};
+use texere_core::BackendError;
+use texere_core::backend::{Chunk, Plan, TablesId};
 
 /// The chunk whose tables lie in a slot of an engine.
 ///
@@ -8,7 +9,8 @@ use texere_core::{BackendError, Chunk, Plan, TablesId};
 /// makes sure that it runs them on a chunk of its own plan, and on the one that it has loaded, whoever calls it.
 ///
 /// ```
-/// use texere_core::{BackendError, ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+/// use texere_core::backend::Plan;
+/// use texere_core::{BackendError, ControlPoint, Limits, Settings, Yarn, Yarns};
 /// use texere_gpu::LoadedChunk;
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));

@@ -1,6 +1,8 @@
 //! How much memory a plan's work takes.
 
-use texere_core::{Block, Limits, Plan, PlanError, SectionPoint, Turn, Vertex};
+use texere_core::backend::{Block, Plan};
+use texere_core::definitions::Turn;
+use texere_core::{Limits, PlanError, SectionPoint, Vertex};
 
 use crate::tables::{CapRow, YarnRow, cap_pattern, lean_count};
 use crate::upload::Ends;
@@ -11,11 +13,12 @@ use crate::upload::Ends;
 ///
 /// A backend may round each up to what its kernels read at a time, and adds parameters and time stamps, some hundred
 /// bytes. The 16 MiB that wgpu maps to upload through come on top where a driver takes them from the device's memory.
-/// Rings, 48 bytes each, come on top where [`Session::trajectory`](texere_core::Session::trajectory) is called, packed vertices, 12 bytes each, where
-/// [`Session::packed`](texere_core::Session::packed) is.
+/// Rings, 48 bytes each, come on top where [`Session::trajectory`](texere_core::backend::Session::trajectory) is called, packed vertices, 12 bytes each, where
+/// [`Session::packed`](texere_core::backend::Session::packed) is.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+/// use texere_core::backend::Plan;
+/// use texere_core::{ControlPoint, Limits, Settings, Yarn, Yarns};
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// let plan = Plan::new(yarns.build()?.layout().clone(), Settings::default())?;

@@ -3,11 +3,12 @@
 use std::f32::consts::TAU;
 use std::fmt::Write;
 
-use texere_core::{
-    ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, ARCTANGENT, ArcLength, BLOCK_RINGS, COSINE, Frame,
-    NO_LENGTH, NO_MIRROR, PackedVertex, Quantum, RADIUS_FLOOR, SINE, SLOPE_LIMIT, TAN_EIGHTH, Turn, VERTICAL,
-    ZERO_VELOCITY, crossings, settling,
+use texere_core::backend::BLOCK_RINGS;
+use texere_core::definitions::{
+    ARC_EVEN, ARC_NODES, ARC_PANELS, ARC_WEIGHTS, ARCTANGENT, COSINE, NO_LENGTH, NO_MIRROR, RADIUS_FLOOR,
+    SINE, SLOPE_LIMIT, TAN_EIGHTH, Turn, VERTICAL, ZERO_VELOCITY,
 };
+use texere_core::{ArcLength, Frame, PackedVertex, Quantum, crossings, settling};
 
 use crate::crossings::CrossingsParams;
 use crate::settling::{SettlingParams, UNSEEN};

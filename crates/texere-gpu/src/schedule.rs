@@ -1,12 +1,13 @@
 //! Schedules: what a device is called under each, and what each leaves out.
 
-use texere_core::{BackendError, Capabilities, Frame, Plan, Schedule};
+use texere_core::backend::{Plan, Schedule};
+use texere_core::{BackendError, Capabilities, Frame};
 
 /// The name of device `index` of `interface` under `schedule`, or of the caller's own device where
 /// there is no index.
 ///
 /// ```
-/// use texere_core::Schedule;
+/// use texere_core::backend::Schedule;
 /// use texere_gpu::device_name;
 /// assert_eq!(device_name("opencl", Some(1), Schedule::PerRing), "opencl:1");
 /// assert_eq!(device_name("wgpu", None, Schedule::PerYarn), "wgpu/per-yarn");
@@ -44,7 +45,8 @@ pub fn serial_unsupported(name: &str) -> BackendError {
 /// for the error.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Plan, Schedule, Settings, Yarn, Yarns};
+/// use texere_core::backend::{Plan, Schedule};
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 /// use texere_gpu::check_schedule;
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));

@@ -1,7 +1,7 @@
 //! Control points from where yarns have come to rest, without a way over the host.
 
 use bytemuck::{Pod, Zeroable};
-use texere_core::Plan;
+use texere_core::backend::Plan;
 use texere_core::settling::SettlingPlan;
 
 /// Where a yarn's places lie, and where its padded control points belong.

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::Ends;
-use texere_core::settling::{Length, Pass, Seen, SettlingPlan, Strand, tag};
+use texere_core::settling::{Length, Pass, SettlingPlan, SettlingSeen, SettlingYarn, tag};
 
 /// What stands for nothing on devices that may have no infinities: no yarn is as far away.
 pub const UNSEEN: f32 = 1e30;
@@ -188,7 +188,7 @@ impl StrandRow {
     /// All yarns of `plan`.
     #[must_use]
     pub fn all(plan: &SettlingPlan) -> Vec<Self> {
-        let row = |strand: &Strand| {
+        let row = |strand: &SettlingYarn| {
             let [shift_x, shift_y] = strand.shift().unwrap_or_default();
             Self {
                 first: strand.first,
@@ -229,7 +229,8 @@ impl SettlingParams {
     ///
     /// ```
     /// use texere_core::settling::{Form, Pass};
-    /// use texere_core::{ControlPoint, Settling, SettlingPlan, Yarn, Yarns};
+    /// use texere_core::settling::{Settling, SettlingPlan};
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
     /// use texere_gpu::{PlaceRow, SettlingParams};
     /// let mut yarns = Yarns::builder();
     /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.25)));
@@ -319,9 +320,9 @@ impl SettlingParams {
 impl SeenRow {
     /// What a pass has seen.
     #[must_use]
-    pub fn seen(self) -> Seen {
+    pub fn seen(self) -> SettlingSeen {
         let sight = |value: f32| if value < UNSEEN { value } else { f32::INFINITY };
-        Seen {
+        SettlingSeen {
             step: self.step,
             clearance: sight(self.clearance),
             radius: sight(self.radius),

@@ -4,7 +4,9 @@ use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 
-use texere_core::{BLOCK_RINGS, Block, Cap, Chunk, End, Plan, RINGS_MAX, Topology, Turn};
+use texere_core::backend::{BLOCK_RINGS, Block, Chunk, Plan};
+use texere_core::definitions::Turn;
+use texere_core::{Cap, End, RINGS_MAX, Topology};
 
 /// A yarn as kernels see it.
 ///

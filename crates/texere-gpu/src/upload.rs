@@ -4,18 +4,20 @@ use std::ops::Range;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use texere_core::{BackendError, ControlPoint, Plan, renew_virtual_ends, zeroed};
+use texere_core::backend::{Plan, renew_virtual_ends, zeroed};
+use texere_core::{BackendError, ControlPoint};
 
 /// A yarn's first three and last two points: those that virtual ends come from. Of a short yarn some are the same.
 pub(crate) type Ends = [ControlPoint; 5];
 
 /// The ends of all yarns as last uploaded, so that virtual ends are right also after an upload of the other end alone.
 ///
-/// Together with the padded points themselves, which start as zeros, this does what [`PaddedPoints`](texere_core::PaddedPoints)
+/// Together with the padded points themselves, which start as zeros, this does what [`PaddedPoints`](texere_core::backend::PaddedPoints)
 /// does.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
+/// use texere_core::backend::Plan;
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 /// use texere_gpu::YarnEnds;
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use bytemuck::bytes_of;
-use texere_core::{ArcLength, BackendError, Chunk, Plan, Schedule};
+use texere_core::backend::{Chunk, Plan, Schedule};
+use texere_core::{ArcLength, BackendError};
 use texere_gpu::Params;
 use texere_kernels::{ATTRIBUTES_OF_CAPS, ATTRIBUTES_OF_TUBES, BLOCK_LENGTHS, YARN_LENGTHS};
 

@@ -12,9 +12,10 @@ use opencl3::context::context::{create_context, retain_context};
 use opencl3::device::Device;
 use opencl3::error_codes::ClError;
 use opencl3::platform::Platform;
+use texere_core::backend::{Engine, Plan, Session};
 use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
 use texere_core::settling::{Settler, SettlingPlan};
-use texere_core::{Backend, BackendError, DeviceInfo, Engine, Limits, Plan, Session};
+use texere_core::{Backend, BackendError, DeviceInfo, Limits};
 use texere_gpu::device_name;
 
 use crate::crossings::OpenClCrossings;

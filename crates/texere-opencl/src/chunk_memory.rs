@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use texere_core::{Attribute, BackendError, Chunk, PackedVertex, Plan, Ring, Schedule, Topology, Vertex};
+use texere_core::backend::{Chunk, Plan, Schedule};
+use texere_core::definitions::Ring;
+use texere_core::{Attribute, BackendError, PackedVertex, Topology, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, part_rows};
 
 use crate::buffers::Buffer;

@@ -7,7 +7,7 @@ use opencl3::event::{
     CL_EVENT_COMMAND_EXECUTION_STATUS, CL_PROFILING_COMMAND_END, CL_PROFILING_COMMAND_START, get_event_info,
     get_event_profiling_info, wait_for_events,
 };
-use texere_core::StageTimings;
+use texere_core::backend::StageTimings;
 
 use crate::handles::Handle;
 

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
-use texere_core::crossings::{Crossing, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
+use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 use texere_core::{BackendError, Limits};
 use texere_gpu::{
     CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_batches, crossings_ups,
@@ -47,7 +47,7 @@ impl Memory {
         let mut room = Room::new(limits);
         let rows = |count: u64| size_of::<CrossingsSeenRow>() as u64 * count;
         let crossings = plan.crossings() as u64;
-        let bytes = size_of::<Crossing>() as u64 * crossings;
+        let bytes = size_of::<CrossingState>() as u64 * crossings;
         let groups = crossings.div_ceil(CROSSINGS_MOVE.group as u64);
         Ok(Self {
             threads: room.holding(opened, "the thread table", &ThreadRow::all(plan))?,
@@ -114,7 +114,7 @@ impl CrossingsSettler for OpenClCrossings {
         &self.plan
     }
 
-    fn upload(&mut self, crossings: &[Crossing]) -> Result<(), BackendError> {
+    fn upload(&mut self, crossings: &[CrossingState]) -> Result<(), BackendError> {
         let Self { opened, memory, .. } = self;
         memory.crossings.write(opened, &opened.queue, 0, crossings, None)?;
         memory.found.copy(opened, &memory.crossings)
@@ -133,7 +133,7 @@ impl CrossingsSettler for OpenClCrossings {
         crossings_batches(passes, |passes| self.run(passes), watch)
     }
 
-    fn read(&mut self, crossings: &mut [Crossing]) -> Result<(), BackendError> {
+    fn read(&mut self, crossings: &mut [CrossingState]) -> Result<(), BackendError> {
         self.memory.crossings.read_now(&self.opened, 0, crossings)
     }
 }

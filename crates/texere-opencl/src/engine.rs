@@ -6,11 +6,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use opencl3::command_queue::{finish, flush};
-use texere_core::{
-    AttributeSink, BackendError, Chunk, ControlPoint, Engine, Limits, MeshMut, MeshPiece, MeshSink,
-    PackedSink, Plan, RingSink, ScanChunk, ScanChunks, Schedule, Settler, Slot, StageTimings, Traffic,
-    Vertex, take_over_host, zeroed,
+use texere_core::backend::{
+    AttributeSink, Chunk, Engine, MeshMut, MeshSink, PackedSink, Plan, RingSink, ScanChunk, ScanChunks,
+    Schedule, Slot, StageTimings, Traffic, take_over_host, zeroed,
 };
+use texere_core::settling::Settler;
+use texere_core::{BackendError, ControlPoint, Limits, MeshPiece, Vertex};
 use texere_gpu::{YarnEnds, YarnRow, check_schedule, settles_flattened};
 
 use crate::attributes::Attributes;
@@ -76,11 +77,11 @@ impl OpenClEngine {
         self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
     }
 
-    /// The engine of a [`LiveMesh`](texere_core::LiveMesh), for its memory; none where that is on no device of OpenCL.
+    /// The engine of a [`LiveMesh`](texere_core::backend::LiveMesh), for its memory; none where that is on no device of OpenCL.
     ///
     /// ```no_run
-    /// # fn example(mesh: &texere_core::LiveMesh) -> Option<()> {
-    /// use texere_core::Slot;
+    /// # fn example(mesh: &texere_core::backend::LiveMesh) -> Option<()> {
+    /// use texere_core::backend::Slot;
     /// use texere_opencl::OpenClEngine;
     /// let first = OpenClEngine::of(mesh.engine())?.device_mesh(Slot::new(0))?;
     /// println!("{:?} after {:?}", first.vertices, first.ready);

@@ -5,7 +5,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use bytemuck::bytes_of;
-use texere_core::{BackendError, Chunk, Plan, Schedule, Topology};
+use texere_core::backend::{Chunk, Plan, Schedule};
+use texere_core::{BackendError, Topology};
 use texere_gpu::Params;
 use texere_kernels::{
     BLOCK_TURNS, CAPS, EntryPoint, MESH, MESH_ODD, TRAJECTORY, UNINDEXED_GROUP, YARN_ROLLS,

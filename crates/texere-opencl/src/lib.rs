@@ -40,4 +40,4 @@ pub use backend::OpenClBackend;
 pub use engine::OpenClEngine;
 pub use faults::OpenClError;
 pub use session::{DeviceMesh, OpenClSession};
-pub use texere_core::Schedule;
+pub use texere_core::backend::Schedule;

@@ -9,9 +9,10 @@ use opencl3::error_codes::{CL_BUILD_PROGRAM_FAILURE, ClError};
 use opencl3::program::{
     CL_PROGRAM_BUILD_LOG, build_program, create_program_with_source, get_program_build_info,
 };
-use texere_core::{BackendError, DeviceInfo, Schedule};
+use texere_core::backend::Schedule;
+use texere_core::{BackendError, DeviceInfo};
 use texere_gpu::{Language, prelude, serial_unsupported};
-use texere_kernels::{ATTRIBUTES, CROSSINGS, PACKING, PER_RING, PER_YARN, Program, SETTLING};
+use texere_kernels::{ATTRIBUTES, CROSSINGS, KernelProgram, PACKING, PER_RING, PER_YARN, SETTLING};
 
 use crate::faults::failed;
 use crate::handles::Handle;
@@ -113,7 +114,7 @@ impl Opened {
     fn compiled<'a>(
         &self,
         held: &'a OnceLock<Handle>,
-        program: Program,
+        program: KernelProgram,
         flattened: bool,
     ) -> Result<&'a Handle, BackendError> {
         if let Some(compiled) = held.get() {
@@ -133,7 +134,7 @@ impl Opened {
 }
 
 /// The kernels of `schedule`. `name` is the device's, for the error.
-fn program(schedule: Schedule, name: &str) -> Result<Program, BackendError> {
+fn program(schedule: Schedule, name: &str) -> Result<KernelProgram, BackendError> {
     match schedule {
         Schedule::PerRing => Ok(PER_RING),
         Schedule::PerYarn => Ok(PER_YARN),
@@ -146,7 +147,7 @@ fn build(
     device: *mut c_void,
     context: &Handle,
     name: &str,
-    program: Program,
+    program: KernelProgram,
     flattened: bool,
 ) -> Result<Handle, BackendError> {
     // One string: cl3 0.13 hands over several as if slices were pointers.
@@ -178,8 +179,11 @@ mod tests {
         let chosen = listed(Schedule::PerRing).unwrap().swap_remove(0);
         let context = create_context(&[chosen.id], ptr::null(), None, ptr::null_mut());
         let context = Handle::context(context).unwrap();
-        let broken =
-            Program { name: "broken", sources: &["__kernel void broken() { undeclared(); }"], entries: &[] };
+        let broken = KernelProgram {
+            name: "broken",
+            sources: &["__kernel void broken() { undeclared(); }"],
+            entries: &[],
+        };
         match build(chosen.id, &context, &chosen.info.name, broken, false) {
             Err(BackendError::Compile { kernel: "broken", log }) => {
                 assert!(log.contains("undeclared"), "{log}")

@@ -1,6 +1,7 @@
 //! The kernels of packed vertices.
 
-use texere_core::{BackendError, Chunk, Plan, Schedule};
+use texere_core::BackendError;
+use texere_core::backend::{Chunk, Plan, Schedule};
 use texere_gpu::Params;
 use texere_kernels::{PACKED, PACKED_CAPS, PACKED_ODD};
 

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use bytemuck::bytes_of;
-use texere_core::{BackendError, Chunk, Plan};
+use texere_core::BackendError;
+use texere_core::backend::{Chunk, Plan};
 use texere_gpu::Params;
 use texere_kernels::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut};
 use std::ptr;
 
-use texere_core::{Chunk, Session, SessionError};
+use texere_core::backend::{Chunk, Session, SessionError};
 
 use crate::chunk_memory::ChunkMemory;
 use crate::engine::OpenClEngine;
@@ -17,7 +17,8 @@ use crate::handles::Handle;
 ///
 /// ```no_run
 /// use std::sync::Arc;
-/// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+/// use texere_core::backend::Plan;
+/// use texere_core::{ControlPoint, Limits, Settings, Yarn, Yarns};
 /// use texere_opencl::{OpenClBackend, Schedule};
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));

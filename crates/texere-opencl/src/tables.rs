@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use texere_core::{BackendError, Limits, OutOfMemory, Plan, Turn, index_pattern};
+use texere_core::backend::Plan;
+use texere_core::definitions::{Turn, index_pattern};
+use texere_core::{BackendError, Limits, OutOfMemory};
 use texere_gpu::{YarnRow, cap_pattern, lean_count, lean_rows};
 
 use crate::buffers::Buffer;

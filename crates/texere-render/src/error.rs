@@ -1,6 +1,7 @@
 //! Errors of making pictures.
 
-use texere_core::{BackendError, PlanError, SessionError};
+use texere_core::backend::SessionError;
+use texere_core::{BackendError, PlanError};
 use thiserror::Error;
 
 /// Why there is no picture.

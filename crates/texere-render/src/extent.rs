@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
-use texere_core::{BackendError, Section, Settler, Yarns};
+use texere_core::settling::Settler;
+use texere_core::{BackendError, Section, Yarns};
 
 use crate::camera::{across, aspect};
 

@@ -2,7 +2,8 @@
 
 use std::f32::consts::E;
 
-use texere_core::{BLOCK_RINGS, BackendError, Yarns};
+use texere_core::backend::BLOCK_RINGS;
+use texere_core::{BackendError, Yarns};
 use wgpu::BufferUsages;
 
 use crate::Renderer;

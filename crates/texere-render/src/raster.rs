@@ -3,17 +3,15 @@
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use texere_core::{
-    BLOCK_RINGS, BackendError, Chunk, ControlPoint, DeviceInfo, DeviceKind, Limits, Plan, Yarns,
-};
+use texere_core::backend::{BLOCK_RINGS, Chunk, Plan};
+use texere_core::{BackendError, ControlPoint, DeviceInfo, DeviceKind, Limits, Yarns};
 use texere_shaders::{Resource, grid};
 use texere_wgpu::{ChunkTables, LAUNCH_BLOCKS};
 use wgpu::{BindingResource, BufferUsages};
 
-use crate::Renderer;
-use crate::hairs;
 use crate::rasteriser::{Keys, Kind, Pipelines, group};
 use crate::screen::{SCREEN_GROUP, Screen};
+use crate::{Renderer, hairs};
 
 /// `Sweep` of `fabric.wgsl`.
 #[repr(C)]

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use texere_core::{
-    Chunk, ControlPoint, Limits, Plan, PlanError, SessionError, Settings, Settler, Topology, Traffic, Yarns,
-};
+use texere_core::backend::{Chunk, Plan, SessionError, Traffic};
+use texere_core::settling::Settler;
+use texere_core::{ControlPoint, Limits, PlanError, Settings, Topology, Yarns};
 use texere_wgpu::WgpuSession;
 use wgpu::{BindingResource, BufferUsages};
 

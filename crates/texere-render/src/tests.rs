@@ -12,11 +12,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use image::RgbImage;
-use texere_core::settling::{Form, Pass, settled};
-use texere_core::{
-    Backend, ControlPoint, Frame, Limits, Material, Origin, Section, Settings, Settling, SettlingPlan,
-    Traffic, Yarn, Yarns,
-};
+use texere_core::backend::Traffic;
+use texere_core::settling::{Form, Pass, Settling, SettlingPlan, settled};
+use texere_core::{Backend, ControlPoint, Frame, Limits, Material, Origin, Section, Settings, Yarn, Yarns};
 use texere_shaders::picture;
 use texere_wgpu::{Schedule, WgpuBackend};
 

@@ -10,7 +10,9 @@ use eframe::egui::{
     TextureOptions, Ui, pos2,
 };
 use eframe::{egui_wgpu, wgpu};
-use texere::{DevicePicture, NamedPlace, Picture, PictureTimings, Quality, RenderError, Seen, YarnPlace};
+use texere::picture::{DevicePicture, Picture, PictureTimings, Quality, RenderError, Seen};
+use texere::read::NamedPlace;
+use texere::yarn::YarnPlace;
 
 use crate::orbit::{Orbit, Side};
 use crate::workshop::Cloth;

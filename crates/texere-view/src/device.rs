@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use texere::wgpu::{Adapter, Backends, InstanceFlags, Surface};
-use texere::{DeviceInfo, WgpuBackend};
+use texere::DeviceInfo;
+use texere::gpu::WgpuBackend;
+use texere::gpu::wgpu::{Adapter, Backends, InstanceFlags, Surface};
 
 /// How the window opens the device called `name`: as [`WgpuBackend::open`] does, but one that can draw into the window.
 pub(crate) fn configuration(name: String) -> WgpuConfiguration {
@@ -23,7 +24,7 @@ fn chosen(name: &str, adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Re
         known.retain(|(_, adapter)| shows(adapter));
     }
     let (list, adapters): (Vec<DeviceInfo>, Vec<&Adapter>) = known.into_iter().unzip();
-    let number = texere::picture_device(name, &list).map_err(|error| error.to_string())?;
+    let number = texere::picture::picture_device(name, &list).map_err(|error| error.to_string())?;
     if shows(adapters[number]) {
         Ok(adapters[number].clone())
     } else {

@@ -3,7 +3,8 @@
 use std::error::Error;
 use std::iter::successors;
 
-use texere::{BackendError, ReadError, Refusal};
+use texere::read::Refusal;
+use texere::{BackendError, ReadError};
 use thiserror::Error;
 
 /// Why no window can be opened.

@@ -3,7 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use texere::{Crossing, NamedPlace};
+use texere::check::Crossing;
+use texere::read::NamedPlace;
 
 /// What has happened in a window. It is written in a line of its own.
 #[derive(Debug, Clone, PartialEq)]

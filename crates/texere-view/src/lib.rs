@@ -20,7 +20,8 @@ mod workshop;
 
 use std::path::PathBuf;
 
-use texere::{Design, Section, Settings};
+use texere::yarn::Section;
+use texere::{Design, Settings};
 
 pub use error::ViewError;
 pub use event::Event;
@@ -30,11 +31,11 @@ pub use event::Event;
 pub struct View {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine.
     pub design: PathBuf,
-    /// The device that draws, as [`texere::open_renderer`] takes it, and on which yarns settle.
+    /// The device that draws, as [`texere::picture::open_renderer`] takes it, and on which yarns settle.
     pub device: String,
     /// Tension and frames of the mesh; its sides and subdivisions count only in `sides` and `subdivisions`.
     pub settings: Settings,
-    /// Sides of the tubes; if none as many as [`texere::picture_sides`] says.
+    /// Sides of the tubes; if none as many as [`texere::picture::picture_sides`] says.
     pub sides: Option<u32>,
     /// Points inserted between two control points; if none as many as [`Settings::following_fibres`] says.
     pub subdivisions: Option<u32>,

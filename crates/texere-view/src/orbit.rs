@@ -3,7 +3,7 @@
 use std::f32::consts::FRAC_PI_2;
 
 use glam::Vec3;
-use texere::{Camera, Extent, Pose, RenderError};
+use texere::picture::{Camera, Extent, Pose, RenderError};
 
 /// Room left round the whole cloth, as a share of it.
 const MARGIN: f32 = 0.08;

@@ -1,7 +1,8 @@
 //! What stands beside the cloth: its name, what can be chosen, and how long a picture takes.
 
 use eframe::egui::{Button, Panel, ProgressBar, ScrollArea, Slider, SliderClamping, Ui};
-use texere::{Settings, TWIST_SUBDIVISIONS_MAX};
+use texere::Settings;
+use texere::mesh::TWIST_SUBDIVISIONS_MAX;
 
 use crate::Event;
 use crate::orbit::Side;

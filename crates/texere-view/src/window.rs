@@ -9,7 +9,10 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Key, Modifiers, ViewportBuilder};
 use eframe::wgpu;
-use texere::{NamedPlace, Renderer, Schedule, WgpuBackend};
+use texere::backend::Schedule;
+use texere::gpu::WgpuBackend;
+use texere::picture::Renderer;
+use texere::read::NamedPlace;
 
 use crate::canvas::{Canvas, Pointed};
 use crate::orbit::Side;
@@ -29,7 +32,7 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
     let design = view.read()?;
     watch.follow(design.files().iter().cloned());
     // What opens the window says of a wrong name only that it failed.
-    texere::picture_device(&view.device, &WgpuBackend::devices()?)?;
+    texere::picture::picture_device(&view.device, &WgpuBackend::devices()?)?;
     let options = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title(format!("{} - texere", design.name))
@@ -44,7 +47,7 @@ pub(crate) fn open(view: View, tell: impl FnMut(&Event)) -> Result<(), ViewError
         // is closed. A copy costs next to nothing there.
         let is_apart = render.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let renderer = if is_apart {
-            texere::open_renderer(&view.device)?
+            texere::picture::open_renderer(&view.device)?
         } else {
             let (device, queue) = (render.device.clone(), render.queue.clone());
             Renderer::new(WgpuBackend::from_device(device, queue, Schedule::PerRing)?)?

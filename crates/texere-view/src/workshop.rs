@@ -10,10 +10,12 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
-use texere::{
-    Backend, Camera, Design, Extent, FinishError, Output, Quality, Refusal, RenderError, Renderer,
-    RestReport, Scene, Settings, Structure, Undersampled, Yarns,
-};
+use texere::mesh::Undersampled;
+use texere::picture::{Camera, Extent, Quality, RenderError, Renderer, Scene};
+use texere::read::Refusal;
+use texere::rest::{FinishError, RestReport};
+use texere::write::Output;
+use texere::{Backend, Design, Settings, Structure, Yarns};
 
 use crate::error::said;
 use crate::watch::Watch;
@@ -199,7 +201,7 @@ impl Workshop {
         let Structure::Woven(design) = &mut self.design.structure else { return false };
         match design.set_lift(end, pick, up) {
             Ok(()) => {
-                let crossing = texere::Crossing { end: end as u32 + 1, pick: pick as u32 + 1 };
+                let crossing = texere::check::Crossing { end: end as u32 + 1, pick: pick as u32 + 1 };
                 self.tell(News::Event(Event::Lifted { crossing, up }));
                 true
             }
@@ -220,7 +222,7 @@ impl Workshop {
         }
         let path = free_beside(&self.view.design);
         let output = Output::to(&path).sparing(design.files());
-        let left_out = texere::write_toml(&design, output).map_err(|error| said(&error))?;
+        let left_out = texere::write::toml(&design, output).map_err(|error| said(&error))?;
         Ok(Event::Saved { path, left_out })
     }
 
@@ -339,7 +341,7 @@ impl Workshop {
         let mut settings = self.view.settings;
         let lies_close = *is_settled && self.design.structure.woven().is_some();
         let sides = yarns.layout().corners().or(self.view.sides);
-        settings.sides = sides.unwrap_or_else(|| texere::picture_sides(yarns, lies_close));
+        settings.sides = sides.unwrap_or_else(|| texere::picture::picture_sides(yarns, lies_close));
         settings = match self.view.subdivisions {
             Some(subdivisions) => Settings { subdivisions, ..settings },
             None => settings.following_fibres(yarns),

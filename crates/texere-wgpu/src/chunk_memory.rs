@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use texere_core::{Attribute, BackendError, Block, Chunk, ControlPoint, PackedVertex, Plan, Ring, Vertex};
+use texere_core::backend::{Block, Chunk, Plan};
+use texere_core::definitions::Ring;
+use texere_core::{Attribute, BackendError, ControlPoint, PackedVertex, Vertex};
 use texere_gpu::{CapRow, LoadedChunk, Params};
 use texere_shaders::Resource;
 use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};

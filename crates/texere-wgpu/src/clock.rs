@@ -3,7 +3,8 @@
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
 
-use texere_core::{BackendError, StageTimings};
+use texere_core::BackendError;
+use texere_core::backend::StageTimings;
 use wgpu::{BufferUsages, ComputePassTimestampWrites, Features, MapMode, SubmissionIndex};
 
 use crate::gpu::{Gpu, WAIT_LIMIT};

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere_core::crossings::{Crossing, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
+use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 use texere_core::{BackendError, Limits};
 use texere_gpu::{
     CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_batches, crossings_ups,
@@ -58,7 +58,7 @@ impl Memory {
         let mut room = Room::new(gpu, limits);
         let (passes, rows) = (u64::from(CROSSINGS_PASSES), size_of::<CrossingsSeenRow>() as u64);
         let crossings = plan.crossings() as u64;
-        let bytes = size_of::<Crossing>() as u64 * crossings;
+        let bytes = size_of::<CrossingState>() as u64 * crossings;
         let groups = crossings.div_ceil(crossings::MOVE.workgroup.into());
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         Ok(Self {
@@ -165,7 +165,7 @@ impl CrossingsSettler for WgpuCrossings {
         &self.plan
     }
 
-    fn upload(&mut self, crossings: &[Crossing]) -> Result<(), BackendError> {
+    fn upload(&mut self, crossings: &[CrossingState]) -> Result<(), BackendError> {
         let (gpu, memory) = (&self.opened.gpu, &self.memory);
         gpu.write(&memory.crossings, 0, bytemuck::cast_slice(crossings))?;
         gpu.write(&memory.found, 0, bytemuck::cast_slice(crossings))
@@ -184,10 +184,10 @@ impl CrossingsSettler for WgpuCrossings {
         crossings_batches(passes, |passes| self.run(passes), watch)
     }
 
-    fn read(&mut self, crossings: &mut [Crossing]) -> Result<(), BackendError> {
+    fn read(&mut self, crossings: &mut [CrossingState]) -> Result<(), BackendError> {
         let mut at = 0;
         let (source, count) = (&self.memory.crossings, self.params.crossings);
-        let _ = self.readback.lend(&self.opened.gpu, source, count, &mut |_, piece: &[Crossing]| {
+        let _ = self.readback.lend(&self.opened.gpu, source, count, &mut |_, piece: &[CrossingState]| {
             for (crossing, read) in crossings[at..].iter_mut().zip(piece) {
                 *crossing = *read;
             }

@@ -2,9 +2,10 @@
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use texere_core::backend::{Engine, Plan, Session};
 use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
 use texere_core::settling::{Settler, SettlingPlan};
-use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Engine, Limits, Plan, Session};
+use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Limits};
 use texere_gpu::{capabilities, device_name};
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 

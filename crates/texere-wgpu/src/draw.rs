@@ -1,6 +1,7 @@
 //! Drawing a live mesh in a render pass of the caller's.
 
-use texere_core::{Attribute, LiveMesh, PackedVertex, Slot, Topology, Vertex};
+use texere_core::backend::{LiveMesh, Slot};
+use texere_core::{Attribute, PackedVertex, Topology, Vertex};
 
 use crate::WgpuEngine;
 
@@ -29,13 +30,13 @@ pub const PACKED_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferL
 
 /// Draws a whole live mesh in `pass`, whose pipeline is the caller's: sets its vertices as vertex buffer 0 ([`VERTEX_LAYOUT`]), its attributes, where
 /// it [keeps](LiveMesh::keep_attributes) any, as buffer 1 ([`ATTRIBUTE_LAYOUT`]) and its indices as index buffer, and draws yarn after yarn. Where one
-/// yarn takes several draws, or none, is the mesh's: [`texere_core::Plan::chunk_draws`] says.
+/// yarn takes several draws, or none, is the mesh's: [`texere_core::backend::Plan::chunk_draws`] says.
 ///
 /// None, and nothing is drawn, where the mesh is on no device of wgpu, was never [updated](LiveMesh::update), or is of another topology than
 /// [`Topology::Indexed`].
 ///
 /// ```no_run
-/// # fn example(mesh: &texere_core::LiveMesh, pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {
+/// # fn example(mesh: &texere_core::backend::LiveMesh, pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {
 /// pass.set_pipeline(pipeline); // with buffers: &[Some(VERTEX_LAYOUT)]
 /// texere_wgpu::draw(mesh, pass).expect("an indexed mesh on a device of wgpu");
 /// # }

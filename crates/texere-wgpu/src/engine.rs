@@ -5,10 +5,12 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use texere_core::{
-    AttributeSink, BackendError, Chunk, ControlPoint, Engine, MeshPiece, MeshSink, PackedSink, Plan,
-    RingSink, ScanChunk, ScanChunks, Settler, Slot, StageTimings, Traffic, take_over_host, zeroed,
+use texere_core::backend::{
+    AttributeSink, Chunk, Engine, MeshSink, PackedSink, Plan, RingSink, ScanChunk, ScanChunks, Slot,
+    StageTimings, Traffic, take_over_host, zeroed,
 };
+use texere_core::settling::Settler;
+use texere_core::{BackendError, ControlPoint, MeshPiece};
 use texere_gpu::{Params, YarnEnds, YarnRow, check_schedule, part_rows, settles_flattened};
 
 use texere_shaders::Resource;
@@ -81,15 +83,15 @@ impl WgpuEngine {
         self.memory.get(slot.index()).ok_or(not_loaded)?.loaded.check(&self.plan, chunk)
     }
 
-    /// The engine of a [`LiveMesh`](texere_core::LiveMesh), for its buffers; none where that is on no device of wgpu. [`draw`](fn@crate::draw) draws
+    /// The engine of a [`LiveMesh`](texere_core::backend::LiveMesh), for its buffers; none where that is on no device of wgpu. [`draw`](fn@crate::draw) draws
     /// them all.
     ///
     /// Between the yarns of a live mesh there is room, in which triangles of earlier edits may lie. So draw only what
     /// [`Plan::chunk_draws`] says of the mesh's plan as it is now, and no chunk from its first to its last index.
     ///
     /// ```no_run
-    /// # fn example(mesh: &texere_core::LiveMesh, pass: &mut wgpu::RenderPass<'_>) -> Option<()> {
-    /// use texere_core::Slot;
+    /// # fn example(mesh: &texere_core::backend::LiveMesh, pass: &mut wgpu::RenderPass<'_>) -> Option<()> {
+    /// use texere_core::backend::Slot;
     /// use texere_wgpu::WgpuEngine;
     /// let engine = WgpuEngine::of(mesh.engine())?;
     /// for (number, chunk) in (0..).zip(mesh.chunks()) {

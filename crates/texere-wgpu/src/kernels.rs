@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, OnceLock};
 
-use texere_core::{BackendError, Schedule};
+use texere_core::BackendError;
+use texere_core::backend::Schedule;
 use texere_gpu::{Language, prelude, serial_unsupported};
 use texere_shaders::{Access, Resource, Shader, grid};
 use wgpu::{

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! A viewer that has a wgpu device of its own gives it to [`WgpuBackend::from_device`] and draws from the very buffers that the mesh was written
-//! to: those of a [`LiveMesh`](texere_core::LiveMesh), which keeps all of it, with [`draw`](fn@draw), or chunk by chunk those of a
+//! to: those of a [`LiveMesh`](texere_core::backend::LiveMesh), which keeps all of it, with [`draw`](fn@draw), or chunk by chunk those of a
 //! [`WgpuSession`](WgpuBackend::lending_session).
 //!
 //! What is worth knowing:
@@ -51,7 +51,7 @@ pub use device::{LAUNCH_BLOCKS, LONG_ATOMICS, WgpuBackend};
 pub use draw::{ATTRIBUTE_LAYOUT, PACKED_LAYOUT, VERTEX_LAYOUT, draw};
 pub use engine::WgpuEngine;
 pub use session::{ChunkTables, WgpuSession};
-pub use texere_core::Schedule;
+pub use texere_core::backend::Schedule;
 pub use texere_shaders::UNPACK;
 /// The wgpu that devices and buffers are of, version 30: a program that gives texere its device makes that with this one. A new major version of it
 /// is a new minor version of texere.

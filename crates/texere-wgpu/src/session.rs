@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use texere_core::{Chunk, Session, SessionError, Slot};
+use texere_core::backend::{Chunk, Session, SessionError, Slot};
 use texere_shaders::Resource;
 
 use crate::engine::WgpuEngine;
@@ -11,7 +11,8 @@ use crate::engine::WgpuEngine;
 ///
 /// ```no_run
 /// # use std::sync::Arc;
-/// # use texere_core::{Plan, Yarns};
+/// # use texere_core::backend::Plan;
+/// # use texere_core::Yarns;
 /// # fn draw(_: &wgpu::Buffer, _: &wgpu::Buffer) {}
 /// # fn example(backend: &texere_wgpu::WgpuBackend, plan: Arc<Plan>, yarns: &Yarns) -> Result<(), Box<dyn std::error::Error>> {
 /// use texere_core::Backend;

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use texere_core::{ArcLength, BackendError, Plan, index_pattern};
+use texere_core::backend::Plan;
+use texere_core::definitions::index_pattern;
+use texere_core::{ArcLength, BackendError};
 use texere_gpu::{Params, YarnRow, cap_pattern, lean_count, lean_rows};
 use wgpu::BufferUsages;
 

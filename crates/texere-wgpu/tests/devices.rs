@@ -6,7 +6,8 @@ mod support;
 
 use texere_conformance::drive::Lent;
 use texere_conformance::{cases, check};
-use texere_core::{Backend, BackendError, Frame, Limits, Session, SessionError, Settings, Yarn};
+use texere_core::backend::{Session, SessionError};
+use texere_core::{Backend, BackendError, Frame, Limits, Settings, Yarn};
 use texere_wgpu::{Schedule, WgpuBackend, WgpuSession};
 
 use support::{INSTALL, backend, plan, waves};
@@ -107,7 +108,7 @@ fn a_callers_device_of_too_narrow_limits_is_refused_with_the_drivers_log() {
 }
 
 /// What every call says once the device is gone; none may panic, nor the drop at the end.
-fn assert_lost(mut session: WgpuSession, yarns: &texere_core::Yarns, chunk: &texere_core::Chunk) {
+fn assert_lost(mut session: WgpuSession, yarns: &texere_core::Yarns, chunk: &texere_core::backend::Chunk) {
     let errors = [
         session.upload(0, yarns.points()),
         session.scan(),

@@ -8,9 +8,11 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use texere_conformance::drive::Lent;
+use texere_core::backend::{Chunk, MeshMut, Plan, Session, Traffic};
+use texere_core::definitions::Ring;
 use texere_core::{
-    Backend, BackendError, Chunk, Frame, Layout, Limits, MeshMut, MeshPiece, OutOfMemory, Plan, Quantum,
-    Ring, Section, Session, Settings, Traffic, Vertex, Yarn,
+    Backend, BackendError, Frame, Layout, Limits, MeshPiece, OutOfMemory, Quantum, Section, Settings, Vertex,
+    Yarn,
 };
 use texere_cpu::SerialBackend;
 use texere_wgpu::{Schedule, WgpuBackend};

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use texere::wgpu::{self, TextureFormat as Format, TextureUsages as Usages};
-use texere::{Live, Schedule, Settings, VERTEX_LAYOUT, WgpuBackend};
+use texere::backend::Schedule;
+use texere::gpu::wgpu::{self, TextureFormat as Format, TextureUsages as Usages};
+use texere::gpu::{VERTEX_LAYOUT, WgpuBackend};
+use texere::{Live, Settings};
 
 const SIZE: u32 = 1024; // pixels
 const SHADER: &str = "
@@ -55,7 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..Default::default()
     });
     pass.set_pipeline(&pipeline(&device));
-    texere::draw(live.mesh(), &mut pass).ok_or("not a mesh of wgpu's")?;
+    texere::gpu::draw(live.mesh(), &mut pass).ok_or("not a mesh of wgpu's")?;
     drop(pass);
 
     // The picture, back to the host and into a file.
@@ -73,7 +75,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     host.map_async(wgpu::MapMode::Read, .., |_| ());
     device.poll(wgpu::PollType::wait_indefinitely())?;
     let pixels = host.get_mapped_range(..)?;
-    texere::write_picture([SIZE; 2], &pixels, std::env::temp_dir().join("herringbone.png"))?;
+    texere::write::picture([SIZE; 2], &pixels, std::env::temp_dir().join("herringbone.png"))?;
     Ok(())
 }
 

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use texere::{Picker, Plan, Ray, Settings, YarnPlace};
+use texere::backend::Plan;
+use texere::mesh::Ray;
+use texere::yarn::YarnPlace;
+use texere::{Picker, Settings};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "designs/denim.toml".into());

@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::ops::ControlFlow;
 
-use texere::{MeshPiece, Pipeline};
+use texere::Pipeline;
+use texere::mesh::MeshPiece;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let design = texere::read("designs/herringbone.wif")?;

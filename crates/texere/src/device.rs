@@ -1,6 +1,7 @@
 //! Devices by name.
 
-use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind, Schedule};
+use texere_core::backend::Schedule;
+use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// A family of devices behind one programming interface.
@@ -170,11 +171,11 @@ fn find(list: &[DeviceInfo], which: &str) -> Option<usize> {
 ///
 /// ```no_run
 /// let design = texere::read("designs/herringbone.wif")?;
-/// let renderer = texere::open_renderer("auto")?;
+/// let renderer = texere::picture::open_renderer("auto")?;
 /// let mut scene = renderer.scene(&design.yarns()?, &texere::Settings::default())?;
-/// let camera = texere::Camera::face(scene.extent(), [1600, 1200]);
-/// let picture = scene.picture(&camera, texere::Quality::default())?;
-/// texere::write_picture(picture.size, &picture.rgb, "herringbone.png")?;
+/// let camera = texere::picture::Camera::face(scene.extent(), [1600, 1200]);
+/// let picture = scene.picture(&camera, texere::picture::Quality::default())?;
+/// texere::write::picture(picture.size, &picture.rgb, "herringbone.png")?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

@@ -3,9 +3,9 @@
 
 use std::io::Cursor;
 
-use crate::{
-    ControlPoint, Format, NullBackend, Pipeline, ReadError, WriteError, Yarn, Yarns, read, write_to,
-};
+use crate::backend::NullBackend;
+use crate::write::{Format, mesh_to};
+use crate::{ControlPoint, Pipeline, ReadError, WriteError, Yarn, Yarns, read};
 
 #[test]
 fn a_design_that_this_build_cannot_read_is_said_to_need_its_feature() {
@@ -48,7 +48,7 @@ fn a_mesh_that_this_build_cannot_write_is_said_to_need_its_feature() {
     let mesh = Pipeline::new(&yarns.build().unwrap()).mesh(&NullBackend::default()).unwrap();
     for (format, is_there) in [(Format::Glb, cfg!(feature = "glb")), (Format::Ply, cfg!(feature = "ply"))] {
         let mut out = Cursor::new(Vec::new());
-        match write_to(&mesh, format, &mut out) {
+        match mesh_to(&mesh, format, &mut out) {
             Ok(()) => assert!(!out.into_inner().is_empty(), "{format:?}"),
             Err(error @ WriteError::Feature { .. }) => {
                 let said = error.to_string();

@@ -24,7 +24,7 @@
 //! ```
 //!
 //! [`Design::yarns`] are where the structure places them, about where they belong. [`Design::rest`] lets them come to rest, as the design's
-//! [`Finish`] says:
+//! [`Finish`](rest::Finish) says:
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -37,11 +37,11 @@
 //!     warp = { yarns = [\"white\"], spacing_mm = 0.19 }\n\
 //!     weft = { yarns = [\"white\"], spacing_mm = 0.35 }\n")?;
 //! let design = texere::read(&design_path)?;
-//! assert!(texere::clearance(&design.yarns()?, &texere::Settings::default())?.min < 0.9);
+//! assert!(texere::check::clearance(&design.yarns()?, &texere::Settings::default())?.min < 0.9);
 //! let device = texere::open("cpu")?;
 //! let cloth = design.rest(&*device).run()?;
 //! assert_eq!(cloth.report().to_string(), "at rest");
-//! assert!(texere::clearance(cloth.yarns(), &texere::Settings::default())?.min > 0.98);
+//! assert!(texere::check::clearance(cloth.yarns(), &texere::Settings::default())?.min > 0.98);
 //! let mesh = texere::Pipeline::new(cloth.yarns()).mesh(&*device)?;
 //! # assert!(!mesh.vertices.is_empty());
 //! # std::fs::remove_dir_all(&folder)?;
@@ -54,21 +54,42 @@
 //! | to | take |
 //! |---|---|
 //! | read a design from a file, or from memory with whatever it names | [`read()`], [`read_from`] |
-//! | make a design in code | [`Woven`], [`weft::Knitted`], [`warp::WarpKnitted`], [`Design::of`] |
-//! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`] |
-//! | let cloth come to rest | [`Design::rest`] |
+//! | make a design in code | [`woven`], [`weft`], [`warp`], [`Design::of`] |
+//! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`]; [`yarn`] |
+//! | let cloth come to rest | [`Design::rest`]; [`rest`] |
 //! | have a whole mesh in memory, write it | [`Pipeline::mesh`], [`write()`] |
-//! | save cloth at rest, and have it again without settling | [`write_yarns`], [`read_yarns`] |
-//! | write a mesh larger than memory, or a format of your own | [`stream`], [`Pipeline::stream`] |
+//! | save cloth at rest, and have it again without settling | [`write::yarns`], [`read::yarns`] |
+//! | write a mesh larger than memory, or a format of your own | [`write::stream`], [`Pipeline::stream`] |
 //! | have only what lies in a rectangle | [`Pipeline::within`] |
 //! | edit a cloth and keep its mesh on a device | [`Live`] |
-//! | draw with a pipeline of your own, on your own device | `WgpuBackend::from_device`, [`Live`], `draw`, `VERTEX_LAYOUT` (feature `wgpu`) |
+//! | draw with a pipeline of your own, on your own device | [`Live`]; `gpu` (feature `wgpu`) |
 //! | know what lies under the mouse | [`Live::pick`] or [`Picker`]; [`YarnPlace::at`], [`Structure::place`] and [`Design::named`] say it in words |
 //! | have vertices in half the memory, 12 bytes each | [`Pipeline::packed`], [`Session::packed`], [`Quantum`] |
 //! | know yarn, angle and length along the yarn of each vertex | [`Pipeline::attributes`], [`Live::keep_attributes`] |
-//! | make pictures | `Renderer`, `Scene`, `Camera` (feature `render`) |
+//! | make pictures | `picture` (feature `render`) |
 //! | know how many rings twist needs | [`Settings::of`], [`Pipeline::undersampled`] |
-//! | say what is wrong with a cloth | [`clearance`], [`Diagnosis`], [`Measures`] |
+//! | say what is wrong with a cloth | [`check`] |
+//! | write a backend | [`mod@backend`] |
+//!
+//! [`YarnPlace::at`]: yarn::YarnPlace::at
+//! [`Session::packed`]: backend::Session::packed
+//! [`Quantum`]: mesh::Quantum
+//!
+//! # Rooms
+//!
+//! What every program needs is here; the rest is in modules, each name in one of them.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`mod@read`], [`mod@write`] | what readers say beside the design; files of meshes, pictures, drafts and designs |
+//! | [`woven`], [`weft`], [`warp`] | weaves, weft knits and warp knits in code |
+//! | [`yarn`] | materials, sections, sizes, lengths |
+//! | [`rest`] | finishing and settling |
+//! | [`check`] | faults and measures |
+//! | [`mesh`] | choices of a mesh, its pieces, its edits, rays |
+//! | `picture` | rendering (feature `render`) |
+//! | [`mod@backend`] | what a backend is written with |
+//! | `gpu` | devices and buffers of OpenCL and `wgpu` (features `opencl`, `wgpu`) |
 //!
 //! # Features
 //!
@@ -108,7 +129,7 @@
 //!
 //! # Words
 //!
-//! Lengths are in mm, angles in radians, twist in rad/mm ([`twist_from_turns_per_m`]). x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles
+//! Lengths are in mm, angles in radians, twist in rad/mm ([`twist_from_turns_per_m`](yarn::twist_from_turns_per_m)). x runs along the weft or course, y along the warp or wale, z out of the technical face; right-handed. Triangles
 //! are counter-clockwise seen from outside. Yarns, control points, ends and picks count from 0 in calls, and from 1 where a weaver reads them.
 //!
 //! - *Control point*: a place of a yarn's centreline with its half width and half height. *Interval* j of the spline runs from point j to the next.
@@ -122,80 +143,33 @@
 //! Errors say what happened in one line; where a driver or a file system has more to say it is their
 //! [`source`](std::error::Error::source).
 
+pub mod backend;
+pub mod check;
 mod device;
 #[cfg(test)]
 mod formats;
+#[cfg(any(feature = "opencl", feature = "wgpu"))]
+pub mod gpu;
 mod live;
+pub mod mesh;
+#[cfg(feature = "render")]
+pub mod picture;
+pub mod read;
+pub mod rest;
+pub mod warp;
+pub mod weft;
+pub mod woven;
+pub mod write;
+pub mod yarn;
 
 pub use device::{Devices, devices, open};
-#[cfg(feature = "render")]
-pub use device::{open_renderer, picture_device};
-pub use live::{Live, LiveError, Update};
-pub use texere_contact::{
-    CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
-    Contact, ContactError, Crowd, Drawn, LINKING_CHANGE, Linking, Passage, WRUNG, clearance,
-    clearance_with_progress, drawn, finer, length_mm, lengths_mm, linking, linking_with_progress,
-    yarns_under,
-};
+pub use live::Live;
 pub use texere_core::{
-    ArcLength, Attribute, BLOCK_RINGS, Backend, BackendError, Block, Boundary, BoundaryError, Bounds,
-    COORDINATE_LIMIT, Cap, Capabilities, Change, Chunk, ChunkDraw, Chunks, ControlPoint, Counts, DeviceInfo,
-    DeviceKind, Edits, Ends, Frame, HAIRINESS_LIMIT, Halves, Limits, LiveMesh, Material, Mesh, MeshPiece,
-    MeshPlace, NullBackend, Origin, OutOfMemory, PackedVertex, PaddedPoints, Pipeline, PipelineError,
-    Placement, Plan, PlanError, Progress, Quantum, RADIUS_MAX, RADIUS_MIN, RINGS_MAX, Ray, Ring, Sampling,
-    Schedule, Section, SectionError, SectionPoint, Settings, SettlingError, Subject, TWIST_LIMIT, TWIST_STEP,
-    TWIST_SUBDIVISIONS_MAX, TablesId, Topology, Trajectory, Undersampled, Vertex, YARN_RINGS_MAX, Yarn,
-    YarnError, YarnPlace, Yarns, YarnsBuilder, counted, crossings, settling,
+    Backend, BackendError, Capabilities, ControlPoint, DeviceInfo, DeviceKind, Mesh, Pipeline, PipelineError,
+    Settings, Vertex, Yarn, Yarns,
 };
-pub use texere_core::{
-    Draw, End, Engine, Layout, MeshMut, Part, ScanChunks, Session, SessionError, Slot, StageTimings, Traffic,
-    take_over_host,
-};
-pub use texere_cpu::{Hit, PickError, Picker};
-pub use texere_fabric::{
-    ClothClearance, Cover, Crimp, Crossing, Cure, Diagnosis, Draft, Drawdown, FabricError, FabricWarning,
-    FaultKind, Faults, Finish, FinishError, Finished, JamReport, Jams, KnitMeasures, Loom, Measures,
-    NO_CROSSING, Piece, Pieces, Pitch, Press, Relief, Remedy, Repeat, Sett, Settled, Shape, Shedding,
-    StitchPlace, Stretch, Structure, Thread, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn,
-    ThreadError, ThreadPlace, Tightness, Verdict, Weave, Woven, WovenDesign, WovenError, WovenRest,
-    diameter_mm, settle, tex_from_cotton_count, tex_from_denier, tex_from_diameter, tex_from_metric_count,
-    turns_per_m, twist_from_turns_per_m, warp, weft,
-};
-pub use texere_formats::write::{
-    Format, Output, Written, abandon, file as write_file, mesh as write, mesh_to as write_to, stream,
-    stream_to,
-};
-#[cfg(feature = "pictures")]
-pub use texere_formats::write::{
-    Side, draft as write_draft, draft_to as write_draft_to, knit_draft as write_knit_draft,
-    knit_draft_to as write_knit_draft_to, knit_rows, picture as write_picture,
-    picture_to as write_picture_to, warp_draft as write_warp_draft, warp_draft_to as write_warp_draft_to,
-    warp_rows,
-};
-#[cfg(feature = "toml")]
-pub use texere_formats::write::{toml as write_toml, toml_to as write_toml_to};
-#[cfg(feature = "wif")]
-pub use texere_formats::write::{wif as write_wif, wif_to as write_wif_to};
-pub use texere_formats::{
-    Cloth, Design, MachineFault, NamedPlace, Place, ReadError, Refusal, RestReport, Resting, Told,
-    WriteError, read, read_from,
-};
-pub use texere_formats::{
-    read::{SavedYarns, yarns as read_yarns, yarns_from as read_yarns_from},
-    write::{
-        repeat as write_repeat, repeat_to as write_repeat_to, yarns as write_yarns,
-        yarns_to as write_yarns_to,
-    },
-};
-#[cfg(feature = "opencl")]
-pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};
-#[cfg(feature = "render")]
-pub use texere_render::{
-    Background, Camera, Cut, DevicePicture, Extent, Picture, PictureTimings, Pose, Quality, RenderError,
-    Renderer, Scene, Seen, picture_sides,
-};
-#[cfg(feature = "wgpu")]
-pub use texere_wgpu::{
-    ATTRIBUTE_LAYOUT, LONG_ATOMICS, PACKED_LAYOUT, UNPACK, VERTEX_LAYOUT, WgpuBackend, WgpuEngine,
-    WgpuSession, draw, wgpu,
-};
+pub use texere_cpu::{Hit, Picker};
+pub use texere_fabric::{FabricError, Structure};
+pub use texere_formats::read::{read, read_from};
+pub use texere_formats::write::mesh as write;
+pub use texere_formats::{Cloth, Design, ReadError, WriteError};

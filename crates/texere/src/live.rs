@@ -7,9 +7,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::Vec3;
-use texere_core::{
-    Backend, Change, ControlPoint, LiveMesh, Material, Plan, Ray, SessionError, Settings, Yarn, Yarns,
-};
+use texere_core::backend::{LiveMesh, Plan, SessionError};
+use texere_core::{Backend, Change, ControlPoint, Material, Ray, Settings, Yarn, Yarns};
 use texere_cpu::{Hit, Picker};
 use texere_fabric::{Loom, Structure};
 
@@ -26,7 +25,9 @@ pub use self::error::LiveError;
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// use std::sync::Arc;
-/// use texere::{Live, Material, Section, Settings, Thread, Weave, Woven};
+/// use texere::woven::{Thread, Weave, Woven};
+/// use texere::yarn::{Material, Section};
+/// use texere::{Live, Settings};
 /// let (warp, weft) = (vec![Thread::new(1.0, 0.2); 40], vec![Thread::new(1.0, 0.2); 30]);
 /// let twill = Weave::parse("2/2")?.drawdown(40, 30)?;
 /// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
@@ -184,8 +185,11 @@ impl Live {
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// # use std::sync::Arc;
-    /// # use texere::{Live, Material, Section, Settings, Thread, Weave, Woven};
-    /// use texere::{Ray, YarnPlace};
+    /// # use texere::woven::{Thread, Weave, Woven};
+    /// # use texere::yarn::{Material, Section};
+    /// # use texere::{Live, Settings};
+    /// use texere::mesh::Ray;
+    /// use texere::yarn::YarnPlace;
     /// # let (warp, weft) = (vec![Thread::new(1.0, 0.2); 40], vec![Thread::new(1.0, 0.2); 30]);
     /// # let twill = Weave::parse("2/2")?.drawdown(40, 30)?;
     /// # let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;

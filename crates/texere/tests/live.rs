@@ -5,9 +5,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use texere::backend::{Engine, Plan};
+use texere::mesh::MeshPiece;
+use texere::woven::{Drawdown, Thread, Woven};
+use texere::yarn::{Material, Section, YarnPlace, YarnsBuilder};
 use texere::{
-    Backend, BackendError, ControlPoint, DeviceInfo, Drawdown, Engine, Live, Material, MeshPiece, Pipeline,
-    Plan, Section, Settings, Thread, Vertex, Woven, Yarn, YarnPlace, Yarns, YarnsBuilder,
+    Backend, BackendError, ControlPoint, DeviceInfo, Live, Pipeline, Settings, Vertex, Yarn, Yarns,
 };
 
 /// A device that counts the meshes that are begun on it.

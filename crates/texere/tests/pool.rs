@@ -6,10 +6,11 @@ use std::io::Cursor;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere::{
-    Backend, Boundary, Design, Format, Frame, Live, Pipeline, Ray, Settings, clearance, lengths_mm, linking,
-    read, stream_to, write_to, yarns_under,
-};
+use texere::check::{clearance, linking};
+use texere::mesh::{Frame, Ray};
+use texere::write::{Format, mesh_to, stream_to};
+use texere::yarn::{Boundary, lengths_mm, yarns_under};
+use texere::{Backend, Design, Live, Pipeline, Settings, read};
 
 const CLOTH: &str = "weave = { notation = \"2/1\", ends = 9, picks = 9 }\ncloth.selvedge = true\n\
     yarns.white = { diameter_mm = 0.143, twist_per_m = 800 }\n\
@@ -65,7 +66,7 @@ fn use_all(design: &Design, device: &Arc<dyn Backend>) {
     pipeline().attributes(&**device).unwrap();
     for format in Format::ALL {
         let [mut whole, mut streamed] = [(); 2].map(|()| Cursor::new(Vec::new()));
-        write_to(&mesh, format, &mut whole).unwrap();
+        mesh_to(&mesh, format, &mut whole).unwrap();
         stream_to(pipeline(), &**device, format, &mut streamed).unwrap();
     }
 

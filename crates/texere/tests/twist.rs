@@ -5,7 +5,9 @@
 use std::f32::consts::TAU;
 use std::path::Path;
 
-use texere::{ControlPoint, Mesh, Pipeline, Section, Settings, TWIST_STEP, Undersampled, Yarn, Yarns};
+use texere::mesh::{TWIST_STEP, Undersampled};
+use texere::yarn::Section;
+use texere::{ControlPoint, Mesh, Pipeline, Settings, Yarn, Yarns};
 
 /// Woollen yarn of two plies, loosely woven: three turns and more between two crossings.
 const TWEED: &str = "[weave]\nnotation = \"2/2\"\nends = 8\npicks = 8\n[finish]\nsettle = false\n\

@@ -3,7 +3,9 @@
 use std::error::Error;
 use std::thread;
 
-use texere::{Backend, Frame, Pipeline, PipelineError, Section, Settings, Topology, Yarns};
+use texere::{Backend, Pipeline, PipelineError, Settings, Yarns};
+use texere::mesh::{Frame, Topology};
+use texere::yarn::Section;
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 /// The least stack that a thread of a program may be expected to have, bytes.

@@ -12,7 +12,8 @@ pub use factors::{pairwise, product};
 use std::fmt;
 use std::sync::Arc;
 
-use texere_core::{Frame, Quantum, SIDES_MAX, Section, Settings, Topology, Yarn, Yarns};
+use texere_core::definitions::SIDES_MAX;
+use texere_core::{Frame, Quantum, Section, Settings, Topology, Yarn, Yarns};
 
 use crate::limits::Tight;
 

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use texere_core::{Cap, Chunk, End, Part, Ring, Topology, Vertex};
+use texere_core::backend::{Chunk, Part};
+use texere_core::definitions::Ring;
+use texere_core::{Cap, End, Topology, Vertex};
 
 use super::{Fault, Report, RingPlace, same_bits};
 use crate::drive::{ChunkOutput, DeviceOutput};

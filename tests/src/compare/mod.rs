@@ -14,7 +14,9 @@ pub use report::{Fault, Mismatch, Quantity, Report, RingPlace, Worst};
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use texere_core::{End, Frame, Plan, Ring, Turn, Vertex};
+use texere_core::backend::Plan;
+use texere_core::definitions::{Ring, Turn};
+use texere_core::{End, Frame, Vertex};
 
 use crate::oracle::{Oracle, OracleRing};
 use crate::poison::is_poison;

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::DVec3;
-use texere_core::settling::{self, Pass, Rest, Seen, Settling, SettlingPlan, settle, settled};
+use texere_core::settling::{self, Pass, Rest, Settling, SettlingPlan, SettlingSeen, settle, settled};
 use texere_core::{Backend, Boundary, ControlPoint, Yarn, Yarns};
 
 use super::{Ends, Length, Start};
@@ -60,7 +60,7 @@ pub fn settling_plan(start: &Start) -> Arc<SettlingPlan> {
 pub fn settle_start(
     start: &Start,
     device: &dyn Backend,
-    mut watch: impl FnMut(&Pass, &Seen),
+    mut watch: impl FnMut(&Pass, &SettlingSeen),
 ) -> (Rest, Vec<Vec<DVec3>>) {
     let plan = settling_plan(start);
     let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");

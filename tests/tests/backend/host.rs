@@ -2,7 +2,7 @@
 
 use std::{ops::ControlFlow, sync::Arc, time::Instant};
 
-use texere_core::*;
+use texere_core::{backend::*, definitions::*, *};
 
 type Done<T = ()> = Result<T, BackendError>;
 

@@ -9,10 +9,10 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use texere_conformance::{REGISTRY, editing_devices};
+use texere_core::backend::{Edits, LiveMesh, Plan, SessionError};
 use texere_core::{
-    Attribute, Backend, BackendError, ControlPoint, DeviceKind, Edits, End, Frame, Limits, LiveMesh, Mesh,
-    MeshPiece, OutOfMemory, Pipeline, PipelineError, Plan, Section, SessionError, Settings, Topology, Vertex,
-    Yarn, Yarns,
+    Attribute, Backend, BackendError, ControlPoint, DeviceKind, End, Frame, Limits, Mesh, MeshPiece,
+    OutOfMemory, Pipeline, PipelineError, Section, Settings, Topology, Vertex, Yarn, Yarns,
 };
 
 /// The most control points of a yarn: several blocks' rings.

@@ -1,7 +1,8 @@
 //! The nearest of all triangles, by arithmetic of its own.
 
 use rayon::prelude::*;
-use texere_core::{End, Mesh, MeshPlace, Pipeline, Plan, Ray, Settings, Yarns};
+use texere_core::backend::Plan;
+use texere_core::{End, Mesh, MeshPlace, Pipeline, Ray, Settings, Yarns};
 use texere_cpu::{Hit, Picker, SerialBackend};
 
 /// How far distances of one hit may differ, as a share of them or of the triangle's size if that is more: the judge's own arithmetic is no better.

@@ -8,7 +8,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use texere_core::{Bounds, ControlPoint, PaddedPoints, Plan, Ray, Settings, Topology, Vertex, Yarn, Yarns};
+use texere_core::backend::{PaddedPoints, Plan};
+use texere_core::{Bounds, ControlPoint, Ray, Settings, Topology, Vertex, Yarn, Yarns};
 use texere_cpu::{PickError, Picker};
 
 use self::clothes::{Cloth, clothes, twisted};

@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use texere_conformance::cases::{design, small_designs};
-use texere_core::{Basis, ControlPoint, Pipeline, Section, Settings, Stance, Topology, Yarn, Yarns};
+use texere_core::definitions::{Basis, Stance};
+use texere_core::{ControlPoint, Pipeline, Section, Settings, Topology, Yarn, Yarns};
 use texere_cpu::ParallelBackend;
 
 use super::check;

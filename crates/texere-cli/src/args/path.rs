@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use texere::Format;
+use texere::write::Format;
 
 /// Whether a path is that of saved yarns.
 pub(crate) fn is_yarns(path: &Path) -> bool {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use texere::{Background, Quality};
+use texere::picture::{Background, Quality};
 
 use super::path::file_of;
 use super::{SettingsArgs, SettlingArgs};

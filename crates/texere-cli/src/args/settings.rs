@@ -1,7 +1,9 @@
 //! What can be chosen about a mesh.
 
 use clap::ValueEnum;
-use texere::{Frame, Section, Settings, Topology, Undersampled, Yarns};
+use texere::mesh::{Frame, Topology, Undersampled};
+use texere::yarn::Section;
+use texere::{Settings, Yarns};
 
 /// What can be chosen about a mesh.
 #[derive(Debug, clap::Args)]
@@ -76,9 +78,9 @@ impl SettingsArgs {
         if self.subdivisions.is_some() { settings } else { settings.following(yarns) }
     }
 
-    /// The settings for a picture of `yarns`; `lies_close` is as [`texere::picture_sides`] takes it.
+    /// The settings for a picture of `yarns`; `lies_close` is as [`texere::picture::picture_sides`] takes it.
     pub(crate) fn of_picture(&self, yarns: &Yarns, lies_close: bool) -> Settings {
-        let sides = self.sides.unwrap_or_else(|| texere::picture_sides(yarns, lies_close));
+        let sides = self.sides.unwrap_or_else(|| texere::picture::picture_sides(yarns, lies_close));
         let settings = Settings { sides, ..self.settings() };
         if self.subdivisions.is_some() { settings } else { settings.following_fibres(yarns) }
     }

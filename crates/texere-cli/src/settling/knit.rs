@@ -3,8 +3,10 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::settling::Length;
-use texere::{Design, Passage, Press, Settled, Verdict};
+use texere::Design;
+use texere::backend::settling::Length;
+use texere::check::Passage;
+use texere::rest::{Press, Settled, Verdict};
 
 use crate::clearance::{as_near_as_looked, place};
 

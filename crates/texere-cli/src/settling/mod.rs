@@ -8,7 +8,10 @@ use std::fmt;
 use std::ops::Deref;
 
 use serde::Serialize;
-use texere::{Backend, BackendError, Cloth, ClothClearance, Design, Finished, Output, RestReport};
+use texere::check::ClothClearance;
+use texere::rest::{Finished, RestReport};
+use texere::write::Output;
+use texere::{Backend, BackendError, Cloth, Design};
 
 use crate::args::SettlingArgs;
 use crate::clearance::least;
@@ -55,7 +58,7 @@ pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
         design.rest(&*device).tension(tension).progress(progress::share(bar)).run()
     })?;
     if let (Some(output), RestReport::Finished(Finished::Knit(settled))) = (output, cloth.report()) {
-        texere::write_file(plot(&settled.course).as_bytes(), output)?;
+        texere::write::file(plot(&settled.course).as_bytes(), output)?;
     }
     let report = SettlingReport::new(&cloth, &device.info().name);
     Ok((cloth, report))

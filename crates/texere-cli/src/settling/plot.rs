@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use texere::settling::{Form, Pass, Seen};
+use texere::backend::settling::{Form, Pass, SettlingSeen};
 
 /// The picture's size, and where in it the plot's edges lie, pixels.
 const SIZE: [f64; 2] = [960.0, 540.0];
@@ -12,7 +12,7 @@ const TOP: f64 = 40.0;
 const BOTTOM: f64 = 490.0;
 
 /// What is drawn of each pass: its name, its colour (Okabe and Ito 2008), and its value.
-type Line = (&'static str, &'static str, fn(&Seen) -> f32);
+type Line = (&'static str, &'static str, fn(&SettlingSeen) -> f32);
 
 const LINES: [Line; 4] = [
     ("clearance, 1 where yarns touch", "#0072b2", |seen| seen.clearance),
@@ -26,7 +26,7 @@ const DECADES: i32 = 9;
 
 /// Draws clearance, bends, lengths and steps on a logarithmic scale over the passes of `course`. Values of 0 and infinite ones have no
 /// place on it and leave a gap.
-pub(crate) fn plot(course: &[(Pass, Seen)]) -> String {
+pub(crate) fn plot(course: &[(Pass, SettlingSeen)]) -> String {
     let values = || course.iter().flat_map(|(_, seen)| LINES.map(|(.., value)| value(seen))).filter(is_drawn);
     let decade = |value: f32| f64::from(value).log10();
     let high = decade(values().fold(f32::MIN_POSITIVE, f32::max).max(1.0)).ceil() as i32;
@@ -83,7 +83,7 @@ impl Axes {
 }
 
 /// A line where each stage begins, and its name.
-fn stages(svg: &mut String, course: &[(Pass, Seen)], axes: &Axes) -> std::fmt::Result {
+fn stages(svg: &mut String, course: &[(Pass, SettlingSeen)], axes: &Axes) -> std::fmt::Result {
     let mut last = "";
     for (number, (pass, _)) in course.iter().enumerate().skip(1) {
         let stage = match pass.form {
@@ -105,7 +105,7 @@ fn stages(svg: &mut String, course: &[(Pass, Seen)], axes: &Axes) -> std::fmt::R
 /// One line, with its name at the right.
 fn curve(
     svg: &mut String,
-    course: &[(Pass, Seen)],
+    course: &[(Pass, SettlingSeen)],
     axes: &Axes,
     &(name, color, value): &Line,
     number: u8,
@@ -131,8 +131,8 @@ fn curve(
 mod tests {
     use super::*;
 
-    fn pass(form: Form, growth: f32, ease: f32, clearance: f32, length: f32) -> (Pass, Seen) {
-        let seen = Seen { step: 1e-3, clearance, radius: f32::INFINITY, length };
+    fn pass(form: Form, growth: f32, ease: f32, clearance: f32, length: f32) -> (Pass, SettlingSeen) {
+        let seen = SettlingSeen { step: 1e-3, clearance, radius: f32::INFINITY, length };
         (Pass { form, growth, ease, momentum: 0.8 }, seen)
     }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
-use texere::{Verdict, WovenRest};
+use texere::rest::{Verdict, WovenRest};
 
 use crate::clearance::as_near_as_looked;
 use crate::measures::Sets;

@@ -89,8 +89,8 @@ fn picture(side: usize) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mut pixels = vec![255; 3 * side * side];
     pixels[..3].fill(0);
-    let output = texere::Output::to(folder.path().join("motif.png"));
-    texere::write_picture([side as u32; 2], &pixels, output).unwrap();
+    let output = texere::write::Output::to(folder.path().join("motif.png"));
+    texere::write::picture([side as u32; 2], &pixels, output).unwrap();
     folder
 }
 

@@ -14,7 +14,7 @@ const THREADS: &str = "[yarns.a]\ndiameter_mm = 0.3\n[warp]\nyarns = [\"a\"]\npe
 fn by_image() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    texere::write_picture([2, 2], &[0, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0], at("motif.png"))
+    texere::write::picture([2, 2], &[0, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0], at("motif.png"))
         .unwrap();
     fs::write(at("cloth.toml"), format!("[weave]\nimage = \"motif.png\"\nrepeat = [6, 6]\n{THREADS}"))
         .unwrap();

@@ -1,6 +1,7 @@
 //! The command line and the library take the same way from a design to its cloth.
 
-use texere::{Pipeline, RestReport, Settings};
+use texere::rest::RestReport;
+use texere::{Pipeline, Settings};
 
 use crate::{stderr, texere};
 

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3, Vec3};
-use texere_core::{ControlPoint, RADIUS_FLOOR, up_between};
+use texere_core::ControlPoint;
+use texere_core::definitions::{RADIUS_FLOOR, up_between};
 
 use super::support::upright;
 

@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
-use texere_core::{ControlPoint, YarnPlace, Yarns, neighbours};
+use texere_core::definitions::neighbours;
+use texere_core::{ControlPoint, YarnPlace, Yarns};
 
 use super::contact::CLEARANCE_NEAR;
 use super::interval::Cubic;

@@ -21,7 +21,8 @@ mod tubes;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use texere_core::{Sampling, Settings, YarnPlace, Yarns};
+use texere_core::definitions::Sampling;
+use texere_core::{Settings, YarnPlace, Yarns};
 
 pub use self::contact::{
     CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS,

@@ -3,10 +3,9 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
-use texere_core::{
-    ControlPoint, Frame, PlanError, Sampling, Section, Segment, Turn, YARN_RINGS_MAX, Yarn, Yarns,
-    neighbours, tangent_factor, zeroed,
-};
+use texere_core::backend::zeroed;
+use texere_core::definitions::{Sampling, Segment, Turn, neighbours, tangent_factor};
+use texere_core::{ControlPoint, Frame, PlanError, Section, YARN_RINGS_MAX, Yarn, Yarns};
 
 use super::interval::Cubic;
 use crate::ContactError;

@@ -5,7 +5,9 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
 use glam::{DVec2, Vec3A};
-use texere_core::{Sampling, YarnPlace, Yarns, room_for, tangent_factor};
+use texere_core::backend::room_for;
+use texere_core::definitions::{Sampling, tangent_factor};
+use texere_core::{YarnPlace, Yarns};
 
 use super::approach::{Side, refine};
 use super::contact::{CLEARANCE_ACCURACY, CLEARANCE_BESIDE, Contact};

@@ -14,7 +14,8 @@ mod window;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use texere_core::{Boundary, Sampling, Settings, Yarns};
+use texere_core::definitions::Sampling;
+use texere_core::{Boundary, Settings, Yarns};
 
 pub use self::passage::{
     LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,

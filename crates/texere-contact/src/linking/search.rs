@@ -4,7 +4,8 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use texere_core::{YarnPlace, room_for};
+use texere_core::YarnPlace;
+use texere_core::backend::room_for;
 
 use super::chords::integral;
 use super::found::Found;

@@ -4,7 +4,9 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3, Vec3A};
 use rayon::prelude::*;
-use texere_core::{Boundary, ControlPoint, Yarns, room_for, tangent_factor};
+use texere_core::backend::room_for;
+use texere_core::definitions::tangent_factor;
+use texere_core::{Boundary, ControlPoint, Yarns};
 
 use super::passage::{WINDOW_INTERVALS, WINDOW_REACH};
 use super::strand::Strand;

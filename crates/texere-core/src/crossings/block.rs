@@ -12,7 +12,7 @@ pub const PIVOT: f32 = 1e-9;
 /// The energy's slope and curvature in the eight unknowns of a crossing, by Gauss and Newton: every term is a weight times the square of a
 /// residual.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Block {
+pub struct CrossingBlock {
     /// Half the energy's gradient.
     pub gradient: [f32; UNKNOWNS],
     /// At least half the energy's curvature, when neighbours step as well: up to the diagonal, as it is symmetric.
@@ -21,7 +21,7 @@ pub struct Block {
     pub clearance: f32,
 }
 
-impl Block {
+impl CrossingBlock {
     pub(crate) const NOTHING: Self =
         Self { gradient: [0.0; UNKNOWNS], curvature: [[0.0; UNKNOWNS]; UNKNOWNS], clearance: f32::INFINITY };
 

@@ -54,19 +54,19 @@ pub struct Lie {
 /// How both threads lie at a crossing.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 #[repr(C)]
-pub struct Crossing {
+pub struct CrossingState {
     /// The end.
     pub warp: Lie,
     /// The pick.
     pub weft: Lie,
 }
 
-impl Crossing {
+impl CrossingState {
     /// The thread of a set.
     ///
     /// ```
-    /// use texere_core::crossings::{Crossing, Lie, Set};
-    /// let crossing = Crossing { weft: Lie { height: 0.5, ..Lie::default() }, ..Crossing::default() };
+    /// use texere_core::crossings::{CrossingState, Lie, Set};
+    /// let crossing = CrossingState { weft: Lie { height: 0.5, ..Lie::default() }, ..CrossingState::default() };
     /// assert_eq!(crossing.lie(Set::Weft).height, 0.5);
     /// ```
     #[must_use]
@@ -80,9 +80,9 @@ impl Crossing {
     /// By how much that unknown differs which differs most.
     ///
     /// ```
-    /// use texere_core::crossings::{Crossing, Lie};
-    /// let risen = Crossing { weft: Lie { height: 0.5, ..Lie::default() }, ..Crossing::default() };
-    /// assert_eq!(risen.difference(&Crossing::default()), 0.5);
+    /// use texere_core::crossings::{CrossingState, Lie};
+    /// let risen = CrossingState { weft: Lie { height: 0.5, ..Lie::default() }, ..CrossingState::default() };
+    /// assert_eq!(risen.difference(&CrossingState::default()), 0.5);
     /// ```
     #[must_use]
     pub fn difference(&self, other: &Self) -> f32 {

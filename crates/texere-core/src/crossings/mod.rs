@@ -7,7 +7,7 @@
 
 mod block;
 mod crossing;
-mod error;
+pub(crate) mod error;
 mod passage;
 mod plan;
 mod problem;
@@ -15,12 +15,12 @@ mod run;
 mod settler;
 mod terms;
 
-pub use block::{Block, DAMPING, PIVOT};
-pub use crossing::{Crossing, Lie, Set};
-pub use error::CrossingsError;
-pub use passage::{CURVED, Passage, STEPS, TURN};
+pub use block::{CrossingBlock, DAMPING, PIVOT};
+pub use crossing::{CrossingState, Lie, Set};
+use error::CrossingsError;
+pub use passage::{CURVED, STEPS, StraightPassage, TURN};
 pub use plan::{CrossingsPlan, HALF_HEIGHT, HALF_WIDTH, MOMENTUM, Row, STEP, Site};
-pub use problem::{Crossings, Thread};
+pub use problem::{CrossingThread, Crossings};
 pub use run::{CrossingsPass, CrossingsRest, settle};
 pub use settler::{CrossingsSeen, CrossingsSettler};
 pub use terms::{

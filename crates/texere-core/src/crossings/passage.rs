@@ -15,7 +15,7 @@ pub const TURN: f32 = 0.5;
 /// `across` and `rise` apart a thread of half thicknesses `b` fits where across sin t + rise cos t is at least both supports
 /// and both half thicknesses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Passage {
+pub struct StraightPassage {
     /// Cosine and sine of the slope, 0 to a right angle.
     pub slope: [f32; 2],
     /// How far both ellipses reach across the slope.
@@ -26,14 +26,14 @@ pub struct Passage {
     pub room: f32,
 }
 
-impl Passage {
+impl StraightPassage {
     /// The passage between two ellipses `across` and `rise` apart (the second one's middle above the first one's counts as positive), with
     /// the half width and half height of each; `thread` is what the passing thread takes, both its half heights.
     ///
     /// ```
-    /// use texere_core::crossings::Passage;
+    /// use texere_core::crossings::StraightPassage;
     /// // Round threads of radius 1 in a row, jammed at a distance of √3 diameters (Peirce).
-    /// let jammed = Passage::new(3.0_f32.sqrt() * 2.0, 2.0, [[1.0; 2]; 2], 2.0);
+    /// let jammed = StraightPassage::new(3.0_f32.sqrt() * 2.0, 2.0, [[1.0; 2]; 2], 2.0);
     /// assert!(jammed.room.abs() < 1e-5);
     /// ```
     #[must_use]

@@ -1,7 +1,10 @@
 //! The plan: every count and table of a problem, made on the host before anything is launched.
 
-use super::{Block, Crossing, Crossings, CrossingsError, CrossingsPass, Lie, Set, Thread, terms};
-use crate::{BackendError, RADIUS_MAX, RADIUS_MIN, room, zeroed};
+use super::{
+    CrossingBlock, CrossingState, CrossingThread, Crossings, CrossingsError, CrossingsPass, Lie, Set, terms,
+};
+use crate::backend::{room, zeroed};
+use crate::{BackendError, RADIUS_MAX, RADIUS_MIN};
 
 /// A repeat has at least so many threads of either set.
 const THREADS_MIN: usize = 2;
@@ -86,14 +89,14 @@ impl Site {
 /// All tables of a problem. Lengths are in its unit, the mean diameter of warp and weft.
 ///
 /// ```
-/// use texere_core::crossings::{Crossings, CrossingsPlan, Set, Site, Thread};
-/// let thread = Thread { pitch: 0.5, diameter: 0.25, stiffness: 1.0, level: 0 };
+/// use texere_core::crossings::{Crossings, CrossingsPlan, Set, Site, CrossingThread};
+/// let thread = CrossingThread { pitch: 0.5, diameter: 0.25, stiffness: 1.0, level: 0 };
 /// let plan = CrossingsPlan::new(&Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]))?;
 /// assert_eq!((plan.unit(), plan.rows(Set::Warp)[0].gap), (0.25, 2.0));
 /// // Beyond the last end the first one comes again.
 /// let last = Site { end: 1, pick: 0 };
 /// assert_eq!(plan.beside(last, Set::Weft, 1, 0), Some(Site { end: 0, pick: 0 }));
-/// # Ok::<(), texere_core::crossings::CrossingsError>(())
+/// # Ok::<(), texere_core::CrossingsError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct CrossingsPlan {
@@ -135,7 +138,7 @@ impl CrossingsPlan {
             each(set, "stiffness", threads, |thread| thread.stiffness, STIFFNESS)?;
             each(set, "level", threads, |thread| thread.level as f32, [0.0, (LEVELS_MAX - 1) as f32])?;
         }
-        let mean = |threads: &[Thread]| {
+        let mean = |threads: &[CrossingThread]| {
             threads.iter().map(|thread| f64::from(thread.diameter)).sum::<f64>() / threads.len() as f64
         };
         let unit = (f64::midpoint(mean(&problem.threads[0]), mean(&problem.threads[1]))) as f32;
@@ -167,7 +170,7 @@ impl CrossingsPlan {
     /// Bytes that a settler holds beside the plan: all crossings as they are, as others find them, and as they will find them.
     #[must_use]
     pub const fn settler_bytes(&self) -> u64 {
-        3 * size_of::<Crossing>() as u64 * self.ups.len() as u64
+        3 * size_of::<CrossingState>() as u64 * self.ups.len() as u64
     }
 
     /// The unit of all lengths, mm.
@@ -263,7 +266,7 @@ impl CrossingsPlan {
     /// the other.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
-    pub fn start(&self) -> Result<Vec<Crossing>, BackendError> {
+    pub fn start(&self) -> Result<Vec<CrossingState>, BackendError> {
         let mut all = zeroed("crossings", self.ups.len() as u64)?;
         let middles = Set::BOTH.map(|set| {
             let highest = self.rows(set).iter().map(|row| row.level).max().unwrap_or(0);
@@ -288,7 +291,7 @@ impl CrossingsPlan {
                 half_width: radius,
                 half_height: radius,
             };
-            *crossing = Crossing { warp: lie(Set::Warp, radii[0]), weft: lie(Set::Weft, radii[1]) };
+            *crossing = CrossingState { warp: lie(Set::Warp, radii[0]), weft: lie(Set::Weft, radii[1]) };
         }
         Ok(all)
     }
@@ -297,13 +300,13 @@ impl CrossingsPlan {
     ///
     /// **Panics** where `crossings` has fewer than the plan.
     #[must_use]
-    pub fn block(&self, pass: &CrossingsPass, crossings: &[Crossing], site: Site) -> Block {
+    pub fn block(&self, pass: &CrossingsPass, crossings: &[CrossingState], site: Site) -> CrossingBlock {
         terms::gather(self, pass, crossings, site)
     }
 
     /// A crossing after its step.
     #[must_use]
-    pub fn moved(&self, crossing: &Crossing, block: &Block, site: Site) -> Crossing {
+    pub fn moved(&self, crossing: &CrossingState, block: &CrossingBlock, site: Site) -> CrossingState {
         let step = block.step();
         let longest = step.iter().fold(0.0, |longest: f32, step| longest.max(step.abs()));
         let share = if longest > STEP { STEP / longest } else { 1.0 };
@@ -312,14 +315,14 @@ impl CrossingsPlan {
 
     /// Where other crossings find one in the next pass that has come from `was` to `is`: momentum carries it on.
     #[must_use]
-    pub fn ahead(&self, was: &Crossing, is: &Crossing, site: Site) -> Crossing {
+    pub fn ahead(&self, was: &CrossingState, is: &CrossingState, site: Site) -> CrossingState {
         let [before, after]: [[f32; 8]; 2] = [bytemuck::cast(*was), bytemuck::cast(*is)];
         let on = std::array::from_fn(|unknown| MOMENTUM * (after[unknown] - before[unknown]));
         self.bounded(is, on, site)
     }
 
     /// A crossing moved by `step`, as far as its unknowns may go.
-    fn bounded(&self, crossing: &Crossing, step: [f32; 8], site: Site) -> Crossing {
+    fn bounded(&self, crossing: &CrossingState, step: [f32; 8], site: Site) -> CrossingState {
         let mut moved = *crossing;
         for set in Set::BOTH {
             let row = self.rows(set)[site.thread(set)];
@@ -346,7 +349,12 @@ fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
 }
 
 /// A set's threads in units.
-fn rows(threads: &[Thread], unit: f32, height: f32, repeat: bool) -> Result<Vec<Row>, CrossingsError> {
+fn rows(
+    threads: &[CrossingThread],
+    unit: f32,
+    height: f32,
+    repeat: bool,
+) -> Result<Vec<Row>, CrossingsError> {
     let mut rows = room("threads", threads.len())?;
     let mut before = threads.last().map_or(unit, |thread| thread.pitch) / unit;
     for (number, thread) in threads.iter().enumerate() {
@@ -374,7 +382,7 @@ fn rows(threads: &[Thread], unit: f32, height: f32, repeat: bool) -> Result<Vec<
 }
 
 /// How many levels a set has.
-fn levels(threads: &[Thread]) -> u32 {
+fn levels(threads: &[CrossingThread]) -> u32 {
     threads.iter().map(|thread| thread.level).max().unwrap_or(0) + 1
 }
 
@@ -394,11 +402,11 @@ fn setting(setting: &'static str, value: f32, [low, high]: [f32; 2]) -> Result<(
 fn each(
     set: &'static str,
     setting: &'static str,
-    threads: &[Thread],
-    value: impl Fn(&Thread) -> f32,
+    threads: &[CrossingThread],
+    value: impl Fn(&CrossingThread) -> f32,
     [low, high]: [f32; 2],
 ) -> Result<(), CrossingsError> {
-    let wrong = |thread: &Thread| !(low..=high).contains(&value(thread));
+    let wrong = |thread: &CrossingThread| !(low..=high).contains(&value(thread));
     match threads.iter().position(wrong) {
         None => Ok(()),
         Some(thread) => {

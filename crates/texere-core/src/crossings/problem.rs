@@ -2,7 +2,7 @@
 
 /// A thread of the warp or the weft.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Thread {
+pub struct CrossingThread {
     /// From its middle to that of the next thread of its set, mm. The last one's leads to the first of the next repeat.
     pub pitch: f32,
     /// The diameter of a circle with its section's area, mm, before it loses any.
@@ -17,17 +17,17 @@ pub struct Thread {
 /// Woven cloth that is to come to rest.
 ///
 /// ```
-/// use texere_core::crossings::{Crossings, CrossingsPlan, Thread};
+/// use texere_core::crossings::{Crossings, CrossingsPlan, CrossingThread};
 /// // Plain weave, two ends and two picks a repeat; threads of 0.2 mm every 0.4 mm.
-/// let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
+/// let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
 /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
 /// assert_eq!(CrossingsPlan::new(&plain)?.crossings(), 4);
-/// # Ok::<(), texere_core::crossings::CrossingsError>(())
+/// # Ok::<(), texere_core::CrossingsError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Crossings {
     pub(crate) ups: Vec<bool>,
-    pub(crate) threads: [Vec<Thread>; 2],
+    pub(crate) threads: [Vec<CrossingThread>; 2],
     pub(crate) repeats: [bool; 2],
     pub(crate) tension: [f32; 2],
     pub(crate) press: f32,
@@ -37,7 +37,7 @@ pub struct Crossings {
 impl Crossings {
     /// A repeat, endless along both axes. `ups` says where the warp lies on the face: pick after pick, and in each pick end after end.
     #[must_use]
-    pub const fn new(ups: Vec<bool>, warp: Vec<Thread>, weft: Vec<Thread>) -> Self {
+    pub const fn new(ups: Vec<bool>, warp: Vec<CrossingThread>, weft: Vec<CrossingThread>) -> Self {
         Self { ups, threads: [warp, weft], repeats: [true; 2], tension: [1.0; 2], press: 1.0, passes: 400 }
     }
 

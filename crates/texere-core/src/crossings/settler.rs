@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::{Crossing, CrossingsPass, CrossingsPlan};
+use super::{CrossingState, CrossingsPass, CrossingsPlan};
 use crate::BackendError;
 
 /// What a pass has seen.
@@ -36,7 +36,7 @@ pub trait CrossingsSettler: Any + Debug + Send {
     fn plan(&self) -> &Arc<CrossingsPlan>;
 
     /// Takes all crossings, none of which is moving.
-    fn upload(&mut self, crossings: &[Crossing]) -> Result<(), BackendError>;
+    fn upload(&mut self, crossings: &[CrossingState]) -> Result<(), BackendError>;
 
     /// Moves every crossing once. Each reads where all were found before the pass, and says where it is found after it.
     fn pass(&mut self, pass: &CrossingsPass) -> Result<CrossingsSeen, BackendError>;
@@ -57,7 +57,7 @@ pub trait CrossingsSettler: Any + Debug + Send {
     }
 
     /// Writes the present crossings.
-    fn read(&mut self, crossings: &mut [Crossing]) -> Result<(), BackendError>;
+    fn read(&mut self, crossings: &mut [CrossingState]) -> Result<(), BackendError>;
 }
 
 const _: () = {

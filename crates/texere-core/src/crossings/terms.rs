@@ -3,7 +3,7 @@
 //! Each term is a weight times the square of a residual. A term of several crossings is worked out by each of them, which keeps the slopes in
 //! its own unknowns: so all is gathered and nothing scattered. The sum over all crossings counts each term once.
 
-use super::{Block, Crossing, CrossingsPass, CrossingsPlan, Lie, Passage, Set, Site};
+use super::{CrossingBlock, CrossingState, CrossingsPass, CrossingsPlan, Lie, Set, Site, StraightPassage};
 
 /// Weights of second differences of heights and of shifts, times the fourth power of a diameter over the third power of a pitch.
 pub const BEND: f32 = 1.0;
@@ -48,8 +48,13 @@ const WIDTH: usize = 2;
 const THICKNESS: usize = 3;
 
 /// Gathers all terms that the crossing at `site` is part of.
-pub(super) fn gather(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing], site: Site) -> Block {
-    let mut block = Block::NOTHING;
+pub(super) fn gather(
+    plan: &CrossingsPlan,
+    pass: &CrossingsPass,
+    all: &[CrossingState],
+    site: Site,
+) -> CrossingBlock {
+    let mut block = CrossingBlock::NOTHING;
     let both = Set::BOTH.map(|set| Here { plan, pass, all, site, set, row: set.first() });
     for here in both {
         let set = here.set;
@@ -76,7 +81,7 @@ pub(super) fn gather(plan: &CrossingsPlan, pass: &CrossingsPass, all: &[Crossing
 }
 
 /// Both threads of a crossing lie one on top of the other.
-fn contact([warp, weft]: &[Here<'_>; 2], block: &mut Block) {
+fn contact([warp, weft]: &[Here<'_>; 2], block: &mut CrossingBlock) {
     let Here { plan, pass, site, .. } = *warp;
     let [end, pick] = [warp, weft].map(|thread| thread.lie(site));
     let side = plan.side(site, Set::Warp);
@@ -123,7 +128,7 @@ impl Reach {
 struct Here<'a> {
     plan: &'a CrossingsPlan,
     pass: &'a CrossingsPass,
-    all: &'a [Crossing],
+    all: &'a [CrossingState],
     site: Site,
     set: Set,
     /// The first of its unknowns.
@@ -131,7 +136,7 @@ struct Here<'a> {
 }
 
 impl Here<'_> {
-    fn crossing(&self, site: Site) -> &Crossing {
+    fn crossing(&self, site: Site) -> &CrossingState {
         &self.all[self.plan.number(site)]
     }
 
@@ -181,7 +186,7 @@ impl Here<'_> {
     }
 
     /// Shape, area, and the press.
-    fn own(&self, block: &mut Block) {
+    fn own(&self, block: &mut CrossingBlock) {
         let (lie, radius, row) = (self.lie(self.site), self.radius(), self.row);
         let (wide, thick) = (lie.half_width / radius, lie.half_height / radius);
         let aspect = [(row + WIDTH, 1.0 / radius), (row + THICKNESS, -ASPECT / radius)];
@@ -194,7 +199,7 @@ impl Here<'_> {
     }
 
     /// Second differences along the thread, at this crossing and at those before and after.
-    fn bends(&self, block: &mut Block) {
+    fn bends(&self, block: &mut CrossingBlock) {
         let thread = self.plan.rows(self.set)[self.site.thread(self.set)];
         let square = 4.0 * thread.radius * thread.radius;
         for middle in [-1, 0, 1] {
@@ -213,7 +218,7 @@ impl Here<'_> {
     }
 
     /// First differences along the thread: tension, and sections that change little.
-    fn steps(&self, block: &mut Block) {
+    fn steps(&self, block: &mut CrossingBlock) {
         let (lie, radius) = (self.lie(self.site), self.radius());
         let tension = self.plan.tension(self.set) * 4.0 * radius * radius;
         let smooth = SMOOTH / (radius * radius);
@@ -229,7 +234,7 @@ impl Here<'_> {
     }
 
     /// What the thread has to clear between this crossing and the one so many further along it.
-    fn meeting(&self, block: &mut Block, steps: i32) {
+    fn meeting(&self, block: &mut CrossingBlock, steps: i32) {
         let Some(other) = self.along(steps) else { return };
         let second = steps < 0;
         let sites = if second { [other, self.site] } else { [self.site, other] };
@@ -243,7 +248,7 @@ impl Here<'_> {
 
     /// The thread stays on its side between two crossings `way` apart, the `second` of which is this one or else the first. Where it slopes it
     /// clears the shoulder of the thread under its upper end.
-    fn shoulder(&self, block: &mut Block, sites: [Site; 2], way: f32, second: bool) {
+    fn shoulder(&self, block: &mut CrossingBlock, sites: [Site; 2], way: f32, second: bool) {
         let crossed = self.set.other();
         let [first, last] = sites.map(|site| self.crossing(site));
         let side = self.plan.side(sites[0], self.set);
@@ -283,7 +288,7 @@ impl Here<'_> {
     }
 
     /// The thread changes sides between two crossings `way` apart, the `second` of which is this one or else the first.
-    fn passage(&self, block: &mut Block, [first, last]: [Site; 2], way: f32, second: bool) {
+    fn passage(&self, block: &mut CrossingBlock, [first, last]: [Site; 2], way: f32, second: bool) {
         let side = self.plan.side(first, self.set);
         let crossed = self.set.other();
         let [one, two] = [first, last].map(|site| self.crossing(site).lie(crossed));
@@ -291,7 +296,7 @@ impl Here<'_> {
         let rise = side * (two.height - one.height);
         let halves = [one, two].map(|lie| [lie.half_width, lie.half_height]);
         let thread = self.lie(first).half_height + self.lie(last).half_height;
-        let passage = Passage::new(across, rise, halves, thread);
+        let passage = StraightPassage::new(across, rise, halves, thread);
         block.see(passage.clearance());
         let room = passage.room - MARGIN;
         if room < NEAR {
@@ -318,7 +323,7 @@ impl Here<'_> {
     }
 
     /// Neighbours of one level keep to their own places at a crossing, whatever their heights, and are clear of one another beside it.
-    fn neighbour(&self, block: &mut Block, across: i32) {
+    fn neighbour(&self, block: &mut CrossingBlock, across: i32) {
         let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
         if across == 0 {
             return;
@@ -339,7 +344,7 @@ impl Here<'_> {
     }
 
     /// Neighbours of two levels lie side by side or one above the other, as ellipses.
-    fn stacked(&self, block: &mut Block, across: i32) {
+    fn stacked(&self, block: &mut CrossingBlock, across: i32) {
         let Some(neighbour) = self.plan.beside(self.site, self.set, 0, across) else { return };
         let (lie, other, sign) = (self.lie(self.site), self.lie(neighbour), across as f32);
         let gap = self.gap(neighbour, across);
@@ -358,7 +363,7 @@ impl Here<'_> {
     }
 
     /// Neighbours `gap` apart half way between two crossings, as ellipses.
-    fn half_way(&self, block: &mut Block, along: i32, across: i32, gap: f32) {
+    fn half_way(&self, block: &mut CrossingBlock, along: i32, across: i32, gap: f32) {
         let beside = |along, across| self.plan.beside(self.site, self.set, along, across);
         let sites = [beside(along, 0), beside(0, across), beside(along, across)];
         let [Some(next), Some(neighbour), Some(opposite)] = sites else { return };
@@ -375,7 +380,7 @@ impl Here<'_> {
     }
 
     /// Keeps two ellipses clear of one another, in which this crossing's thread has that `part`.
-    fn keep_clear(&self, block: &mut Block, ellipses: &Ellipses, sign: f32, part: f32) {
+    fn keep_clear(&self, block: &mut CrossingBlock, ellipses: &Ellipses, sign: f32, part: f32) {
         let Ellipses { apart, rise, wide, thick } = *ellipses;
         let (x, z) = (apart / wide, rise / thick);
         let clearance = (x * x + z * z).sqrt();

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::{LiveMesh, runs};
+use crate::backend::{Edits, PaddedPoints, Plan, SessionError};
 use crate::engine::Engine;
 use crate::stand::Stand;
 use crate::yarns::check_points;
-use crate::{ControlPoint, Edits, PaddedPoints, Plan, PlanError, SessionError, Yarn};
+use crate::{ControlPoint, PlanError, Yarn};
 
 impl<E: Engine + ?Sized> LiveMesh<E> {
     /// Takes control points, the first of which is number `first` of the fabric as it is now. All rings that they have a part in are made
@@ -53,7 +54,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     ///
     /// ```
     /// use std::sync::Arc;
-    /// use texere_core::{ControlPoint, Edits, LiveMesh, NullBackend, Plan, Settings, Yarn, Yarns};
+    /// use texere_core::backend::{Edits, LiveMesh, NullBackend, Plan};
+    /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
     /// # let mut yarns = Yarns::builder();
     /// # for y in 0..3 {
     /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));

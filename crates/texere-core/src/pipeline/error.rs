@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use crate::{BackendError, OutOfMemory, PlanError, SessionError};
+use crate::backend::SessionError;
+use crate::{BackendError, OutOfMemory, PlanError};
 
 /// What can end a run of the whole pipeline.
 #[derive(Debug, Error)]

@@ -5,7 +5,8 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::Plan;
-use crate::{PaddedPoints, Segment};
+use crate::backend::PaddedPoints;
+use crate::definitions::Segment;
 
 /// A box along the axes.
 ///
@@ -79,7 +80,8 @@ impl Plan {
     /// **Panics** for points that were made for another plan.
     ///
     /// ```
-    /// use texere_core::{ControlPoint, PaddedPoints, Plan, Settings, Yarn, Yarns};
+    /// use texere_core::backend::{PaddedPoints, Plan};
+    /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
     /// # let mut yarns = Yarns::builder();
     /// # for y in 0..2 {
     /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.125)));

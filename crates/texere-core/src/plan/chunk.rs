@@ -39,11 +39,12 @@ pub struct Cap {
 /// A range of blocks that is launched, read and drawn together.
 ///
 /// It holds all that a launch needs: the block table, the parts that it makes, and its place in the whole. Where it
-/// ends inside a yarn it repeats the next ring, so that its triangles use its own vertices alone. Only [`Plan::chunks`](crate::Plan::chunks)
+/// ends inside a yarn it repeats the next ring, so that its triangles use its own vertices alone. Only [`Plan::chunks`](crate::backend::Plan::chunks)
 /// makes chunks, and they can't be changed, so a kernel need not check their tables.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Limits, Plan, Settings, Yarn, Yarns};
+/// use texere_core::backend::Plan;
+/// use texere_core::{ControlPoint, Limits, Settings, Yarn, Yarns};
 /// let points: Vec<_> = (0..100).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &points);
@@ -86,7 +87,7 @@ impl Chunk {
         self.index
     }
 
-    /// Its blocks among all blocks of the plan, the first to the last; those of a plan of a [region](crate::Plan::within) may be fewer. The table has a
+    /// Its blocks among all blocks of the plan, the first to the last; those of a plan of a [region](crate::backend::Plan::within) may be fewer. The table has a
     /// row more for each ring that is repeated.
     #[must_use]
     pub const fn block_range(&self) -> Range<u64> {
@@ -99,7 +100,7 @@ impl Chunk {
         &self.tables
     }
 
-    /// The padded control points that it reads, from a multiple of [`WINDOW_POINTS`](crate::WINDOW_POINTS) on.
+    /// The padded control points that it reads, from a multiple of [`WINDOW_POINTS`](crate::backend::WINDOW_POINTS) on.
     #[must_use]
     pub const fn window(&self) -> Range<u64> {
         self.window.start..self.window.end
@@ -129,7 +130,7 @@ impl Chunk {
         self.repeats_ring
     }
 
-    /// Rings, the repeated one included, and those that there is only [room](crate::Plan::with_room) for.
+    /// Rings, the repeated one included, and those that there is only [room](crate::backend::Plan::with_room) for.
     #[must_use]
     pub const fn rings(&self) -> u32 {
         self.rings

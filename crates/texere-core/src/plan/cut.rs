@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::chunk::{Chunk, TablesId};
 use super::{BLOCK_RINGS, Block, Limits, Plan};
-use crate::{ControlPoint, PlanError, Ring, Topology, Vertex};
+use crate::definitions::Ring;
+use crate::{ControlPoint, PlanError, Topology, Vertex};
 
 /// Windows start at multiples of this many control points: 256 bytes, an offset that every device allows for a binding.
 pub const WINDOW_POINTS: u64 = 16;

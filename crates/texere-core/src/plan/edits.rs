@@ -6,8 +6,9 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::Plan;
+use crate::definitions::Turn;
 use crate::stand::Stand;
-use crate::{ControlPoint, PlanError, TWIST_LIMIT, Turn, Yarn};
+use crate::{ControlPoint, PlanError, TWIST_LIMIT, Yarn};
 
 /// Yarns that become others, by their numbers from 0: what each is then, and its control points.
 pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
@@ -29,7 +30,8 @@ impl Plan {
     /// may make a yarn steep.
     ///
     /// ```
-    /// use texere_core::{ControlPoint, Edits, Plan, Settings, Yarn, Yarns};
+    /// use texere_core::backend::{Edits, Plan};
+    /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
     /// # let mut yarns = Yarns::builder();
     /// # for y in 0..3 {
     /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));

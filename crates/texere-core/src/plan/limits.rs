@@ -1,7 +1,8 @@
 //! The limits of a device, which chunks are cut to.
 
 use super::BLOCK_RINGS;
-use crate::{SIDES_MAX, Vertex};
+use crate::Vertex;
+use crate::definitions::SIDES_MAX;
 
 /// The limits that chunks are cut to.
 ///

@@ -23,7 +23,8 @@ impl Plan {
     /// vertex, and where there is only [room](Plan::with_room).
     ///
     /// ```
-    /// use texere_core::{ControlPoint, End, Limits, MeshPlace, Plan, Settings, Yarn, Yarns};
+    /// use texere_core::backend::Plan;
+    /// use texere_core::{ControlPoint, End, Limits, MeshPlace, Settings, Yarn, Yarns};
     /// # let mut yarns = Yarns::builder();
     /// # for y in 0..2 {
     /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));

@@ -32,10 +32,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use crate::{
-    ControlPoint, Frame, Layout, Quantum, Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Section,
-    SectionPoint, Topology, Turn, Yarn, triangulate,
-};
+use crate::definitions::{Ring, SIDES_MAX, SIDES_MIN, Sample, Sampling, Turn, triangulate};
+use crate::{ControlPoint, Frame, Layout, Quantum, Section, SectionPoint, Topology, Yarn};
 
 /// The choices that a mesh is made with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,7 +79,8 @@ pub const YARN_RINGS_MAX: u64 = u32::MAX as u64;
 /// A fabric's counts and offsets for one choice of settings.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
+/// use texere_core::backend::Plan;
+/// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// let plan = Plan::new(yarns.build()?.layout().clone(), Settings::default())?;
@@ -119,7 +118,8 @@ impl Plan {
     /// offsets of one yarn and the next, and [`Plan::edited`] changes how many of them there are, but no offset.
     ///
     /// ```
-    /// use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
+    /// use texere_core::backend::Plan;
+    /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
     /// # let mut yarns = Yarns::builder();
     /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
     /// # let yarns = yarns.build()?;

@@ -1,7 +1,9 @@
 //! Where what belongs to each yarn starts, with room for more or without.
 
 use super::Plan;
-use crate::{BLOCK_RINGS, Layout, PlanError, RINGS_MAX, Sampling, YARN_RINGS_MAX};
+use crate::backend::BLOCK_RINGS;
+use crate::definitions::Sampling;
+use crate::{Layout, PlanError, RINGS_MAX, YARN_RINGS_MAX};
 
 /// Prefix sums over the yarns: yarns + 1 values each.
 #[derive(Debug)]

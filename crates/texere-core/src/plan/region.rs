@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::{BLOCK_RINGS, Bounds, Plan};
-use crate::PaddedPoints;
+use crate::backend::PaddedPoints;
 
 impl Plan {
     /// The same plan but that it makes only what lies in a box: those blocks of [`BLOCK_RINGS`] rings whose own
@@ -16,7 +16,8 @@ impl Plan {
     /// [counts](Plan::counts) and [chunks](Plan::chunks) are of the region.
     ///
     /// ```
-    /// use texere_core::{Bounds, ControlPoint, Limits, PaddedPoints, Plan, Settings, Yarn, Yarns};
+    /// use texere_core::backend::{PaddedPoints, Plan};
+    /// use texere_core::{Bounds, ControlPoint, Limits, Settings, Yarn, Yarns};
     /// let points: Vec<_> = (0..1000).map(|x| ControlPoint::new(x as f32, 0.0, 0.0, 0.1)).collect();
     /// let mut yarns = Yarns::builder();
     /// yarns.yarn(Yarn::default(), &points);

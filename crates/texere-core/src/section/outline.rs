@@ -1,7 +1,8 @@
 //! Outlines of the sections, point by point.
 
 use super::{MEASURE_POINTS, Section, SectionPoint};
-use crate::{SIDES_MAX, SIDES_MIN, SectionError, Turn, atan2_turns};
+use crate::SectionError;
+use crate::definitions::{SIDES_MAX, SIDES_MIN, Turn, atan2_turns};
 
 /// How deep the valley between two plies goes at most, as a share of the yarn's radius.
 ///

@@ -8,7 +8,8 @@ use super::SectionPoint;
 /// leaves no clean ear, the corner that turns most is cut.
 ///
 /// ```
-/// use texere_core::{Section, triangulate};
+/// use texere_core::definitions::triangulate;
+/// use texere_core::Section;
 /// let cap = triangulate(&Section::Circle.outline(6));
 /// assert_eq!(cap.len(), 4);
 /// ```

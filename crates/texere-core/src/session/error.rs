@@ -8,7 +8,7 @@ use crate::{BackendError, OutOfMemory, PlanError, YarnError};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {
-    /// A plan of only a [region](crate::Plan::within), of which nothing can be edited.
+    /// A plan of only a [region](crate::backend::Plan::within), of which nothing can be edited.
     #[error("a mesh that is edited is of the whole cloth, and the plan is of a region of it")]
     Region,
     /// A yarn that there is not.

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::{Length, Scale, Settling, SettlingError};
-use crate::{ControlPoint, Ends, NO_LENGTH};
+use crate::definitions::NO_LENGTH;
+use crate::{ControlPoint, Ends};
 
 /// Whether there are no more than `limit` of `what`.
 pub(super) fn limited(what: &'static str, count: u64, limit: u64) -> Result<(), SettlingError> {

@@ -75,7 +75,7 @@ pub const MARGIN: f32 = 1.002;
 
 /// Where two intervals come near one another.
 #[derive(Debug, Clone, Copy)]
-pub struct Contact {
+pub struct Approach {
     /// Places on either interval.
     pub at: [f32; 2],
     /// The way from the first interval's place to the other's, mm.
@@ -94,10 +94,10 @@ pub struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    fn at(&self, at: [f32; 2]) -> Contact {
+    fn at(&self, at: [f32; 2]) -> Approach {
         let [one, other] = self.intervals;
         let way = self.way + other.offset(at[1]) - one.offset(at[0]);
-        Contact { at, way, distance: way.length_squared().sqrt() }
+        Approach { at, way, distance: way.length_squared().sqrt() }
     }
 
     /// The exact places near `at`: one step of Newton's method of at most `stride`, where that comes nearer.
@@ -105,7 +105,7 @@ impl Pair<'_> {
     /// On chords alone yarns seem clear that are not: 0.998 of what they need where the spline has 0.92.
     #[must_use]
     #[inline]
-    pub fn refined(&self, at: [f32; 2], stride: [f32; 2]) -> Contact {
+    pub fn refined(&self, at: [f32; 2], stride: [f32; 2]) -> Approach {
         let start = self.at(at);
         let [one, other] = self.intervals;
         let velocities = [one.velocity(at[0]), other.velocity(at[1])];
@@ -125,7 +125,7 @@ impl Pair<'_> {
     }
 }
 
-impl Contact {
+impl Approach {
     /// The direction from the first interval's place to the other's. Where both are one, it is square to both yarns: the
     /// other's view of it is then the opposite one.
     #[must_use]

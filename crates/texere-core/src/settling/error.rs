@@ -1,9 +1,7 @@
 //! What may be wrong with a problem.
 
-use crate::counted;
+use crate::{BoundaryError, OutOfMemory, counted};
 use thiserror::Error;
-
-use crate::{BoundaryError, OutOfMemory};
 
 /// A cloth that can't be settled as asked.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -3,7 +3,7 @@
 use glam::{IVec3, Vec3};
 
 use super::{Place, Scale};
-use crate::VERTICAL;
+use crate::definitions::VERTICAL;
 use crate::spline::coefficients;
 
 /// The spline between two control points, from the first of them on, and how thick the yarn is there.

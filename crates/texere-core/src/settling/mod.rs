@@ -6,7 +6,7 @@
 
 mod check;
 mod contact;
-mod error;
+pub(crate) mod error;
 mod interval;
 mod neighbours;
 mod pass;
@@ -17,8 +17,8 @@ mod run;
 mod settler;
 mod strand;
 
-pub use contact::{Chord, Contact, MARGIN, NEAR, ONE_PLACE, PARALLEL, Pair, SHORT, SKEW, STIFF};
-pub use error::SettlingError;
+pub use contact::{Approach, Chord, MARGIN, NEAR, ONE_PLACE, PARALLEL, Pair, SHORT, SKEW, STIFF};
+use error::SettlingError;
 pub use interval::{GAUSS, GAUSS_WEIGHTS, Interval, bends, weights};
 pub use neighbours::{LEADS_ON, Listed};
 pub use pass::{
@@ -31,5 +31,5 @@ pub use plan::{OVERSHOOT, SKIN, SettlingCounts, SettlingPlan, Spans};
 pub use problem::{Length, Settling};
 pub(crate) use run::points_of;
 pub use run::{Rest, settle, settled};
-pub use settler::{Seen, Settler};
-pub use strand::{BEYOND, Strand, tag};
+pub use settler::{Settler, SettlingSeen};
+pub use strand::{BEYOND, SettlingYarn, tag};

@@ -7,7 +7,7 @@ use glam::Vec3;
 
 use super::contact::share;
 use super::strand::tag;
-use super::{Contact, Interval, Listed, MARGIN, NEAR, Pair, Place, SHORT, SettlingPlan, bends, weights};
+use super::{Approach, Interval, Listed, MARGIN, NEAR, Pair, Place, SHORT, SettlingPlan, bends, weights};
 
 /// How a point's step is made from what pulls at it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -146,7 +146,7 @@ impl Pull {
 
     /// Adds a contact.
     #[inline]
-    fn touch(&mut self, plan: &SettlingPlan, pass: &Pass, tags: u32, pair: &Pair<'_>, contact: &Contact) {
+    fn touch(&mut self, plan: &SettlingPlan, pass: &Pass, tags: u32, pair: &Pair<'_>, contact: &Approach) {
         let [one, other] = pair.intervals;
         let [u, v] = contact.at;
         let direction = contact.direction([one.velocity(u), other.velocity(v)]);

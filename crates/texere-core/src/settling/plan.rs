@@ -4,9 +4,11 @@ use glam::DVec3;
 
 use super::check::{check, limited, mean_diameter, scale, thickest};
 use super::pass::FREE_MOST;
-use super::strand::{BEYOND, Strand, tag};
+use super::strand::{BEYOND, SettlingYarn, tag};
 use super::{Interval, Length, MARGIN, Place, Scale, Settling, SettlingError};
-use crate::{BackendError, Ends, tangent_factor, zeroed};
+use crate::backend::zeroed;
+use crate::definitions::tangent_factor;
+use crate::{BackendError, Ends};
 
 /// Intervals have at least so many chords.
 const CHORDS_MIN: u32 = 2;
@@ -53,7 +55,7 @@ pub struct SettlingPlan {
     pub(crate) plates: Option<f32>,
     pub(crate) passes: u32,
     pub(crate) spans: Spans,
-    strands: Vec<Strand>,
+    strands: Vec<SettlingYarn>,
     period: [i32; 2],
     frequency: [f32; 2],
     counts: SettlingCounts,
@@ -90,11 +92,11 @@ impl SettlingPlan {
         limited("places", places, u64::from(u32::MAX >> 1))?;
         let scale = scale(settling)?;
         let period = settling.boundary.repeat().map(|repeat| scale.units(DVec3::splat(repeat.into())).x);
-        let mut strands: Vec<Strand> = Vec::with_capacity(yarns);
+        let mut strands: Vec<SettlingYarn> = Vec::with_capacity(yarns);
         for (yarn, &ends) in settling.boundary.ends().iter().enumerate() {
             let (start, end) = (layout.offsets()[yarn], layout.offsets()[yarn + 1]);
             let first = (start + yarn as u64 * (BEYOND[0] + BEYOND[1]) + BEYOND[0]) as u32;
-            strands.push(Strand { first, points: (end - start) as u32, ends, length: 0 });
+            strands.push(SettlingYarn { first, points: (end - start) as u32, ends, length: 0 });
         }
         let s = tangent_factor(settling.spline_tension);
         let spans = Spans {
@@ -193,7 +195,7 @@ impl SettlingPlan {
 
     /// Every yarn's places.
     #[must_use]
-    pub fn strands(&self) -> &[Strand] {
+    pub fn strands(&self) -> &[SettlingYarn] {
         &self.strands
     }
 
@@ -257,7 +259,7 @@ impl SettlingPlan {
     }
 
     /// Makes the places beyond a yarn's ends anew.
-    pub fn renew_ends(&self, strand: &Strand, places: &mut [Place]) {
+    pub fn renew_ends(&self, strand: &SettlingYarn, places: &mut [Place]) {
         let (first, count) = (strand.first as usize, strand.points as usize);
         let last = first + count - 1;
         if let Some(shift) = strand.shift() {
@@ -353,9 +355,9 @@ impl SettlingPlan {
         limited("chords", chords, u64::from(u32::MAX >> 1))?;
         self.chords[self.places.len()] = chords as u32;
         self.counts.chords = chords;
-        let own = |strand: &Strand| strand.first as usize..(strand.first + strand.intervals()) as usize;
+        let own = |strand: &SettlingYarn| strand.first as usize..(strand.first + strand.intervals()) as usize;
         let whole =
-            |strand: &Strand| self.lengths[own(strand)].iter().map(|&arc| f64::from(arc)).sum::<f64>();
+            |strand: &SettlingYarn| self.lengths[own(strand)].iter().map(|&arc| f64::from(arc)).sum::<f64>();
         let longest = self.strands.iter().map(whole).fold(0.0, f64::max);
         let unit = (f64::from(thinnest) / 1024.0).max(longest / f64::from(1 << 29));
         self.spans.along = unit as f32;

@@ -20,7 +20,8 @@ pub enum Length {
 /// Yarns that are to come to rest: until they nowhere pierce one another, nowhere fold, and have the length that is asked for.
 ///
 /// ```
-/// use texere_core::{ControlPoint, Settling, SettlingPlan, Yarn, Yarns};
+/// use texere_core::settling::{Settling, SettlingPlan};
+/// use texere_core::{ControlPoint, Yarn, Yarns};
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.1, 0.2)));
 /// yarns.yarn(Yarn::default(), &[-1.0, 0.0, 1.0].map(|y| ControlPoint::new(1.0, y, -0.1, 0.2)));

@@ -6,8 +6,11 @@ use std::sync::Arc;
 use glam::IVec3;
 
 use super::plan::{OVERSHOOT, SKIN};
-use super::{BEND_RADIUS, Form, Length, MARGIN, Pass, Place, Seen, Settler, SettlingPlan, moves, tag};
-use crate::{BackendError, ControlPoint, zeroed};
+use super::{
+    BEND_RADIUS, Form, Length, MARGIN, Pass, Place, Settler, SettlingPlan, SettlingSeen, moves, tag,
+};
+use crate::backend::zeroed;
+use crate::{BackendError, ControlPoint};
 
 /// How thick yarns are at first, and in how many steps of how many passes they grow.
 const THIN: f32 = 0.25;
@@ -47,9 +50,9 @@ pub struct Rest {
     /// Neighbours that were listed last, of all chords.
     pub neighbours: u64,
     /// What was seen at the start.
-    pub start: Seen,
+    pub start: SettlingSeen,
     /// What is seen at the end.
-    pub end: Seen,
+    pub end: SettlingSeen,
 }
 
 /// Settles on a device, and leaves there the best places that were seen: by clearance, then by bends, then by length. `watch`
@@ -62,7 +65,7 @@ pub struct Rest {
 pub fn settle(
     plan: &SettlingPlan,
     settler: &mut dyn Settler,
-    watch: impl FnMut(&Pass, &Seen) -> ControlFlow<()>,
+    watch: impl FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>,
 ) -> Result<Rest, BackendError> {
     Run {
         plan,
@@ -91,7 +94,7 @@ struct Run<'a, W> {
     rest: Rest,
 }
 
-impl<W: FnMut(&Pass, &Seen) -> ControlFlow<()>> Run<'_, W> {
+impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
     fn whole(mut self) -> Result<Rest, BackendError> {
         let places: Vec<Place> = own_places(self.plan).map(|(place, _)| *place).collect();
         self.settler.upload(&places)?;
@@ -127,7 +130,7 @@ impl<W: FnMut(&Pass, &Seen) -> ControlFlow<()>> Run<'_, W> {
     }
 
     /// Makes a pass, with neighbours listed anew where some may be missing.
-    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         let spans = self.plan.spans();
         let grown = 2.0 * MARGIN * spans.thickest * (pass.growth - self.listed).max(0.0);
         if 2.0 * OVERSHOOT * self.moved + grown > SKIN * spans.diameter {
@@ -143,10 +146,11 @@ impl<W: FnMut(&Pass, &Seen) -> ControlFlow<()>> Run<'_, W> {
     }
 
     /// Keeps what was seen if it is the best so far, and says whether it is at rest.
-    fn weigh(&mut self, seen: &Seen) -> Result<bool, BackendError> {
+    fn weigh(&mut self, seen: &SettlingSeen) -> Result<bool, BackendError> {
         self.rest.at_rest = self.is_rest(seen);
         // Where lengths are free nothing is asked of them.
-        let asked = |seen: &Seen| if self.holds() { *seen } else { Seen { length: 0.0, ..*seen } };
+        let asked =
+            |seen: &SettlingSeen| if self.holds() { *seen } else { SettlingSeen { length: 0.0, ..*seen } };
         if self.rest.at_rest || asked(seen).is_better_than(&asked(&self.rest.end)) {
             self.settler.keep()?;
             self.rest.end = *seen;
@@ -155,7 +159,7 @@ impl<W: FnMut(&Pass, &Seen) -> ControlFlow<()>> Run<'_, W> {
     }
 
     /// Whether what is lacking has hardly become less in the last passes.
-    fn has_stalled(&mut self, seen: &Seen, number: u32) -> bool {
+    fn has_stalled(&mut self, seen: &SettlingSeen, number: u32) -> bool {
         let lack = self.lack(seen);
         if lack < STALLED * self.lacked.0 {
             self.lacked = (lack, number);
@@ -163,12 +167,12 @@ impl<W: FnMut(&Pass, &Seen) -> ControlFlow<()>> Run<'_, W> {
         number - self.lacked.1 >= STALLS
     }
 
-    fn is_rest(&self, seen: &Seen) -> bool {
+    fn is_rest(&self, seen: &SettlingSeen) -> bool {
         self.lack(seen) <= 0.0
     }
 
     /// How much is lacking to rest: the largest share of all that is asked.
-    fn lack(&self, seen: &Seen) -> f32 {
+    fn lack(&self, seen: &SettlingSeen) -> f32 {
         seen.lack().max(if self.holds() { seen.length - LENGTH } else { f32::NEG_INFINITY })
     }
 
@@ -256,12 +260,12 @@ impl Rest {
         block_passes: 0,
         lists: 0,
         neighbours: 0,
-        start: Seen::NOTHING,
-        end: Seen::NOTHING,
+        start: SettlingSeen::NOTHING,
+        end: SettlingSeen::NOTHING,
     };
 }
 
-impl Seen {
+impl SettlingSeen {
     /// Whether it is better: by clearance in thousandths, where that is the same by the radius of curvature in steps of 0.002 diameters,
     /// then by length in steps of 0.0005, and last by what is lacking to rest. A clearance of 0.985 is enough, as are a radius of
     /// 0.585 diameters and a length that is off by 1 %: what is more does not count.

@@ -7,11 +7,12 @@ use std::sync::Arc;
 use glam::IVec3;
 
 use super::{Pass, Place, SettlingPlan};
-use crate::{BackendError, zeroed};
+use crate::BackendError;
+use crate::backend::zeroed;
 
 /// What a pass has seen, before any point took its step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
+pub struct SettlingSeen {
     /// The longest step that a point has taken then, mm.
     pub step: f32,
     /// The least distance of two yarns over both reaches: 1 where they touch.
@@ -40,7 +41,7 @@ pub trait Settler: Any + Debug + Send {
     fn list(&mut self, growth: f32) -> Result<u64, BackendError>;
 
     /// Moves every control point once.
-    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError>;
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError>;
 
     /// Keeps the places that the last pass has seen, before it moved them, in place of any others.
     fn keep(&mut self) -> Result<(), BackendError>;

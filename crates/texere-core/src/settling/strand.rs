@@ -21,7 +21,7 @@ pub mod tag {
 
 /// Where a yarn's places lie, and how it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Strand {
+pub struct SettlingYarn {
     /// Its first control point's place.
     pub first: u32,
     /// Its control points.
@@ -32,7 +32,7 @@ pub struct Strand {
     pub length: u32,
 }
 
-impl Strand {
+impl SettlingYarn {
     /// How many intervals it has.
     #[must_use]
     pub const fn intervals(&self) -> u32 {

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{ArcLength, Attribute, Chunk, PaddedPoints, Plan};
+use texere_core::backend::{Chunk, PaddedPoints, Plan};
+use texere_core::{ArcLength, Attribute};
 
 use super::runs::{take, vertex_runs};
 use crate::attributes::{block, block_length, blocks_of, caps, sum_up};

@@ -1,6 +1,8 @@
 //! Yarns whose outlines lean, by the reference's own functions. All blocks of a call are of one yarn and follow each other.
 
-use texere_core::{BLOCK_RINGS, Block, Ring, Vertex, index_pattern};
+use texere_core::Vertex;
+use texere_core::backend::{BLOCK_RINGS, Block};
+use texere_core::definitions::{Ring, index_pattern};
 
 use crate::engine::Work;
 use crate::serial;

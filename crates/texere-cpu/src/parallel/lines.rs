@@ -130,7 +130,7 @@ const INDEX_RINGS: u32 = 8;
 
 impl IndexTable {
     pub(super) fn new(sides: u32) -> Self {
-        let pattern = texere_core::index_pattern(sides);
+        let pattern = texere_core::definitions::index_pattern(sides);
         let rings = (0..=INDEX_RINGS).flat_map(|ring| pattern.iter().map(move |index| ring * sides + index));
         let period = pattern.len() * INDEX_RINGS as usize;
         Self { table: rings.take(period + LINE).collect(), period, growth: INDEX_RINGS * sides }

@@ -27,10 +27,9 @@ mod vertices;
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{
-    ArcLength, Attribute, BLOCK_RINGS, BackendError, Block, Chunk, MeshMut, PackedVertex, PaddedPoints, Plan,
-    Ring, Topology, Vertex,
-};
+use texere_core::backend::{BLOCK_RINGS, Block, Chunk, MeshMut, PaddedPoints, Plan};
+use texere_core::definitions::Ring;
+use texere_core::{ArcLength, Attribute, BackendError, PackedVertex, Topology, Vertex};
 
 use crate::caps::caps;
 use crate::engine::{Executor, Work};

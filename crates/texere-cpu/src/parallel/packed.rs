@@ -2,7 +2,8 @@
 //! lines.
 
 use rayon::prelude::*;
-use texere_core::{Block, Chunk, PackedVertex, Quantum, Vertex};
+use texere_core::backend::{Block, Chunk};
+use texere_core::{PackedVertex, Quantum, Vertex};
 
 use super::lines::Lines;
 use super::runs::{MeshRun, vertex_runs};

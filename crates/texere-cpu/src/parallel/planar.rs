@@ -3,7 +3,7 @@
 //! A thread that keeps to a plane of constant x, or of constant y, and never turns back there, as woven ones do, has its
 //! sides along that axis. Their products with chords and tangents are zero, so that each step is zero, to the bit.
 
-use texere_core::NO_LENGTH;
+use texere_core::definitions::NO_LENGTH;
 
 use super::rings::{Source, Stretch};
 use super::simd::{Floats, Mask, Simd, difference};

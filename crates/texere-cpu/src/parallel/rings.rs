@@ -4,7 +4,9 @@
 //! branch for a rare case (a yarn at rest, a tangent along z, a yarn's last ring), the lanes only notice it, and the core's
 //! own functions are called for that ring.
 
-use texere_core::{Basis, Block, ControlPoint, PaddedPoints, Plan, Ring, Sample, VERTICAL};
+use texere_core::ControlPoint;
+use texere_core::backend::{Block, PaddedPoints, Plan};
+use texere_core::definitions::{Basis, Ring, Sample, VERTICAL};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot, plus, scale};
 use super::spline::{Cubics, Seats, all_round, held_size, xyz};

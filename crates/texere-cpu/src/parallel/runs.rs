@@ -1,6 +1,8 @@
 //! Runs of blocks, each with its own stretch of the output: what one rayon item works on.
 
-use texere_core::{Block, Chunk, MeshMut, Ring, Vertex};
+use texere_core::Vertex;
+use texere_core::backend::{Block, Chunk, MeshMut};
+use texere_core::definitions::Ring;
 
 /// Blocks in a run: 2,048 rings, some 600 kB of mesh with six sides. Enough to make the hand-over cheap, few enough
 /// that a fabric of a few thousand rings still feeds several cores.

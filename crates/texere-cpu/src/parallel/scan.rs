@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use texere_core::{BLOCK_RINGS, BackendError, PaddedPoints, Plan, Turn};
+use texere_core::BackendError;
+use texere_core::backend::{BLOCK_RINGS, PaddedPoints, Plan};
+use texere_core::definitions::Turn;
 
 use super::instruction_set::InstructionSet;
 use super::planar::stays_upright;

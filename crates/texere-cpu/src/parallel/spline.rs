@@ -1,6 +1,7 @@
 //! The spline in lanes: the cubics of consecutive intervals, and where on them rings lie.
 
-use texere_core::{NO_LENGTH, Plan, RADIUS_FLOOR, SLOPE_LIMIT, ZERO_VELOCITY};
+use texere_core::backend::Plan;
+use texere_core::definitions::{NO_LENGTH, RADIUS_FLOOR, SLOPE_LIMIT, ZERO_VELOCITY};
 
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, dot};
 

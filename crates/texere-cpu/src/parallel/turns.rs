@@ -1,6 +1,8 @@
 //! Rolls in lanes: `Frame::step` and `Turn` of the core, without their jumps.
 
-use texere_core::{ARCTANGENT, COSINE, Frame, NO_LENGTH, NO_MIRROR, Plan, SINE, TAN_EIGHTH, Turn};
+use texere_core::Frame;
+use texere_core::backend::Plan;
+use texere_core::definitions::{ARCTANGENT, COSINE, NO_LENGTH, NO_MIRROR, SINE, TAN_EIGHTH, Turn};
 
 use super::rings::{Rings, Source};
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};

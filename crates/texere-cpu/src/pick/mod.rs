@@ -10,10 +10,9 @@ mod tree;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use texere_core::{
-    BLOCK_RINGS, Bounds, ControlPoint, Edits, MeshPlace, OutOfMemory, PaddedPoints, Plan, Ray, Turn,
-    YarnError, check_points, index_pattern,
-};
+use texere_core::backend::{BLOCK_RINGS, Edits, PaddedPoints, Plan};
+use texere_core::definitions::{Turn, index_pattern};
+use texere_core::{Bounds, ControlPoint, MeshPlace, OutOfMemory, Ray, YarnError, check_points};
 use thiserror::Error;
 
 use self::beam::Beam;
@@ -84,7 +83,8 @@ pub enum PickError {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use texere_core::{ControlPoint, Plan, Ray, Settings, Yarn, Yarns};
+/// use texere_core::backend::Plan;
+/// use texere_core::{ControlPoint, Ray, Settings, Yarn, Yarns};
 /// use texere_cpu::Picker;
 /// # let mut yarns = Yarns::builder();
 /// # for y in 0..2 {

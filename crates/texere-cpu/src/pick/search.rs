@@ -1,6 +1,8 @@
 //! The way of one ray through the mesh, which is made where the ray comes by.
 
-use texere_core::{BLOCK_RINGS, Bounds, End, MeshPlace, Ring};
+use texere_core::backend::BLOCK_RINGS;
+use texere_core::definitions::Ring;
+use texere_core::{Bounds, End, MeshPlace};
 
 use super::beam::{Beam, Touch};
 use super::{Hit, Picker};

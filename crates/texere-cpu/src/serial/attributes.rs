@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use texere_core::{ArcLength, Attribute, Chunk, PaddedPoints, Plan};
+use texere_core::backend::{Chunk, PaddedPoints, Plan};
+use texere_core::{ArcLength, Attribute};
 
 use crate::attributes::{block, block_length, blocks_of, caps, sum_up};
 use crate::engine::Work;

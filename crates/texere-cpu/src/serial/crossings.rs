@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use texere_core::BackendError;
-use texere_core::crossings::{Crossing, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
+use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 
 use crate::crossings::{CrossingsMemory, step};
 
@@ -16,7 +16,7 @@ impl CrossingsSettler for SerialCrossings {
         &self.0.plan
     }
 
-    fn upload(&mut self, crossings: &[Crossing]) -> Result<(), BackendError> {
+    fn upload(&mut self, crossings: &[CrossingState]) -> Result<(), BackendError> {
         self.0.upload(crossings);
         Ok(())
     }
@@ -31,7 +31,7 @@ impl CrossingsSettler for SerialCrossings {
         Ok(seen)
     }
 
-    fn read(&mut self, crossings: &mut [Crossing]) -> Result<(), BackendError> {
+    fn read(&mut self, crossings: &mut [CrossingState]) -> Result<(), BackendError> {
         crossings.copy_from_slice(&self.0.crossings);
         Ok(())
     }

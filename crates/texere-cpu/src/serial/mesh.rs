@@ -1,6 +1,8 @@
 //! Algorithm 3 of the paper: for each yarn, for each ring, nc vertices; and the triangles between.
 
-use texere_core::{Chunk, MeshMut, Ring, Topology, index_pattern};
+use texere_core::Topology;
+use texere_core::backend::{Chunk, MeshMut};
+use texere_core::definitions::{Ring, index_pattern};
 
 use crate::caps::caps;
 use crate::engine::Work;

@@ -15,9 +15,9 @@ pub(crate) use trajectory::rings;
 
 use std::ops::Range;
 
-use texere_core::{
-    ArcLength, Attribute, BackendError, Chunk, MeshMut, PackedVertex, PaddedPoints, Plan, Ring,
-};
+use texere_core::backend::{Chunk, MeshMut, PaddedPoints, Plan};
+use texere_core::definitions::Ring;
+use texere_core::{ArcLength, Attribute, BackendError, PackedVertex};
 
 use crate::engine::{Executor, Work};
 use crate::rolls::Rolls;

@@ -1,6 +1,8 @@
 //! Packed vertices: for each yarn, for each ring, nc of them.
 
-use texere_core::{Chunk, PackedVertex, Ring};
+use texere_core::PackedVertex;
+use texere_core::backend::Chunk;
+use texere_core::definitions::Ring;
 
 use crate::engine::Work;
 use crate::packed::caps;

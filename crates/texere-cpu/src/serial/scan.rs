@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use texere_core::{BLOCK_RINGS, BackendError, PaddedPoints, Plan, Turn};
+use texere_core::BackendError;
+use texere_core::backend::{BLOCK_RINGS, PaddedPoints, Plan};
+use texere_core::definitions::Turn;
 
 use crate::engine::resize;
 use crate::rolls::Rolls;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{IVec3, Vec3};
 use texere_core::BackendError;
 use texere_core::settling::{
-    Chord, Gathered, Interval, Length, Listed, Pass, Place, Pull, Seen, Settler, SettlingPlan, freed, moves,
-    tag,
+    Chord, Gathered, Interval, Length, Listed, Pass, Place, Pull, Settler, SettlingPlan, SettlingSeen, freed,
+    moves, tag,
 };
 
 use crate::cells::{Extent, Grid, owners};
@@ -138,16 +138,16 @@ impl Settler for SerialSettler {
         Ok(self.neighbours.len() as u64)
     }
 
-    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         self.renew();
-        let mut seen = Seen::NOTHING;
+        let mut seen = SettlingSeen::NOTHING;
         for place in 0..self.places.len() {
             if self.plan.tags()[place] & tag::INTERVAL != 0 {
                 let pull = self.pull(pass, place);
                 let length = self.lengths[place];
                 let off = (pull.arc - length).abs() / length;
                 let Pull { clearance, radius, .. } = pull;
-                seen = seen.and(Seen { step: 0.0, clearance, radius, length: off });
+                seen = seen.and(SettlingSeen { step: 0.0, clearance, radius, length: off });
                 self.pulls[place] = pull;
             }
         }

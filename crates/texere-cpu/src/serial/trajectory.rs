@@ -1,6 +1,7 @@
 //! Algorithm 1 of the paper: for each yarn, for each control interval, K + 1 points of the spline.
 
-use texere_core::{BLOCK_RINGS, Chunk, Ring};
+use texere_core::backend::{BLOCK_RINGS, Chunk};
+use texere_core::definitions::Ring;
 
 use crate::engine::Work;
 

@@ -1,6 +1,6 @@
 //! Cloths at the setts of the mills.
 
-use texere_core::crossings::{Crossings, Thread};
+use texere_core::crossings::{CrossingThread, Crossings};
 
 /// A cloth, its yarns in tex, and what it is held to: crimp in per cent, area, and weight in g/m².
 pub(crate) struct Cloth {
@@ -29,7 +29,7 @@ fn cloth(
     up: impl Fn(usize, usize) -> bool,
     (crimp, area, grams): ([f64; 2], [f64; 2], Option<f64>),
 ) -> Cloth {
-    let threads = [0, 1].map(|set| Thread {
+    let threads = [0, 1].map(|set| CrossingThread {
         pitch: pitch[set] as f32,
         diameter: diameter(tex[set]) as f32,
         stiffness: 1.0,

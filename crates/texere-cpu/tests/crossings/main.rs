@@ -9,20 +9,21 @@ mod oracle;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use texere_core::backend::NullBackend;
 use texere_core::crossings::{
-    Crossing, Crossings, CrossingsError, CrossingsPass, CrossingsPlan, CrossingsRest, Passage, Set, Thread,
-    settle,
+    CrossingState, CrossingThread, Crossings, CrossingsPass, CrossingsPlan, CrossingsRest, Set,
+    StraightPassage, settle,
 };
-use texere_core::{Backend, BackendError, NullBackend};
+use texere_core::{Backend, BackendError, CrossingsError};
 use texere_cpu::{ParallelBackend, SerialBackend};
 
 use cloths::{Cloth, cloths};
 
-fn rest(backend: &dyn Backend, problem: &Crossings) -> (CrossingsPlan, Vec<Crossing>, CrossingsRest) {
+fn rest(backend: &dyn Backend, problem: &Crossings) -> (CrossingsPlan, Vec<CrossingState>, CrossingsRest) {
     let plan = Arc::new(CrossingsPlan::new(problem).unwrap());
     let mut settler = backend.crossings_settler(Arc::clone(&plan)).unwrap();
     let rest = settle(&plan, &mut *settler, |_, _| ControlFlow::Continue(())).unwrap();
-    let mut crossings = vec![Crossing::default(); plan.crossings()];
+    let mut crossings = vec![CrossingState::default(); plan.crossings()];
     settler.read(&mut crossings).unwrap();
     ((*plan).clone(), crossings, rest)
 }
@@ -36,8 +37,8 @@ fn chance(seed: &mut u64) -> f32 {
 /// Uneven threads in a drawdown without any order.
 fn uneven(ends: usize, picks: usize, repeats: bool) -> Crossings {
     let mut seed = 7;
-    let mut threads = |count: usize, pitch: f32| -> Vec<Thread> {
-        let thread = |_| Thread {
+    let mut threads = |count: usize, pitch: f32| -> Vec<CrossingThread> {
+        let thread = |_| CrossingThread {
             pitch: pitch * (1.0 + 0.2 * chance(&mut seed)),
             diameter: 0.3 * (1.0 + 0.3 * chance(&mut seed)),
             stiffness: 1.0 + 0.5 * chance(&mut seed),
@@ -91,8 +92,8 @@ fn cloths_of_the_mills_come_to_rest() {
 /// Uneven threads whose picks, or whose ends too, lie on two or three levels.
 fn uneven_layers(ends: usize, picks: usize, repeats: bool, [across, along]: [u32; 2]) -> Crossings {
     let mut seed = 14;
-    let mut threads = |count: usize, pitch: f32, levels: u32| -> Vec<Thread> {
-        let thread = |number: usize| Thread {
+    let mut threads = |count: usize, pitch: f32, levels: u32| -> Vec<CrossingThread> {
+        let thread = |number: usize| CrossingThread {
             pitch: pitch * (1.0 + 0.2 * chance(&mut seed)),
             diameter: 0.3 * (1.0 + 0.3 * chance(&mut seed)),
             stiffness: 1.0 + 0.5 * chance(&mut seed),
@@ -128,7 +129,7 @@ fn gradients_are_the_energys() {
         let plan = CrossingsPlan::new(&problem).unwrap();
         let mut seed = 5;
         // Thick threads near one another, so that all kinds of contact are there.
-        let crossings: Vec<Crossing> = plan
+        let crossings: Vec<CrossingState> = plan
             .start()
             .unwrap()
             .iter()
@@ -172,7 +173,7 @@ fn energy_goes_down_while_penalties_stay() {
 #[test]
 fn balanced_plain_weave_is_alike_both_ways() {
     for pitch in [0.36, 0.4, 0.5] {
-        let thread = Thread { pitch, diameter: 0.2, stiffness: 1.0, level: 0 };
+        let thread = CrossingThread { pitch, diameter: 0.2, stiffness: 1.0, level: 0 };
         let problem = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
         let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);
         assert!(rest.at_rest, "{rest:?}");
@@ -195,8 +196,8 @@ fn balanced_plain_weave_is_alike_both_ways() {
 #[test]
 fn far_from_its_edges_a_piece_rests_as_a_repeat() {
     let (warp, weft) = (
-        Thread { pitch: 0.2, diameter: 0.15, stiffness: 1.0, level: 0 },
-        Thread { pitch: 0.3, diameter: 0.15, stiffness: 1.0, level: 0 },
+        CrossingThread { pitch: 0.2, diameter: 0.15, stiffness: 1.0, level: 0 },
+        CrossingThread { pitch: 0.3, diameter: 0.15, stiffness: 1.0, level: 0 },
     );
     let piece = |ends: usize, picks: usize| {
         let ups = (0..ends * picks).map(|number| (number % ends + number / ends).is_multiple_of(2));
@@ -229,7 +230,7 @@ fn mirrored_cloth_rests_mirrored() {
             let (pick, end) = (number / ends, number % ends);
             up(pick, if mirrored { ends - 1 - end } else { end })
         });
-        let thread = Thread { pitch: 0.4, diameter: 0.25, stiffness: 1.0, level: 0 };
+        let thread = CrossingThread { pitch: 0.4, diameter: 0.25, stiffness: 1.0, level: 0 };
         Crossings::new(ups.collect(), vec![thread; ends], vec![thread; picks]).repeats(true, false).passes(30)
     };
     let one = rest(&SerialBackend::new(), &problem(false)).1;
@@ -263,7 +264,7 @@ fn round_threads_jam_where_peirce_says() {
         let mut some = |low: f32, high: f32| low + (high - low) * f32::midpoint(1.0, chance(&mut seed));
         let (across, rise, radii, thread) =
             (some(0.4, 3.0), some(0.01, 2.0), [some(0.2, 1.0), some(0.2, 1.0)], some(0.2, 2.0));
-        let passage = Passage::new(across, rise, radii.map(|radius| [radius; 2]), thread);
+        let passage = StraightPassage::new(across, rise, radii.map(|radius| [radius; 2]), thread);
         let room = across.hypot(rise) - radii[0] - radii[1] - thread;
         assert!((passage.room - room).abs() < 1e-5, "{passage:?}, not {room}");
     }
@@ -278,7 +279,7 @@ fn a_passage_takes_the_best_slope() {
         // Neighbours keep to their own places.
         let across = (halves[0][0] + halves[1][0]) * some(0.95, 3.0);
         let rise = some(-0.5, 2.0);
-        let found = Passage::new(across, rise, halves, 0.7).room;
+        let found = StraightPassage::new(across, rise, halves, 0.7).room;
         let best = oracle::room(across.into(), rise.into(), halves.map(|half| half.map(f64::from)), 0.7).0;
         assert!(
             f64::from(found) < best + 1e-5 && f64::from(found) > best - 2e-3,
@@ -289,7 +290,7 @@ fn a_passage_takes_the_best_slope() {
 
 #[test]
 fn what_is_wrong_is_named() {
-    let thread = Thread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
+    let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
     let plan = |problem: &Crossings| CrossingsPlan::new(problem).map(|_| ());
     let plain = || Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     let few = Crossings::new(vec![true; 2], vec![thread; 2], vec![thread; 1]);
@@ -298,9 +299,9 @@ fn what_is_wrong_is_named() {
     assert_eq!(plan(&short), Err(CrossingsError::Drawdown { ups: 3, ends: 2, picks: 2 }));
     for wrong in [f32::NAN, f32::INFINITY, -1.0, 0.0] {
         for of in [
-            Thread { pitch: wrong, ..thread },
-            Thread { diameter: wrong, ..thread },
-            Thread { stiffness: wrong, ..thread },
+            CrossingThread { pitch: wrong, ..thread },
+            CrossingThread { diameter: wrong, ..thread },
+            CrossingThread { stiffness: wrong, ..thread },
         ] {
             let problem = Crossings::new(vec![true; 4], vec![thread, of], vec![thread; 2]);
             let found = plan(&problem).unwrap_err();
@@ -320,7 +321,7 @@ fn what_is_wrong_is_named() {
 fn nothing_flies_apart_whatever_the_sett() {
     // Far beyond any loom: it stays finite, and says how much is lacking.
     for pitch in [0.06, 0.1, 5.0] {
-        let thread = Thread { pitch, diameter: 0.2, stiffness: 1.0, level: 0 };
+        let thread = CrossingThread { pitch, diameter: 0.2, stiffness: 1.0, level: 0 };
         let problem =
             Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]).passes(200);
         let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);

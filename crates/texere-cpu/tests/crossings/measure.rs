@@ -1,6 +1,6 @@
 //! What a weaver would measure on crossings at rest, from their ellipses alone.
 
-use texere_core::crossings::{Crossing, CrossingsPlan, Set, Site};
+use texere_core::crossings::{CrossingState, CrossingsPlan, Set, Site};
 
 use crate::oracle::room;
 
@@ -18,7 +18,7 @@ pub(crate) struct Measures {
     pub(crate) weight: f64,
 }
 
-fn lie(plan: &CrossingsPlan, all: &[Crossing], site: Site, set: Set) -> [f64; 4] {
+fn lie(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> [f64; 4] {
     let lie = all[plan.number(site)].lie(set);
     [lie.shift, lie.height, lie.half_width, lie.half_height].map(f64::from)
 }
@@ -28,7 +28,7 @@ fn further(plan: &CrossingsPlan, site: Site, set: Set, along: i32, across: i32) 
 }
 
 /// The length of a taut thread between two crossings, along arcs beside both ellipses and a straight between.
-fn length(plan: &CrossingsPlan, all: &[Crossing], site: Site, set: Set) -> f64 {
+fn length(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> f64 {
     let next = further(plan, site, set, 1, 0);
     let crossed = set.other();
     let pitch = f64::from(plan.rows(crossed)[site.thread(crossed)].gap);
@@ -90,7 +90,7 @@ fn outlines(x: f64, z: f64, [a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     high
 }
 
-fn clearance(plan: &CrossingsPlan, all: &[Crossing], site: Site, set: Set) -> f64 {
+fn clearance(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> f64 {
     let [next, beside, opposite] =
         [[1, 0], [0, 1], [1, 1]].map(|[along, across]| further(plan, site, set, along, across));
     let at = |site| lie(plan, all, site, set);
@@ -126,7 +126,7 @@ fn clearance(plan: &CrossingsPlan, all: &[Crossing], site: Site, set: Set) -> f6
 }
 
 /// Measures a repeat whose yarns have so many tex.
-pub(crate) fn measures(plan: &CrossingsPlan, all: &[Crossing], tex: [f64; 2]) -> Measures {
+pub(crate) fn measures(plan: &CrossingsPlan, all: &[CrossingState], tex: [f64; 2]) -> Measures {
     let count = all.len() as f64;
     let unit = f64::from(plan.unit());
     let mut found = Measures {

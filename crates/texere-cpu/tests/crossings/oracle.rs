@@ -1,7 +1,7 @@
 //! The energy once more, in double precision and as one sum, and its slopes by differences.
 
 use texere_core::crossings::{
-    AREA_GAIN, AREA_LOSS, ASPECT, BEND, Crossing, CrossingsPass, CrossingsPlan, MARGIN, PRESS, SHAPE,
+    AREA_GAIN, AREA_LOSS, ASPECT, BEND, CrossingState, CrossingsPass, CrossingsPlan, MARGIN, PRESS, SHAPE,
     SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, STEEPER, Set, Site, TENSION,
 };
 
@@ -12,7 +12,7 @@ use crate::chance;
 pub(crate) const KINDS: usize = 8;
 
 /// A crossing near a start, but with some disorder, with a share of its heights and so many times as wide.
-pub(crate) fn stirred(crossing: &Crossing, [flat, wide]: [f32; 2], seed: &mut u64) -> Crossing {
+pub(crate) fn stirred(crossing: &CrossingState, [flat, wide]: [f32; 2], seed: &mut u64) -> CrossingState {
     let mut all: [f32; 8] = bytemuck::cast(*crossing);
     for set in 0..2 {
         all[4 * set] += 0.08 * chance(seed);
@@ -142,7 +142,7 @@ impl Sum<'_> {
         sum
     }
 
-    /// Passage or shoulder from a crossing to the one so many further along a thread.
+    /// StraightPassage or shoulder from a crossing to the one so many further along a thread.
     fn between(&self, site: Site, set: Set, steps: i32, kind: [usize; 2], kinds: &mut [u32; KINDS]) -> f64 {
         let Some(after) = self.plan.beside(site, set, steps, 0) else { return 0.0 };
         let way = self.way(site, set.other(), steps);
@@ -199,7 +199,7 @@ impl Sum<'_> {
     }
 }
 
-fn values(crossings: &[Crossing]) -> Vec<[f64; 8]> {
+fn values(crossings: &[CrossingState]) -> Vec<[f64; 8]> {
     crossings.iter().map(|crossing| bytemuck::cast::<_, [f32; 8]>(*crossing).map(f64::from)).collect()
 }
 
@@ -207,7 +207,7 @@ fn values(crossings: &[Crossing]) -> Vec<[f64; 8]> {
 pub(crate) fn energy(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,
-    crossings: &[Crossing],
+    crossings: &[CrossingState],
     kinds: &mut [u32; KINDS],
 ) -> f64 {
     let values = values(crossings);
@@ -218,7 +218,7 @@ pub(crate) fn energy(
 pub(crate) fn gradient(
     plan: &CrossingsPlan,
     pass: &CrossingsPass,
-    crossings: &[Crossing],
+    crossings: &[CrossingState],
     number: usize,
     kinds: &mut [u32; KINDS],
 ) -> [f64; 8] {

@@ -4,7 +4,7 @@ use std::ops::{ControlFlow, Range};
 
 use texere_core::{Origin, Section};
 
-use super::faults::{Diagnosis, FaultKind, Faults};
+use super::faults::{ClothFault, Diagnosis, Faults};
 use super::places::Crossing;
 use crate::{Crimp, Drawdown, FabricError, JamReport, Relief, Shape, Thread, Woven, WovenDesign};
 
@@ -32,7 +32,7 @@ pub struct Cure {
     /// The tightest bend there, in yarn radii.
     pub curvature: f64,
     /// What it does not cure.
-    pub leaves: Vec<FaultKind>,
+    pub leaves: Vec<ClothFault>,
 }
 
 /// A change of a cloth.
@@ -186,7 +186,7 @@ struct Trial<'a> {
 struct Outcome {
     clearance: f64,
     curvature: f64,
-    leaves: Vec<FaultKind>,
+    leaves: Vec<ClothFault>,
 }
 
 impl Outcome {

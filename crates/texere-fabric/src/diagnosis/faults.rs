@@ -46,7 +46,7 @@ pub struct Faults {
 /// A kind of fault. Its text says what the cloth does: "folds".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum FaultKind {
+pub enum ClothFault {
     /// Several times as much yarn as there is room for.
     Crowded,
     /// Threads pierce one another, or themselves.
@@ -63,7 +63,7 @@ pub enum FaultKind {
     InsideOut,
 }
 
-impl fmt::Display for FaultKind {
+impl fmt::Display for ClothFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Crowded => "is crowded",
@@ -114,15 +114,15 @@ impl Faults {
     /// assert!(Faults::default().kinds().is_empty());
     /// ```
     #[must_use]
-    pub fn kinds(&self) -> Vec<FaultKind> {
+    pub fn kinds(&self) -> Vec<ClothFault> {
         let kinds = [
-            self.crowded.map(|_| FaultKind::Crowded),
-            self.pierces.first().map(|_| FaultKind::Pierces),
-            self.folds.map(|_| FaultKind::Folds),
-            self.jams.as_ref().map(|_| FaultKind::Jams),
-            self.apart.as_ref().map(|_| FaultKind::FallsApart),
-            self.wrung.map(|_| FaultKind::Wrung),
-            self.inside_out.map(|_| FaultKind::InsideOut),
+            self.crowded.map(|_| ClothFault::Crowded),
+            self.pierces.first().map(|_| ClothFault::Pierces),
+            self.folds.map(|_| ClothFault::Folds),
+            self.jams.as_ref().map(|_| ClothFault::Jams),
+            self.apart.as_ref().map(|_| ClothFault::FallsApart),
+            self.wrung.map(|_| ClothFault::Wrung),
+            self.inside_out.map(|_| ClothFault::InsideOut),
         ];
         kinds.into_iter().flatten().collect()
     }
@@ -139,13 +139,13 @@ impl Woven {
     /// ```
     /// use std::ops::ControlFlow;
     /// use texere_core::{Material, Section};
-    /// use texere_fabric::{FaultKind, Thread, Weave, Woven};
+    /// use texere_fabric::{ClothFault, Thread, Weave, Woven};
     /// // Ends 1.3 diameters apart: picks can't pass between them.
     /// let twill = Weave::parse("3/1")?.drawdown(20, 16)?;
     /// let (warp, weft) = (vec![Thread::new(0.4, 0.15); 20], vec![Thread::new(0.66, 0.15); 16]);
     /// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
     /// let diagnosis = cloth.diagnose(0.985, |_| ControlFlow::Continue(()))?;
-    /// let kinds = [FaultKind::Pierces, FaultKind::Folds, FaultKind::Jams, FaultKind::InsideOut];
+    /// let kinds = [ClothFault::Pierces, ClothFault::Folds, ClothFault::Jams, ClothFault::InsideOut];
     /// assert_eq!(diagnosis.faults.kinds(), kinds); // where threads fold, their surface turns inside out
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```

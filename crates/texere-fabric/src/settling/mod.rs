@@ -32,7 +32,7 @@ const COMPARED: f64 = 0.95;
 /// work that is done, from 0 to 1; `Break` ends it within one pass.
 ///
 /// Where they can't come to rest within their passes, [`Settled::rest`] says so with its figures. What comes back is the best that
-/// was seen: by clearance, then by bends, then by length, never worse than what came in ([`texere_core::settle`]). Yarns that have
+/// was seen: by clearance, then by bends, then by length, never worse than what came in ([`texere_core::settling::settle`]). Yarns that have
 /// passed through one another are no better whatever they measure: then what came in comes back, and [`Settled::linking`] names
 /// the places.
 ///

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, Yarns, room_for};
+use texere_core::backend::room_for;
+use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, Yarns};
 
 use super::Piece;
 use crate::FabricError;

@@ -1,7 +1,7 @@
 //! What is asked of a settling, and what came of it.
 
 use texere_contact::{Clearance, Linking};
-use texere_core::settling::{Length, Pass, Rest, Seen};
+use texere_core::settling::{Length, Pass, Rest, SettlingSeen};
 use texere_core::{Origin, YarnPlace, Yarns};
 
 use crate::FabricWarning;
@@ -15,7 +15,7 @@ pub struct Finish {
     /// The cloth is pressed between two plates so many mm apart while yarns settle. Those that are at rest from the start stay
     /// as they are.
     pub press_mm: Option<f32>,
-    /// The most passes of either form, by contact: see [`texere_core::Settling::passes`].
+    /// The most passes of either form, by contact: see [`texere_core::settling::Settling::passes`].
     pub passes: u32,
     /// Whether [`Settled::course`] is kept.
     pub record: bool,
@@ -82,7 +82,7 @@ pub struct Settled {
     /// How thick the cloth was to be pressed, and how thick it has become; none where nothing presses.
     pub press: Option<Press>,
     /// What every pass was and what it has seen, in their order; empty unless [`Finish::record`] asks for it.
-    pub course: Vec<(Pass, Seen)>,
+    pub course: Vec<(Pass, SettlingSeen)>,
 }
 
 impl Settled {

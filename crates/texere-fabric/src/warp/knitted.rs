@@ -1,9 +1,8 @@
 //! A warp-knitted cloth: its bars, how close its loops lie, and what its yarns are like.
 
 use glam::DVec3;
-use texere_core::{
-    Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnPlace, Yarns, room_for,
-};
+use texere_core::backend::room_for;
+use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnPlace, Yarns};
 
 use super::laps::laps;
 use super::path::{Cloth, Thread};

@@ -2,7 +2,8 @@
 
 use std::cmp::Reverse;
 
-use texere_core::{OutOfMemory, room_for};
+use texere_core::OutOfMemory;
+use texere_core::backend::room_for;
 
 use super::{Bar, Laid, Lap, LapKind};
 

@@ -12,7 +12,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use texere_contact::round_length_mm;
-use texere_core::{ControlPoint, OutOfMemory, room_for};
+use texere_core::backend::room_for;
+use texere_core::{ControlPoint, OutOfMemory};
 
 use super::bar::RACK;
 use super::laps::laps;

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use texere_core::{OutOfMemory, room_for};
+use texere_core::OutOfMemory;
+use texere_core::backend::room_for;
 
 use super::layers::{Layers, STEP};
 use super::{Bed, Direction, Step, Stitches};

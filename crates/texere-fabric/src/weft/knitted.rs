@@ -1,7 +1,8 @@
 //! A knitted cloth: its stitches, how close they lie, and what its yarns are like.
 
 use rayon::prelude::*;
-use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns, room_for};
+use texere_core::backend::room_for;
+use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, Yarns};
 
 use super::layers::Layers;
 use super::path::Cloth;

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use texere_core::{OutOfMemory, filled, room_for};
+use texere_core::OutOfMemory;
+use texere_core::backend::{filled, room_for};
 
 use super::stitches::HALVES;
 use super::{Bed, Fate, Head, Step, Stitch, Stitches, Visit};

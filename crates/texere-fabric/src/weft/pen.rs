@@ -1,7 +1,8 @@
 //! Control points as they are written down, cell by cell.
 
 use glam::DVec3;
-use texere_core::{OutOfMemory, room_for};
+use texere_core::OutOfMemory;
+use texere_core::backend::room_for;
 
 use super::shape::cardinal;
 

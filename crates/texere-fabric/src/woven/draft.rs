@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use texere_core::zeroed;
+use texere_core::backend::zeroed;
 
 use super::drawdown::WORD;
 use crate::{CROSSINGS_MAX, Drawdown, FabricError, WovenError};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use texere_core::zeroed;
+use texere_core::backend::zeroed;
 
 use crate::{FabricError, WovenError};
 

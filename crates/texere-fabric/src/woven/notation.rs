@@ -1,8 +1,7 @@
 //! Reads the notation of weaves; [`super::Weave`] has its grammar.
 
 use super::library::{CREPE, HONEYCOMB, Reversal, drawn};
-use crate::WovenError;
-use crate::{hyphen_look_alike, slash_look_alike};
+use crate::{WovenError, hyphen_look_alike, slash_look_alike};
 
 /// The most ends, and the most picks, in the repeat of a weave.
 ///

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns, zeroed};
+use texere_core::backend::zeroed;
+use texere_core::{ControlPoint, Layout, Origin, Yarn, Yarns};
 
 use super::bend::Bend;
 use super::path::{self, Station, ThreadPath};

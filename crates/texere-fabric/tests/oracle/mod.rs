@@ -4,7 +4,8 @@
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
 use glam::{DVec2, DVec3};
-use texere_core::{ControlPoint, Section, Segment, Yarns};
+use texere_core::definitions::Segment;
+use texere_core::{ControlPoint, Section, Yarns};
 
 /// The spline at one place of a yarn.
 #[derive(Clone, Copy)]

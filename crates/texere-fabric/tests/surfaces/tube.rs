@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use std::rc::Rc;
 
 use glam::{DVec2, DVec3};
-use texere_core::Ring;
+use texere_core::definitions::Ring;
 
 use crate::outline::Outline;
 

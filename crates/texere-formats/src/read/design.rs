@@ -7,7 +7,7 @@ use texere_contact::clearance;
 use texere_core::{BackendError, Origin, Settings, YarnPlace, Yarns};
 use texere_fabric::{FabricError, Finish, FinishError, Stretch, Structure, ThreadPlace};
 
-use super::Place;
+use super::FilePlace;
 use super::keys::Keys;
 use super::knit::KnittedFrom;
 use super::refusal::Refusal;
@@ -177,7 +177,7 @@ impl Design {
     }
 
     /// The line of a knitout file whose yarn lies where it is most crowded.
-    fn crowded(&self) -> Option<Place> {
+    fn crowded(&self) -> Option<FilePlace> {
         let (from, yarns) = (self.knitted_from.as_ref()?, self.yarns().ok()?);
         if yarns.points().len() > CROWDED_POINTS {
             return None;

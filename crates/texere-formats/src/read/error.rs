@@ -11,7 +11,7 @@ use thiserror::Error;
 
 /// A place in a design file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct FilePlace {
     /// The file.
     pub file: PathBuf,
     /// The line, from 1.
@@ -20,7 +20,7 @@ pub struct Place {
     pub field: String,
 }
 
-impl Place {
+impl FilePlace {
     pub(super) fn new(file: &Path, line: usize, field: &str) -> Self {
         Self { file: file.into(), line, field: shown(field) }
     }
@@ -107,7 +107,7 @@ impl fmt::Display for Short {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}, line {}: {}", named(&self.file), self.line, self.field)
     }
@@ -188,7 +188,7 @@ pub enum ReadError {
     #[error("{place} is \"{value}\", expected {expected}")]
     BadValue {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// What it is.
         value: String,
         /// What it should be.
@@ -198,7 +198,7 @@ pub enum ReadError {
     #[error("{place} is {}, outside {} to {}", Short(*.value), Short(*.low), Short(*.high))]
     OutOfRange {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// What it is.
         value: f64,
         /// Least allowed.
@@ -210,7 +210,7 @@ pub enum ReadError {
     #[error("{place} is not known{}", .nearest.as_ref().map(|key| format!("; did you mean \"{key}\"?")).unwrap_or_default())]
     UnknownKey {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// The known key nearest to it in spelling.
         nearest: Option<String>,
     },
@@ -250,7 +250,7 @@ pub enum ReadError {
     #[error("{place}: {message}")]
     Value {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// What the parser says.
         message: String,
     },
@@ -258,7 +258,7 @@ pub enum ReadError {
     #[error("{place} is given without {needs}, which it belongs to")]
     Without {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// The key that it belongs to.
         needs: &'static str,
     },
@@ -266,7 +266,7 @@ pub enum ReadError {
     #[error("{place} is no weave")]
     Weave {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// Why.
         source: WovenError,
     },
@@ -274,7 +274,7 @@ pub enum ReadError {
     #[error("{place} is no chart")]
     Chart {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// Why.
         source: ChartError,
     },
@@ -290,7 +290,7 @@ pub enum ReadError {
     #[error("{place} is no chain")]
     Chain {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// Why, with the column.
         source: ChainError,
     },
@@ -298,7 +298,7 @@ pub enum ReadError {
     #[error("{place} can't be taken")]
     Named {
         /// Where it is named.
-        place: Place,
+        place: FilePlace,
         /// What is wrong with it.
         source: Box<ReadError>,
     },
@@ -346,7 +346,7 @@ pub enum ReadError {
     #[error("{place}: the outline faces nowhere at corner {corner}; it is too small or too sharp there")]
     Corner {
         /// Where the polygon stands.
-        place: Place,
+        place: FilePlace,
         /// The corner, from 1.
         corner: usize,
     },
@@ -354,7 +354,7 @@ pub enum ReadError {
     #[error("{place} is no section")]
     Section {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// Why.
         source: SectionError,
     },
@@ -362,7 +362,7 @@ pub enum ReadError {
     #[error("{place} can't be made into a fabric")]
     Cloth {
         /// The key.
-        place: Place,
+        place: FilePlace,
         /// Why.
         source: FabricError,
     },
@@ -437,7 +437,7 @@ impl ReadError {
     }
 
     /// This error of a file that the design names at `place`. Memory that is short has nothing to do with the file.
-    pub(super) fn named(self, place: Place) -> Self {
+    pub(super) fn named(self, place: FilePlace) -> Self {
         match self {
             Self::OutOfMemory(_) => self,
             _ => Self::Named { place, source: Box::new(self) },

@@ -4,7 +4,8 @@ use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use image::{ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
-use texere_core::{counted, filled, room};
+use texere_core::backend::{filled, room};
+use texere_core::counted;
 use texere_fabric::THREADS_MAX;
 
 use super::error::said;

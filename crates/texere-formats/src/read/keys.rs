@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use texere_core::{Origin, Subject};
 use texere_fabric::FinishError;
 
-use super::{Place, ReadError};
+use super::{FilePlace, ReadError};
 
 /// What says how large a cloth is, and what it is made of, the first that a file has.
 const SIZE: &[&str] = &[
@@ -88,7 +88,7 @@ impl Keys {
         &self,
         error: &FinishError,
         yarn: impl Fn(Origin) -> Option<String>,
-    ) -> Option<Place> {
+    ) -> Option<FilePlace> {
         let subject = error.subject()?;
         let thread = match (error, subject) {
             (FinishError::Thread { thread, .. }, _) => *thread,
@@ -96,7 +96,7 @@ impl Keys {
             _ => Origin::Unknown,
         };
         if let Some((_, operation, line)) = self.carriers.iter().find(|(carrier, ..)| *carrier == thread) {
-            return Some(Place::new(&self.file, *line, operation));
+            return Some(FilePlace::new(&self.file, *line, operation));
         }
         let all = [Some(self), self.named.as_deref()].into_iter().flatten();
         let mut found = all.filter_map(|keys| keys.of(subject, &yarn));
@@ -117,7 +117,7 @@ impl Keys {
     }
 
     /// Where the file says that.
-    fn of(&self, subject: Subject, yarn: &impl Fn(Origin) -> Option<String>) -> Option<Place> {
+    fn of(&self, subject: Subject, yarn: &impl Fn(Origin) -> Option<String>) -> Option<FilePlace> {
         let bar = |bar, key| self.line(&format!("warp_knit.bars, bar {bar}: {key}"));
         let yarn = |thread, keys| self.yarn(thread, yarn(thread), keys);
         match subject {
@@ -158,21 +158,21 @@ impl Keys {
         }
     }
 
-    fn line(&self, key: &str) -> Option<Place> {
+    fn line(&self, key: &str) -> Option<FilePlace> {
         let (_, line) = self.lines.iter().find(|(own, _)| own == key)?;
-        Some(Place::new(&self.file, *line, key))
+        Some(FilePlace::new(&self.file, *line, key))
     }
 
-    fn first(&self, keys: &[&str]) -> Option<Place> {
+    fn first(&self, keys: &[&str]) -> Option<FilePlace> {
         keys.iter().find_map(|key| self.line(key))
     }
 
-    fn last(&self) -> Option<Place> {
-        self.last.as_ref().map(|(operation, line)| Place::new(&self.file, *line, operation))
+    fn last(&self) -> Option<FilePlace> {
+        self.last.as_ref().map(|(operation, line)| FilePlace::new(&self.file, *line, operation))
     }
 
     /// How close the threads of `warp` or `weft` lie.
-    fn spacings(&self, set: &str) -> Option<Place> {
+    fn spacings(&self, set: &str) -> Option<FilePlace> {
         let own = ["spacing_mm", "per_cm", "per_inch"];
         let own = own.iter().find_map(|key| self.line(&format!("{set}.{key}")));
         let section = set.to_uppercase();
@@ -180,13 +180,13 @@ impl Keys {
             .or_else(|| self.line(&format!("[{section}] threads")))
     }
 
-    fn spacing(&self, thread: Origin) -> Option<Place> {
+    fn spacing(&self, thread: Origin) -> Option<FilePlace> {
         let set = if matches!(thread, Origin::Pick(_)) { "weft" } else { "warp" };
         self.numbered("SPACING", thread).or_else(|| self.spacings(set))
     }
 
     /// How thick a WIF draft has a thread: where it does not say, that comes from spacings.
-    fn thickness(&self, thread: Origin) -> Option<Place> {
+    fn thickness(&self, thread: Origin) -> Option<FilePlace> {
         let set = if matches!(thread, Origin::Pick(_)) { "WEFT" } else { "WARP" };
         self.numbered("THICKNESS", thread)
             .or_else(|| self.line(&format!("[{set}] thickness")))
@@ -194,7 +194,7 @@ impl Keys {
     }
 
     /// The line of a WIF draft that says `what` of a thread.
-    fn numbered(&self, what: &str, thread: Origin) -> Option<Place> {
+    fn numbered(&self, what: &str, thread: Origin) -> Option<FilePlace> {
         let (set, number) = match thread {
             Origin::End(number) => ("WARP", number),
             Origin::Pick(number) => ("WEFT", number),
@@ -203,11 +203,11 @@ impl Keys {
         let section = format!("{set} {what}");
         let (_, threads) = self.numbered.iter().find(|(own, _)| *own == section)?;
         let found = threads.binary_search_by_key(&number, |(own, _)| *own).ok()?;
-        Some(Place::new(&self.file, threads[found].1, &format!("[{section}] {number}")))
+        Some(FilePlace::new(&self.file, threads[found].1, &format!("[{section}] {number}")))
     }
 
     /// The first of `keys` of the yarn that a thread has, or else what threads it.
-    fn yarn(&self, thread: Origin, name: Option<String>, keys: &[&str]) -> Option<Place> {
+    fn yarn(&self, thread: Origin, name: Option<String>, keys: &[&str]) -> Option<FilePlace> {
         let only = || {
             let own =
                 |key: &str| key.strip_prefix("yarns.").filter(|name| !name.contains('.')).map(str::to_owned);
@@ -463,7 +463,7 @@ mod tests {
         for (error, key) in cases {
             let line = keys.lines.iter().find(|(own, _)| own == key).map(|(_, line)| *line).unwrap_or(0);
             let place = keys.place(&error, |_| Some("a".into()));
-            assert_eq!(place, Some(Place::new(&keys.file, line, key)), "{error}");
+            assert_eq!(place, Some(FilePlace::new(&keys.file, line, key)), "{error}");
         }
         // Calls that do not fit a cloth are no fault of its design.
         for error in [

@@ -13,7 +13,7 @@ use texere_fabric::{FabricError, Structure, Thread};
 use super::design::{MachineFault, Told};
 use super::error::named;
 use super::threads::only_used;
-use super::{Design, Place, ReadError};
+use super::{Design, FilePlace, ReadError};
 
 /// How many faults of a kind are told.
 const FAULTS_TOLD: usize = 3;
@@ -64,9 +64,9 @@ pub(super) struct KnittedFrom {
 
 impl KnittedFrom {
     /// The line of a knitout file that a source is. None of a chart, which errors name as a whole.
-    pub(super) fn line(&self, source: u32) -> Option<Place> {
+    pub(super) fn line(&self, source: u32) -> Option<FilePlace> {
         let Drawn::Lines { file } = &self.drawn else { return None };
-        Some(Place::new(file, source as usize, &self.told(source).instructions.join("; ")))
+        Some(FilePlace::new(file, source as usize, &self.told(source).instructions.join("; ")))
     }
 
     /// Where operations come from, and what they do.

@@ -46,7 +46,7 @@ use std::io;
 use std::path::Path;
 
 pub use design::{Design, MachineFault, NamedPlace, Told};
-pub use error::{Place, ReadError};
+pub use error::{FilePlace, ReadError};
 use file::Files;
 pub use refusal::Refusal;
 pub use texere_fabric::Structure;

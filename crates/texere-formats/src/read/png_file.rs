@@ -4,7 +4,7 @@ use std::io::{self, SeekFrom};
 use std::path::Path;
 
 use png::{ColorType, Decoder, DecodingError, Limits};
-use texere_core::filled;
+use texere_core::backend::filled;
 
 use super::ReadError;
 use super::image_file::{ASIDE_MAX, Bytes, check_size, no_color, packed_numbers, undecodable};

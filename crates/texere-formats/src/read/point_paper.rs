@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use texere_core::room;
+use texere_core::backend::room;
 
 use super::file::Files;
 use super::{ReadError, image_file};

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use texere_fabric::FinishError;
 use thiserror::Error;
 
-use super::Place;
+use super::FilePlace;
 use super::error::named;
 
 /// A design whose cloth can't be made, or can't come to rest: [`Design::refused`](super::Design::refused) says where the design asks
@@ -17,7 +17,7 @@ pub enum Refusal {
     #[error("{place} asks for cloth that can't be made")]
     Key {
         /// Where.
-        place: Place,
+        place: FilePlace,
         /// Why.
         source: FinishError,
     },

@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use bytemuck::cast;
-use texere_core::{
-    Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnError, Yarns, room,
-};
+use texere_core::backend::room;
+use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnError, Yarns};
 
 use super::ReadError;
 use super::bytes::Bytes;

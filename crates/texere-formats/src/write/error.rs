@@ -3,8 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use texere_core::counted;
-use texere_core::{BoundaryError, PipelineError};
+use texere_core::{BoundaryError, PipelineError, counted};
 use thiserror::Error;
 
 /// A mesh or a draft that can't be written. After any of these there is no new file, and an old one is as it was.

@@ -3,7 +3,8 @@
 use std::borrow::Borrow;
 use std::io::{Seek, Write};
 
-use texere_core::{Chunk, Material, Plan, Vertex};
+use texere_core::backend::{Chunk, Plan};
+use texere_core::{Material, Vertex};
 
 #[cfg(feature = "glb")]
 use super::glb::GlbWriter;

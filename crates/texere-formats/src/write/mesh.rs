@@ -28,7 +28,8 @@ pub struct Written {
 /// the file system refuses.
 ///
 /// ```
-/// use texere_core::{ControlPoint, NullBackend, Pipeline, Yarn, Yarns};
+/// use texere_core::backend::NullBackend;
+/// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("yarn.glb");
 /// let mut yarns = Yarns::builder();

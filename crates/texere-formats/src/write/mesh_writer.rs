@@ -3,7 +3,8 @@
 use std::io::{Seek, Write};
 use std::ops::Range;
 
-use texere_core::{Cap, Chunk, Part, Vertex};
+use texere_core::backend::{Chunk, Part};
+use texere_core::{Cap, Vertex};
 
 use super::WriteError;
 use super::places::Places;

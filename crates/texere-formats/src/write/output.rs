@@ -69,9 +69,9 @@ impl Output {
     }
 
     /// The place that the path stands for, checked as by [`Output::check`].
-    pub(super) fn place(self) -> Result<Place, WriteError> {
+    pub(super) fn place(self) -> Result<FilePlace, WriteError> {
         let real = follow(&self.path).map_err(|source| WriteError::io("create", &self.path, source))?;
-        let place = Place { output: self, real };
+        let place = FilePlace { output: self, real };
         place.check()?;
         Ok(place)
     }
@@ -85,12 +85,12 @@ impl<P: AsRef<Path>> From<P> for Output {
 
 /// The place of an output, with all links followed.
 #[derive(Debug)]
-pub(super) struct Place {
+pub(super) struct FilePlace {
     output: Output,
     pub(super) real: PathBuf,
 }
 
-impl Place {
+impl FilePlace {
     /// The path as it was given.
     pub(super) fn path(&self) -> &Path {
         &self.output.path

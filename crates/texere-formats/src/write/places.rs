@@ -1,6 +1,6 @@
 //! Where a file has the vertices of a mesh that comes chunk by chunk.
 
-use texere_core::{Chunk, Plan};
+use texere_core::backend::{Chunk, Plan};
 
 /// Where a file has the vertices of the chunks that come: first all rings of the fabric, each once, then all caps.
 ///

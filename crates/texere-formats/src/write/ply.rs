@@ -4,7 +4,9 @@
 
 use std::io::{Seek, Write};
 
-use texere_core::{Chunk, Material, Plan, index_pattern};
+use texere_core::Material;
+use texere_core::backend::{Chunk, Plan};
+use texere_core::definitions::index_pattern;
 
 use super::WriteError;
 use super::mesh_writer::{MeshWriter, Run, yarn_runs};

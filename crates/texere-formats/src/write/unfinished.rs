@@ -14,7 +14,7 @@ use same_file::Handle;
 use tempfile::NamedTempFile;
 
 use super::WriteError;
-use super::output::Place;
+use super::output::FilePlace;
 
 /// Names are this prefix, [`RANDOM`] letters or digits, and an ending that no user's file has.
 const PREFIX: &str = ".texere-";
@@ -71,7 +71,7 @@ pub(super) struct Unfinished {
     // Dropped before its entry, so that at every moment somebody removes the file.
     file: NamedTempFile,
     entry: Entry,
-    place: Place,
+    place: FilePlace,
 }
 
 /// A line of the registry.
@@ -86,7 +86,7 @@ impl Drop for Entry {
 
 impl Unfinished {
     /// An empty file beside `place`, since a rename is atomic only within one file system.
-    pub(super) fn beside(place: Place) -> Result<Self, WriteError> {
+    pub(super) fn beside(place: FilePlace) -> Result<Self, WriteError> {
         let failed = |source| WriteError::io("create", place.path(), source);
         let permissions = place.check()?.map(|old| old.permissions());
         let folder = place.real.parent().unwrap_or(Path::new("."));
@@ -169,7 +169,7 @@ fn hold(file: &NamedTempFile) -> io::Result<bool> {
 }
 
 /// Removes leftovers of ended writers from `folder`.
-fn sweep(folder: &Path, place: &Place) {
+fn sweep(folder: &Path, place: &FilePlace) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let is_ours = entry.file_name().to_str().is_some_and(is_name)
             && entry.file_type().is_ok_and(|kind| kind.is_file());
@@ -186,7 +186,7 @@ fn is_name(name: &str) -> bool {
 }
 
 /// Removes a file with one of our names if no writer holds its lock.
-fn remove_left(path: &Path, place: &Place) -> io::Result<()> {
+fn remove_left(path: &Path, place: &FilePlace) -> io::Result<()> {
     let file = OpenOptions::new().read(true).write(true).open(path)?;
     file.try_lock()?;
     // Before we had the lock, its writer may have finished it: then the name is gone, or another file's.

@@ -7,7 +7,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use tempfile::TempDir;
-use texere_core::{ControlPoint, Limits, NullBackend, Pipeline, Settings, Topology, Yarn, Yarns};
+use texere_core::backend::NullBackend;
+use texere_core::{ControlPoint, Limits, Pipeline, Settings, Topology, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 use texere_formats::WriteError;
 use texere_formats::write::{self, Format};

@@ -140,8 +140,9 @@ impl Scan {
 mod tests {
     use std::sync::Arc;
 
-    use texere_core::settling::{Chord, Listed, Settler, tag};
-    use texere_core::{ControlPoint, Limits, Schedule, Settling, Yarn, Yarns};
+    use texere_core::backend::Schedule;
+    use texere_core::settling::{Chord, Listed, Settler, Settling, tag};
+    use texere_core::{ControlPoint, Limits, Yarn, Yarns};
 
     use super::*;
     use crate::OpenClBackend;

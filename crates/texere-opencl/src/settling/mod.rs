@@ -7,8 +7,9 @@ mod points;
 
 use std::sync::Arc;
 
-use texere_core::settling::{Pass, Place, Seen, Settler, SettlingPlan};
-use texere_core::{BackendError, Limits, Plan, zeroed};
+use texere_core::backend::{Plan, zeroed};
+use texere_core::settling::{Pass, Place, Settler, SettlingPlan, SettlingSeen};
+use texere_core::{BackendError, Limits};
 use texere_gpu::{SettlingParams, settles_flattened};
 use texere_kernels::EntryPoint;
 
@@ -105,10 +106,10 @@ impl Settler for OpenClSettler {
         listed.map(u64::from)
     }
 
-    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         let params = self.params.with_pass(&self.plan, pass);
         if params.places == 0 {
-            return Ok(Seen::NOTHING);
+            return Ok(SettlingSeen::NOTHING);
         }
         let seen = self.pass.run(&self.opened, &params, pass.form, &self.memory)?;
         std::mem::swap(&mut self.memory.places, &mut self.memory.seen);

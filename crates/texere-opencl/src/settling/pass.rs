@@ -2,7 +2,7 @@
 
 use bytemuck::bytes_of;
 use texere_core::BackendError;
-use texere_core::settling::{Form, Seen};
+use texere_core::settling::{Form, SettlingSeen};
 use texere_gpu::{SeenRow, SettlingParams};
 use texere_kernels::{
     EntryPoint, SETTLING_CHORDS, SETTLING_ENDS, SETTLING_PULL_BLOCK, SETTLING_PULL_WEIGHTED, SETTLING_SEEN,
@@ -66,7 +66,7 @@ impl PassKernels {
         params: &SettlingParams,
         form: Form,
         memory: &Memory,
-    ) -> Result<Seen, BackendError> {
+    ) -> Result<SettlingSeen, BackendError> {
         self.chords(opened, params, memory)?;
         let Memory { places, place_rows, strands, chords, starts, neighbours, .. } = memory;
         let Memory { lengths, pulls, rows, steps, seen: next, all, .. } = memory;

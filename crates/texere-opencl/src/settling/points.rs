@@ -1,8 +1,9 @@
 //! Control points from where yarns have come to rest, without a way over the host.
 
 use bytemuck::bytes_of;
+use texere_core::BackendError;
+use texere_core::backend::Plan;
 use texere_core::settling::SettlingPlan;
-use texere_core::{BackendError, Plan};
 use texere_gpu::{BoundsRow, EXTENT_GROUPS, SettledParams, SettledRow};
 use texere_kernels::{EntryPoint, SETTLING_BOUNDS, SETTLING_POINTS};
 

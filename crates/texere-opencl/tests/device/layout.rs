@@ -13,7 +13,9 @@ use opencl3::memory::{Buffer, CL_MEM_READ_WRITE};
 use opencl3::program::Program;
 use std::mem::offset_of;
 use std::ptr;
-use texere_core::{Block, ControlPoint, Ring, SectionPoint, Vertex};
+use texere_core::backend::Block;
+use texere_core::definitions::Ring;
+use texere_core::{ControlPoint, SectionPoint, Vertex};
 use texere_gpu::{CapRow, Language, Params, YarnRow, prelude};
 use texere_kernels::PER_RING;
 

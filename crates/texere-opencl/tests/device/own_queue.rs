@@ -13,9 +13,8 @@ use opencl3::context::Context;
 use opencl3::device::{CL_DEVICE_TYPE_ALL, Device};
 use opencl3::memory::{Buffer, ClMem};
 use opencl3::platform::get_platforms;
-use texere_core::{
-    Backend, BackendError, DeviceInfo, Limits, Pipeline, Session, SessionError, Settings, Vertex,
-};
+use texere_core::backend::{Session, SessionError};
+use texere_core::{Backend, BackendError, DeviceInfo, Limits, Pipeline, Settings, Vertex};
 use texere_opencl::{OpenClBackend, Schedule};
 
 pub(crate) fn context() -> (Context, Device) {

@@ -5,9 +5,10 @@ use std::process::Command;
 
 use crate::support::{device, plan, read, waves};
 use texere_conformance::cases;
+use texere_core::backend::{Chunk, MeshMut, PaddedPoints, Session};
+use texere_core::definitions::Ring;
 use texere_core::{
-    Backend, BackendError, Chunk, Frame, Limits, MeshMut, MeshPiece, OutOfMemory, PaddedPoints, Quantum,
-    Ring, Session, Settings, Topology, Vertex, Yarn,
+    Backend, BackendError, Frame, Limits, MeshPiece, OutOfMemory, Quantum, Settings, Topology, Vertex, Yarn,
 };
 use texere_cpu::SerialBackend;
 use texere_opencl::{OpenClBackend, OpenClError, Schedule};
@@ -26,7 +27,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt()
 }
 
-fn chunks(plan: &texere_core::Plan, blocks: u64) -> Vec<Chunk> {
+fn chunks(plan: &texere_core::backend::Plan, blocks: u64) -> Vec<Chunk> {
     plan.chunks(&Limits { blocks, ..Limits::NONE }).unwrap().collect()
 }
 

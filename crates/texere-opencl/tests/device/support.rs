@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere_core::{Chunk, ControlPoint, Engine, MeshPiece, Plan, Session, Settings, Vertex, Yarn, Yarns};
+use texere_core::backend::{Chunk, Engine, Plan, Session};
+use texere_core::{ControlPoint, MeshPiece, Settings, Vertex, Yarn, Yarns};
 use texere_opencl::{OpenClBackend, Schedule};
 
 /// The first OpenCL device. It is not skipped: a missing one is a broken test bed.

@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use image::RgbImage;
-use texere_core::{Chunk, Limits, Plan};
+use texere_core::Limits;
+use texere_core::backend::{Chunk, Plan};
 use texere_shaders::picture;
 use wgpu::{BindingResource, BufferUsages, LoadOp, Operations, StoreOp, TextureFormat, TextureUsages};
 

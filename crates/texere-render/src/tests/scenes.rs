@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_3;
 use std::sync::Arc;
 
 use glam::DVec3;
+use texere_core::backend::Plan;
 use texere_core::{
-    ControlPoint, DeviceInfo, DeviceKind, Layout, Limits, Placement, Plan, Ray, Settings, Topology, Yarn,
-    Yarns,
+    ControlPoint, DeviceInfo, DeviceKind, Layout, Limits, Placement, Ray, Settings, Topology, Yarn, Yarns,
 };
 use texere_cpu::Picker;
 

@@ -84,8 +84,9 @@ mod tests {
     use std::ops::ControlFlow;
     use std::sync::Arc;
 
-    use texere_core::settling::{Chord, Listed, Settler, SettlingPlan, tag};
-    use texere_core::{ControlPoint, Limits, Schedule, Settling, Yarn, Yarns};
+    use texere_core::backend::Schedule;
+    use texere_core::settling::{Chord, Listed, Settler, Settling, SettlingPlan, tag};
+    use texere_core::{ControlPoint, Limits, Yarn, Yarns};
     use wgpu::BufferUsages;
 
     use super::*;

@@ -8,8 +8,9 @@ mod points;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere_core::settling::{Pass, Place, Seen, Settler, SettlingPlan};
-use texere_core::{BackendError, Limits, zeroed};
+use texere_core::backend::zeroed;
+use texere_core::settling::{Pass, Place, Settler, SettlingPlan, SettlingSeen};
+use texere_core::{BackendError, Limits};
 use texere_gpu::{SeenRow, SettlingParams, settles_flattened};
 use wgpu::{CommandEncoder, ComputePassDescriptor};
 
@@ -108,9 +109,9 @@ impl Settler for WgpuSettler {
         listed.map(u64::from)
     }
 
-    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         if self.params.places == 0 {
-            return Ok(Seen::NOTHING);
+            return Ok(SettlingSeen::NOTHING);
         }
         self.params = self.params.with_pass(&self.plan, pass);
         self.send_params()?;
@@ -130,7 +131,7 @@ impl Settler for WgpuSettler {
         })?;
         std::mem::swap(&mut self.memory.places, &mut self.memory.seen);
         self.seen = true;
-        Ok(seen.first().map_or(Seen::NOTHING, |row| row.seen()))
+        Ok(seen.first().map_or(SettlingSeen::NOTHING, |row| row.seen()))
     }
 
     fn keep(&mut self) -> Result<(), BackendError> {

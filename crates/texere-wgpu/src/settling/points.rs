@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use texere_core::{BackendError, Plan};
+use texere_core::BackendError;
+use texere_core::backend::Plan;
 use texere_gpu::{BoundsRow, EXTENT_GROUPS, SettledParams, SettledRow};
 use texere_shaders::Resource;
 use wgpu::{BufferUsages, CommandEncoder, ComputePassDescriptor};

@@ -4,7 +4,8 @@
 
 use std::sync::{Arc, OnceLock};
 
-use texere_core::{ControlPoint, Plan, Settings, Yarn, Yarns};
+use texere_core::backend::Plan;
+use texere_core::{ControlPoint, Settings, Yarn, Yarns};
 use texere_wgpu::{Schedule, WgpuBackend};
 
 /// What to do where a test finds no device.

@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use texere_core::{
-    ControlPoint, Edits, Material, PlanError, SessionError, Yarn, Yarns, check_material, check_points,
-};
+use texere_core::backend::{Edits, SessionError};
+use texere_core::{ControlPoint, Material, PlanError, Yarn, Yarns, check_material, check_points};
 use texere_fabric::{Loom, Structure};
 
 use super::{Live, LiveError, SetYarn, Source};
@@ -130,7 +129,10 @@ impl Live {
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// use std::ops::ControlFlow;
     /// use std::sync::Arc;
-    /// use texere::{Finish, Live, Material, Relief, Section, Settings, Structure, Thread, Weave, Woven, WovenDesign};
+    /// use texere::rest::Finish;
+    /// use texere::woven::{Relief, Thread, Weave, Woven, WovenDesign};
+    /// use texere::yarn::{Material, Section};
+    /// use texere::{Live, Settings, Structure};
     /// # let (warp, weft) = (vec![Thread::new(0.35, 0.15); 12], vec![Thread::new(0.35, 0.15); 8]);
     /// # let plain = Weave::parse("plain")?.drawdown(12, 8)?;
     /// # let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;

@@ -1,6 +1,7 @@
 //! Why an edit was refused.
 
-use texere_core::{SessionError, YarnError};
+use texere_core::YarnError;
+use texere_core::backend::SessionError;
 use texere_cpu::PickError;
 use texere_fabric::{FabricError, WovenError};
 use thiserror::Error;

@@ -12,7 +12,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use texere_core::BackendError;
-use texere_core::settling::{Length, Pass, Place, Seen, Settler, SettlingPlan, Strand, freed, tag};
+use texere_core::settling::{
+    Length, Pass, Place, Settler, SettlingPlan, SettlingSeen, SettlingYarn, freed, tag,
+};
 
 use super::Parallel;
 use super::instruction_set::InstructionSet;
@@ -99,7 +101,7 @@ struct PullJob<'a> {
     first: usize,
     pulls: &'a mut [PullRow],
     room: &'a mut Room,
-    seen: &'a mut Seen,
+    seen: &'a mut SettlingSeen,
 }
 
 impl Job for PullJob<'_> {
@@ -111,7 +113,7 @@ impl Job for PullJob<'_> {
         own.add(simd, first, pulls);
         for pull in pulls {
             let [_, clearance, radius, length] = pull.seen;
-            *seen = seen.and(Seen { step: 0.0, clearance, radius, length });
+            *seen = seen.and(SettlingSeen { step: 0.0, clearance, radius, length });
         }
     }
 }
@@ -151,7 +153,7 @@ impl Settler for ParallelSettler {
         lists.fill(Basis { set: *set, plan, fixed, chords, growth })
     }
 
-    fn pass(&mut self, pass: &Pass) -> Result<Seen, BackendError> {
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
         self.renew();
         let Self { set, plan, fixed, places, seen, steps, lengths, intervals, chords, lists, pulls, .. } =
             self;
@@ -168,11 +170,11 @@ impl Settler for ParallelSettler {
         let own = Own { plan, pass, intervals, lengths };
         let all = pulls[FRONT..][..count].par_chunks_mut(TASK).enumerate();
         let pulled = all.map_init(Room::default, |room, (task, pulls)| {
-            let mut seen = Seen::NOTHING;
+            let mut seen = SettlingSeen::NOTHING;
             set.run(PullJob { source, own, first: task * TASK, pulls, room, seen: &mut seen });
             seen
         });
-        let what = pulled.reduce(|| Seen::NOTHING, Seen::and);
+        let what = pulled.reduce(|| SettlingSeen::NOTHING, SettlingSeen::and);
         for strand in plan.strands() {
             go_on(strand, pulls);
         }
@@ -191,7 +193,7 @@ impl Settler for ParallelSettler {
             plan.renew_ends(strand, &mut seen[FRONT..][..count]);
         }
         std::mem::swap(places, seen);
-        Ok(Seen { step, ..what })
+        Ok(SettlingSeen { step, ..what })
     }
 
     fn keep(&mut self) -> Result<(), BackendError> {
@@ -214,7 +216,7 @@ impl Settler for ParallelSettler {
 }
 
 /// Copies what pulls at the intervals beyond a yarn's ends that the points at its ends steer, where it goes on.
-fn go_on(strand: &Strand, pulls: &mut [PullRow]) {
+fn go_on(strand: &SettlingYarn, pulls: &mut [PullRow]) {
     if strand.shift().is_some() {
         let first = FRONT + strand.first as usize;
         let last = first + strand.points as usize - 1;

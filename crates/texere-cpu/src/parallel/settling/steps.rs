@@ -1,6 +1,6 @@
 //! The steps of control points, a vector of them at a time.
 
-use texere_core::settling::{BEND, Form, INERTIA, Pass, Place, Seen, SettlingPlan, moves};
+use texere_core::settling::{BEND, Form, INERTIA, Pass, Place, SettlingPlan, SettlingSeen, moves};
 
 use super::tables::{FRONT, PullRow};
 use crate::parallel::simd::{
@@ -27,7 +27,7 @@ impl Gather<'_> {
         steps: &mut [[f32; 4]],
         next: &mut [Place],
     ) -> f32 {
-        let mut longest = Seen::NOTHING.step;
+        let mut longest = SettlingSeen::NOTHING.step;
         let (zero, units) = (simd.splat(0.0), simd.splat(1.0 / self.plan.scale().unit()));
         for (number, (steps, next)) in steps.chunks_mut(S::LANES).zip(next.chunks_mut(S::LANES)).enumerate() {
             let place = first + number * S::LANES;

@@ -1,6 +1,6 @@
 //! Jacquard: a picture whose colours are yarns.
 
-use texere_core::room_for;
+use texere_core::backend::room_for;
 
 use super::{Beds, CHART_CELLS_MAX, Cell, Chart, ChartError, Course, known, sized};
 

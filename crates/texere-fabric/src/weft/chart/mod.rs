@@ -10,7 +10,7 @@ mod tests;
 pub use error::ChartError;
 pub use jacquard::Backing;
 
-use texere_core::{filled, room_for};
+use texere_core::backend::{filled, room_for};
 
 use super::check::MOVED_MAX;
 use super::machine::CARRIERS_MAX;

@@ -1,6 +1,6 @@
 //! From a chart to what a machine is told.
 
-use texere_core::{filled, room_for};
+use texere_core::backend::{filled, room_for};
 
 use super::{Beds, Cell, Chart, ChartError};
 use crate::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Program};

@@ -1,6 +1,7 @@
 //! Needles and what hangs on them.
 
-use texere_core::{OutOfMemory, room_for};
+use texere_core::OutOfMemory;
+use texere_core::backend::room_for;
 
 use super::super::stitches::HALVES;
 use super::super::{Bed, LoopRef, Needle};

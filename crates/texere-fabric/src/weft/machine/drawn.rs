@@ -5,7 +5,8 @@
 //! the first place that holds it, or after the last one. A loop that was drawn through nothing and fell off its needle holds no more
 //! than a float.
 
-use texere_core::{OutOfMemory, room_for};
+use texere_core::OutOfMemory;
+use texere_core::backend::room_for;
 
 use super::super::{Direction, Fate, LoopRef, Step};
 use super::FaultKind;

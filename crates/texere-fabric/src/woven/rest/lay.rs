@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
-use texere_core::crossings::{Crossing, CrossingsPlan, Set};
-use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns, zeroed};
+use texere_core::backend::zeroed;
+use texere_core::crossings::{CrossingState, CrossingsPlan, Set};
+use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
 
 use super::path::{Change, Station, float};
 use super::problem::{Problem, gaps};
@@ -16,7 +17,7 @@ use crate::{FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 /// Crossings of a repeat at rest, mm.
 pub(super) struct Lies {
     repeat: [usize; 2],
-    pub(super) rest: Vec<Crossing>,
+    pub(super) rest: Vec<CrossingState>,
     /// As they are drawn: half width and half height of the end, then of the pick.
     pub(super) drawn: Vec<[[f32; 2]; 2]>,
     rooms: [Vec<[f32; 2]>; 2],
@@ -26,7 +27,7 @@ pub(super) struct Lies {
 
 impl Lies {
     /// `rest` is in the plan's unit.
-    pub(super) fn new(problem: Problem, plan: &CrossingsPlan, mut rest: Vec<Crossing>) -> Self {
+    pub(super) fn new(problem: Problem, plan: &CrossingsPlan, mut rest: Vec<CrossingState>) -> Self {
         let mm: &mut [f32] = bytemuck::cast_slice_mut(&mut rest);
         mm.iter_mut().for_each(|value| *value *= plan.unit());
         let drawn =

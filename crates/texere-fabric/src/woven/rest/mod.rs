@@ -11,8 +11,9 @@ mod stretch;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use texere_core::crossings::{self, Crossing, CrossingsPlan, CrossingsRest};
-use texere_core::{Backend, Crossings, Settings, Yarns, zeroed};
+use texere_core::backend::zeroed;
+use texere_core::crossings::{self, CrossingState, Crossings, CrossingsPlan, CrossingsRest};
+use texere_core::{Backend, Settings, Yarns};
 
 use self::certificate::certify;
 use self::lay::Lies;
@@ -135,7 +136,7 @@ impl Woven {
         if stopped {
             return Err(FabricError::Cancelled.into());
         }
-        let mut all: Vec<Crossing> = zeroed("crossings", plan.crossings() as u64)?;
+        let mut all: Vec<CrossingState> = zeroed("crossings", plan.crossings() as u64)?;
         settler.read(&mut all)?;
         Ok((Lies::new(problem, &plan, all), rest))
     }

@@ -1,6 +1,6 @@
 //! The path of a thread between two crossings at rest.
 
-use texere_core::crossings::Passage;
+use texere_core::crossings::StraightPassage;
 
 use super::ease::ease;
 use super::stop::{CHANGE_POINTS, Stop};
@@ -165,7 +165,7 @@ impl<'a> Way<'a> {
         let [one, two] = self.stations;
         let halves = [one, two].map(|at| at.crossed.map(|half| half as f32));
         let thread = (one.half_height + two.half_height) as f32;
-        let [c, s] = Passage::new(self.across as f32, self.rise as f32, halves, thread).slope;
+        let [c, s] = StraightPassage::new(self.across as f32, self.rise as f32, halves, thread).slope;
         let best = f64::from(s).atan2(f64::from(c));
         if self.room(best) <= 0.0 {
             return best;

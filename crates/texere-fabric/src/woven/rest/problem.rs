@@ -36,7 +36,7 @@ impl Problem {
             let rooms: &[[f32; 2]] = &rooms[set];
             let thread = |number: usize| {
                 let [width, height] = rooms[number % threads.len()];
-                crossings::Thread {
+                crossings::CrossingThread {
                     pitch: gaps[number % threads.len()] as f32,
                     diameter: 2.0 * threads[number % threads.len()].radius_mm * (width * height).sqrt(),
                     stiffness: threads[number % threads.len()].stiffness,

@@ -11,7 +11,7 @@ use super::value::{Any, Node, Value};
 use crate::read::error::{no_hyphen, said, shown};
 use crate::read::file::Files;
 use crate::read::keys::Keys;
-use crate::read::{Place, ReadError};
+use crate::read::{FilePlace, ReadError};
 
 /// Most threads of a warp or weft.
 const THREAD_LIMIT: i64 = 1_000_000;
@@ -74,8 +74,8 @@ impl<'a> Source<'a> {
         self.text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1
     }
 
-    pub(super) fn place(&self, field: &str, span: Range<usize>) -> Place {
-        Place::new(self.path, self.line(span), field)
+    pub(super) fn place(&self, field: &str, span: Range<usize>) -> FilePlace {
+        FilePlace::new(self.path, self.line(span), field)
     }
 
     pub(super) fn bad<T: ToString>(&self, field: &str, value: &Spanned<T>, expected: &str) -> ReadError {

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use texere_core::{Material, Section, SectionPoint, room};
+use texere_core::backend::room;
+use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::{COTTON_DENSITY, Thread};
 use toml::Spanned;
 

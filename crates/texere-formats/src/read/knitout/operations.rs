@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use texere_core::room_for;
+use texere_core::backend::room_for;
 use texere_fabric::weft::{CarrierSet, Instruction, Operation, Program};
 
 use super::carriers::Carriers;

@@ -1,17 +1,18 @@
 //! Numbers and lists of numbers in WIF sections.
 
-use texere_core::{counted, filled};
+use texere_core::backend::filled;
+use texere_core::counted;
 
 use super::ini::{Entry, Ini};
 use crate::read::error::shown;
-use crate::read::{Place, ReadError};
+use crate::read::{FilePlace, ReadError};
 
 /// Most shafts or treadles of a loom: enough for a Jacquard machine with a hook for each end.
 pub(crate) const LOOM_LIMIT: u32 = 100_000;
 
 /// Where an entry stands, as WIF writes it: `[WARP COLORS] 3`.
-pub(super) fn place(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> Place {
-    Place::new(ini.file, entry.line, &format!("[{}] {key}", section.to_uppercase()))
+pub(super) fn place(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>) -> FilePlace {
+    FilePlace::new(ini.file, entry.line, &format!("[{}] {key}", section.to_uppercase()))
 }
 
 pub(super) fn bad(ini: &Ini<'_>, section: &str, key: &str, entry: &Entry<'_>, expected: &str) -> ReadError {

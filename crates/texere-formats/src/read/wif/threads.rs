@@ -1,6 +1,7 @@
 //! Spacing, thickness and colour of each end and pick.
 
-use texere_core::{Material, Section, counted, filled, room};
+use texere_core::backend::{filled, room};
+use texere_core::{Material, Section, counted};
 use texere_fabric::{Drawdown, FabricError, Thread, Woven};
 
 use super::PROGRAM;

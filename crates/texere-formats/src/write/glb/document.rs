@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use std::io::Write;
 use std::ops::Range;
 
-use texere_core::{Chunk, End, Material, Origin, Plan, Vertex, index_pattern};
+use texere_core::backend::{Chunk, Plan};
+use texere_core::definitions::index_pattern;
+use texere_core::{End, Material, Origin, Vertex};
 
 use super::json::Json;
 use super::schema::{

@@ -10,7 +10,8 @@ use std::borrow::Borrow;
 use std::io::{Seek, Write};
 
 use document::Document;
-use texere_core::{Chunk, Material, Plan, Vertex};
+use texere_core::backend::{Chunk, Plan};
+use texere_core::{Material, Vertex};
 
 use super::WriteError;
 use super::mesh_writer::{MeshWriter, Run};

@@ -1,6 +1,6 @@
 //! Loops that are made, and yarn that is laid.
 
-use texere_core::room_for;
+use texere_core::backend::room_for;
 
 use super::super::super::stitches::HALVES;
 use super::super::super::{Bed, Direction, Fate, Head, LoopKind, LoopRef, Needle, Step, Stitch};

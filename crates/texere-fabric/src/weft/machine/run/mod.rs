@@ -2,7 +2,7 @@
 
 mod making;
 
-use texere_core::room_for;
+use texere_core::backend::room_for;
 
 use super::super::stitches::HALVES;
 use super::super::{

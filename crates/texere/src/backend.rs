@@ -1,0 +1,28 @@
+//! What it takes to write a backend, and to drive one chunk by chunk.
+//!
+//! ```text
+//! Yarns ──> Plan ──> Session ──> Engine, chunk by chunk ──> MeshMut
+//! ```
+//!
+//! | to | take |
+//! |---|---|
+//! | write a backend | [`Backend`](crate::Backend), [`Engine`], [`NullBackend`] as the smallest example |
+//! | have the tables of every yarn, block and chunk | [`Plan`], [`Block`], [`Chunk`] |
+//! | compute as all backends do: splines, frames, sections | [`definitions`] |
+//! | settle on a device | [`settling`], [`crossings`] |
+//! | drive a backend chunk by chunk | [`Session`], [`Slot`], [`StageTimings`] |
+//! | keep a mesh on a device, and edit it without a structure | [`LiveMesh`], [`Edits`] |
+//!
+//! ```
+//! use texere::Backend;
+//! use texere::backend::NullBackend;
+//! assert_eq!(NullBackend::default().info().name, "null");
+//! ```
+
+pub use texere_core::backend::{
+    AttributeSink, BLOCK_RINGS, Block, Chunk, ChunkDraw, Chunks, Draw, Edits, Engine, LiveMesh, MeshMut,
+    MeshSink, NullBackend, PackedSink, PaddedPoints, Part, Plan, RingSink, ScanChunk, ScanChunks, Schedule,
+    Session, SessionError, Slot, StageTimings, TablesId, Traffic, Trajectory, WINDOW_POINTS, filled,
+    renew_virtual_ends, room, room_for, take_over_host, zeroed,
+};
+pub use texere_core::{OutOfMemory, crossings, definitions, settling};

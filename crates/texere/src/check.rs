@@ -1,0 +1,32 @@
+//! What is wrong with a cloth, and what a designer measures in it.
+//!
+//! | to | take |
+//! |---|---|
+//! | know what is wrong with a structure, and which single change would cure it | [`Diagnosis`], [`Faults`], [`Cure`] |
+//! | know whether yarns pierce one another, and where | [`clearance()`], which gives a [`Clearance`]; [`ClothClearance`] names threads |
+//! | know whether yarns have passed through one another when they were moved | [`linking()`], which gives a [`Linking`] |
+//! | know whether a mesh is wrung, and how many rings would help | [`drawn()`], [`finer`] |
+//! | know weight, thickness, cover, crimp and yarn consumption | [`Measures`], [`KnitMeasures`] |
+//!
+//! ```
+//! use texere::check::clearance;
+//! use texere::{ControlPoint, Settings, Yarn, Yarns};
+//! // Two straight yarns of radius 0.125, crossing 0.1875 apart: they pierce.
+//! let mut yarns = Yarns::builder();
+//! yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.125)));
+//! yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|y| ControlPoint::new(0.5, y, 0.1875, 0.125)));
+//! let clearance = clearance(&yarns.build()?, &Settings::default())?;
+//! assert!((clearance.min - 0.75).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub use texere_contact::{
+    CLEAR, CLEARANCE_ACCURACY, CLEARANCE_BESIDE, CLEARANCE_BIN, CLEARANCE_NEAR, CLEARANCE_PAIRS, Clearance,
+    Contact, ContactError, Crowd, Drawn, LINKING_CHANGE, Linking, Passage, WRUNG, clearance,
+    clearance_with_progress, drawn, finer, linking, linking_with_progress,
+};
+pub use texere_core::counted;
+pub use texere_fabric::{
+    ClothClearance, ClothFault, Cover, Crossing, Cure, Diagnosis, FabricWarning, Faults, Jams, KnitMeasures,
+    Measures, Pieces, Remedy, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
+};

@@ -1,0 +1,19 @@
+//! Pictures of cloth, lit and shaded on a device of `wgpu` (feature `render`).
+//!
+//! | to | take |
+//! |---|---|
+//! | open a device that renders | [`open_renderer`], which gives a [`Renderer`] |
+//! | put cloth on it | [`Renderer::scene`], which gives a [`Scene`] |
+//! | look at it | [`Camera`], [`Pose`], [`Extent`], [`Cut`] |
+//! | have a picture in memory | [`Scene::picture`], which gives a [`Picture`] |
+//! | choose how good it is, and what lies behind it | [`Quality`], [`Background`] |
+//! | know which yarn a pixel shows | [`Scene::seen_at`], which gives a [`Seen`] |
+//!
+//! [`open_renderer`] has an example.
+
+pub use texere_render::{
+    Background, Camera, Cut, DevicePicture, Extent, Picture, PictureTimings, Pose, Quality, RenderError,
+    Renderer, Scene, Seen, picture_sides,
+};
+
+pub use crate::device::{open_renderer, picture_device};

@@ -1,0 +1,32 @@
+//! Cloth at rest: what is asked for, what comes of it, and settling of single pieces.
+//!
+//! [`Design::rest`](crate::Design::rest) lets a design come to rest as its [`Finish`] says; its [`RestReport`] says what became of it.
+//!
+//! | to | take |
+//! |---|---|
+//! | say how cloth is finished: how long its yarns are, whether it is pressed | [`Finish`], [`Press`] |
+//! | follow a design to rest, and know what became of it | [`Resting`], [`RestReport`], [`Finished`], [`Verdict`] |
+//! | settle yarns of any origin | [`Piece`], [`settle`], [`Settled`] |
+//! | settle one repeat, and copy it | [`Repeat`] |
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! use texere::rest::RestReport;
+//! use texere::woven::{Relief, Thread, Weave, Woven, WovenDesign};
+//! use texere::yarn::{Material, Section};
+//! use texere::{Design, Structure};
+//! let plain = Weave::parse("plain")?.drawdown(8, 6)?;
+//! let thread = Thread::new(1.0, 0.2);
+//! let cloth = Woven::new(plain, vec![thread; 8], vec![thread; 6], vec![Material::default()], vec![Section::Circle])?;
+//! let muslin = Design::of("Muslin", Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?));
+//! let cloth = muslin.rest(&*texere::open("cpu")?).run()?;
+//! assert!(matches!(cloth.report(), RestReport::Finished(_)));
+//! # Ok(())
+//! # }
+//! ```
+
+pub use texere_core::{CrossingsError, SettlingError, Subject};
+pub use texere_fabric::{
+    Finish, FinishError, Finished, Piece, Press, Repeat, Settled, Verdict, WovenRest, settle,
+};
+pub use texere_formats::{RestReport, Resting};

@@ -1,0 +1,41 @@
+//! Files: meshes in pieces, pictures, drafts and designs.
+//!
+//! [`texere::write`](fn@crate::write) writes a whole mesh. Each function but [`file()`] has a twin whose name ends in `_to`: it writes the same bytes to a writer
+//! of the caller's.
+//!
+//! | to | take |
+//! |---|---|
+//! | write a mesh larger than memory | [`stream`], [`stream_to`] |
+//! | write a mesh to memory, an archive, a connection | [`mesh_to`] |
+//! | save yarns at rest, or a repeat of them | [`yarns`], [`repeat`] |
+//! | write a design that is read again | `wif`, `toml` (features of these names) |
+//! | write a draft as a picture | `draft`, `knit_draft`, `warp_draft` (feature `pictures`) |
+//! | write a picture | `picture` (feature `pictures`) |
+//! | write any file so that it is there whole or not at all | [`file()`] |
+//! | know that no file is replaced that was read | [`Output`] |
+//!
+//! ```
+//! use std::io::Cursor;
+//! use texere::write::{Format, mesh_to};
+//! use texere::{ControlPoint, Pipeline, Yarn, Yarns};
+//! let mut yarns = Yarns::builder();
+//! yarns.yarn(Yarn::default(), &[0.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+//! let mesh = Pipeline::new(&yarns.build()?).mesh(&*texere::open("cpu")?)?;
+//! let mut glb = Cursor::new(Vec::new());
+//! mesh_to(&mesh, Format::Glb, &mut glb)?;
+//! assert!(glb.into_inner().starts_with(b"glTF"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub use texere_formats::write::{
+    Format, Output, Written, abandon, file, mesh_to, repeat, repeat_to, stream, stream_to, yarns, yarns_to,
+};
+#[cfg(feature = "pictures")]
+pub use texere_formats::write::{
+    Side, draft, draft_to, knit_draft, knit_draft_to, knit_rows, picture, picture_to, warp_draft,
+    warp_draft_to, warp_rows,
+};
+#[cfg(feature = "toml")]
+pub use texere_formats::write::{toml, toml_to};
+#[cfg(feature = "wif")]
+pub use texere_formats::write::{wif, wif_to};

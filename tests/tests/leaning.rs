@@ -8,10 +8,10 @@ use glam::{DMat3, DVec3};
 use texere_conformance::cases::{design, small_designs};
 use texere_conformance::schedule::able_devices;
 use texere_contact::clearance;
-use texere_core::backend::{LiveMesh, Plan, SessionError};
+use texere_core::backend::{LiveMesh, Plan};
 use texere_core::{
-    BackendError, ControlPoint, Frame, Material, Mesh, MeshPiece, Pipeline, Placement, Ray, Section,
-    Settings, Topology, Vertex, Yarn, YarnError, Yarns,
+    ControlPoint, Frame, Material, Mesh, MeshPiece, Pipeline, Placement, Ray, Section, Settings, Topology,
+    Vertex, Yarn, YarnError, Yarns,
 };
 use texere_cpu::{ParallelBackend, Picker, SerialBackend};
 use texere_fabric::{Finish, Thread, Weave, Woven};

@@ -124,7 +124,8 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     Ok(text)
 }
 
-/// The files that the pictures go to, once it is known that none would replace another, or one of the files that were `read`.
+/// The files that the pictures go to, once it is known that none would replace another, or one of
+/// the files that were `read`.
 fn outputs(args: &RenderArgs, read: &[impl AsRef<Path>]) -> Result<Vec<Output>, Fail> {
     let output = &args.output;
     let paths = match args.view {

@@ -1,17 +1,20 @@
-//! Files of yarns: what their writer and their reader share. `docs/FORMATS.md` says what each byte means.
+//! Files of yarns: what their writer and their reader share. `docs/FORMATS.md` says what each byte
+//! means.
 
 use texere_core::Yarns;
 
 /// What the name of a file of yarns ends in, without its dot.
 pub(crate) const ENDING: &str = "yarns";
 
-/// The first bytes. No text begins with the first of them, and a transfer that changes line ends changes the last two.
+/// The first bytes. No text begins with the first of them, and a transfer that changes line ends
+/// changes the last two.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89YARNS\r\n";
 
 /// The version that is written, and the only one that is read.
 pub(crate) const VERSION: u32 = 1;
 
-/// The most bytes that a file may have: room for half a billion control points. A reader holds all of a file in memory.
+/// The most bytes that a file may have: room for half a billion control points. A reader holds all
+/// of a file in memory.
 pub(crate) const BYTES_MAX: u64 = 1 << 34;
 
 /// Bits of the header that say what follows the control points.
@@ -57,7 +60,8 @@ pub(crate) mod origin {
     pub(crate) const GUIDE: u32 = 5;
 }
 
-/// The tension of the splines that yarns are drawn with, which a file states and which can't be another one yet.
+/// The tension of the splines that yarns are drawn with, which a file states and which can't be
+/// another one yet.
 pub(crate) fn tension() -> f32 {
     texere_core::Settings::default().tension
 }

@@ -1,4 +1,5 @@
-//! Mutations of files of saved yarns, half of them with the length and the checksum that they then need.
+//! Mutations of files of saved yarns, half of them with the length and the checksum that they then
+//! need.
 
 use fastrand::Rng;
 use texere_core::{Boundary, ControlPoint, Ends, Material, Origin, Section, Yarn, Yarns};

@@ -1,4 +1,5 @@
-//! A binary file from its first byte to its last. Nothing is taken for granted of it: what is not there is refused with its place.
+//! A binary file from its first byte to its last. Nothing is taken for granted of it: what is not
+//! there is refused with its place.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -95,14 +96,16 @@ impl<'a> Bytes<'a> {
         Ok(name)
     }
 
-    /// A number of things that take `each` bytes at least: no more than the bytes left have room for.
+    /// A number of things that take `each` bytes at least: no more than the bytes left have room
+    /// for.
     pub(super) fn count(&mut self, field: &'static str, each: u64) -> Result<usize, ReadError> {
         let at = self.at();
         let count = self.long(field)?;
         self.room_for(at, field, count, each)
     }
 
-    /// Checks that the bytes left have room for `count` things of `each` bytes at least. The number stands at byte `at`.
+    /// Checks that the bytes left have room for `count` things of `each` bytes at least. The number
+    /// stands at byte `at`.
     pub(super) fn room_for(
         &self,
         at: u64,
@@ -130,7 +133,8 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// Checks the CRC-32 that the file ends with, four bytes over all that stand before, and takes it off what is left.
+    /// Checks the CRC-32 that the file ends with, four bytes over all that stand before, and takes
+    /// it off what is left.
     pub(super) fn check_sum(&mut self, field: &'static str) -> Result<(), ReadError> {
         let Some((left, stated)) = self.left.split_last_chunk() else {
             return Err(self.cut_short(field, 4));

@@ -19,16 +19,18 @@ use crate::yarns_file::{
 pub struct SavedYarns {
     /// The yarns.
     pub yarns: Yarns,
-    /// How they go on beyond a repeat; of yarns that were saved without one, which are closed and which open.
+    /// How they go on beyond a repeat; of yarns that were saved without one, which are closed and
+    /// which open.
     pub boundary: Boundary,
 }
 
-/// Reads the yarns in a `.yarns` file, which [`write::yarns`](crate::write::yarns) or [`write::repeat`](crate::write::repeat) has written: equal to
-/// the bit to those that were saved.
+/// Reads the yarns in a `.yarns` file, which [`write::yarns`](crate::write::yarns) or
+/// [`write::repeat`](crate::write::repeat) has written: equal to the bit to those that were saved.
 ///
-/// **Errors**: [`ReadError::Bytes`], which names the byte, for a file that is cut short, has changed since it was written, or is of another version;
-/// [`ReadError::Yarns`] and [`ReadError::Boundary`] for values that no yarns may have; [`ReadError::TooLarge`] beyond 16 GiB; [`ReadError::OutOfMemory`],
-/// [`ReadError::NotAFile`], [`ReadError::Io`].
+/// **Errors**: [`ReadError::Bytes`], which names the byte, for a file that is cut short, has
+/// changed since it was written, or is of another version; [`ReadError::Yarns`] and
+/// [`ReadError::Boundary`] for values that no yarns may have; [`ReadError::TooLarge`] beyond 16
+/// GiB; [`ReadError::OutOfMemory`], [`ReadError::NotAFile`], [`ReadError::Io`].
 pub fn yarns(path: impl AsRef<Path>) -> Result<SavedYarns, ReadError> {
     let path = path.as_ref();
     yarns_from(path, &bytes_of(&open, path, BYTES_MAX)?)
@@ -87,8 +89,8 @@ pub fn yarns_from(name: impl AsRef<Path>, bytes: &[u8]) -> Result<SavedYarns, Re
     Ok(SavedYarns { yarns, boundary })
 }
 
-/// Reads the header up to the file's length, and checks the whole file by it and by its checksum. Gives the bits that say what follows the control
-/// points.
+/// Reads the header up to the file's length, and checks the whole file by it and by its checksum.
+/// Gives the bits that say what follows the control points.
 fn start(bytes: &mut Bytes<'_>) -> Result<u32, ReadError> {
     let magic: [u8; MAGIC.len()] = bytes.take("the beginning")?;
     if magic != MAGIC {
@@ -99,12 +101,12 @@ fn start(bytes: &mut Bytes<'_>) -> Result<u32, ReadError> {
         let expected = format_args!("{VERSION}, the only version that this program reads");
         return Err(bytes.refused(at, "the version", version, expected));
     }
-    let (flags_at, flags) = (bytes.at(), bytes.word("the flags")?);
+    let (flags_at, flags) = (bytes.at(), bytes.word("the word of flags")?);
     bytes.check_length("the length in bytes")?;
     bytes.check_sum("the checksum")?;
     if flags & !(HAS_UPS | HAS_SOURCES) != 0 {
         let expected = format_args!("0 to {}", HAS_UPS | HAS_SOURCES);
-        return Err(bytes.refused(flags_at, "the flags", flags, expected));
+        return Err(bytes.refused(flags_at, "the word of flags", flags, expected));
     }
     Ok(flags)
 }
@@ -196,9 +198,9 @@ fn table(bytes: &mut Bytes<'_>, count: usize, point_bytes: u64) -> Result<Table,
     table.offsets.push(0);
     let mut total = 0;
     for _ in 0..count {
-        let (at, points) = (bytes.at(), bytes.long("the control points of a yarn")?);
+        let (at, points) = (bytes.at(), bytes.long("the number of control points of a yarn")?);
         // No sum of counts that the file has room for comes near the limit of 64 bits.
-        total += bytes.room_for(at, "the control points of a yarn", points, point_bytes)? as u64;
+        total += bytes.room_for(at, "the number of control points of a yarn", points, point_bytes)? as u64;
         table.offsets.push(total);
         let (material, section) = (bytes.word("a yarn's material")?, bytes.word("a yarn's section")?);
         let twist = bytes.float("a yarn's twist")?;
@@ -207,7 +209,7 @@ fn table(bytes: &mut Bytes<'_>, count: usize, point_bytes: u64) -> Result<Table,
         table.yarns.push(Yarn { material, section, closed: ends == Ends::Closed, twist, origin });
         table.ends.push(ends);
     }
-    bytes.room_for(bytes.at(), "the control points of all yarns", total, point_bytes)?;
+    bytes.room_for(bytes.at(), "the number of control points of all yarns", total, point_bytes)?;
     Ok(table)
 }
 
@@ -257,7 +259,8 @@ fn point(bytes: &mut Bytes<'_>) -> Result<ControlPoint, ReadError> {
     Ok(ControlPoint { x, y, z, halves: cast(halves.map(u16::from_le_bytes)) })
 }
 
-/// The yarns with the up directions that come next. They have length 1 already, so that they stay as they are.
+/// The yarns with the up directions that come next. They have length 1 already, so that they stay
+/// as they are.
 fn with_ups(
     bytes: &mut Bytes<'_>,
     yarns: Yarns,

@@ -16,8 +16,9 @@ use crate::yarns_file::{
 /// The format's name in errors.
 const FORMAT: &str = "a file of yarns";
 
-/// Writes yarns to a `.yarns` file, which [`read::yarns`](crate::read::yarns) reads again to the bit: control points, sections, materials, up
-/// directions, sources, and what belongs to each yarn. Gives the file's length in bytes.
+/// Writes yarns to a `.yarns` file, which [`read::yarns`](crate::read::yarns) reads again to the
+/// bit: control points, sections, materials, up directions, sources, and what belongs to each yarn.
+/// Gives the file's length in bytes.
 ///
 /// Cloth that came to rest is saved so, and need not settle again:
 ///
@@ -40,8 +41,8 @@ const FORMAT: &str = "a file of yarns";
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.yarns`, [`WriteError::TextTooLarge`] beyond 16 GiB,
-/// [`WriteError::Spared`], [`WriteError::Io`].
+/// **Errors**: [`WriteError::NotEnding`] where `output` does not end in `.yarns`,
+/// [`WriteError::TextTooLarge`] beyond 16 GiB, [`WriteError::Spared`], [`WriteError::Io`].
 pub fn yarns(yarns: &Yarns, output: impl Into<Output>) -> Result<u64, WriteError> {
     repeat(yarns, &Boundary::without_repeat(yarns.layout()), output)
 }
@@ -53,9 +54,11 @@ pub fn yarns_to(yarns: &Yarns, out: impl Write) -> Result<u64, WriteError> {
     repeat_to(yarns, &Boundary::without_repeat(yarns.layout()), out)
 }
 
-/// Writes the yarns of a repeat to a `.yarns` file, with the boundary that says how they go on beyond it. Gives the file's length in bytes.
+/// Writes the yarns of a repeat to a `.yarns` file, with the boundary that says how they go on
+/// beyond it. Gives the file's length in bytes.
 ///
-/// **Errors**: those of [`yarns`](fn@yarns), and [`WriteError::Boundary`] for the boundary of other yarns.
+/// **Errors**: those of [`yarns`](fn@yarns), and [`WriteError::Boundary`] for the boundary of other
+/// yarns.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};

@@ -34,7 +34,8 @@ pub(crate) fn repeat(text: &str) -> (Yarns, Boundary) {
     (piece.yarns, piece.boundary)
 }
 
-/// A ring, a ribbon with an outline of its own, and a loop that goes on; every kind of origin and section, odd materials, and sources.
+/// A ring, a ribbon with an outline of its own, and a loop that goes on; every kind of origin and
+/// section, odd materials, and sources.
 pub(crate) fn odd() -> (Yarns, Boundary) {
     let mut yarns = Yarns::builder();
     for (name, tex, hairiness) in

@@ -1,4 +1,5 @@
-//! Files that are not what they say: each is refused by name, in memory that grows with the file alone.
+//! Files that are not what they say: each is refused by name, in memory that grows with the file
+//! alone.
 
 use std::error::Error;
 
@@ -120,7 +121,8 @@ fn each_bit_that_flips_is_found() {
     }
 }
 
-/// What stands at a byte is changed, with a checksum that holds; the file is refused by its name and says why.
+/// What stands at a byte is changed, with a checksum that holds; the file is refused by its name
+/// and says why.
 #[test]
 fn every_field_is_checked() {
     let nan = f32::NAN.to_le_bytes();
@@ -131,7 +133,7 @@ fn every_field_is_checked() {
         (0, b"PK", "byte 0: the beginning is PK"),
         (8, &word(2), "byte 8: the version is 2, expected 1, the only version that this program reads"),
         (8, &word(0), "the version is 0"),
-        (12, &word(7), "byte 12: the flags is 7, expected 0 to 3"),
+        (12, &word(7), "byte 12: the word of flags is 7, expected 0 to 3"),
         (COUNTS_AT[0], &long(1 << 63), "byte 24: the number of materials is 9223372036854775808, expected"),
         (COUNTS_AT[1], &long(1 << 63), "byte 32: the number of sections is 9223372036854775808, expected"),
         (COUNTS_AT[2], &long(u64::MAX), "byte 40: the number of yarns is 18446744073709551615, expected"),
@@ -158,7 +160,7 @@ fn every_field_is_checked() {
             "the number of a section's corners is 4294967295, expected",
         ),
         (SECTIONS_AT + 6 * 12, &nan, "section 5 is not sound: corner is NaN"),
-        (YARNS_AT, &long(1 << 63), "the control points of a yarn is 9223372036854775808, expected"),
+        (YARNS_AT, &long(1 << 63), "the number of control points of a yarn is 9223372036854775808, expected"),
         (YARNS_AT, &long(1), "yarn 0 has 1 control point, needs 2"),
         (YARNS_AT + 8, &word(3), "yarn 0 is of material 3, but there are 3"),
         (YARNS_AT + 12, &word(6), "yarn 0 has section 6, but there are 6"),

@@ -1,4 +1,5 @@
-//! Files of yarns: what is read is what was written, to the bit, and what has changed on the way is refused.
+//! Files of yarns: what is read is what was written, to the bit, and what has changed on the way is
+//! refused.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 mod clothes;

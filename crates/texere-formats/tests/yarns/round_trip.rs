@@ -8,7 +8,8 @@ use texere_formats::{WriteError, read, write};
 
 use crate::clothes::{JERSEY, POPLIN, TRICOT, bent, cloth, odd, repeat};
 
-/// Everything that yarns hold, each number with all its digits: no two values of different bits are written alike, but for NaN.
+/// Everything that yarns hold, each number with all its digits: no two values of different bits are
+/// written alike, but for NaN.
 fn all(yarns: &Yarns, boundary: &Boundary) -> String {
     format!("{yarns:?} {boundary:?}")
 }

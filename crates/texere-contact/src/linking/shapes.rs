@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3, Vec3A};
 use rayon::prelude::*;
-use texere_core::{Boundary, ControlPoint, Yarns, room_for, tangent_factor};
+use texere_core::{Boundary, ControlPoint, YarnError, Yarns, room_for, tangent_factor};
 
 use super::passage::{WINDOW_INTERVALS, WINDOW_REACH};
 use super::strand::Strand;
@@ -56,12 +56,12 @@ pub(super) struct Shapes<'a> {
 }
 
 impl<'a> Shapes<'a> {
-    /// **Errors**: [`ContactError::OtherLayout`], [`ContactError::OutOfMemory`].
+    /// **Errors**: [`ContactError::OtherLayout`], [`ContactError::Yarns`] of another tension,
+    /// [`ContactError::OutOfMemory`].
     pub(super) fn new(
         before: &'a Yarns,
         after: &'a Yarns,
         boundary: &'a Boundary,
-        tension: f32,
     ) -> Result<Self, ContactError> {
         let [one, other] = [before, after].map(|yarns| yarns.layout());
         if one.offsets() != other.offsets() || one.yarns() != other.yarns() {
@@ -69,6 +69,10 @@ impl<'a> Shapes<'a> {
             let both = one.yarns().iter().zip(other.yarns()).zip(ends);
             let alike = both.take_while(|((one, other), (end, other_end))| one == other && end == other_end);
             return Err(ContactError::OtherLayout { yarn: alike.count() });
+        }
+        let [tension, given] = [one.tension(), other.tension()];
+        if given != tension {
+            return Err(YarnError::OtherTension { given, tension }.into());
         }
         let s = tangent_factor(tension);
         let mut shapes = Self { yarns: [before, after], boundary, s, motions: Vec::new() };

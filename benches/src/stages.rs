@@ -83,7 +83,7 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<
     let mut clock = Clock(Instant::now());
     let design = texere::read(path)?;
     let mut stages = Stages { name: design.name.clone(), read: clock.lap(), ..Stages::default() };
-    let cloth = design.rest(device).tension(settings.tension).run()?;
+    let cloth = design.rest(device).run()?;
     stages.rest = clock.lap();
     if let RestReport::Finished(finished) = cloth.report() {
         stages.rests = Rests::of(finished);

@@ -89,3 +89,30 @@ fn what_can_not_be_is_named() {
     let far = Placement { at: [2e9, 0.0, 0.0], ..Placement::default() };
     assert!(matches!(yarns.placed(&far), Err(YarnError::TooFar { .. })));
 }
+
+#[test]
+fn yarns_keep_their_tension_wherever_they_go() {
+    let slack = cloth();
+    assert_eq!(slack.tension(), 0.0);
+    let taut = slack.clone().with_tension(0.3).unwrap();
+    assert!(vertices(&taut) != vertices(&slack));
+    let sources = vec![7; taut.points().len()];
+    let places = taut.yarn_points(1).unwrap().to_vec();
+    let mut moved = taut.clone();
+    moved.set_points(1, &places).unwrap();
+    let kept = [
+        taut.placed(&Placement { turn: 0.7, scale: 2.0, at: [1.0, 2.0, 3.0] }).unwrap(),
+        taut.mapped(|[x, y, z]| [z, x, y]).unwrap(),
+        Yarns::merged([&taut, &taut]).unwrap(),
+        taut.only([2, 0]).unwrap(),
+        taut.clone().with_ups(vec![[0.0, 0.0, 1.0]; taut.points().len()]).unwrap(),
+        taut.clone().with_sources(sources).unwrap(),
+        moved,
+    ];
+    assert_eq!(kept.map(|yarns| yarns.tension()), [0.3; 7]);
+    // Nothing else has changed: back at the first tension it is the first mesh.
+    assert!(vertices(&taut.clone().with_tension(0.0).unwrap()) == vertices(&slack));
+    let refused = Yarns::merged([&taut, &slack]).unwrap_err();
+    assert_eq!(refused, YarnError::OtherTension { given: 0.0, tension: 0.3 });
+    assert_eq!(refused.to_string(), "yarns of tension 0 beside yarns of tension 0.3");
+}

@@ -242,8 +242,17 @@ fn polygons_that_enclose_nothing() {
 fn settings_out_of_range() {
     let usual = Settings::default();
     for tension in [-0.1, 1.0, 2.0, f32::NAN, f32::INFINITY] {
-        let error = with_settings(Settings { tension, ..usual });
-        assert!(matches!(error, PlanError::Tension { .. }), "{tension}: {error:?}");
+        let mut yarns = Yarns::builder();
+        yarns.yarn(Yarn::default(), &straight(100)).tension(tension);
+        let built = yarns.build().map(|_| ());
+        let taken = one_yarn(Yarn::default(), &straight(100)).unwrap().with_tension(tension).map(|_| ());
+        let layout = Layout::new(vec![Yarn::default()], vec![0, 100], vec![Section::Circle]).unwrap();
+        for refused in [built, taken, layout.with_tension(tension).map(|_| ())] {
+            let error = refused.unwrap_err();
+            assert!(matches!(error, YarnError::Tension { .. }), "{tension}: {error:?}");
+            assert_eq!(error.to_string(), format!("tension is {tension}, outside 0 to below 1"));
+            assert_eq!(error.subject(), None);
+        }
     }
     for sides in [0, 1, 2, 257, u32::MAX] {
         let error = with_settings(Settings { sides, ..usual });

@@ -10,7 +10,7 @@ use texere::mesh::{Frame, LiveError, MeshPiece, Ray};
 use texere::rest::Finish;
 use texere::weft::{Beds, Cell, Chart, Gauge, KnitYarn, Knitted, Machine};
 use texere::woven::{Drawdown, Relief, Thread, Woven, WovenDesign};
-use texere::yarn::{Material, Section};
+use texere::yarn::{Material, Section, YarnError};
 use texere::{Backend, ControlPoint, Live, Picker, Pipeline, Settings, Structure, Vertex, Yarn, Yarns};
 use texere_conformance::editing_devices;
 
@@ -392,6 +392,36 @@ fn cloth_at_rest_keeps_its_weave() {
     for (yarn, now) in yarns_of(&live.yarns().unwrap()).into_iter().enumerate() {
         let wanted = if [3, 14].contains(&yarn) { &woven[yarn] } else { &yarns_of(rest.yarns())[yarn] };
         assert!(now == *wanted, "yarn {yarn}");
+    }
+}
+
+/// What is edited has the tension of the fabric, and yarns of another one are refused.
+#[test]
+fn edits_keep_the_tension_of_the_fabric() {
+    let settings = Settings::default();
+    for device in editing_devices().0 {
+        let mut live = Live::weave(device.clone(), cloth(0x5555, 0.0, false), settings).unwrap();
+        live.update().unwrap();
+        live.set_tension(0.3).unwrap();
+        let up = live.woven().unwrap().drawdown().up(3, 2);
+        live.set_lift(3, 2, !up).unwrap();
+        assert!(live.update().unwrap().anew);
+        let slack = live.woven().unwrap().yarns().unwrap();
+        let taut = slack.clone().with_tension(0.3).unwrap();
+        assert!(triangles(&mut live) == fresh(&taut, settings, &*device));
+        assert_eq!([live.yarns().unwrap().tension(), live.only(3).unwrap().tension()], [0.3; 2]);
+        let is_refused = |refused: Result<(), LiveError>| {
+            let wanted = YarnError::OtherTension { given: 0.0, tension: 0.3 };
+            matches!(refused, Err(LiveError::Yarns(error)) if error == wanted)
+        };
+        assert!(is_refused(live.set_rest(&slack)) && is_refused(live.set_yarns(slack)));
+        assert!(matches!(live.set_tension(f32::NAN), Err(LiveError::Yarns(YarnError::Tension { .. }))));
+        // Another structure's yarns get it, too.
+        let of_weave = |cloth| Structure::Woven(WovenDesign::new(cloth, None, Relief::Report).unwrap());
+        live.set_structure(&of_weave(cloth(0x3333, 0.0, false))).unwrap();
+        assert!(live.update().is_ok());
+        let taut = cloth(0x3333, 0.0, false).yarns().unwrap().with_tension(0.3).unwrap();
+        assert!(triangles(&mut live) == fresh(&taut, settings, &*device));
     }
 }
 

@@ -44,26 +44,28 @@ fn yarns() -> impl Strategy<Value = Yarns> {
     let twist = prop_oneof![3 => Just(0.0f32), 2 => -5.0f32..5.0, 1 => -1e3f32..1e3];
     let points = prop_oneof![4 => prop::collection::vec(point(), 3..20), 1 => prop::collection::vec(point(), 100..300)];
     let yarn = (points, any::<bool>(), twist, 0u32..2);
-    (prop::collection::vec(yarn, 1..6), [section(), section()]).prop_map(|(all, sections)| {
-        let mut yarns = Yarns::builder();
-        for section in sections {
-            yarns.section(section);
-        }
-        for (points, closed, twist, section) in all {
-            yarns.yarn(Yarn { closed, twist, section, ..Yarn::default() }, &points);
-        }
-        yarns.build().unwrap()
-    })
+    let tension = prop_oneof![Just(0.0f32), 0.0f32..1.0];
+    (prop::collection::vec(yarn, 1..6), [section(), section()], tension).prop_map(
+        |(all, sections, tension)| {
+            let mut yarns = Yarns::builder();
+            yarns.tension(tension);
+            for section in sections {
+                yarns.section(section);
+            }
+            for (points, closed, twist, section) in all {
+                yarns.yarn(Yarn { closed, twist, section, ..Yarn::default() }, &points);
+            }
+            yarns.build().unwrap()
+        },
+    )
 }
 
 fn settings() -> impl Strategy<Value = Settings> {
     let frame = prop_oneof![Just(Frame::Upright), Just(Frame::RotationMinimizing)];
     let topology = prop_oneof![Just(Topology::Indexed), Just(Topology::Shared), Just(Topology::None)];
-    let tension = prop_oneof![Just(0.0f32), 0.0f32..1.0];
     let quantum = prop_oneof![Just(Quantum::USUAL), numbers(1e-2, 1e7).prop_map(Quantum::reaching)];
-    (tension, 0u32..9, 3u32..20, frame, topology, any::<bool>(), quantum).prop_map(
-        |(tension, subdivisions, sides, frame, topology, caps, quantum)| Settings {
-            tension,
+    (0u32..9, 3u32..20, frame, topology, any::<bool>(), quantum).prop_map(
+        |(subdivisions, sides, frame, topology, caps, quantum)| Settings {
             subdivisions,
             sides,
             frame,

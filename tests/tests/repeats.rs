@@ -28,7 +28,7 @@ fn piece(start: &Start) -> Piece {
 
 fn settled(piece: &Piece) -> Settled {
     let cpu = ParallelBackend::open().expect("the CPU");
-    settle(piece, &Finish::default(), 0.0, &cpu, |_| ControlFlow::Continue(())).expect("a settling")
+    settle(piece, &Finish::default(), &cpu, |_| ControlFlow::Continue(())).expect("a settling")
 }
 
 /// The nearest contact that no cut end is part of.
@@ -59,7 +59,7 @@ fn a_copied_repeat_lies_as_one_that_settled_whole() {
     let (moved, off) = (apart(&whole.yarns, &piece(&garter(4)).yarns), apart(&whole.yarns, &copied));
     assert!(moved > 0.5 && off < 0.05, "moved {moved} mm, {off} mm apart");
     // Lengths are the same to what either may be off.
-    let lengths = [&copied, &whole.yarns].map(|yarns| length_mm(yarns, 0.0));
+    let lengths = [&copied, &whole.yarns].map(|yarns| length_mm(yarns));
     assert!((lengths[0] / lengths[1] - 1.0).abs() < 0.01, "{lengths:?}");
     // At the seams nothing comes nearer than in the repeat.
     let found = clearance(&copied, &Settings::default()).expect("clearance");

@@ -364,8 +364,8 @@ fn unsound_problems_are_refused_by_name() {
         "control point 6 can't be pinned, there are 6"
     );
     assert_eq!(
-        refused(Settling::new(&yarns).spline_tension(1.0)),
-        "the spline's tension is 1, not between 0 and 0.99"
+        refused(Settling::new(&yarns.clone().with_tension(0.995).expect("a tension"))),
+        "the spline's tension is 0.995, not between 0 and 0.99"
     );
     let length = texere_core::settling::Length::Given(f32::NAN);
     assert_eq!(refused(Settling::new(&yarns).length(length)), "the length is NaN, not between 0.5 and 2");

@@ -31,7 +31,7 @@ fn cloth(start: &Start, halves: impl Fn(usize) -> [f32; 2]) -> (Yarns, Boundary)
 }
 
 /// What a settling came to, and the clearance of its yarns' surfaces.
-fn at_rest(yarns: &Yarns, settling: &Settling<'_>, tension: f32) -> (Rest, Yarns, Clearance) {
+fn at_rest(yarns: &Yarns, settling: &Settling<'_>) -> (Rest, Yarns, Clearance) {
     let plan = Arc::new(SettlingPlan::new(settling).expect("a plan"));
     let mut settler =
         ParallelBackend::open().expect("the CPU").settler(Arc::clone(&plan)).expect("a settler");
@@ -41,8 +41,7 @@ fn at_rest(yarns: &Yarns, settling: &Settling<'_>, tension: f32) -> (Rest, Yarns
     for (yarn, pair) in yarns.layout().offsets().windows(2).enumerate() {
         moved.set_points(yarn, &points[pair[0] as usize..pair[1] as usize]).expect("its points");
     }
-    let settings = Settings { tension, ..Settings::default() };
-    let found = clearance(&moved, &settings).expect("a clearance");
+    let found = clearance(&moved, &Settings::default()).expect("a clearance");
     (rest, moved, found)
 }
 
@@ -57,7 +56,7 @@ fn plain(pitch: f64) -> Start {
 fn flattened_yarns_come_to_rest() {
     let (yarns, boundary) = cloth(&plain(2.2), |_| [0.65, 0.52]);
     let before = clearance(&yarns, &Settings::default()).expect("a clearance").min;
-    let (rest, _, found) = at_rest(&yarns, &Settling::new(&yarns).boundary(boundary).length(FREE), 0.0);
+    let (rest, _, found) = at_rest(&yarns, &Settling::new(&yarns).boundary(boundary).length(FREE));
     assert!(found.min >= 0.98 && found.min > before, "{rest:?}, {before} before, {}", found.min);
 }
 
@@ -66,7 +65,7 @@ fn yarns_of_two_thicknesses_come_to_rest() {
     let (yarns, boundary) = cloth(&plain(1.8), |yarn| if yarn < 6 { [0.6; 2] } else { [0.45; 2] });
     let before = clearance(&yarns, &Settings::default()).expect("a clearance").min;
     assert!(before < 0.98, "they pierce at the start: {before}");
-    let (rest, _, found) = at_rest(&yarns, &Settling::new(&yarns).boundary(boundary).length(FREE), 0.0);
+    let (rest, _, found) = at_rest(&yarns, &Settling::new(&yarns).boundary(boundary).length(FREE));
     assert!(found.min >= 0.98, "{rest:?}, {}", found.min);
 }
 
@@ -74,10 +73,13 @@ fn yarns_of_two_thicknesses_come_to_rest() {
 #[test]
 fn yarns_rest_by_the_spline_that_they_are_drawn_with() {
     let (yarns, boundary) = cloth(&plain(1.9), |_| [0.52; 2]);
-    let settling = Settling::new(&yarns).boundary(boundary).length(FREE).spline_tension(0.4);
-    let (rest, moved, found) = at_rest(&yarns, &settling, 0.4);
+    let yarns = yarns.with_tension(0.4).expect("a tension");
+    let settling = Settling::new(&yarns).boundary(boundary).length(FREE);
+    let (rest, moved, found) = at_rest(&yarns, &settling);
     assert!(found.min >= 0.98, "{rest:?}, {}", found.min);
-    let other = clearance(&moved, &Settings::default()).expect("a clearance").min;
+    let other = clearance(&moved.with_tension(0.0).expect("a tension"), &Settings::default())
+        .expect("a clearance")
+        .min;
     assert!((other - found.min).abs() > 1e-3, "{other} with either");
 }
 
@@ -89,7 +91,7 @@ fn tension_draws_yarn_in() {
     let (yarns, boundary) = cloth(&start, |_| [radius; 2]);
     let drawn = |tension| {
         let settling = Settling::new(&yarns).boundary(boundary.clone()).length(Length::Free { tension });
-        let (rest, moved, _) = at_rest(&yarns, &settling, 0.0);
+        let (rest, moved, _) = at_rest(&yarns, &settling);
         let mut points = moved.points().iter().map(|point| point.position().as_dvec3());
         let each = start.yarns.iter().map(|yarn| points.by_ref().take(yarn.points.len()).collect());
         let report = check(&start, &each.collect::<Vec<_>>());

@@ -24,7 +24,7 @@ pub(crate) struct YarnUnder {
 }
 
 /// The yarns under `point`, the topmost first.
-pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2], tension: f32) -> Vec<YarnUnder> {
+pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2]) -> Vec<YarnUnder> {
     let said = |place: &YarnPlace| {
         let NamedPlace { thread, material, told } = design.named(yarns, place);
         let (place_of, instructions) = told.map(|told| (told.place, told.instructions)).unzip();
@@ -39,7 +39,7 @@ pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2], tension: f3
             instructions: instructions.unwrap_or_default(),
         }
     };
-    yarns_under(yarns, point.map(f64::from), tension).iter().map(said).collect()
+    yarns_under(yarns, point.map(f64::from)).iter().map(said).collect()
 }
 
 impl fmt::Display for YarnUnder {

@@ -126,8 +126,7 @@ struct Jammed {
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     let (design, _) = reading::reported(&args.design)?;
-    let tension = Settings::default().tension;
-    let (cloth, mut settling) = settling::cloth(design, &args.settling, tension, || texere::open("cpu"))?;
+    let (cloth, mut settling) = settling::cloth(design, &args.settling, 0.0, || texere::open("cpu"))?;
     let (design, yarns) = cloth.into_parts();
     let settings = Settings::of(&yarns);
     let clearance = progress::during("measuring how near yarns come", |bar| {

@@ -12,7 +12,8 @@ use texere::mesh::PlanError;
 use texere::picture::RenderError;
 use texere::read::Refusal;
 use texere::rest::{CrossingsError, FinishError, SettlingError};
-use texere::{BackendError, FabricError, PipelineError, ReadError, Settings, WriteError};
+use texere::yarn::YarnError;
+use texere::{BackendError, FabricError, PipelineError, ReadError, WriteError};
 
 use crate::terminal::line;
 
@@ -81,15 +82,6 @@ impl Fail {
         }
     }
 
-    /// Cloth whose splines have another tension than the one that files of yarns state.
-    pub(crate) fn unsaved_tension(tension: f32) -> Self {
-        let only = Settings::default().tension;
-        Self {
-            code: USAGE,
-            source: format!("a .yarns file holds splines of tension {only}, not {tension}").into(),
-        }
-    }
-
     /// A picture of a turntable that is a link to another of them.
     pub(crate) fn written_twice(path: &Path) -> Self {
         Self {
@@ -148,6 +140,8 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         | FinishError::Crossings(CrossingsError::OutOfMemory(_)) => WORLD,
         _ => DESIGN,
     });
+    // The tension of splines is the command line's.
+    let tension = matches!(error.downcast_ref(), Some(YarnError::Tension { .. })).then_some(USAGE);
     let plan = error.downcast_ref().map(|_: &PlanError| USAGE);
     let backend = error.downcast_ref().map(|error| match error {
         // Where there are others, the name is wrong; where there are none, the machine lacks them.
@@ -174,7 +168,7 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         PipelineError::Backend(error) => own_code(error),
         _ => None,
     });
-    read.or(fabric).or(finish).or(plan).or(backend).or(pipeline).or(write)
+    read.or(fabric).or(finish).or(tension).or(plan).or(backend).or(pipeline).or(write)
 }
 
 impl From<ReadError> for Fail {
@@ -185,6 +179,12 @@ impl From<ReadError> for Fail {
 
 impl From<FabricError> for Fail {
     fn from(error: FabricError) -> Self {
+        Self { code: code_of(&error), source: error.into() }
+    }
+}
+
+impl From<YarnError> for Fail {
+    fn from(error: YarnError) -> Self {
         Self { code: code_of(&error), source: error.into() }
     }
 }
@@ -210,7 +210,10 @@ impl From<WriteError> for Fail {
 impl From<Refusal> for Fail {
     fn from(error: Refusal) -> Self {
         match error {
-            // The tension of splines is the command line's.
+            // The tension of splines and the settings of meshes are the command line's.
+            Refusal::Other(FinishError::Fabric(FabricError::Yarns(error @ YarnError::Tension { .. }))) => {
+                error.into()
+            }
             Refusal::Other(FinishError::Fabric(FabricError::Contact(ContactError::Settings(error)))) => {
                 error.into()
             }
@@ -260,7 +263,9 @@ mod tests {
         let crowded = || FinishError::Backend(BackendError::Crowded { chords: 2, limit: 1 });
         let short = || FabricError::OutOfMemory(OutOfMemory { what: "control points", bytes: 1 << 40 });
         let other = |error: FinishError| Refusal::Other(error);
-        let settings = FabricError::Contact(ContactError::Settings(PlanError::Tension { tension: 2.0 }));
+        let settings =
+            FabricError::Contact(ContactError::Settings(PlanError::Sides { sides: 2, low: 3, high: 256 }));
+        let tension = || FabricError::Yarns(YarnError::Tension { tension: 2.0 });
         let none = BackendError::NoDevice { wanted: "abacus".into(), found: vec!["cpu".into()] };
         let cases = [
             (Refusal::Key { place: place(), source: crowded() }, DESIGN),
@@ -282,6 +287,7 @@ mod tests {
                 WORLD,
             ),
             (other(settings.into()), USAGE),
+            (other(tension().into()), USAGE),
             (other(none.into()), USAGE),
             (other(FinishError::Woven { asked: "a course" }), DESIGN),
         ];
@@ -332,18 +338,19 @@ mod tests {
             .into(),
         ];
         assert_eq!(world.each_ref().map(|fail| fail.code), [WORLD; 10]);
+        let sides = || PlanError::Sides { sides: 2, low: 3, high: 256 };
         let design: [Fail; 3] = [
-            FabricError::Contact(ContactError::Settings(PlanError::Tension { tension: 2.0 })).into(),
+            FabricError::Contact(ContactError::Settings(sides())).into(),
             ReadError::Fabric {
                 file: "a.wif".into(),
-                source: FabricError::Contact(ContactError::Settings(PlanError::Tension { tension: 2.0 })),
+                source: FabricError::Contact(ContactError::Settings(sides())),
             }
             .into(),
             WriteError::DraftTooLarge { ends: 1, picks: 1, width: 1, height: 1, limit: 0 }.into(),
         ];
         assert_eq!(design.each_ref().map(|fail| fail.code), [DESIGN; 3]);
-        let sides = || PlanError::Sides { sides: 2, low: 3, high: 256 };
-        let usage: [Fail; 7] = [
+        let usage: [Fail; 8] = [
+            YarnError::Tension { tension: 2.0 }.into(),
             sides().into(),
             RenderError::Plan(sides()).into(),
             WriteError::Pipeline(PipelineError::Plan(sides())).into(),
@@ -352,6 +359,6 @@ mod tests {
             WriteError::Spared { path: "x.png".into(), spared: "x.png".into() }.into(),
             BackendError::NoDevice { wanted: "abacus".into(), found: vec!["cpu".into()] }.into(),
         ];
-        assert_eq!(usage.each_ref().map(|fail| fail.code), [USAGE; 7]);
+        assert_eq!(usage.each_ref().map(|fail| fail.code), [USAGE; 8]);
     }
 }

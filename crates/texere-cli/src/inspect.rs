@@ -8,7 +8,7 @@ use texere::check::{ClothClearance, counted};
 use texere::mesh::Counts;
 use texere::warp::{Bar, WarpKnitted};
 use texere::weft::Knitted;
-use texere::{Design, Settings, Yarns};
+use texere::{Design, Yarns};
 
 use crate::args::{InspectArgs, undersampled};
 use crate::at::{self, YarnUnder};
@@ -119,10 +119,12 @@ fn report(design: Design, said: &[String], args: &InspectArgs) -> Result<Report,
     let (cloth, mut settling) = if args.counts {
         (design.placed()?, None)
     } else {
-        settling::cloth(design, &args.settling, args.settings.tension, || texere::open("cpu"))?
+        settling::cloth(design, &args.settling, args.settings.tension(), || texere::open("cpu"))?
     };
     let mut warnings = cloth.warnings();
     let (design, yarns) = cloth.into_parts();
+    // Yarns at rest have that tension already.
+    let yarns = yarns.with_tension(args.settings.tension())?;
     let settings = args.settings.of(&yarns);
     let settled = settling.as_ref().is_some_and(SettlingReport::has_moved);
     let counts = *Plan::new(yarns.layout().clone(), settings)?.counts();
@@ -134,15 +136,15 @@ fn report(design: Design, said: &[String], args: &InspectArgs) -> Result<Report,
         })
         .map_err(|error| design.refused(error))?;
         settling.iter_mut().for_each(|settling| settling.measured(&clearance));
-        Some(ClothReport::new(&design, &yarns, &settings, settled, &clearance)?)
+        Some(ClothReport::new(&design, &yarns, settled, &clearance)?)
     };
     let weft = design.structure.knitted().map(KnitReport::new);
     let warp = || {
-        let measured = (!args.counts).then_some((&yarns, settings.tension));
+        let measured = (!args.counts).then_some(&yarns);
         design.structure.warp_knitted().map(|knit| KnitReport::of_warp(knit, measured))
     };
     let knit = weft.or_else(warp);
-    let at = args.at.map(|point| at::under(&design, &yarns, point, settings.tension));
+    let at = args.at.map(|point| at::under(&design, &yarns, point));
     warnings.extend(knit.iter().flat_map(KnitReport::missed));
     warnings.extend(undersampled(&yarns, &settings));
     let unsaid = reading::unsaid(&warnings, said);
@@ -168,10 +170,10 @@ impl KnitReport {
         Self { loops: knit.loops(), courses, wales, bars: Vec::new() }
     }
 
-    /// That of a warp knit; with its yarns, and the tension of their splines, what bars take of them.
-    fn of_warp(knit: &WarpKnitted, measured: Option<(&Yarns, f32)>) -> Self {
+    /// That of a warp knit; with its yarns, what bars take of them.
+    fn of_warp(knit: &WarpKnitted, measured: Option<&Yarns>) -> Self {
         let [wales, courses] = knit.size();
-        let run_ins = measured.map(|(yarns, tension)| knit.run_ins(yarns, tension)).unwrap_or_default();
+        let run_ins = measured.map(|yarns| knit.run_ins(yarns)).unwrap_or_default();
         let mut run_ins = run_ins.into_iter();
         let bar = |bar: &Bar| {
             let run_in_mm = run_ins.next().map(|run_in| run_in.reached_mm);
@@ -209,15 +211,9 @@ impl fmt::Display for BarReport {
 }
 
 impl ClothReport {
-    fn new(
-        design: &Design,
-        yarns: &Yarns,
-        settings: &Settings,
-        settled: bool,
-        clearance: &ClothClearance,
-    ) -> Result<Self, Fail> {
+    fn new(design: &Design, yarns: &Yarns, settled: bool, clearance: &ClothClearance) -> Result<Self, Fail> {
         let structure = &design.structure;
-        let measures = structure.measures(yarns, settings.tension).map_err(|error| design.refused(error))?;
+        let measures = structure.measures(yarns).map_err(|error| design.refused(error))?;
         Ok(Self {
             woven: structure.woven().map(|woven| WovenReport {
                 ends: woven.cloth().warp().len(),

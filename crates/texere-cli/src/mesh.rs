@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use texere::check::counted;
 use texere::write::Output;
-use texere::{Backend, Pipeline, Settings, Yarns};
+use texere::{Backend, Pipeline, Yarns};
 
 use crate::args::{MeshArgs, is_yarns, undersampled};
 use crate::fail::Fail;
@@ -12,10 +12,6 @@ use crate::terminal::line;
 use crate::{drivers, print, progress, reading, settling};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
-    let tension = args.settings.tension;
-    if is_yarns(&args.output) && tension != Settings::default().tension {
-        return Err(Fail::unsaved_tension(tension));
-    }
     if let Some(yarns) = reading::saved(&args.design, &args.settings, &args.settling)? {
         let output = Output::to(&args.output).sparing([&args.design]);
         let device = drivers::quietly(|| texere::open(&args.device))?;
@@ -28,9 +24,13 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let output = Output::to(&args.output).sparing(design.files());
     let device = drivers::quietly(|| texere::open(&args.device))?;
     output.check()?;
-    let (cloth, settling) = settling::cloth(design, &args.settling, tension, || Ok(&*device))?;
-    let written = written(args, cloth.yarns(), &*device, output)?;
-    for warning in reading::unsaid(&cloth.warnings(), cloth.design().remarks()) {
+    let (cloth, settling) =
+        settling::cloth(design, &args.settling, args.settings.tension(), || Ok(&*device))?;
+    let warnings = reading::unsaid(&cloth.warnings(), cloth.design().remarks());
+    // Yarns at rest have that tension already.
+    let yarns = cloth.into_parts().1.with_tension(args.settings.tension())?;
+    let written = written(args, &yarns, &*device, output)?;
+    for warning in warnings {
         print::text(&format!("warning: {}\n", line(warning)))?;
     }
     if let Some(settling) = settling {

@@ -28,10 +28,14 @@ pub(crate) fn saved(
         return Ok(None);
     }
     let section = settings.section.as_ref().map(|_| "--section");
-    match section.or(settling.asked()) {
-        Some(option) => Err(Fail::needs_design(option, path)),
-        None => Ok(Some(texere::read::yarns(path)?.yarns)),
+    if let Some(option) = section.or(settling.asked()) {
+        return Err(Fail::needs_design(option, path));
     }
+    let yarns = texere::read::yarns(path)?.yarns;
+    Ok(Some(match settings.tension {
+        Some(tension) => yarns.with_tension(tension)?,
+        None => yarns,
+    }))
 }
 
 /// [`design`] for a report, which says itself what is wrong with the cloth. Gives what was said beforehand, too.

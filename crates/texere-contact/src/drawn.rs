@@ -55,7 +55,7 @@ pub fn drawn(yarns: &Yarns, settings: &Settings) -> Result<Drawn, ContactError> 
     let place = |(yarn, ring): (usize, u32)| {
         let per_interval = settings.subdivisions + 1;
         let t = f64::from(ring % per_interval) / f64::from(per_interval);
-        YarnPlace::at(yarns, yarn, (ring / per_interval) as usize, t, settings.tension)
+        YarnPlace::at(yarns, yarn, (ring / per_interval) as usize, t)
     };
     Ok(Drawn {
         width: worst.width,

@@ -1,6 +1,6 @@
 //! What can go wrong while the contacts of yarns are measured.
 
-use texere_core::{BoundaryError, OutOfMemory, PlanError, Subject, counted};
+use texere_core::{BoundaryError, OutOfMemory, PlanError, Subject, YarnError, counted};
 use thiserror::Error;
 
 /// Yarns whose contacts can't be measured. Yarns are counted from 0.
@@ -10,7 +10,7 @@ pub enum ContactError {
     /// Memory could not be had.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// A tension, or points between control points, that no mesh is made with.
+    /// Points between control points that no mesh is made with.
     #[error(transparent)]
     Settings(#[from] PlanError),
     /// More control points than clearance is measured for.
@@ -35,6 +35,9 @@ pub enum ContactError {
         /// The first yarn that differs, from 0.
         yarn: usize,
     },
+    /// Yarns that can't be compared, for their splines have another tension.
+    #[error(transparent)]
+    Yarns(#[from] YarnError),
     /// A boundary that is not that of the yarns.
     #[error("the boundary is not that of the yarns")]
     Boundary(#[from] BoundaryError),
@@ -58,6 +61,7 @@ impl ContactError {
         match self {
             Self::ClearancePoints { .. } | Self::LinkingSize { .. } => Some(Subject::Size),
             Self::Boundary(error) => error.subject(),
+            Self::Yarns(error) => error.subject(),
             Self::OutOfMemory(_) | Self::Settings(_) | Self::OtherLayout { .. } | Self::Cancelled => None,
         }
     }

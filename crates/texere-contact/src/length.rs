@@ -25,19 +25,17 @@ const TASK: usize = 4096;
 
 /// Length of each yarn, mm, in the yarns' order.
 ///
-/// `tension` is that of the spline, as in [`texere_core::definitions::Sampling`]; any finite value is taken.
-///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 3.0].map(|x| ControlPoint::new(x, 4.0, 0.0, 0.1)));
-/// let lengths = texere_contact::lengths_mm(&yarns.build()?, 0.0);
+/// let lengths = texere_contact::lengths_mm(&yarns.build()?);
 /// assert!((lengths[0] - 3.0).abs() < 1e-12);
 /// # Ok::<(), texere_core::YarnError>(())
 /// ```
 #[must_use]
-pub fn lengths_mm(yarns: &Yarns, tension: f32) -> Vec<f64> {
-    let s = tangent_factor(tension);
+pub fn lengths_mm(yarns: &Yarns) -> Vec<f64> {
+    let s = tangent_factor(yarns.tension());
     let layout = yarns.layout();
     (0..layout.yarns().len())
         .into_par_iter()
@@ -47,8 +45,8 @@ pub fn lengths_mm(yarns: &Yarns, tension: f32) -> Vec<f64> {
 
 /// Length of all yarns together, mm: [`lengths_mm`] added up.
 #[must_use]
-pub fn length_mm(yarns: &Yarns, tension: f32) -> f64 {
-    lengths_mm(yarns, tension).iter().sum()
+pub fn length_mm(yarns: &Yarns) -> f64 {
+    lengths_mm(yarns).iter().sum()
 }
 
 /// Length of one round of a yarn that goes on `shift` further, mm: with the way from its last control point to its next round.

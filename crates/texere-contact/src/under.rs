@@ -10,22 +10,20 @@ const STEPS: u16 = 24;
 /// Where yarns lie under the point (`x`, `y`), mm: those whose outline, seen from the face, holds it; the topmost first. A yarn that
 /// passes several times is named as often, each time with the place nearest to the point.
 ///
-/// `tension` is that of the yarns' splines.
-///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
 /// let mut yarns = Yarns::builder();
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|y| ControlPoint::new(1.0, y, 0.3, 0.1)));
 /// let yarns = yarns.build()?;
-/// let under = |point| texere_contact::yarns_under(&yarns, point, 0.0).iter().map(|place| place.yarn).collect::<Vec<_>>();
+/// let under = |point| texere_contact::yarns_under(&yarns, point).iter().map(|place| place.yarn).collect::<Vec<_>>();
 /// assert_eq!(under([1.05, 0.02]), [1, 0]);
 /// assert_eq!(under([0.5, 0.02]), [0]);
 /// # Ok::<(), texere_core::YarnError>(())
 /// ```
 #[must_use]
-pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlace> {
-    let s = tangent_factor(tension);
+pub fn yarns_under(yarns: &Yarns, point: [f64; 2]) -> Vec<YarnPlace> {
+    let s = tangent_factor(yarns.tension());
     let layout = yarns.layout();
     let mut found = Vec::new();
     for (number, yarn) in layout.yarns().iter().enumerate() {
@@ -39,8 +37,7 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2], tension: f32) -> Vec<YarnPlac
             match nearest {
                 Some((distance, t)) => {
                     if passage.is_none_or(|(least, _)| distance < least) {
-                        passage =
-                            YarnPlace::at(yarns, number, interval, t, tension).map(|place| (distance, place));
+                        passage = YarnPlace::at(yarns, number, interval, t).map(|place| (distance, place));
                     }
                 }
                 None => found.extend(passage.take().map(|(_, place)| place)),

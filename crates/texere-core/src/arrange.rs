@@ -58,6 +58,7 @@ impl Yarns {
         let twist = |twist: f32| if twist == 0.0 { 0.0 } else { twist / scale };
         let yarns = layout.yarns().iter().map(|yarn| Yarn { twist: twist(yarn.twist), ..*yarn }).collect();
         let layout = Layout::new(yarns, layout.offsets().to_vec(), layout.sections().to_vec())?;
+        let layout = layout.with_tension(self.tension())?;
         let placed = Self::new(layout, self.materials().to_vec(), self.points().iter().map(place).collect())?;
         let placed = placed.with_sources_of([self])?;
         let turned = |up: &Vec3| {
@@ -75,7 +76,8 @@ impl Yarns {
     /// All yarns of several cloths, one after the other. Materials and sections that are equal are kept once; sources are kept where all
     /// cloths have some.
     ///
-    /// **Errors**: [`YarnError::NoYarns`] where there is no cloth.
+    /// **Errors**: [`YarnError::NoYarns`] where there is no cloth, [`YarnError::OtherTension`]
+    /// where their splines are not all of one tension.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Placement, Yarn, Yarns};
@@ -90,6 +92,10 @@ impl Yarns {
     /// ```
     pub fn merged<'a>(cloths: impl IntoIterator<Item = &'a Self>) -> Result<Self, YarnError> {
         let cloths: Vec<_> = cloths.into_iter().collect();
+        let tension = cloths.first().map_or(0.0, |cloth| cloth.tension());
+        if let Some(other) = cloths.iter().find(|cloth| cloth.tension() != tension) {
+            return Err(YarnError::OtherTension { given: other.tension(), tension });
+        }
         let (mut materials, mut sections) = (Vec::<Material>::new(), Vec::<Section>::new());
         let (mut yarns, mut offsets, mut points) = (Vec::new(), vec![0], Vec::new());
         for cloth in &cloths {
@@ -107,7 +113,8 @@ impl Yarns {
             offsets.extend(layout.offsets()[1..].iter().map(|offset| before + offset));
             points.extend_from_slice(cloth.points());
         }
-        let merged = Self::new(Layout::new(yarns, offsets, sections)?, materials, points)?;
+        let layout = Layout::new(yarns, offsets, sections)?.with_tension(tension)?;
+        let merged = Self::new(layout, materials, points)?;
         let merged = merged.with_sources_of(cloths.iter().copied())?;
         if cloths.iter().all(|cloth| cloth.ups().is_none()) {
             return Ok(merged);
@@ -133,6 +140,7 @@ impl Yarns {
             sources.extend_from_slice(self.sources().map_or(&[], |sources| &sources[range]));
         }
         let layout = Layout::new(table, offsets, self.layout().sections().to_vec())?;
+        let layout = layout.with_tension(self.tension())?;
         let only = Self::new(layout, self.materials().to_vec(), points)?;
         let only = if self.ups().is_some() { only.with_ups(ups)? } else { only };
         if self.sources().is_some() { only.with_sources(sources) } else { Ok(only) }

@@ -87,4 +87,5 @@ pub use twist::{TWIST_STEP, TWIST_SUBDIVISIONS_MAX, Undersampled};
 pub use vertex::Vertex;
 pub use yarns::{
     Layout, Origin, TWIST_LIMIT, Yarn, YarnError, Yarns, YarnsBuilder, check_material, check_points,
+    check_tension,
 };

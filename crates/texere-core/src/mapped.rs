@@ -62,6 +62,7 @@ impl Yarns {
         };
         let yarns = layout.yarns().iter().zip(&carried).map(twisted).collect();
         let layout = Layout::new(yarns, layout.offsets().to_vec(), layout.sections().to_vec())?;
+        let layout = layout.with_tension(self.tension())?;
         let points = carried.iter().flat_map(|carried| &carried.points).copied().collect();
         let ups = carried.iter().flat_map(|carried| &carried.ups).copied().collect();
         let mapped = Self::new(layout, self.materials().to_vec(), points)?.with_ups(ups)?;

@@ -61,8 +61,9 @@ impl std::fmt::Debug for Pipeline<'_> {
 }
 
 impl<'a> Pipeline<'a> {
-    /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, tension 0, upright, indexed, no caps. Where that undersamples twist, K
-    /// is as large as [`Settings::following`] says, and tubes of a polygon have as many sides as it has corners, unless these are chosen.
+    /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, upright, indexed, no caps.
+    /// Where that undersamples twist, K is as large as [`Settings::following`] says, and tubes of a
+    /// polygon have as many sides as it has corners, unless these are chosen.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
         Self {
@@ -82,13 +83,6 @@ impl<'a> Pipeline<'a> {
     pub fn settings(mut self, settings: Settings) -> Self {
         self.settings = settings;
         self.follows_twist = false;
-        self
-    }
-
-    /// Tension of the spline, in \[0, 1).
-    #[must_use]
-    pub fn tension(mut self, tension: f32) -> Self {
-        self.settings.tension = tension;
         self
     }
 

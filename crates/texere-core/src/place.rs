@@ -22,48 +22,50 @@ pub struct YarnPlace {
 }
 
 impl YarnPlace {
-    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`, such as a picked triangle has it. `tension` is that of the
-    /// yarns' splines. None where there is no such yarn or interval, and for a `t` that is none.
+    /// The place at `t`, from 0 to 1, of control interval `interval` of yarn number `yarn`, such as
+    /// a picked triangle has it. None where there is no such yarn or interval, and for a `t` that
+    /// is none.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, YarnPlace, Yarns};
     /// let mut yarns = Yarns::builder();
     /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
     /// let yarns = yarns.build()?;
-    /// let place = YarnPlace::at(&yarns, 0, 1, 0.25, 0.0);
+    /// let place = YarnPlace::at(&yarns, 0, 1, 0.25);
     /// assert_eq!(place.map(|place| place.position), Some([1.25, 0.0, 0.0]));
-    /// assert!(YarnPlace::at(&yarns, 0, 2, 0.0, 0.0).is_none());
+    /// assert!(YarnPlace::at(&yarns, 0, 2, 0.0).is_none());
     /// # Ok::<(), texere_core::YarnError>(())
     /// ```
     #[must_use]
-    pub fn at(yarns: &Yarns, yarn: usize, interval: usize, t: f64, tension: f32) -> Option<Self> {
+    pub fn at(yarns: &Yarns, yarn: usize, interval: usize, t: f64) -> Option<Self> {
         let (points, range) = (yarns.yarn_points(yarn)?, yarns.range(yarn)?);
         let closed = yarns.layout().yarns()[yarn].closed;
         let intervals = if closed { points.len() } else { points.len() - 1 };
         if interval >= intervals || !(0.0..=1.0).contains(&t) {
             return None;
         }
-        let segment = Segment::new(&neighbours(points, closed, interval), tangent_factor(tension));
+        let segment = Segment::new(&neighbours(points, closed, interval), tangent_factor(yarns.tension()));
         let position = segment.sample(t as f32).centre.to_array().map(f64::from);
         let nearer = (interval + usize::from(t > 0.5)) % points.len();
         let source = yarns.sources().and_then(|sources| sources.get(range.start + nearer).copied());
         Some(Self { yarn, interval, t, position, source })
     }
 
-    /// The place of yarn number `yarn` that is nearest to `position`, mm, such as a point on its surface that a picture shows. It is found between the
-    /// yarn's control points as if they were joined by straight lines. `tension` is that of the yarns' splines. None where there is no such yarn.
+    /// The place of yarn number `yarn` that is nearest to `position`, mm, such as a point on its
+    /// surface that a picture shows. It is found between the yarn's control points as if they were
+    /// joined by straight lines. None where there is no such yarn.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Yarn, YarnPlace, Yarns};
     /// let mut yarns = Yarns::builder();
     /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
     /// let yarns = yarns.build()?;
-    /// let place = YarnPlace::nearest(&yarns, 0, [1.25, 0.0, 0.1], 0.0);
+    /// let place = YarnPlace::nearest(&yarns, 0, [1.25, 0.0, 0.1]);
     /// assert_eq!(place.map(|place| (place.interval, place.t)), Some((1, 0.25)));
     /// # Ok::<(), texere_core::YarnError>(())
     /// ```
     #[must_use]
-    pub fn nearest(yarns: &Yarns, yarn: usize, position: [f64; 3], tension: f32) -> Option<Self> {
+    pub fn nearest(yarns: &Yarns, yarn: usize, position: [f64; 3]) -> Option<Self> {
         let points = yarns.yarn_points(yarn)?;
         let closing = if yarns.layout().yarns()[yarn].closed { points.first() } else { None };
         let place = |point: &ControlPoint| point.position().as_dvec3();
@@ -79,6 +81,6 @@ impl YarnPlace {
             }
         }
         let (_, interval, t) = nearest;
-        Self::at(yarns, yarn, interval, t, tension)
+        Self::at(yarns, yarn, interval, t)
     }
 }

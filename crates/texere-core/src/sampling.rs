@@ -1,16 +1,20 @@
 //! Sampling of the spline: its tension, and how many rings it gets.
 
 use crate::definitions::{Sample, Segment, tangent_factor};
-use crate::{ArcLength, ControlPoint, PlanError};
+use crate::{ArcLength, ControlPoint, Layout, PlanError};
 
 /// Tension of the spline and points inserted between control points (the paper's u and K).
 ///
 /// ```
 /// use texere_core::definitions::Sampling;
-/// let sampling = Sampling::new(0.0, 1)?;
+/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let yarns = yarns.build()?;
+/// let sampling = Sampling::new(yarns.layout(), 1)?;
 /// assert_eq!(sampling.rings(152, false), 303);
 /// assert_eq!(sampling.rings(152, true), 305);
-/// # Ok::<(), texere_core::PlanError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sampling {
@@ -32,13 +36,12 @@ impl Default for Sampling {
 }
 
 impl Sampling {
-    /// Sampling with `tension` u in \[0, 1) and `subdivisions` K in \[0, [`SUBDIVISIONS_MAX`]\].
+    /// Sampling of yarns of `layout`, whose [tension](Layout::tension) is the u, with
+    /// `subdivisions` K in \[0, [`SUBDIVISIONS_MAX`]\].
     ///
-    /// **Errors**: [`PlanError::Tension`] and [`PlanError::Subdivisions`] outside these ranges.
-    pub fn new(tension: f32, subdivisions: u32) -> Result<Self, PlanError> {
-        if !(0.0..1.0).contains(&tension) {
-            return Err(PlanError::Tension { tension });
-        }
+    /// **Errors**: [`PlanError::Subdivisions`] outside this range.
+    pub fn new(layout: &Layout, subdivisions: u32) -> Result<Self, PlanError> {
+        let tension = layout.tension();
         if subdivisions > SUBDIVISIONS_MAX {
             return Err(PlanError::Subdivisions { subdivisions, limit: SUBDIVISIONS_MAX });
         }

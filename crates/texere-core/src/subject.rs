@@ -142,7 +142,8 @@ impl BoundaryError {
 }
 
 impl YarnError {
-    /// What of the cloth it is about; which thread it is it does not know. None of tables that don't fit one another.
+    /// What of the cloth it is about; which thread it is it does not know. None of tables that
+    /// don't fit one another, and of splines' tension, which no design says.
     #[must_use]
     pub const fn subject(&self) -> Option<Subject> {
         Some(match self {
@@ -160,6 +161,8 @@ impl YarnError {
             | Self::SourceCount { .. }
             | Self::UpCount { .. }
             | Self::Up { .. }
+            | Self::Tension { .. }
+            | Self::OtherTension { .. }
             | Self::UnknownYarn { .. } => return None,
         })
     }

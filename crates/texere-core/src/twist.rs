@@ -64,7 +64,7 @@ impl Undersampled {
     /// What a mesh of `yarns` with `settings` does not show of their twist, if anything.
     #[must_use]
     pub fn of(yarns: &Yarns, settings: &Settings) -> Option<Self> {
-        let most = Turning::most(yarns, settings.tension, step_of_outline)?;
+        let most = Turning::most(yarns, step_of_outline)?;
         let steps = u64::from(settings.subdivisions) + 1;
         (most.steps() > steps).then(|| Self {
             yarn: most.yarn,
@@ -113,14 +113,14 @@ impl Settings {
     /// were before. What is left then is told by [`Undersampled::of`].
     #[must_use]
     pub fn following(self, yarns: &Yarns) -> Self {
-        self.with_steps(yarns, Turning::most(yarns, self.tension, step_of_outline))
+        self.with_steps(yarns, Turning::most(yarns, step_of_outline))
     }
 
     /// The same for pictures, which show fibres, and so the twist of round yarns too: no yarn is turned by more than [`TWIST_STEP`], within
     /// the same bounds.
     #[must_use]
     pub fn following_fibres(self, yarns: &Yarns) -> Self {
-        self.with_steps(yarns, Turning::most(yarns, self.tension, |_| TWIST_STEP))
+        self.with_steps(yarns, Turning::most(yarns, |_| TWIST_STEP))
     }
 
     fn with_steps(self, yarns: &Yarns, most: Option<Turning>) -> Self {
@@ -150,12 +150,12 @@ struct Turning {
 
 impl Turning {
     /// The yarn that needs most rings, of those that are twisted. Of equal ones the first.
-    fn most(yarns: &Yarns, tension: f32, step_max: impl Fn(&Section) -> f64 + Sync) -> Option<Self> {
+    fn most(yarns: &Yarns, step_max: impl Fn(&Section) -> f64 + Sync) -> Option<Self> {
         let layout = yarns.layout();
         let turning = |(number, yarn): (usize, &Yarn)| {
             let points = yarns.yarn_points(number).filter(|_| yarn.twist != 0.0)?;
             let step_max = step_max(&layout.sections()[yarn.section as usize]);
-            Some(Self { yarn: number, interval: turn_of_interval(yarn, points, tension), step_max })
+            Some(Self { yarn: number, interval: turn_of_interval(yarn, points, layout.tension()), step_max })
         };
         let more = |one: Self, other: Self| if other.share() > one.share() { other } else { one };
         layout.yarns().par_iter().enumerate().filter_map(turning).reduce_with(more)

@@ -79,7 +79,8 @@ impl Yarn {
 /// The steepest twist that is taken, rad/mm: 159,000 turns per metre, thirty times the hardest sewing thread.
 pub const TWIST_LIMIT: f32 = 1e3;
 
-/// Everything about the yarns that decides counts and offsets: all but positions and colours.
+/// Everything about the yarns that decides counts and offsets, and how their splines run between
+/// control points: all but positions and colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     offsets: Vec<u64>,
@@ -89,10 +90,13 @@ pub struct Layout {
     steep: Vec<bool>,
     /// How yarns lean that do, by their numbers.
     leaning: BTreeMap<usize, Arc<Leaning>>,
+    /// Tension of the splines through the control points.
+    tension: f32,
 }
 
 impl Layout {
-    /// A layout of `yarns`, `offsets` (where each yarn's control points start, and their total last) and `sections`.
+    /// A layout of `yarns`, `offsets` (where each yarn's control points start, and their total
+    /// last) and `sections`. The [tension](Layout::tension) of their splines is 0.
     ///
     /// **Errors**: [`YarnError`] for offsets that are not increasing prefix sums, a yarn of fewer than two control
     /// points (three when closed), an unknown section, a twist that is not finite or beyond [`TWIST_LIMIT`], a section
@@ -131,7 +135,22 @@ impl Layout {
             }
         }
         let steep = vec![false; yarns.len()];
-        Ok(Self { offsets, yarns, sections, steep, leaning: BTreeMap::new() })
+        Ok(Self { offsets, yarns, sections, steep, leaning: BTreeMap::new(), tension: 0.0 })
+    }
+
+    /// The layout with splines of another tension.
+    ///
+    /// **Errors**: [`YarnError::Tension`] outside \[0, 1).
+    pub fn with_tension(self, tension: f32) -> Result<Self, YarnError> {
+        check_tension(tension)?;
+        Ok(Self { tension, ..self })
+    }
+
+    /// Tension of the splines through the control points (the paper's u), in \[0, 1): 0 is the
+    /// Catmull-Rom spline, and towards 1 yarns run straight from point to point.
+    #[must_use]
+    pub const fn tension(&self) -> f32 {
+        self.tension
     }
 
     /// Makes yarns others, each of another number of control points.
@@ -330,6 +349,31 @@ impl Yarns {
         Ok(self)
     }
 
+    /// The yarns with splines of another [tension](Layout::tension) through their control points,
+    /// which stay where they are.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # let points = [0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1));
+    /// # yarns.yarn(Yarn::default(), &points);
+    /// # let yarns = yarns.build()?;
+    /// assert_eq!(yarns.tension(), 0.0);
+    /// let taut = yarns.with_tension(0.3)?;
+    /// assert_eq!(taut.tension(), 0.3);
+    /// assert!(taut.with_tension(1.0).is_err());
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    ///
+    /// **Errors**: [`YarnError::Tension`] outside \[0, 1).
+    pub fn with_tension(mut self, tension: f32) -> Result<Self, YarnError> {
+        check_tension(tension)?;
+        if tension.to_bits() != self.tension().to_bits() {
+            Arc::make_mut(&mut self.layout).tension = tension;
+        }
+        Ok(self)
+    }
+
     /// Gives each control point an up direction: where the yarn's height points there, instead of along z. A cloth that was bent out of its plane
     /// has them along its surface's normals, as [`Yarns::mapped`] gives them. What of it lies along the yarn does not count. Between two
     /// points they go over into one another ([`up_between`](crate::definitions::up_between)).
@@ -388,6 +432,12 @@ impl Yarns {
     #[must_use]
     pub fn layout(&self) -> &Arc<Layout> {
         &self.layout
+    }
+
+    /// Tension of the splines through the control points: see [`Layout::tension`].
+    #[must_use]
+    pub fn tension(&self) -> f32 {
+        self.layout.tension
     }
 
     /// The materials that yarns refer to.
@@ -480,6 +530,19 @@ pub fn check_material(material: usize, &Material { hairiness, .. }: &Material) -
     Ok(())
 }
 
+/// Checks the tension of yarns' splines.
+///
+/// **Errors**: [`YarnError::Tension`] outside \[0, 1).
+///
+/// ```
+/// use texere_core::check_tension;
+/// assert!(check_tension(0.5).is_ok());
+/// assert!(check_tension(f32::NAN).is_err());
+/// ```
+pub fn check_tension(tension: f32) -> Result<(), YarnError> {
+    if (0.0..1.0).contains(&tension) { Ok(()) } else { Err(YarnError::Tension { tension }) }
+}
+
 /// Checks the control points of yarn number `yarn`, whose number is only said in errors.
 ///
 /// **Errors**: those of [`Yarns::new`] for the first point that is not sound.
@@ -529,6 +592,7 @@ pub struct YarnsBuilder {
     sections: Vec<Section>,
     materials: Vec<Material>,
     points: Vec<ControlPoint>,
+    tension: f32,
 }
 
 impl YarnsBuilder {
@@ -555,9 +619,16 @@ impl YarnsBuilder {
         self
     }
 
+    /// Sets the [tension](Layout::tension) of all yarns' splines, in \[0, 1): 0 where it is not
+    /// set.
+    pub const fn tension(&mut self, tension: f32) -> &mut Self {
+        self.tension = tension;
+        self
+    }
+
     /// Checks everything and gives the yarns. Where no section was added there is the circle, where no material undyed yarn.
     ///
-    /// **Errors**: those of [`Layout::new`] and [`Yarns::new`].
+    /// **Errors**: those of [`Layout::new`], [`Layout::with_tension`] and [`Yarns::new`].
     pub fn build(mut self) -> Result<Yarns, YarnError> {
         if self.sections.is_empty() {
             self.sections.push(Section::Circle);
@@ -565,7 +636,7 @@ impl YarnsBuilder {
         if self.materials.is_empty() {
             self.materials.push(Material::default());
         }
-        let layout = Layout::new(self.yarns, self.offsets, self.sections)?;
+        let layout = Layout::new(self.yarns, self.offsets, self.sections)?.with_tension(self.tension)?;
         Yarns::new(layout, self.materials, self.points)
     }
 }

@@ -105,11 +105,10 @@ fn flattened_yarns_have_the_bits_of_the_reference() {
     let (mut dice, devices) = (Dice(11), ParallelBackend::each());
     for round in 0..24 {
         let sides = [4, 6, 8, 5, 13, 3][round % 6];
-        let yarns = yarns(&mut dice, sides == 4);
+        let yarns = yarns(&mut dice, sides == 4).with_tension([0.0, 0.3][round % 2]).unwrap();
         let settings = Settings {
             sides,
             subdivisions: [1, 0, 2, 7][round % 4],
-            tension: [0.0, 0.3][round % 2],
             frame: [Frame::Upright, Frame::RotationMinimizing][round / 2 % 2],
             topology: [Topology::Indexed, Topology::Shared][round / 3 % 2],
             caps: round / 4 % 2 == 0,

@@ -29,7 +29,7 @@ const PEIRCE: f64 = 28.0;
 /// let (thread, plain) = (Thread::new(0.5, 0.1), Weave::parse("plain")?.drawdown(20, 20)?);
 /// let cotton = Material { tex: Some(30.0), ..Material::default() };
 /// let cloth = Woven::new(plain, vec![thread; 20], vec![thread; 20], vec![cotton], vec![Section::Circle])?;
-/// let measures = Measures::new(&cloth, &cloth.yarns()?, 0.0)?;
+/// let measures = Measures::new(&cloth, &cloth.yarns()?)?;
 /// // 20 threads a cm of 30 tex, both ways, and the crimp: 0.1 × 2 × 20 × 30 g/m² and a little more.
 /// assert!((120.0..140.0).contains(&measures.areal_weight.unwrap_or(0.0)));
 /// // Widths of control points are half floats, good to 2.5e-4.
@@ -95,15 +95,13 @@ impl Measures {
     /// yarn is the cloth's.
     pub(crate) fn of_knit(
         yarns: &Yarns,
-        tension: f32,
         own: impl Fn(usize) -> Own + Sync,
         loops: u64,
         size: [u32; 2],
         size_mm: [f64; 2],
     ) -> Self {
         let all = 0..yarns.layout().yarns().len();
-        let lengths: Vec<f64> =
-            all.into_par_iter().map(|yarn| own(yarn).length_mm(yarns, yarn, tension)).collect();
+        let lengths: Vec<f64> = all.into_par_iter().map(|yarn| own(yarn).length_mm(yarns, yarn)).collect();
         let length_mm = lengths_by_material(yarns, &lengths);
         let area = size_mm[0] * size_mm[1];
         let loop_length_mm = length_mm.iter().sum::<f64>() / loops as f64;
@@ -119,18 +117,19 @@ impl Measures {
             }),
             areal_weight: weight_g(&length_mm, yarns.materials()).map(|grams| grams / (area * 1e-6)),
             length_mm,
-            thickness_mm: thickness_within(yarns, tension, |yarn| own(yarn).intervals()),
+            thickness_mm: thickness_within(yarns, |yarn| own(yarn).intervals()),
         }
     }
 
-    /// Measures a woven `cloth`, whose yarns are `yarns`, as they are woven or at rest, with splines of `tension`. One repeat has the numbers
-    /// that many have: what is measured is whole repeats, as they lie among others. What depends on tex is measured in repeats of the weave and
-    /// of the yarns' tex, or in the whole cloth where that is no longer.
+    /// Measures a woven `cloth`, whose yarns are `yarns`, as they are woven or at rest. One repeat
+    /// has the numbers that many have: what is measured is whole repeats, as they lie among others.
+    /// What depends on tex is measured in repeats of the weave and of the yarns' tex, or in the
+    /// whole cloth where that is no longer.
     ///
     /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the cloth's yarns.
-    pub fn new(cloth: &Woven, yarns: &Yarns, tension: f32) -> Result<Self, FabricError> {
+    pub fn new(cloth: &Woven, yarns: &Yarns) -> Result<Self, FabricError> {
         cloth.owns(yarns)?;
-        let ratios = Sample::new(cloth, yarns)?.ratios(tension);
+        let ratios = Sample::new(cloth, yarns)?.ratios();
         let (whole, size, sets) = (cloth.whole(), cloth.size_mm(), [cloth.warp(), cloth.weft()]);
         let mut length_mm = vec![0.0; yarns.materials().len()];
         for set in [0, 1] {
@@ -156,7 +155,7 @@ impl Measures {
             knit: None,
             areal_weight: weights.into_iter().sum(),
             length_mm,
-            thickness_mm: thickness_mm(yarns, tension),
+            thickness_mm: thickness_mm(yarns),
         })
     }
 }
@@ -255,14 +254,14 @@ pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
 /// From the lowest point of the yarns' surfaces to the highest, mm: centrelines and, above and below, half the height of
 /// the upright sections, or of twisted ones, which turn through every direction, the furthest that they reach.
 #[must_use]
-pub fn thickness_mm(yarns: &Yarns, tension: f32) -> f64 {
-    thickness_within(yarns, tension, |_| 0..usize::MAX)
+pub fn thickness_mm(yarns: &Yarns) -> f64 {
+    thickness_within(yarns, |_| 0..usize::MAX)
 }
 
 /// That of the intervals that begin at those control points of each yarn.
-fn thickness_within(yarns: &Yarns, tension: f32, own: impl Fn(usize) -> Range<usize> + Sync) -> f64 {
+fn thickness_within(yarns: &Yarns, own: impl Fn(usize) -> Range<usize> + Sync) -> f64 {
     let reaches: Vec<Reach> = yarns.layout().sections().iter().map(Reach::new).collect();
-    let s = tangent_factor(tension);
+    let s = tangent_factor(yarns.tension());
     let extent = |yarn: usize| {
         let what = yarns.layout().yarns()[yarn];
         let reach = &reaches[what.section as usize];

@@ -31,12 +31,12 @@ impl Own {
         start..end.saturating_sub(usize::from(self.onward.is_none()))
     }
 
-    /// Its length, mm, at the tension of its spline.
-    pub(crate) fn length_mm(&self, yarns: &Yarns, yarn: usize, tension: f32) -> f64 {
+    /// Its length, mm.
+    pub(crate) fn length_mm(&self, yarns: &Yarns, yarn: usize) -> f64 {
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         match self.onward {
-            Some(onward) => round_length_mm(&points[self.points.clone()], onward, tension),
-            None => part_length_mm(points, self.points.clone(), tension),
+            Some(onward) => round_length_mm(&points[self.points.clone()], onward, yarns.tension()),
+            None => part_length_mm(points, self.points.clone(), yarns.tension()),
         }
     }
 }

@@ -102,16 +102,17 @@ impl Structure {
     /// `finish` with what becomes of the lengths of [`Structure::repeat`], where it does not say: see [`Knitted::finish_of`] and
     /// [`WarpKnitted::finish_of`].
     #[must_use]
-    pub fn finish_of(&self, repeat: &Repeat, finish: &Finish, tension: f32) -> Finish {
+    pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         match self {
             Self::Woven(_) => *finish,
-            Self::Weft(knit) => knit.finish_of(repeat, finish, tension),
-            Self::Warp(knit) => knit.finish_of(repeat, finish, tension),
+            Self::Weft(knit) => knit.finish_of(repeat, finish),
+            Self::Warp(knit) => knit.finish_of(repeat, finish),
         }
     }
 
     /// Lets the fabric come to rest: woven cloth by its crossings ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact
-    /// ([`Knitted::settle`], [`WarpKnitted::settle`]). `tension` is that of their splines.
+    /// ([`Knitted::settle`], [`WarpKnitted::settle`]). `tension` is that of the splines of all
+    /// yarns, from 0 to below 1.
     ///
     /// **Errors**: those of these; [`FinishError::Woven`] where `finish` asks of woven cloth for a length, a press or a course.
     ///
@@ -179,7 +180,7 @@ impl Structure {
     /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?);
     /// let yarns = structure.yarns()?;
     /// // End 3 lies from x = 2 to 3 mm, pick 4 from y = 3 to 4 mm; the warp is up there, or the weft.
-    /// let places = yarns_under(&yarns, [2.5, 3.5], 0.0).iter().map(|place| structure.place(&yarns, place)).collect::<Vec<_>>();
+    /// let places = yarns_under(&yarns, [2.5, 3.5]).iter().map(|place| structure.place(&yarns, place)).collect::<Vec<_>>();
     /// let mut said = places.iter().map(ToString::to_string).collect::<Vec<_>>();
     /// said.sort();
     /// assert_eq!(said, ["end 3 at pick 4", "pick 4 at end 3"]);
@@ -232,14 +233,15 @@ impl Structure {
         }
     }
 
-    /// Yarn consumption, weight and thickness; of woven cloth crimp and cover, of a knit its loops. `yarns` are the structure's own, their splines of `tension`.
+    /// Yarn consumption, weight and thickness; of woven cloth crimp and cover, of a knit its loops.
+    /// `yarns` are the structure's own.
     ///
     /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) where these are not the structure's yarns.
-    pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
+    pub fn measures(&self, yarns: &Yarns) -> Result<Measures, FabricError> {
         match self {
-            Self::Woven(design) => Measures::new(design.cloth(), yarns, tension),
-            Self::Weft(knit) => knit.measures(yarns, tension),
-            Self::Warp(knit) => Ok(knit.measures(yarns, tension)),
+            Self::Woven(design) => Measures::new(design.cloth(), yarns),
+            Self::Weft(knit) => knit.measures(yarns),
+            Self::Warp(knit) => Ok(knit.measures(yarns)),
         }
     }
 
@@ -297,20 +299,19 @@ impl Structure {
         }
     }
 
-    /// What is wrong with the fabric once it has settled to `finished`, its splines of `tension`: jams are not looked for, since threads that
-    /// have found room show it in their clearance. Contacts of a ratio below `touching` pierce; [`CLEAR`](texere_contact::CLEAR) is what
-    /// [`Finished::verdict`] goes by.
+    /// What is wrong with the fabric once it has settled to `finished`: jams are not looked for,
+    /// since threads that have found room show it in their clearance. Contacts of a ratio below
+    /// `touching` pierce; [`CLEAR`](texere_contact::CLEAR) is what [`Finished::verdict`] goes by.
     ///
     /// **Errors**: those of [`Structure::clearance`].
     pub fn diagnose_finished(
         &self,
         finished: &Finished,
-        tension: f32,
         touching: f64,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Diagnosis, FabricError> {
         let yarns = finished.yarns();
-        let settings = Settings { tension, ..Settings::default() }.following(yarns);
+        let settings = Settings::default().following(yarns);
         let clearance = self.clearance(yarns, &settings, progress)?;
         Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
     }

@@ -29,7 +29,7 @@ fn plain(pitch: f64) -> Structure {
 }
 
 fn settled(structure: &Structure, finish: Finish, device: &dyn Backend) -> Result<Settled, FinishError> {
-    settle(&structure.repeat().unwrap().piece, &finish, 0.0, device, |_| ControlFlow::Continue(()))
+    settle(&structure.repeat().unwrap().piece, &finish, device, |_| ControlFlow::Continue(()))
 }
 
 fn piece(pitch: f64) -> Piece {
@@ -159,7 +159,7 @@ fn what_finds_no_rest_says_so_and_is_no_worse() {
 fn a_cancel_is_seen_within_one_pass() {
     for last in [0, 1, 25, 60] {
         let mut calls = 0;
-        let stopped = settle(&piece(1.5), &Finish::default(), 0.0, &cpu(), |_| {
+        let stopped = settle(&piece(1.5), &Finish::default(), &cpu(), |_| {
             calls += 1;
             if calls > last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -171,7 +171,7 @@ fn a_cancel_is_seen_within_one_pass() {
 #[test]
 fn progress_grows_to_the_end() {
     let mut shares = vec![0.0];
-    let followed = settle(&piece(1.7), &Finish::default(), 0.0, &cpu(), |done| {
+    let followed = settle(&piece(1.7), &Finish::default(), &cpu(), |done| {
         shares.push(done);
         ControlFlow::Continue(())
     });
@@ -268,7 +268,7 @@ fn a_settled_repeat_fits_its_copies() {
     let boundary = Boundary::new(yarns.layout(), [6.8, 6.8], ends).unwrap();
     let repeat = Repeat { piece: Piece::new(yarns, boundary), copies: [3, 3] };
     let finish = Finish { length: Some(FREE), ..Finish::default() };
-    let settled = settle(&repeat.piece, &finish, 0.0, &cpu(), |_| ControlFlow::Continue(())).unwrap();
+    let settled = settle(&repeat.piece, &finish, &cpu(), |_| ControlFlow::Continue(())).unwrap();
     let cloth = repeat.laid(&settled.yarns).unwrap();
     let found = clearance(&cloth, &Settings::default()).unwrap();
     assert!(settled.rest.start.clearance < 0.9 && settled.rest.at_rest, "{:?}", settled.rest);

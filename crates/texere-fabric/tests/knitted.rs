@@ -132,7 +132,7 @@ fn copies_of_a_repeat_that_settled_are_clear() {
     assert!(settled.clearance.min > 0.98, "{:?}", settled.clearance);
     assert_eq!(settled.clearance, clearance(&settled.yarns, &Settings::default()).unwrap());
     assert_eq!(settled.yarns.layout().yarns().len(), 8);
-    let measures = knit.measures(&settled.yarns, 0.0).unwrap();
+    let measures = knit.measures(&settled.yarns).unwrap();
     let loops = measures.knit.unwrap();
     assert_eq!((loops.loops, loops.size), (96, [12, 8]));
     // The ends that stick out are a small part of the yarn.
@@ -225,10 +225,11 @@ fn small_programs_of_huge_cloths_are_refused_by_name() {
     assert!(knit(chart("k"), [10_000, 10_000]).is_ok());
 }
 
-/// Loops that ask for lengths of their own get them together; one that does not takes the gauge's.
+/// Loops that ask for lengths of their own get them together, along splines of any tension; one
+/// that does not takes the gauge's.
 #[test]
 fn loops_ask_for_their_lengths() {
-    let given = |lengths: [Option<f32>; 2], gauge: Option<f64>| {
+    let given = |lengths: [Option<f32>; 2], gauge: Option<f64>, tension: f32| {
         let mut stitches = chart("kkkk\nkkkk\nkkkk\nkkkk");
         for (number, stitch) in stitches.loops.iter_mut().enumerate() {
             stitch.length_mm = lengths[number % 2];
@@ -237,9 +238,9 @@ fn loops_ask_for_their_lengths() {
         let (yarns, sections) = (vec![KnitYarn::new(0.1)], vec![Section::Circle]);
         let cloth =
             Knitted::new(stitches, gauge, yarns, vec![Material::default()], sections, [3, 2]).unwrap();
-        let repeat = cloth.repeat().unwrap();
-        match cloth.finish_of(&repeat, &Finish::default(), 0.0).length {
-            Some(Length::Given(factor)) => Some(f64::from(factor) * repeat.piece.length_mm(0.0) / 16.0),
+        let repeat = cloth.repeat().unwrap().with_tension(tension).unwrap();
+        match cloth.finish_of(&repeat, &Finish::default()).length {
+            Some(Length::Given(factor)) => Some(f64::from(factor) * repeat.piece.length_mm() / 16.0),
             _ => None,
         }
     };
@@ -248,8 +249,10 @@ fn loops_ask_for_their_lengths() {
         ([Some(4.0), None], Some(5.0), 4.5),
         ([None, None], Some(4.2), 4.2),
     ] {
-        let found = given(lengths, gauge).unwrap();
-        assert!((found - mean).abs() < 1e-5, "{lengths:?}, {gauge:?}: {found}");
+        for tension in [0.0, 0.6] {
+            let found = given(lengths, gauge, tension).unwrap();
+            assert!((found - mean).abs() < 1e-5, "{lengths:?}, {gauge:?}, {tension}: {found}");
+        }
     }
-    assert_eq!(given([Some(4.0), None], None), None);
+    assert_eq!(given([Some(4.0), None], None, 0.0), None);
 }

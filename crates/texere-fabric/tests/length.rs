@@ -21,7 +21,7 @@ fn a_straight_yarn_is_as_long_as_its_ends_are_apart() {
     let points = [0.0f32, 7.0, 21.0, 35.0, 42.0, 70.0]
         .map(|at| ControlPoint::new(1024.0 + at / 7.0 * 2.0, at / 7.0 * 3.0, at / 7.0 * 6.0, 0.1));
     for tension in [0.0, 0.5, 0.9] {
-        let length = length_mm(&one_yarn(false, &points), tension);
+        let length = length_mm(&one_yarn(false, &points).with_tension(tension).unwrap());
         assert!((length - 70.0).abs() < 1e-9, "tension {tension}: {length}");
     }
 }
@@ -38,7 +38,7 @@ fn a_dense_circle_is_tau_radii_long() {
             .collect()
     };
     for (count, within) in [(16, 1e-3), (64, 1e-5), (256, 3e-7)] {
-        let length = length_mm(&one_yarn(true, &circle(count)), 0.0);
+        let length = length_mm(&one_yarn(true, &circle(count)));
         assert!((length / (5.0 * TAU) - 1.0).abs() < within, "{count} points: {length}");
     }
 }
@@ -63,7 +63,7 @@ fn a_square_yarn_has_the_length_of_its_chords() {
             let at = |k: u32| segment.sample(k as f32 / 512.0).offset.as_dvec3();
             chords += (0..512).map(|k| at(k).distance(at(k + 1))).sum::<f64>();
         }
-        let length = length_mm(&one_yarn(closed, &corners), tension);
+        let length = length_mm(&one_yarn(closed, &corners).with_tension(tension).unwrap());
         assert!(
             (length / chords - 1.0).abs() < 1e-5,
             "closed {closed}, tension {tension}: {length}, {chords}"
@@ -84,9 +84,9 @@ fn crimp_lengthens_the_yarns_of_a_cloth() {
     )
     .unwrap();
     let yarns = cloth.yarns().unwrap();
-    let lengths = lengths_mm(&yarns, 0.0);
+    let lengths = lengths_mm(&yarns);
     assert_eq!(lengths.len(), 100);
-    assert!((lengths.iter().sum::<f64>() / length_mm(&yarns, 0.0) - 1.0).abs() < 1e-12);
+    assert!((lengths.iter().sum::<f64>() / length_mm(&yarns) - 1.0).abs() < 1e-12);
     // Peirce's approximation: crimp c from the height h of the crimp wave and the pitch p, h = 4/3 p √c; h is the
     // distance of the two sides' centrelines, here one diameter.
     let peirce = (0.75f64 * 0.2 / 0.5).powi(2);
@@ -104,7 +104,7 @@ fn a_yarn_of_many_intervals_adds_up_over_tasks() {
     let zigzag = |count: usize| -> Vec<_> {
         (0..count).map(|k| ControlPoint::new(k as f32, (k % 2) as f32, 0.0, 0.1)).collect()
     };
-    let length = |count| length_mm(&one_yarn(false, &zigzag(count)), 0.0);
+    let length = |count| length_mm(&one_yarn(false, &zigzag(count)));
     let one = length(102) - length(101);
     assert!((length(10_001) - length(101) - 9900.0 * one).abs() < 1e-6);
 }

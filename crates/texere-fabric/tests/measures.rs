@@ -30,7 +30,7 @@ fn open_cloth(tex: [Option<f32>; 2], spacing_mm: f64) -> Woven {
 }
 
 fn measures(cloth: &Woven) -> Measures {
-    Measures::new(cloth, &cloth.yarns().unwrap(), 0.0).unwrap()
+    Measures::new(cloth, &cloth.yarns().unwrap()).unwrap()
 }
 
 #[test]
@@ -114,11 +114,11 @@ fn flat_and_leaning_sections_count_with_their_own_height() {
         yarns.build().unwrap()
     };
     // Half as high as the circle, twice as wide.
-    let flat = thickness_mm(&yarn(Section::Ellipse { aspect: 4.0 }, [1.0, 0.0, 0.0]), 0.0);
+    let flat = thickness_mm(&yarn(Section::Ellipse { aspect: 4.0 }, [1.0, 0.0, 0.0]));
     assert!((flat - 0.5).abs() < 1e-5, "{flat}");
     // Upright, its length alone; at 45 degrees 1/√2 of the section's height more.
-    assert!((thickness_mm(&yarn(Section::Circle, [0.0, 0.0, 1.0]), 0.0) - 2.0).abs() < 1e-5);
-    let leaning = thickness_mm(&yarn(Section::Circle, [1.0, 0.0, 1.0]), 0.0);
+    assert!((thickness_mm(&yarn(Section::Circle, [0.0, 0.0, 1.0])) - 2.0).abs() < 1e-5);
+    let leaning = thickness_mm(&yarn(Section::Circle, [1.0, 0.0, 1.0]));
     assert!((leaning - (2.0 + 0.5f64.sqrt())).abs() < 1e-5, "{leaning}");
 }
 
@@ -138,7 +138,7 @@ fn a_selvedge_costs_yarn() {
 fn lengths_go_to_their_materials() {
     let cloth = cloth([None; 2]);
     let yarns = cloth.yarns().unwrap();
-    let lengths = lengths_mm(&yarns, 0.0);
+    let lengths = lengths_mm(&yarns);
     let [warp, weft] = [lengths[..100].iter().sum::<f64>(), lengths[100..].iter().sum::<f64>()];
     assert_eq!(lengths_by_material(&yarns, &lengths), [warp, weft]);
 }
@@ -148,6 +148,6 @@ fn yarns_of_another_cloth_are_refused() {
     let cloth = cloth([None; 2]);
     let mut other = cloth.clone();
     other.set_selvedge(true);
-    let error = Measures::new(&cloth, &other.yarns().unwrap(), 0.0).unwrap_err();
+    let error = Measures::new(&cloth, &other.yarns().unwrap()).unwrap_err();
     assert!(matches!(error, FabricError::Woven(WovenError::OtherCloth { yarn: 101 })), "{error}");
 }

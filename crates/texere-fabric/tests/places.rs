@@ -25,7 +25,7 @@ proptest! {
         wanted in prop::array::uniform3(-12.0f64..12.0),
         closed: bool,
     ) {
-        let place = YarnPlace::nearest(&yarns(&points, closed), 1, wanted, 0.0).unwrap();
+        let place = YarnPlace::nearest(&yarns(&points, closed), 1, wanted).unwrap();
         let at = |number: usize| DVec3::from(points[number % points.len()].map(f64::from));
         let off = |interval: usize, t: f64| {
             at(interval).lerp(at(interval + 1), t).distance(DVec3::from(wanted))
@@ -43,7 +43,7 @@ proptest! {
 #[test]
 fn a_place_is_found_where_points_coincide_and_none_on_a_yarn_that_is_not_there() {
     let yarns = yarns(&[[1.0; 3], [1.0; 3], [2.0; 3]], false);
-    let place = YarnPlace::nearest(&yarns, 1, [1.5; 3], 0.0).unwrap();
+    let place = YarnPlace::nearest(&yarns, 1, [1.5; 3]).unwrap();
     assert_eq!((place.interval, place.t), (1, 0.5));
-    assert!(YarnPlace::nearest(&yarns, 2, [0.0; 3], 0.0).is_none());
+    assert!(YarnPlace::nearest(&yarns, 2, [0.0; 3]).is_none());
 }

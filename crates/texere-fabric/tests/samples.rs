@@ -47,10 +47,26 @@ fn two_ends_of_an_uneven_sett_have_the_numbers_of_two_hundred() {
         let cloth = woven("plain", [size; 2], &[0.9, 0.3], &[1]);
         let [width, height] = cloth.size_mm();
         assert!(close(width, 0.6 * size as f64, 1e-9) && close(height, size as f64, 1e-9));
-        numbers(&cloth, &Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap())
+        numbers(&cloth, &Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap())
     });
     assert!(close(one[4], 10.0 / 0.6, 1e-9), "{one:?}");
     assert!(one.iter().zip(many).all(|(one, many)| close(*one, many, 2e-4)), "{one:?} {many:?}");
+}
+
+/// A small cloth is measured among others of its kind, which are drawn with the tension of its
+/// yarns.
+#[test]
+fn a_small_cloth_has_the_crimp_of_a_large_one_at_any_tension() {
+    let crimp = |size: usize, tension: f32| {
+        let cloth = woven("2/2", [size; 2], &[0.8], &[1]);
+        let yarns = cloth.yarns().unwrap().with_tension(tension).unwrap();
+        Measures::new(&cloth, &yarns).unwrap().crimp.unwrap()
+    };
+    for tension in [0.0, 0.3, 0.9] {
+        let (small, large) = (crimp(4, tension), crimp(200, tension));
+        assert!([0, 1].into_iter().all(|set| close(small[set], large[set], 1e-2)), "{small:?} {large:?}");
+    }
+    assert!(!close(crimp(4, 0.0)[0], crimp(4, 0.9)[0], 1e-1));
 }
 
 #[test]
@@ -61,7 +77,7 @@ fn straight_threads_weigh_what_they_are() {
         let drawdown = Drawdown::from_fn(size, size, |_, _| true).unwrap();
         let (warp, weft) = (cloth.warp().to_vec(), cloth.weft().to_vec());
         cloth = Woven::new(drawdown, warp, weft, materials(), vec![Section::Circle]).unwrap();
-        let measures = Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap();
+        let measures = Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap();
         let by_hand = 0.1 * (20.0 * 30.0 + 10.0 * 20.0);
         assert!(close(measures.areal_weight.unwrap(), by_hand, 1e-6), "{:?}", measures.areal_weight);
     }
@@ -72,7 +88,7 @@ fn a_pattern_of_thick_and_thin_counts_by_whole_repeats() {
     // Ends of 20 and 30 tex by turns: three of them are one repeat and a thread.
     let [one, more] = [2, 3].map(|ends| {
         let cloth = woven("plain", [ends, 4], &[0.8], &[0, 1]);
-        Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap().areal_weight.unwrap()
+        Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap().areal_weight.unwrap()
     });
     let by_hand = |crimped: f64| 0.1 * (12.5 * 25.0 + 10.0 * 20.0) * crimped;
     assert!((by_hand(1.0)..by_hand(1.15)).contains(&one), "{one}");
@@ -92,7 +108,7 @@ fn straight(tex: &[f32], order: &[u32], ends: usize) -> Measures {
         vec![Section::Circle],
     )
     .unwrap();
-    Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap()
+    Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap()
 }
 
 #[test]
@@ -128,7 +144,7 @@ fn flat_threads_among_round_ones_are_part_of_the_repeat() {
         Woven::new(drawdown, threads.clone(), threads, materials(), vec![Section::Circle]).unwrap()
     };
     let [one, many] = [cloth(6), cloth(36)]
-        .map(|cloth| numbers(&cloth, &Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap()));
+        .map(|cloth| numbers(&cloth, &Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap()));
     assert!(one.iter().zip(many).all(|(one, many)| close(*one, many, 2e-4)), "{one:?} {many:?}");
 }
 
@@ -151,7 +167,7 @@ proptest! {
         };
         // A few threads more than whole repeats, but for the first.
         let [one, many] = [[repeat; 2], times.map(|times| times * repeat + times - 1)].map(cloth).map(|cloth| {
-            Measures::new(&cloth, &cloth.yarns().unwrap(), 0.0).unwrap().areal_weight.unwrap()
+            Measures::new(&cloth, &cloth.yarns().unwrap()).unwrap().areal_weight.unwrap()
         });
         prop_assert!(close(one, many, 2e-4), "{} {}", one, many);
     }
@@ -169,7 +185,7 @@ proptest! {
         let one = woven(notation, [repeat; 2], &spacing, &materials);
         let many = woven(notation, times.map(|times| times * repeat), &spacing, &materials);
         let [first, second] = [&one, &many].map(|cloth| {
-            numbers(cloth, &Measures::new(cloth, &cloth.yarns().unwrap(), 0.0).unwrap())
+            numbers(cloth, &Measures::new(cloth, &cloth.yarns().unwrap()).unwrap())
         });
         for (one, many) in first.iter().zip(second) {
             prop_assert!(close(*one, many, 2e-4), "{:?} {:?}", first, second);
@@ -183,7 +199,7 @@ fn woven_cloth_at_rest_has_the_same_numbers_small_and_large() {
     let measured = |size| {
         let cloth = woven("2/2", [size; 2], &[0.5], &[1]);
         let rest = cloth.at_rest(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(())).unwrap();
-        numbers(&cloth, &Measures::new(&cloth, &rest.yarns, 0.0).unwrap())
+        numbers(&cloth, &Measures::new(&cloth, &rest.yarns).unwrap())
     };
     let [one, many] = [measured(4), measured(24)];
     assert!(one.iter().zip(many).all(|(one, many)| close(*one, many, 2e-3)), "{one:?} {many:?}");
@@ -212,7 +228,7 @@ fn knits_have_the_same_numbers_small_and_large() {
             let settled =
                 structure.settle(&Finish::default(), 0.0, &device, |_| ControlFlow::Continue(())).unwrap();
             [structure.yarns().unwrap(), settled.into_yarns()].map(|yarns| {
-                let measures = structure.measures(&yarns, 0.0).unwrap();
+                let measures = structure.measures(&yarns).unwrap();
                 let knit = measures.knit.unwrap();
                 [
                     knit.loop_length_mm,
@@ -238,8 +254,8 @@ fn yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large() {
         let gauge = Gauge::new(1.0, 0.75);
         let knit = WarpKnitted::new(bars, gauge, 1, 2, yarns, materials(), sections, copies).unwrap();
         let yarns = knit.yarns().unwrap();
-        let run_ins: Vec<_> = knit.run_ins(&yarns, 0.0).iter().map(|bar| bar.reached_mm).collect();
-        let measures = knit.measures(&yarns, 0.0);
+        let run_ins: Vec<_> = knit.run_ins(&yarns).iter().map(|bar| bar.reached_mm).collect();
+        let measures = knit.measures(&yarns);
         (run_ins, measures.areal_weight.unwrap())
     };
     let (one, many) = (net([1, 1]), net([6, 6]));
@@ -258,7 +274,7 @@ fn stripes_of_a_knit_count_by_their_own_courses() {
         let (gauge, sections) = (Gauge::munden(3.5), vec![Section::Circle]);
         let yarns = yarns[..program.carriers.len().min(2)].to_vec();
         let knit = Knitted::new(stitches, gauge, yarns, materials(), sections, copies).unwrap();
-        knit.measures(&knit.yarns().unwrap(), 0.0).unwrap()
+        knit.measures(&knit.yarns().unwrap()).unwrap()
     };
     let plain = knit(vec![0], [6, 6]);
     for copies in [[1, 1], [2, 3], [7, 5]] {
@@ -275,7 +291,7 @@ fn a_jersey_has_the_loops_that_were_asked_for() {
     let settled = structure
         .settle(&Finish::default(), 0.0, &ParallelBackend::open().unwrap(), |_| ControlFlow::Continue(()))
         .unwrap();
-    let measures = structure.measures(settled.yarns(), 0.0).unwrap();
+    let measures = structure.measures(settled.yarns()).unwrap();
     let knit = measures.knit.unwrap();
     assert!(close(knit.loop_length_mm, 3.5, 0.01), "{}", knit.loop_length_mm);
     // √tex over the loop in cm; loops to the m² times their length times tex.

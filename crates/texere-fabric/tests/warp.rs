@@ -203,37 +203,37 @@ fn run_ins_are_asked_for_and_measured() {
     let bar = |text, run_in_mm| Bar { run_in_mm, ..Bar::new(chain(text)) };
     let held = knit(vec![bar("1-0/2-3", None), bar("1-2/1-0", None)], [4, 4], [1, 3]).unwrap();
     let repeat = held.repeat().unwrap();
-    assert_eq!(held.finish_of(&repeat, &Finish::default(), 0.0).length, Some(Length::Held));
-    let found = held.run_ins(&held.yarns().unwrap(), 0.0);
+    assert_eq!(held.finish_of(&repeat, &Finish::default()).length, Some(Length::Held));
+    let found = held.run_ins(&held.yarns().unwrap());
     // The longer underlaps of the front bar take more yarn, and both together are the repeat's.
     assert!(found[0].reached_mm > found[1].reached_mm && found[0].miss().is_none());
     let whole = (found[0].reached_mm + found[1].reached_mm) * 4.0 * 4.0 / 480.0;
-    assert!((whole / repeat.piece.length_mm(0.0) - 1.0).abs() < 1e-5, "{whole}");
+    assert!((whole / repeat.piece.length_mm() - 1.0).abs() < 1e-5, "{whole}");
     let asked = |shares: [f64; 2]| {
         let [front, back] = [0, 1].map(|bar: usize| Some(shares[bar] * found[bar].reached_mm));
         knit(vec![bar("1-0/2-3", front), bar("1-2/1-0", back)], [4, 4], [1, 3]).unwrap()
     };
     // Loops become higher or lower, so that each bar has its own run-in.
     let higher = asked([1.02, 0.98]);
-    let made = higher.run_ins(&higher.yarns().unwrap(), 0.0);
+    let made = higher.run_ins(&higher.yarns().unwrap());
     assert!(made.iter().all(|run_in| run_in.miss().unwrap().abs() < 1e-3), "{made:?}");
     let repeat = higher.repeat().unwrap();
-    assert_eq!(higher.finish_of(&repeat, &Finish::default(), 0.0).length, Some(Length::Held));
+    assert_eq!(higher.finish_of(&repeat, &Finish::default()).length, Some(Length::Held));
     // At rest they still have it.
     let settled =
         higher.settle(&Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()));
-    let rested = higher.run_ins(&settled.unwrap().yarns, 0.0);
+    let rested = higher.run_ins(&settled.unwrap().yarns);
     assert!(rested.iter().all(|run_in| run_in.miss().unwrap().abs() < 0.02), "{rested:?}");
     // What they can't take is given to all yarns.
     let longer = asked([1.2, 1.2]);
     let repeat = longer.repeat().unwrap();
-    let Some(Length::Given(factor)) = longer.finish_of(&repeat, &Finish::default(), 0.0).length else {
+    let Some(Length::Given(factor)) = longer.finish_of(&repeat, &Finish::default()).length else {
         panic!("no length")
     };
-    let given = f64::from(factor) * repeat.piece.length_mm(0.0) * 480.0 / 16.0;
+    let given = f64::from(factor) * repeat.piece.length_mm() * 480.0 / 16.0;
     let total: f64 = found.iter().map(|run_in| 1.2 * run_in.reached_mm).sum();
     assert!((given / total - 1.0).abs() < 1e-4, "{given} of {total}");
-    let made = longer.run_ins(&longer.yarns().unwrap(), 0.0);
+    let made = longer.run_ins(&longer.yarns().unwrap());
     assert!(made.iter().all(|run_in| run_in.miss().unwrap() < -0.05), "{made:?}");
 }
 
@@ -316,7 +316,7 @@ fn structures_know_warp_knits() {
     assert!(structure.warp_knitted().is_some());
     assert!(structure.knitted().is_none() && structure.woven().is_none());
     assert_eq!(structure.size_mm(), [8.0, 3.0]);
-    let measures = structure.measures(&structure.yarns().unwrap(), 0.0).unwrap();
+    let measures = structure.measures(&structure.yarns().unwrap()).unwrap();
     assert_eq!(measures.knit.unwrap().loops, 32);
 }
 

@@ -142,7 +142,9 @@ impl Design {
         Resting { design: self, device, tension: 0.0, progress }
     }
 
-    /// The cloth of the design with its yarns as the structure places them, whatever the design asks for. No device is needed.
+    /// The cloth of the design with its yarns as the structure places them, whatever the design
+    /// asks for. No device is needed. The tension of their splines is 0: [`Yarns::with_tension`]
+    /// gives them another.
     ///
     /// **Errors**: where the structure can't be made.
     pub fn placed(self) -> Result<Cloth, Refusal> {
@@ -167,11 +169,15 @@ impl<'a> Resting<'a> {
     /// Makes the cloth. Where yarns can't come to rest they are as the structure places them, and [`Cloth::report`] says why.
     ///
     /// **Errors**: a [`Refusal`] where the design asks for cloth that can't be made or for a finish that its structure does not have, where a device
-    /// fails, and where `progress` asked to stop.
+    /// fails, where `progress` asked to stop, and for a [tension](Resting::tension) out of range.
     pub fn run(self) -> Result<Cloth, Refusal> {
         let Self { mut design, device, tension, mut progress } = self;
+        let placed = |design: &Design| {
+            let yarns = design.yarns().and_then(|yarns| Ok(yarns.with_tension(tension)?));
+            yarns.map_err(|error| design.refused(error))
+        };
         if !design.settle {
-            return design.placed();
+            return Ok(Cloth { report: RestReport::Placed(placed(&design)?), design });
         }
         let mut done = 0.0;
         if let Some(stretch) = design.stretch.take() {
@@ -186,8 +192,7 @@ impl<'a> Resting<'a> {
         let report = match design.structure.settle(&design.finish, tension, device, on) {
             Ok(finished) => RestReport::Finished(finished),
             Err(FinishError::Crossings(error)) if !matches!(error, CrossingsError::OutOfMemory(_)) => {
-                let yarns = design.yarns().map_err(|error| design.refused(error))?;
-                RestReport::Refused { yarns, reason: design.refused(error) }
+                RestReport::Refused { yarns: placed(&design)?, reason: design.refused(error) }
             }
             Err(error) => return Err(design.refused(error)),
         };

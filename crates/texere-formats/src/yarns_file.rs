@@ -60,12 +60,6 @@ pub(crate) mod origin {
     pub(crate) const GUIDE: u32 = 5;
 }
 
-/// The tension of the splines that yarns are drawn with, which a file states and which can't be
-/// another one yet.
-pub(crate) fn tension() -> f32 {
-    texere_core::Settings::default().tension
-}
-
 /// What the header's bits are for `yarns`.
 pub(crate) fn flags(yarns: &Yarns) -> u32 {
     let ups = if yarns.ups().is_some() { HAS_UPS } else { 0 };

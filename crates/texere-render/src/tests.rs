@@ -30,7 +30,6 @@ const TOLERANCE: f32 = 0.02;
 
 const SIZE: [u32; 2] = [240, 180];
 const SETTINGS: Settings = Settings {
-    tension: 0.0,
     subdivisions: 3,
     sides: 12,
     frame: Frame::Upright,

@@ -350,7 +350,7 @@ fn steer(orbit: &mut Orbit, ui: &Ui, response: &Response, rect: Rect, size: [u32
 }
 
 fn place_of(cloth: &Cloth, seen: &Seen) -> Option<NamedPlace> {
-    let place = YarnPlace::nearest(&cloth.yarns, seen.yarn, seen.position, cloth.settings.tension)?;
+    let place = YarnPlace::nearest(&cloth.yarns, seen.yarn, seen.position)?;
     Some(cloth.design.named(&cloth.yarns, &place))
 }
 

@@ -33,8 +33,10 @@ pub struct View {
     pub design: PathBuf,
     /// The device that draws, as [`texere::picture::open_renderer`] takes it, and on which yarns settle.
     pub device: String,
-    /// Tension and frames of the mesh; its sides and subdivisions count only in `sides` and `subdivisions`.
+    /// Frames of the mesh; its sides and subdivisions count only in `sides` and `subdivisions`.
     pub settings: Settings,
+    /// Tension of the yarns' splines, from 0 to below 1.
+    pub tension: f32,
     /// Sides of the tubes; if none as many as [`texere::picture::picture_sides`] says.
     pub sides: Option<u32>,
     /// Points inserted between two control points; if none as many as [`Settings::following_fibres`] says.
@@ -54,6 +56,7 @@ impl View {
             design: design.into(),
             device: "auto".into(),
             settings: Settings::default(),
+            tension: 0.0,
             sides: None,
             subdivisions: None,
             section: None,

@@ -57,7 +57,8 @@ impl<T: FnMut(&Event)> Window<T> {
     }
 
     fn mesh(&self, ui: &mut Ui, cloth: &Cloth) {
-        let Settings { mut sides, mut subdivisions, mut tension, .. } = cloth.settings;
+        let Settings { mut sides, mut subdivisions, .. } = cloth.settings;
+        let mut tension = cloth.yarns.tension();
         // A polygon has the sides that it has.
         let is_round = cloth.yarns.layout().corners().is_none();
         let changed = [
@@ -66,10 +67,12 @@ impl<T: FnMut(&Event)> Window<T> {
                 Slider::new(&mut sides, 3..=32).clamping(SliderClamping::Edits).text("sides"),
             ),
             ui.add(Slider::new(&mut subdivisions, 0..=TWIST_SUBDIVISIONS_MAX).text("subdivisions")),
-            ui.add(Slider::new(&mut tension, 0.0..=0.95).text("tension")),
         ];
         if changed.iter().any(|slider| slider.changed()) {
-            self.order(Order::Settings(Settings { sides, subdivisions, tension, ..cloth.settings }));
+            self.order(Order::Settings(Settings { sides, subdivisions, ..cloth.settings }));
+        }
+        if ui.add(Slider::new(&mut tension, 0.0..=0.95).text("tension")).changed() {
+            self.order(Order::Tension(tension));
         }
         if let Some(undersampled) = cloth.undersampled {
             ui.label(undersampled.to_string());

@@ -41,6 +41,8 @@ pub(crate) enum Order {
     Color { material: usize, srgb: [u8; 3] },
     /// Another mesh.
     Settings(Settings),
+    /// Another tension of the yarns' splines.
+    Tension(f32),
     /// Whether yarns settle.
     Settle(bool),
     /// A copy of the design as it is now.
@@ -168,12 +170,14 @@ impl Workshop {
                 Change::Scene
             }
             Order::Settings(settings) => {
-                let other_splines = settings.tension.to_bits() != self.view.settings.tension.to_bits();
                 self.view.settings = settings;
                 self.view.sides = Some(settings.sides);
                 self.view.subdivisions = Some(settings.subdivisions);
-                // Yarns rest by their splines.
-                if other_splines && self.settles() { Change::Yarns } else { Change::Scene }
+                Change::Scene
+            }
+            Order::Tension(tension) => {
+                self.view.tension = tension;
+                Change::Yarns
             }
             Order::Settle(settle) => {
                 self.view.settle = Some(settle);
@@ -255,7 +259,8 @@ impl Workshop {
 
     /// Makes the yarns and shows them, and again when they have settled, if they do. Gives an order that came meanwhile.
     fn weave(&mut self) -> Option<Order> {
-        match self.design.yarns() {
+        let placed = self.design.yarns();
+        match placed.and_then(|yarns| Ok(yarns.with_tension(self.view.tension)?)) {
             Ok(yarns) => self.take_yarns(yarns, false),
             Err(error) => {
                 self.fail(said(&self.design.refused(error)));
@@ -308,7 +313,7 @@ impl Workshop {
                 ControlFlow::Continue(())
             }
         };
-        design.rest(&**device).tension(view.settings.tension).progress(progress).run()
+        design.rest(&**device).tension(view.tension).progress(progress).run()
     }
 
     /// Shows other yarns, in the colours that were chosen.

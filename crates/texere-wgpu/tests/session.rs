@@ -20,7 +20,6 @@ use texere_wgpu::{Schedule, WgpuBackend};
 use support::{INSTALL, backend, plan, waves};
 
 const ROLLED: Settings = Settings {
-    tension: 0.0,
     subdivisions: 1,
     sides: 6,
     frame: Frame::RotationMinimizing,

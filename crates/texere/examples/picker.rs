@@ -31,8 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 continue;
             };
             let (yarn, interval) = (hit.place.yarn as usize, hit.interval as usize);
-            let place =
-                YarnPlace::at(&yarns, yarn, interval, hit.t, settings.tension).ok_or("no such place")?;
+            let place = YarnPlace::at(&yarns, yarn, interval, hit.t).ok_or("no such place")?;
             println!("{}, {:.3} mm high", design.named(&yarns, &place), hit.position[2]);
         }
     }

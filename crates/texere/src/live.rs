@@ -157,6 +157,13 @@ impl Live {
         &mut self.mesh
     }
 
+    /// Tension of the splines of all yarns. What is edited has it, too; [`Live::set_tension`]
+    /// changes it.
+    #[must_use]
+    pub fn tension(&self) -> f32 {
+        self.mesh.plan().layout().tension()
+    }
+
     /// The materials that yarns refer to.
     #[must_use]
     pub fn materials(&self) -> &[Material] {
@@ -204,7 +211,7 @@ impl Live {
     /// // What a weaver calls the place; Design::named says it with the line of the design.
     /// let hit = live.pick(&above)?.ok_or("nothing is there")?;
     /// let pick = live.only(hit.place.yarn as usize)?; // its yarn alone, number 0
-    /// let place = YarnPlace::at(&pick, 0, hit.interval as usize, hit.t, 0.0).ok_or("no such place")?;
+    /// let place = YarnPlace::at(&pick, 0, hit.interval as usize, hit.t).ok_or("no such place")?;
     /// let place = live.woven().ok_or("not woven")?.place(&pick, &place);
     /// assert_eq!(place.to_string(), "pick 4 at end 8");
     /// # Ok(())
@@ -241,6 +248,7 @@ impl Live {
             offsets.push(points.len() as u64);
         }
         let layout = texere_core::Layout::new(table, offsets, yarns.layout().sections().to_vec())?;
+        let layout = layout.with_tension(self.tension())?;
         let all = Yarns::new(layout, self.materials.clone(), points)?;
         let all = if sources.len() == all.points().len() { all.with_sources(sources)? } else { all };
         let numbers = 0..all.layout().yarns().len();
@@ -271,6 +279,7 @@ impl Live {
         let any_ups = (0..layout.yarns().len()).any(|yarn| self.ups(yarn).is_some());
         let (table, offsets) = (vec![self.yarn(yarn)], vec![0, points.len() as u64]);
         let layout = texere_core::Layout::new(table, offsets, layout.sections().to_vec())?;
+        let layout = layout.with_tension(self.tension())?;
         let only = Yarns::new(layout, self.materials.clone(), points)?;
         let only = if sources.is_empty() { only } else { only.with_sources(sources)? };
         if !any_ups {

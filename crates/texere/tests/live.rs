@@ -112,9 +112,9 @@ fn sources_stay_when_yarns_are_set() {
     let intervals = yarns.yarn_points(number).unwrap().len();
     let mut crossings = 0;
     for interval in 0..intervals {
-        let all = YarnPlace::at(&now, number, interval, 0.0, 0.0).unwrap();
+        let all = YarnPlace::at(&now, number, interval, 0.0).unwrap();
         let only = live.only(number).unwrap();
-        let alone = YarnPlace::at(&only, 0, interval, 0.0, 0.0).unwrap();
+        let alone = YarnPlace::at(&only, 0, interval, 0.0).unwrap();
         let woven = live.woven().unwrap();
         let name = woven.place(&now, &all);
         assert_eq!(name.to_string(), woven.place(&only, &alone).to_string());

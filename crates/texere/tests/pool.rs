@@ -53,12 +53,12 @@ fn use_all(design: &Design, device: &Arc<dyn Backend>) {
     let yarns = finished.yarns();
 
     clearance(yarns, &settings).unwrap();
-    linking(yarns, yarns, &Boundary::without_repeat(yarns.layout()), &settings).unwrap();
-    structure.measures(yarns, 0.0).unwrap();
+    linking(yarns, yarns, &Boundary::without_repeat(yarns.layout())).unwrap();
+    structure.measures(yarns).unwrap();
     structure.cures(&structure.diagnose(1.0, on).unwrap(), on);
-    assert!(lengths_mm(yarns, 0.0).iter().all(|length| *length > 0.0));
+    assert!(lengths_mm(yarns).iter().all(|length| *length > 0.0));
     let middle = structure.size_mm().map(|side| side / 2.0);
-    assert!(yarns_under(yarns, middle, 0.0).len() <= yarns.layout().yarns().len());
+    assert!(yarns_under(yarns, middle).len() <= yarns.layout().yarns().len());
 
     let pipeline = || Pipeline::new(yarns).settings(settings);
     let mesh = pipeline().mesh(&**device).unwrap();

@@ -127,9 +127,10 @@ fn rings_follow_the_twist_of_every_section_and_way() {
             {
                 yarns.yarn(Yarn { closed, twist, ..Yarn::default() }, points);
             }
+            yarns.tension(tension);
             let yarns = yarns.build().unwrap();
-            follows(&mesh(Pipeline::new(&yarns).tension(tension)), &format!("{section:?}"));
-            let settings = Settings { tension, ..Settings::default() }.following(&yarns);
+            follows(&mesh(Pipeline::new(&yarns)), &format!("{section:?}"));
+            let settings = Settings::default().following(&yarns);
             follows(&mesh(Pipeline::new(&yarns).settings(settings)), &format!("{section:?}"));
         }
     }

@@ -8,10 +8,10 @@ use std::path::Path;
 use texere_contact::clearance;
 use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology, Yarns};
 use texere_cpu::ParallelBackend;
-use texere_fabric::{FabricError, Finish, FinishError, Structure};
+use texere_fabric::{FabricError, FinishError, Structure};
 use texere_formats::read::{self, SavedYarns, read};
 use texere_formats::write::{self, Side};
-use texere_formats::{Design, WriteError};
+use texere_formats::{Cloth, Design, Refusal, RestReport, WriteError};
 
 /// The most crossings of a cloth whose yarns are made, and the most control points of one whose mesh is.
 const CROSSINGS: usize = 2_000;
@@ -107,31 +107,45 @@ const PASSES: u32 = 3;
 /// The passes after which stretching is broken off: to its end it settles a cloth up to 49 times, which takes seconds.
 const STRETCHING: u32 = 100;
 
+/// The share of the progress at which cloth that is stretched has been.
+const STRETCHED: f64 = 0.5;
+
 /// `outcome`, after the cloth has begun to settle as its design says. What refuses it names the design's file.
 fn finished(design: &Design, outcome: Outcome) -> Outcome {
     let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
     if outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {
         return outcome;
     }
-    let backend = ParallelBackend::open().expect("the CPU's backend");
-    let finish = Finish { passes: PASSES, ..design.finish };
-    let on = |_| ControlFlow::Continue(());
-    let mut structure = design.structure.clone();
-    let mut passes = 0..STRETCHING;
-    let some = |_| passes.next().map_or(ControlFlow::Break(()), |_| ControlFlow::Continue(()));
-    let stretched = match design.stretch {
-        Some(stretch) => structure.stretch(&finish, stretch, 0.0, &backend, some).map(drop),
-        None => Ok(()),
+    let mut design = design.clone();
+    design.finish.passes = PASSES;
+    let mut rested = rested(design.clone());
+    if matches!(rested, Err(Refusal::Other(FinishError::Fabric(FabricError::Cancelled)))) {
+        design.stretch = None;
+        rested = self::rested(design);
+    }
+    let refusal = match &rested {
+        Ok(cloth) => match cloth.report() {
+            RestReport::Refused { reason, .. } => Some(reason),
+            _ => None,
+        },
+        Err(refusal) => Some(refusal),
     };
-    let stretched = match stretched {
-        Err(FinishError::Fabric(FabricError::Cancelled)) => Ok(finish),
-        stretched => stretched.map(|()| finish),
-    };
-    if let Err(error) = stretched.and_then(|finish| structure.settle(&finish, 0.0, &backend, on)) {
-        let said = chain(&design.refused(error));
+    if let Some(refusal) = refusal {
+        let said = chain(refusal);
         assert!(said.contains("design."), "an error without its file: {said}");
     }
     outcome
+}
+
+/// The cloth of the design, broken off where stretching takes too long.
+fn rested(design: Design) -> Result<Cloth, Refusal> {
+    let backend = ParallelBackend::open().expect("the CPU's backend");
+    let (is_stretched, mut passes) = (design.stretch.is_some(), 0..STRETCHING);
+    let on = |share| {
+        let stretches = is_stretched && share < STRETCHED;
+        if stretches && passes.next().is_none() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    design.rest(&backend).progress(on).run()
 }
 
 /// Reads saved yarns, writes them again, and goes on to their mesh and their clearance.
@@ -161,7 +175,7 @@ fn cloth(structure: &Structure) -> Outcome {
     }
     let outcome = meshed(&yarns);
     if outcome == Outcome::Taken {
-        let _ = structure.measures(&yarns, 0.0);
+        let _ = structure.measures(&yarns);
     }
     outcome
 }

@@ -45,7 +45,6 @@ const FRAMES: [(&str, Frame); 2] =
 
 /// The settings of cases that are not about settings.
 const USUAL: Settings = Settings {
-    tension: 0.0,
     subdivisions: 3,
     sides: 6,
     frame: Frame::Upright,
@@ -145,8 +144,8 @@ fn settings_swept() -> Vec<Case> {
         cases.extend(Case::framed(format!("subdivisions-{subdivisions}"), settings, menagerie));
     }
     for tenths in 0..=9u8 {
-        let settings = Settings { tension: f32::from(tenths) / 10.0, ..USUAL };
-        cases.extend(Case::framed(format!("tension-0.{tenths}"), settings, menagerie));
+        let build = move || menagerie().with_tension(f32::from(tenths) / 10.0).unwrap();
+        cases.extend(Case::framed(format!("tension-0.{tenths}"), USUAL, build));
     }
     for (name, topology) in
         [("indexed", Topology::Indexed), ("shared", Topology::Shared), ("unindexed", Topology::None)]
@@ -163,8 +162,9 @@ fn settings_swept() -> Vec<Case> {
 fn ups_swept() -> Vec<Case> {
     let mut cases = Vec::new();
     for (subdivisions, tension) in [(0, 0.0), (3, 0.0), (8, 0.4)] {
-        let settings = Settings { subdivisions, tension, ..USUAL };
-        cases.extend(Case::framed(format!("ups-{subdivisions}"), settings, leaning));
+        let settings = Settings { subdivisions, ..USUAL };
+        let build = move || leaning().with_tension(tension).unwrap();
+        cases.extend(Case::framed(format!("ups-{subdivisions}"), settings, build));
     }
     cases
 }

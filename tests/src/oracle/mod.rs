@@ -16,7 +16,7 @@ pub use section::{OutlinePoint, outline};
 pub use triangles::{Flaw, cap_flaw, quad_indices};
 
 use glam::{DVec3, Vec3};
-use texere_core::{ControlPoint, Frame, Settings, Topology, Yarn, Yarns};
+use texere_core::{Frame, Settings, Topology, Yarn, Yarns};
 
 use frame::{transport, up_between, upright};
 use spline::Curve;
@@ -137,7 +137,9 @@ impl Oracle {
                 .enumerate()
                 .map(|(number, (yarn, own))| {
                     let frame = settings.frame.of(layout.is_steep(number));
-                    follow(yarn, &yarns.points()[own], layout.ups(number), settings, frame)
+                    let points = &yarns.points()[own];
+                    let curve = Curve::new(points, yarn.closed, layout.tension(), settings.subdivisions);
+                    follow(yarn, &curve, layout.ups(number), settings, frame)
                 })
                 .collect(),
             outlines: layout.sections().iter().map(|section| outline(section, settings.sides)).collect(),
@@ -191,12 +193,11 @@ impl Oracle {
 /// All rings of a yarn.
 fn follow(
     yarn: &Yarn,
-    points: &[ControlPoint],
+    curve: &Curve<'_>,
     ups: Option<&[Vec3]>,
     settings: &Settings,
     frame: Frame,
 ) -> OracleYarn {
-    let curve = Curve::new(points, yarn.closed, settings);
     // Side and up along which a ring is flattened.
     let stance = |ring: usize, tangent: DVec3| {
         let (side, up) = upright(tangent);

@@ -1,7 +1,7 @@
 //! The cardinal spline in f64: the paper's equations 1 to 4, as printed.
 
 use glam::DVec3;
-use texere_core::{ControlPoint, Settings};
+use texere_core::ControlPoint;
 
 /// A yarn's centreline.
 pub(super) struct Curve<'a> {
@@ -111,9 +111,9 @@ impl Interval {
 }
 
 impl<'a> Curve<'a> {
-    pub(super) fn new(points: &'a [ControlPoint], closed: bool, settings: &Settings) -> Self {
-        let s = (1.0 - f64::from(settings.tension)) / 2.0;
-        Self { points, closed, per_interval: u64::from(settings.subdivisions) + 1, s }
+    pub(super) fn new(points: &'a [ControlPoint], closed: bool, tension: f32, subdivisions: u32) -> Self {
+        let s = (1.0 - f64::from(tension)) / 2.0;
+        Self { points, closed, per_interval: u64::from(subdivisions) + 1, s }
     }
 
     /// One for each control interval's start and inserted points, and one for the end.

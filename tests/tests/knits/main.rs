@@ -68,7 +68,7 @@ fn gauge(wale: f64) -> Gauge {
 fn settled(name: &str, piece: &Piece, length: settling::Length) -> (Settled, Report, f64) {
     let finish = Finish { length: Some(length), ..Finish::default() };
     let device = ParallelBackend::open().expect("the CPU");
-    let settled = settle(piece, &finish, 0.0, &device, |_| ControlFlow::Continue(())).expect("a settling");
+    let settled = settle(piece, &finish, &device, |_| ControlFlow::Continue(())).expect("a settling");
     let start = piece_start(name, piece, D / 2.0);
     let after = piece_points(&settled.yarns);
     let report = check(&start, &after);
@@ -140,7 +140,7 @@ fn jersey_of_any_tightness_has_the_loop_length_asked_for() {
         let loop_length = 10.0 * D / (0.0373 * tightness);
         let knit = knitted(stitches(&chart), Gauge::munden(loop_length));
         let piece = knit.piece().expect("a piece");
-        let factor = loop_length * 16.0 / piece.length_mm(0.0);
+        let factor = loop_length * 16.0 / piece.length_mm();
         let given = settling::Length::Given(factor as f32);
         let (settled, report, linked) = settled(&format!("jersey of tightness {tightness}"), &piece, given);
         assert!(
@@ -148,7 +148,7 @@ fn jersey_of_any_tightness_has_the_loop_length_asked_for() {
             "{tightness}: {report:?}"
         );
         let after = Piece { yarns: settled.yarns, ..piece };
-        let off = after.length_mm(0.0) / (16.0 * loop_length) - 1.0;
+        let off = after.length_mm() / (16.0 * loop_length) - 1.0;
         assert!(off.abs() < 0.03, "{tightness}: loops are off by {off}");
         assert!((2.0..3.0).contains(&(report.thickness / D)), "{tightness}: {report:?}");
     }

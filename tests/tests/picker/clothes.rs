@@ -53,8 +53,8 @@ pub(crate) fn clothes() -> Vec<Cloth> {
         cloth("all shapes", cases::mixed(), Settings { subdivisions: 0, ..turning }, 12_000),
         cloth(
             "closed",
-            cases::winding(150, closed),
-            Settings { subdivisions: 5, tension: 0.4, ..turning },
+            cases::winding(150, closed).with_tension(0.4).unwrap(),
+            Settings { subdivisions: 5, ..turning },
             26_000,
         ),
         cloth("long", cases::winding(1_000, Yarn { twist: 2.0, ..Yarn::default() }), turning, 8_000),

@@ -13,8 +13,7 @@ fn named(design: &Design, points: &[[f64; 2]]) -> Vec<Option<(ThreadPlace, Strin
     let picker = picker_of(&mesh_of(&yarns, Settings::default()), &yarns);
     let name = |[x, y]: &[f64; 2]| {
         let hit = picker.pick(&Ray { origin: [*x, *y, 50.0], direction: [0.0, 0.0, -1.0] })?;
-        let place =
-            YarnPlace::at(&yarns, hit.place.yarn as usize, hit.interval as usize, hit.t, 0.0).unwrap();
+        let place = YarnPlace::at(&yarns, hit.place.yarn as usize, hit.interval as usize, hit.t).unwrap();
         Some((design.structure.place(&yarns, &place), design.named(&yarns, &place).to_string()))
     };
     points.iter().map(name).collect()
@@ -57,7 +56,7 @@ fn stitches_are_where_their_yarns_go() {
             let Origin::Course(in_repeat) = what.origin else { panic!("{name}: {what:?}") };
             let below = (yarn / own.len()) as u32 * of_repeat;
             for interval in 0..yarns.yarn_points(yarn).unwrap().len() - 1 {
-                let place = YarnPlace::at(&yarns, yarn, interval, 0.5, 0.0).unwrap();
+                let place = YarnPlace::at(&yarns, yarn, interval, 0.5).unwrap();
                 places += 1;
                 let Some(StitchPlace { wale, course }) = design.structure.place(&yarns, &place).stitch else {
                     continue;
@@ -109,7 +108,7 @@ fn stitches_are_told_with_what_made_them() {
 fn places_that_there_are_not_have_no_name() {
     let yarns = cases::design("plain.toml").yarns().unwrap();
     let points = yarns.yarn_points(0).unwrap().len();
-    let at = |yarn, interval, t| YarnPlace::at(&yarns, yarn, interval, t, 0.0);
+    let at = |yarn, interval, t| YarnPlace::at(&yarns, yarn, interval, t);
     assert!(at(0, points - 2, 1.0).is_some());
     assert!(at(0, points - 1, 0.0).is_none() && at(usize::MAX, 0, 0.0).is_none());
     assert!(at(0, 0, 1.5).is_none() && at(0, 0, f64::NAN).is_none());

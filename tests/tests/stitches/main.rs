@@ -33,5 +33,5 @@ fn knitted(stitches: Stitches, wale: f64, course: f64) -> Knitted {
 fn settled(piece: &Piece) -> Settled {
     let finish = Finish { length: Some(Length::Free { tension: 0.0 }), ..Finish::default() };
     let device = ParallelBackend::open().unwrap();
-    settle(piece, &finish, 0.0, &device, |_| ControlFlow::Continue(())).unwrap()
+    settle(piece, &finish, &device, |_| ControlFlow::Continue(())).unwrap()
 }

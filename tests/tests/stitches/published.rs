@@ -29,7 +29,7 @@ fn at_rest(chart: &str, beds: Beds, wale: f64, course: f64) -> [f64; 2] {
     assert!(after.is_linked() && after.rest.end.clearance > 0.98, "{chart} {wale}: {:?}", after.rest);
     let piece = Piece { yarns: after.yarns, ..piece };
     let [length, thickness] =
-        [piece.length_mm(0.0) / knit.stitches().loops.len() as f64 / D, thickness_mm(&piece.yarns, 0.0) / D];
+        [piece.length_mm() / knit.stitches().loops.len() as f64 / D, thickness_mm(&piece.yarns) / D];
     println!("{wale} {course:.2}: {length:.2} d a loop, {thickness:.2} d thick");
     [length, thickness]
 }

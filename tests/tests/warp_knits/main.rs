@@ -109,8 +109,8 @@ fn rest(
     let device = ParallelBackend::open().expect("the CPU");
     let repeat = cloth.repeat().expect("a repeat");
     let press_mm = press.map(|plates| plates * diameter as f32);
-    let finish = cloth.finish_of(&repeat, &Finish { press_mm, ..Finish::default() }, 0.0);
-    let settled = settle(&repeat.piece, &finish, 0.0, &device, |_| ControlFlow::Continue(()));
+    let finish = cloth.finish_of(&repeat, &Finish { press_mm, ..Finish::default() });
+    let settled = settle(&repeat.piece, &finish, &device, |_| ControlFlow::Continue(()));
     let settled = settled.expect("a settling");
     let start = piece_start(name, &repeat.piece, diameter / 2.0);
     let after = piece_points(&settled.yarns);

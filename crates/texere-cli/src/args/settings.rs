@@ -16,9 +16,9 @@ pub(crate) struct SettingsArgs {
     /// many as corners
     #[arg(long, value_name = "NC")]
     pub(crate) sides: Option<u32>,
-    /// Tension of the spline, 0 to below 1
-    #[arg(long, value_name = "U", default_value_t = Settings::default().tension)]
-    pub(crate) tension: f32,
+    /// Tension of the spline, 0 to below 1; if left out 0, or what saved yarns have
+    #[arg(long, value_name = "U")]
+    pub(crate) tension: Option<f32>,
     /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT, power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
@@ -49,10 +49,14 @@ enum TopologyArg {
 }
 
 impl SettingsArgs {
+    /// The tension of the splines of a design's yarns.
+    pub(crate) fn tension(&self) -> f32 {
+        self.tension.unwrap_or(0.0)
+    }
+
     /// The settings before anything is known of the yarns.
     pub(crate) fn settings(&self) -> Settings {
         Settings {
-            tension: self.tension,
             subdivisions: self.subdivisions.unwrap_or(Settings::default().subdivisions),
             sides: self.sides.unwrap_or(Settings::default().sides),
             frame: match self.frame {

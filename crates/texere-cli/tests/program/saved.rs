@@ -27,6 +27,25 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
     }
 }
 
+/// Saved yarns keep the tension of their splines, unless the command line says another.
+#[test]
+fn saved_cloth_keeps_its_tension() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let mesh = |input: &str, options: &[&str]| {
+        let output = path("cloth.ply");
+        let args = ["mesh", input, "--device", "cpu", "-o", &output];
+        stdout(&texere(&[&args[..], options].concat()));
+        fs::read(output).unwrap()
+    };
+    let (design, saved) = (path("cloth.toml"), path("cloth.yarns"));
+    fs::write(&design, DESIGNS[0].1).unwrap();
+    stdout(&texere(&["mesh", &design, "--no-settle", "--tension", "0.5", "-o", &saved]));
+    let [slack, taut] = ["0", "0.5"].map(|tension| mesh(&design, &["--no-settle", "--tension", tension]));
+    assert!(slack != taut);
+    assert!(mesh(&saved, &[]) == taut && mesh(&saved, &["--tension", "0"]) == slack);
+}
+
 #[test]
 fn what_takes_a_design_says_so_of_a_saved_cloth() {
     let folder = tempfile::tempdir().unwrap();
@@ -38,7 +57,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
     let (ply, other) = (path("cloth.ply"), path("other.yarns"));
     let alone = "holds saved yarns alone";
-    let cases: [(&[&str], i32, &str); 12] = [
+    let cases: [(&[&str], i32, &str); 13] = [
         (&["inspect", &saved], 3, alone),
         (&["check", &saved], 3, alone),
         (&["draft", &saved, "--text"], 3, alone),
@@ -51,7 +70,8 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         ),
         (&["mesh", &saved, "-o", &ply, "--section", "circle"], 2, "--section needs a design"),
         (&["mesh", &saved, "-o", &saved], 2, "which must stay"),
-        (&["mesh", &design, "-o", &other, "--tension", "0.5"], 2, "splines of tension 0, not 0.5"),
+        (&["mesh", &design, "-o", &other, "--no-settle", "--tension", "1"], 2, "tension is 1, outside 0"),
+        (&["mesh", &saved, "-o", &ply, "--tension", "nan"], 2, "tension is NaN, outside 0"),
         (&["mesh", &broken, "-o", &ply], 3, "byte 16: the length in bytes is"),
         (&["mesh", &path("none.yarns"), "-o", &ply], 1, "can't read"),
         (&["mesh", &design, "-o", &path("cloth.obj")], 2, "there are: glb, ply; and yarns, without a mesh"),

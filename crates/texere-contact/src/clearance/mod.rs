@@ -91,7 +91,7 @@ pub struct Clearance {
 /// point beside the yarns, and 4 more where a yarn's roll matters.
 ///
 /// **Errors**: [`ContactError::ClearancePoints`] for more control points than are measured, [`ContactError::Settings`] for
-/// a tension or points between control points that no mesh is made with, [`ContactError::OutOfMemory`].
+/// points between control points that no mesh is made with, [`ContactError::OutOfMemory`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
@@ -160,7 +160,7 @@ pub fn bends_up_to(
     ratio: f64,
     fresh: impl Fn(usize) -> bool + Sync,
 ) -> Result<Vec<(f64, YarnPlace)>, ContactError> {
-    let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
+    let sampling = Sampling::new(yarns.layout(), settings.subdivisions)?;
     let mut unheard = |_| ControlFlow::Continue(());
     let watch = Watch::new(0, &mut unheard);
     let rolls = Rolls::new(yarns, sampling, settings.frame, &watch)?;
@@ -177,7 +177,7 @@ fn measured(
     fresh: &(dyn Fn(usize) -> bool + Sync),
     progress: &mut Report<'_>,
 ) -> Result<Clearance, ContactError> {
-    let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
+    let sampling = Sampling::new(yarns.layout(), settings.subdivisions)?;
     let points = yarns.points().len();
     if points > POINTS_LIMIT {
         return Err(ContactError::ClearancePoints { points: points as u64, limit: POINTS_LIMIT as u64 });

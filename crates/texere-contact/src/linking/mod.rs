@@ -14,8 +14,7 @@ mod window;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use texere_core::definitions::Sampling;
-use texere_core::{Boundary, Settings, Yarns};
+use texere_core::{Boundary, Yarns};
 
 pub use self::passage::{
     LINKING_BESIDE, LINKING_CHANGE, LINKING_COMPARED, Linking, PASSAGES_LISTED, Passage, WINDOW_INTERVALS,
@@ -64,16 +63,16 @@ const TASK: usize = 1024;
 /// cloth was turned over in its plane, for then everything is compared. Memory is 17 bytes a control point beside the
 /// yarns. The same yarns give the same result, whatever the number of threads.
 ///
-/// **Errors**: [`ContactError::OtherLayout`] for yarns of other counts, [`ContactError::Boundary`] for a boundary that
-/// is not theirs, [`ContactError::LinkingSize`] for more intervals than are compared, with their copies in a repeat
-/// that is too small for them, [`ContactError::Settings`] for a tension or points between control points that no mesh
-/// is made with, [`ContactError::OutOfMemory`].
+/// **Errors**: [`ContactError::OtherLayout`] for yarns of other counts, [`ContactError::Yarns`] for
+/// yarns of another tension, [`ContactError::Boundary`] for a boundary that is not theirs,
+/// [`ContactError::LinkingSize`] for more intervals than are compared, with their copies in a
+/// repeat that is too small for them, [`ContactError::OutOfMemory`].
 ///
 /// **Source**: Klenin and Langowski, "Computation of writhe in modeling of supercoiled DNA", Biopolymers 54, 2000,
 /// method 1a: the integral as a sum over pairs of chords.
 ///
 /// ```
-/// use texere_core::{Boundary, ControlPoint, Settings, Yarn, Yarns};
+/// use texere_core::{Boundary, ControlPoint, Yarn, Yarns};
 /// // A straight yarn, and one across it that is pushed down through it.
 /// let crossing = |z: f32| {
 ///     let mut yarns = Yarns::builder();
@@ -84,19 +83,14 @@ const TASK: usize = 1024;
 /// };
 /// let (before, after) = (crossing(0.5)?, crossing(-0.25)?);
 /// let boundary = Boundary::without_repeat(before.layout());
-/// let linking = texere_contact::linking(&before, &after, &boundary, &Settings::default())?;
+/// let linking = texere_contact::linking(&before, &after, &boundary)?;
 /// assert!(linking.passages > 0 && linking.largest > 0.8);
 /// assert_eq!(linking.worst[0].places.map(|place| place.yarn), [0, 1]);
-/// assert_eq!(texere_contact::linking(&before, &before, &boundary, &Settings::default())?.passages, 0);
+/// assert_eq!(texere_contact::linking(&before, &before, &boundary)?.passages, 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn linking(
-    before: &Yarns,
-    after: &Yarns,
-    boundary: &Boundary,
-    settings: &Settings,
-) -> Result<Linking, ContactError> {
-    linking_with_progress(before, after, boundary, settings, |_| ControlFlow::Continue(()))
+pub fn linking(before: &Yarns, after: &Yarns, boundary: &Boundary) -> Result<Linking, ContactError> {
+    linking_with_progress(before, after, boundary, |_| ControlFlow::Continue(()))
 }
 
 /// [`linking()`] that calls `progress` with the share of the work that is done, from 0 to 1, from any thread. `Break`
@@ -106,19 +100,19 @@ pub fn linking(
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use texere_core::{Boundary, ControlPoint, Settings, Yarn, Yarns};
+/// use texere_core::{Boundary, ControlPoint, Yarn, Yarns};
 /// use texere_contact::{ContactError, linking_with_progress};
 /// # let mut yarns = Yarns::builder();
 /// # yarns.yarn(Yarn::default(), &[-1.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// # let yarns = yarns.build()?;
-/// let (boundary, settings) = (Boundary::without_repeat(yarns.layout()), Settings::default());
+/// let boundary = Boundary::without_repeat(yarns.layout());
 /// let mut share = 0.0;
-/// linking_with_progress(&yarns, &yarns, &boundary, &settings, |done| {
+/// linking_with_progress(&yarns, &yarns, &boundary, |done| {
 ///     share = done;
 ///     ControlFlow::Continue(())
 /// })?;
 /// assert_eq!(share, 1.0);
-/// let stopped = linking_with_progress(&yarns, &yarns, &boundary, &settings, |_| ControlFlow::Break(()));
+/// let stopped = linking_with_progress(&yarns, &yarns, &boundary, |_| ControlFlow::Break(()));
 /// assert_eq!(stopped, Err(ContactError::Cancelled));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -126,22 +120,19 @@ pub fn linking_with_progress(
     before: &Yarns,
     after: &Yarns,
     boundary: &Boundary,
-    settings: &Settings,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Linking, ContactError> {
-    compared(before, after, boundary, settings, &mut progress)
+    compared(before, after, boundary, &mut progress)
 }
 
 fn compared(
     before: &Yarns,
     after: &Yarns,
     boundary: &Boundary,
-    settings: &Settings,
     progress: &mut Report<'_>,
 ) -> Result<Linking, ContactError> {
-    let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
     boundary.check(before.layout())?;
-    let shapes = Shapes::new(before, after, boundary, sampling.tension())?;
+    let shapes = Shapes::new(before, after, boundary)?;
     let points = before.points().len() as u64;
     // What was not near before and has met on its way has come from afar, and may be near after.
     let searches: &[Shape] =

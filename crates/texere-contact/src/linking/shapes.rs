@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3, Vec3A};
 use rayon::prelude::*;
 use texere_core::backend::room_for;
 use texere_core::definitions::tangent_factor;
-use texere_core::{Boundary, ControlPoint, Yarns};
+use texere_core::{Boundary, ControlPoint, YarnError, Yarns};
 
 use super::passage::{WINDOW_INTERVALS, WINDOW_REACH};
 use super::strand::Strand;
@@ -58,12 +58,12 @@ pub(super) struct Shapes<'a> {
 }
 
 impl<'a> Shapes<'a> {
-    /// **Errors**: [`ContactError::OtherLayout`], [`ContactError::OutOfMemory`].
+    /// **Errors**: [`ContactError::OtherLayout`], [`ContactError::Yarns`] of another tension,
+    /// [`ContactError::OutOfMemory`].
     pub(super) fn new(
         before: &'a Yarns,
         after: &'a Yarns,
         boundary: &'a Boundary,
-        tension: f32,
     ) -> Result<Self, ContactError> {
         let [one, other] = [before, after].map(|yarns| yarns.layout());
         if one.offsets() != other.offsets() || one.yarns() != other.yarns() {
@@ -71,6 +71,10 @@ impl<'a> Shapes<'a> {
             let both = one.yarns().iter().zip(other.yarns()).zip(ends);
             let alike = both.take_while(|((one, other), (end, other_end))| one == other && end == other_end);
             return Err(ContactError::OtherLayout { yarn: alike.count() });
+        }
+        let [tension, given] = [one.tension(), other.tension()];
+        if given != tension {
+            return Err(YarnError::OtherTension { given, tension }.into());
         }
         let s = tangent_factor(tension);
         let mut shapes = Self { yarns: [before, after], boundary, s, motions: Vec::new() };

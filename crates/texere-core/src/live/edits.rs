@@ -74,6 +74,9 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
+    /// Their splines have the tension of the plan's [layout](crate::Layout::tension), as those of
+    /// all other yarns.
+    ///
     /// **Errors**: [`SessionError::NoYarn`]; those of [`Plan::edited_all`]; [`SessionError::Yarns`] for a point that is not sound; and what the device
     /// says. All but the last leave everything as it was, whichever of the yarns is refused.
     pub fn set_yarns(&mut self, edits: &Edits<'_>) -> Result<(), SessionError> {

@@ -8,12 +8,6 @@ use crate::counted;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// Tension must lie in [0, 1).
-    #[error("tension is {tension}, outside 0 to below 1")]
-    Tension {
-        /// Given.
-        tension: f32,
-    },
     /// Too many inserted points.
     #[error("{subdivisions}, more than {limit}", subdivisions = counted(*.subdivisions, "subdivision"))]
     Subdivisions {

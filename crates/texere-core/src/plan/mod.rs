@@ -38,8 +38,6 @@ use crate::{ControlPoint, Frame, Layout, Quantum, Section, SectionPoint, Topolog
 /// The choices that a mesh is made with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Tension of the spline, in \[0, 1).
-    pub tension: f32,
     /// Points inserted between two control points (the paper's K).
     pub subdivisions: u32,
     /// Sides of the tube (the paper's nc).
@@ -55,10 +53,9 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// The paper's: tension 0, K = 1, nc = 6, no caps. Packed positions lie on a grid of 2⁻¹² mm.
+    /// The paper's: K = 1, nc = 6, no caps. Packed positions lie on a grid of 2⁻¹² mm.
     fn default() -> Self {
         Self {
-            tension: 0.0,
             subdivisions: 1,
             sides: 6,
             frame: Frame::Upright,
@@ -146,7 +143,7 @@ impl Plan {
         settings: Settings,
         room: Option<&dyn Fn(usize) -> u64>,
     ) -> Result<Self, PlanError> {
-        let sampling = Sampling::new(settings.tension, settings.subdivisions)?;
+        let sampling = Sampling::new(&layout, settings.subdivisions)?;
         if !(SIDES_MIN..=SIDES_MAX).contains(&settings.sides) {
             return Err(PlanError::Sides { sides: settings.sides, low: SIDES_MIN, high: SIDES_MAX });
         }

@@ -18,7 +18,7 @@ pub(super) fn check(settling: &Settling<'_>) -> Result<(), SettlingError> {
         let sound = (low..=high).contains(&value);
         if sound { Ok(()) } else { Err(SettlingError::Setting { setting, value, low, high }) }
     };
-    within("the spline's tension", settling.spline_tension, 0.0, 0.99)?;
+    within("the spline's tension", layout.tension(), 0.0, 0.99)?;
     match settling.length {
         Length::Held => {}
         Length::Given(factor) => within("the length", factor, 0.5, 2.0)?,

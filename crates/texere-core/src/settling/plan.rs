@@ -98,7 +98,7 @@ impl SettlingPlan {
             let first = (start + yarn as u64 * (BEYOND[0] + BEYOND[1]) + BEYOND[0]) as u32;
             strands.push(SettlingYarn { first, points: (end - start) as u32, ends, length: 0 });
         }
-        let s = tangent_factor(settling.spline_tension);
+        let s = tangent_factor(layout.tension());
         let spans = Spans {
             diameter: mean_diameter(points),
             thickest: thickest(points),

@@ -33,7 +33,6 @@ pub enum Length {
 #[derive(Debug, Clone)]
 pub struct Settling<'a> {
     pub(crate) yarns: &'a Yarns,
-    pub(crate) spline_tension: f32,
     pub(crate) boundary: Boundary,
     pub(crate) pinned: Vec<u64>,
     pub(crate) length: Length,
@@ -42,25 +41,18 @@ pub struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    /// Yarns that lie free, keep their length and are not pressed.
+    /// Yarns that lie free, keep their length and are not pressed. Of yarns that settle the
+    /// [tension](crate::Layout::tension) is 0.99 at most.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
         Self {
             yarns,
-            spline_tension: 0.0,
             boundary: Boundary::without_repeat(yarns.layout()),
             pinned: Vec::new(),
             length: Length::Held,
             plates: None,
             passes: 250,
         }
-    }
-
-    /// The tension of the spline through the control points, 0 to 0.99.
-    #[must_use]
-    pub const fn spline_tension(mut self, tension: f32) -> Self {
-        self.spline_tension = tension;
-        self
     }
 
     /// How the cloth goes on at its edges: it may be a repeat in x, in y or in both.

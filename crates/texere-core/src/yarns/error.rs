@@ -75,6 +75,20 @@ pub enum YarnError {
         /// Given.
         up: [f32; 3],
     },
+    /// Tension must lie in [0, 1).
+    #[error("tension is {tension}, outside 0 to below 1")]
+    Tension {
+        /// Given.
+        tension: f32,
+    },
+    /// All yarns of a cloth have splines of one tension.
+    #[error("yarns of tension {given} beside yarns of tension {tension}")]
+    OtherTension {
+        /// Theirs.
+        given: f32,
+        /// That of the others.
+        tension: f32,
+    },
     /// There is no such yarn.
     #[error("no yarn {yarn}; there are {yarns}")]
     UnknownYarn {

@@ -27,9 +27,9 @@ use crate::{FabricError, thickness_mm};
 const PASSED: f64 = 0.9;
 const COMPARED: f64 = 0.95;
 
-/// Lets the yarns of `piece` settle on `backend`: they move until they nowhere pierce one another, nowhere fold, and have the
-/// length that `finish` asks for. `tension` is that of the spline through their control points. `progress` gets the share of the
-/// work that is done, from 0 to 1; `Break` ends it within one pass.
+/// Lets the yarns of `piece` settle on `backend`: they move until they nowhere pierce one another,
+/// nowhere fold, and have the length that `finish` asks for. `progress` gets the share of the work
+/// that is done, from 0 to 1; `Break` ends it within one pass.
 ///
 /// Where they can't come to rest within their passes, [`Settled::rest`] says so with its figures. What comes back is the best that
 /// was seen: by clearance, then by bends, then by length, never worse than what came in ([`texere_core::settling::settle`]). Yarns that have
@@ -50,7 +50,7 @@ const COMPARED: f64 = 0.95;
 /// yarns.yarn(Yarn::default(), &along.map(|x| ControlPoint::new(x, 0.0, 0.2, 0.25)));
 /// yarns.yarn(Yarn::default(), &along.map(|y| ControlPoint::new(0.0, y, -0.2, 0.25)));
 /// let piece = Piece::cut(yarns.build()?);
-/// let settled = settle(&piece, &Finish::default(), 0.0, &SerialBackend::new(), |_| ControlFlow::Continue(()))?;
+/// let settled = settle(&piece, &Finish::default(), &SerialBackend::new(), |_| ControlFlow::Continue(()))?;
 /// assert!(settled.rest.at_rest && settled.is_linked());
 /// assert!(settled.rest.start.clearance < 0.81 && settled.clearance.min > 0.99);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -58,11 +58,10 @@ const COMPARED: f64 = 0.95;
 pub fn settle(
     piece: &Piece,
     finish: &Finish,
-    tension: f32,
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
-    let plan = SettlingPlan::new(&piece.settling(finish, tension)).map_err(|source| {
+    let plan = SettlingPlan::new(&piece.settling(finish)).map_err(|source| {
         match source.yarn().and_then(|yarn| piece.yarns.layout().yarns().get(yarn)) {
             Some(yarn) => FinishError::Thread { thread: yarn.origin, source },
             None => source.into(),
@@ -88,9 +87,9 @@ pub fn settle(
     let points = settling::settled(&plan, settler.as_mut(), piece.yarns.points())?;
     drop(settler);
 
-    let settings = Settings { tension, ..Settings::default() };
+    let settings = Settings::default();
     let moved = piece.moved(&points).map_err(FabricError::from)?;
-    let linking = linking_with_progress(&piece.yarns, &moved, &piece.boundary, &settings, |done| {
+    let linking = linking_with_progress(&piece.yarns, &moved, &piece.boundary, |done| {
         progress(PASSED + (COMPARED - PASSED) * done)
     })?;
     let (yarns, rest) = if unchanged(&linking) {
@@ -101,7 +100,7 @@ pub fn settle(
     let measured = |done| progress(COMPARED + (1.0 - COMPARED) * done);
     let clearance = clearance_with_progress(&yarns, &settings, measured)?;
     let press = finish.press_mm.map(|asked| {
-        let reached_mm = thickness_mm(&yarns, tension);
+        let reached_mm = thickness_mm(&yarns);
         Press { asked_mm: f64::from(asked), reached_mm }
     });
     Ok(Settled { yarns, length: finish.length(), rest, linking, clearance, press, course })
@@ -115,13 +114,12 @@ pub(crate) fn settle_repeat(
     repeat: &Repeat,
     laid: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
     finish: &Finish,
-    tension: f32,
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
-    let mut settled = settle(&repeat.piece, finish, tension, backend, |done| progress(SETTLED * done))?;
+    let mut settled = settle(&repeat.piece, finish, backend, |done| progress(SETTLED * done))?;
     let yarns = laid(&settled.yarns)?;
-    let settings = Settings { tension, ..Settings::default() };
+    let settings = Settings::default();
     settled.clearance =
         clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;
     for passage in &mut settled.linking.worst {

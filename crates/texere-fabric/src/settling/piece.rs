@@ -42,15 +42,15 @@ impl Piece {
         Self { boundary: Boundary::without_repeat(layout), pinned, yarns }
     }
 
-    /// Length of all its yarns, mm, their splines of `tension`: of one that goes on, as far as to its next round.
+    /// Length of all its yarns, mm: of one that goes on, as far as to its next round.
     #[must_use]
-    pub fn length_mm(&self, tension: f32) -> f64 {
-        let lengths = lengths_mm(&self.yarns, tension);
+    pub fn length_mm(&self) -> f64 {
+        let lengths = lengths_mm(&self.yarns);
         let yarns = lengths.into_iter().enumerate().map(|(yarn, length)| match self.boundary.ends()[yarn] {
             Ends::Open | Ends::Closed => length,
             Ends::Repeats(_) => {
                 let points = self.yarns.yarn_points(yarn).unwrap_or(&[]);
-                round_length_mm(points, self.boundary.onward_mm(yarn), tension)
+                round_length_mm(points, self.boundary.onward_mm(yarn), self.yarns.tension())
             }
         });
         yarns.sum()
@@ -71,12 +71,11 @@ impl Piece {
         Ok(moved)
     }
 
-    /// The problem that `finish` makes of it, for splines of `tension`: for those who run a settler themselves, and leave what came
-    /// to rest on its device.
+    /// The problem that `finish` makes of it: for those who run a settler themselves, and leave
+    /// what came to rest on its device.
     #[must_use]
-    pub fn settling(&self, finish: &Finish, tension: f32) -> Settling<'_> {
+    pub fn settling(&self, finish: &Finish) -> Settling<'_> {
         let settling = Settling::new(&self.yarns)
-            .spline_tension(tension)
             .boundary(self.boundary.clone())
             .pinned(self.pinned.clone())
             .length(finish.length())

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use texere_core::backend::room_for;
-use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, Yarns};
+use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, YarnError, Yarns};
 
 use super::Piece;
 use crate::FabricError;
@@ -38,12 +38,23 @@ pub struct Repeat {
 }
 
 impl Repeat {
+    /// The repeat with splines of another [tension](texere_core::Layout::tension) through the
+    /// control points of its yarns.
+    ///
+    /// **Errors**: [`YarnError::Tension`] outside \[0, 1).
+    pub fn with_tension(mut self, tension: f32) -> Result<Self, YarnError> {
+        self.piece.yarns = self.piece.yarns.with_tension(tension)?;
+        Ok(self)
+    }
+
     /// All copies of the repeat, side by side. `yarns` are those of [`Repeat::piece`], as they are or settled.
     ///
-    /// A yarn that goes on from one repeat to the next is one yarn through all of them, and is cut off where the copies end: at the
-    /// last control point of its last round. There its first and its last interval lack the neighbour that bends them in the repeat,
-    /// so that they may come nearer to others. Others are copied one by one. Yarns come copy by copy, from the left and row by
-    /// row from below, each where it begins. Materials, sections, origins and sources are those of the repeat.
+    /// A yarn that goes on from one repeat to the next is one yarn through all of them, and is cut
+    /// off where the copies end: at the last control point of its last round. There its first and
+    /// its last interval lack the neighbour that bends them in the repeat, so that they may come
+    /// nearer to others. Others are copied one by one. Yarns come copy by copy, from the left and
+    /// row by row from below, each where it begins. Materials, sections, tension, origins and
+    /// sources are those of the repeat.
     ///
     /// **Errors**: [`FabricError::OtherYarns`] for yarns of other control points than the piece's, [`FabricError::OutOfMemory`],
     /// and [`FabricError::Yarns`] where there is no copy, or coordinates would lie too far out.
@@ -130,7 +141,7 @@ impl Repeat {
             table.push(Yarn { origin: origin(own.origin, cell), ..own });
             offsets.push(points.len() as u64);
         }
-        let laid = Layout::new(table, offsets, layout.sections().to_vec())?;
+        let laid = Layout::new(table, offsets, layout.sections().to_vec())?.with_tension(layout.tension())?;
         let laid = Yarns::new(laid, yarns.materials().to_vec(), points)?;
         Ok(if yarns.sources().is_some() { laid.with_sources(sources)? } else { laid })
     }

@@ -9,7 +9,7 @@ use super::bar::RACK;
 use super::{Bar, WarpKnitted};
 use crate::own::Own;
 use crate::settling::settle_repeat;
-use crate::{Finish, FinishError, Measures, Piece, Repeat, Settled};
+use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled};
 
 /// How many times its length a yarn may be given.
 const GIVEN: [f64; 2] = [0.5, 2.0];
@@ -41,7 +41,10 @@ impl WarpKnitted {
     /// run-in, yarns are given what lacks in all, if `finish` says nothing of lengths; else they keep the length that they have. How far a bar is
     /// off its run-in then, [`WarpKnitted::run_ins`] says. What [`Settled::clearance`] measures is the whole cloth, with its cut edges.
     ///
-    /// **Errors**: those of [`WarpKnitted::yarns`] and of [`settle`](crate::settle()).
+    /// `tension` is that of the splines of all yarns, from 0 to below 1.
+    ///
+    /// **Errors**: those of [`WarpKnitted::yarns`], of [`Yarns::with_tension`] and of
+    /// [`settle`](crate::settle()).
     pub fn settle(
         &self,
         finish: &Finish,
@@ -49,28 +52,27 @@ impl WarpKnitted {
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Settled, FinishError> {
-        let repeat = self.repeat()?;
-        let finish = self.finish_of(&repeat, finish, tension);
-        let settled =
-            settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, tension, backend, progress)?;
-        Ok(settled.pressed(|yarns| self.measures(yarns, tension).thickness_mm))
+        let repeat = self.repeat()?.with_tension(tension).map_err(FabricError::from)?;
+        let finish = self.finish_of(&repeat, finish);
+        let settled = settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, backend, progress)?;
+        Ok(settled.pressed(|yarns| self.measures(yarns).thickness_mm))
     }
 
     /// `finish` with what becomes of the lengths of [`WarpKnitted::repeat`], where it does not say.
     #[must_use]
-    pub fn finish_of(&self, repeat: &Repeat, finish: &Finish, tension: f32) -> Finish {
-        let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, tension));
+    pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
+        let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece));
         Finish { length: Some(length), ..*finish }
     }
 
     /// What becomes of lengths where nobody says.
-    fn length(&self, piece: &Piece, tension: f32) -> Length {
+    fn length(&self, piece: &Piece) -> Length {
         let courses = f64::from(piece.boundary.repeat()[1]) / self.gauge().course_mm;
         let yarns = piece.yarns.layout().yarns();
         let asked: Option<f64> = yarns.iter().map(|yarn| self.bar_of(yarn.origin)?.run_in_mm).sum();
         match asked {
             Some(asked) => {
-                let factor = asked * courses / RACK / piece.length_mm(tension);
+                let factor = asked * courses / RACK / piece.length_mm();
                 if (factor - 1.0).abs() < REACHED {
                     return Length::Held;
                 }
@@ -85,16 +87,16 @@ impl WarpKnitted {
         self.bars().get((bar as usize).wrapping_sub(1))
     }
 
-    /// What each bar takes for a rack of 480 courses, and what it asks for. `yarns` are the cloth's own, their splines of `tension`;
-    /// yarns of no guide count for nothing.
+    /// What each bar takes for a rack of 480 courses, and what it asks for. `yarns` are the cloth's
+    /// own; yarns of no guide count for nothing.
     #[must_use]
-    pub fn run_ins(&self, yarns: &Yarns, tension: f32) -> Vec<RunIn> {
+    pub fn run_ins(&self, yarns: &Yarns) -> Vec<RunIn> {
         let mut sums = vec![(0.0, 0.0); self.bars().len()];
         for (yarn, each) in yarns.layout().yarns().iter().enumerate() {
             let Origin::Guide { bar, .. } = each.origin else { continue };
             let sum = sums.get_mut((bar as usize).wrapping_sub(1));
             if let Some((sum, count)) = sum {
-                *sum += self.own(yarns, yarn).length_mm(yarns, yarn, tension);
+                *sum += self.own(yarns, yarn).length_mm(yarns, yarn);
                 *count += 1.0;
             }
         }
@@ -111,11 +113,12 @@ impl WarpKnitted {
         Own::round(yarns, yarn, self.beyond(), [0.0, self.size_mm()[1]])
     }
 
-    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own, their splines of `tension`. However many copies of
-    /// the repeat there are, they have the same numbers: what yarns reach beyond the cloth does not count.
+    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own. However many
+    /// copies of the repeat there are, they have the same numbers: what yarns reach beyond the
+    /// cloth does not count.
     #[must_use]
-    pub fn measures(&self, yarns: &Yarns, tension: f32) -> Measures {
+    pub fn measures(&self, yarns: &Yarns) -> Measures {
         let own = |yarn| self.own(yarns, yarn);
-        Measures::of_knit(yarns, tension, own, self.loops(), self.size(), self.size_mm())
+        Measures::of_knit(yarns, own, self.loops(), self.size(), self.size_mm())
     }
 }

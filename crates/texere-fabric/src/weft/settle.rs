@@ -19,7 +19,9 @@ impl Knitted {
     /// Where `finish` says nothing of lengths, the mean loop gets the length that the gauge asks for; where that asks for none,
     /// lengths are free. What [`Settled::clearance`] measures is the whole cloth, with its cut edges.
     ///
-    /// **Errors**: those of [`Knitted::yarns`] and of [`settle`].
+    /// `tension` is that of the splines of all yarns, from 0 to below 1.
+    ///
+    /// **Errors**: those of [`Knitted::yarns`], of [`Yarns::with_tension`] and of [`settle`].
     pub fn settle(
         &self,
         finish: &Finish,
@@ -27,29 +29,28 @@ impl Knitted {
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<Settled, FinishError> {
-        let repeat = self.repeat()?;
-        let finish = self.finish_of(&repeat, finish, tension);
+        let repeat = self.repeat()?.with_tension(tension).map_err(FabricError::from)?;
+        let finish = self.finish_of(&repeat, finish);
         if self.stitches().repeat.is_none() {
-            return settle(&repeat.piece, &finish, tension, backend, progress)
-                .map(|settled| self.pressed(settled, tension));
+            return settle(&repeat.piece, &finish, backend, progress).map(|settled| self.pressed(settled));
         }
-        settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, tension, backend, progress)
-            .map(|settled| self.pressed(settled, tension))
+        settle_repeat(&repeat, |yarns| self.laid(&repeat, yarns), &finish, backend, progress)
+            .map(|settled| self.pressed(settled))
     }
 
-    fn pressed(&self, settled: Settled, tension: f32) -> Settled {
-        settled.pressed(|yarns| self.measured(yarns, tension).thickness_mm)
+    fn pressed(&self, settled: Settled) -> Settled {
+        settled.pressed(|yarns| self.measured(yarns).thickness_mm)
     }
 
     /// `finish` with what becomes of the lengths of [`Knitted::repeat`], where it does not say.
     #[must_use]
-    pub fn finish_of(&self, repeat: &Repeat, finish: &Finish, tension: f32) -> Finish {
-        let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, repeat.copies, tension));
+    pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
+        let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, repeat.copies));
         Finish { length: Some(length), ..*finish }
     }
 
     /// What becomes of lengths where nobody says: all loops together get what each of them asks for, or else the gauge.
-    fn length(&self, piece: &Piece, copies: [u32; 2], tension: f32) -> Length {
+    fn length(&self, piece: &Piece, copies: [u32; 2]) -> Length {
         let stitches = &self.stitches().loops;
         let each = |stitch: &Stitch| stitch.length_mm.map(f64::from).or(self.gauge().loop_length_mm);
         match stitches.iter().map(each).sum::<Option<f64>>() {
@@ -57,9 +58,9 @@ impl Knitted {
                 let repeats = self.loops() as f64 / stitches.len() as f64;
                 let pieces = f64::from(copies[0]) * f64::from(copies[1]);
                 let length_mm = if self.stitches().repeat.is_some() {
-                    piece.length_mm(tension)
+                    piece.length_mm()
                 } else {
-                    let own = |yarn| self.own(&piece.yarns, yarn).length_mm(&piece.yarns, yarn, tension);
+                    let own = |yarn| self.own(&piece.yarns, yarn).length_mm(&piece.yarns, yarn);
                     (0..piece.yarns.layout().yarns().len()).map(own).sum()
                 };
                 let factor = asked * repeats / pieces / length_mm;
@@ -88,16 +89,17 @@ impl Knitted {
         Own::round(yarns, yarn, self.beyond(), [width, 0.0])
     }
 
-    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own, their splines of `tension`. However many copies of
-    /// a repeat there are, they have the same numbers: what is cut off at the edges does not count, nor do the tails of other yarns.
+    /// Yarn consumption, loops, weight and thickness. `yarns` are the cloth's own. However many
+    /// copies of a repeat there are, they have the same numbers: what is cut off at the edges does
+    /// not count, nor do the tails of other yarns.
     ///
     /// **Errors**: none so far.
-    pub fn measures(&self, yarns: &Yarns, tension: f32) -> Result<Measures, FabricError> {
-        Ok(self.measured(yarns, tension))
+    pub fn measures(&self, yarns: &Yarns) -> Result<Measures, FabricError> {
+        Ok(self.measured(yarns))
     }
 
-    fn measured(&self, yarns: &Yarns, tension: f32) -> Measures {
+    fn measured(&self, yarns: &Yarns) -> Measures {
         let own = |yarn| self.own(yarns, yarn);
-        Measures::of_knit(yarns, tension, own, self.loops(), self.size(), self.size_mm())
+        Measures::of_knit(yarns, own, self.loops(), self.size(), self.size_mm())
     }
 }

@@ -62,7 +62,7 @@ impl<'a> Sample<'a> {
             let warp = (0..more[0]).map(|end| warp[place(0, end)]).collect();
             let weft = (0..more[1]).map(|pick| weft[place(1, pick)]).collect();
             let cloth = cloth.like(drawdown, warp, weft)?;
-            let (yarns, middles) = (cloth.yarns()?, cloth.middles_mm());
+            let (yarns, middles) = (cloth.yarns()?.with_tension(yarns.tension())?, cloth.middles_mm());
             return Ok(Self { cloth: Cow::Owned(cloth), yarns: Cow::Owned(yarns), repeat, middles });
         }
         Ok(Self {
@@ -73,9 +73,9 @@ impl<'a> Sample<'a> {
         })
     }
 
-    /// Length of yarn over length of cloth of each end and each pick, at the tension of their splines: in whole repeats without the
+    /// Length of yarn over length of cloth of each end and each pick: in whole repeats without the
     /// outermost ones, where there are as many. What turns at a selvedge counts with its picks.
-    pub(crate) fn ratios(&self, tension: f32) -> [Vec<f64>; 2] {
+    pub(crate) fn ratios(&self) -> [Vec<f64>; 2] {
         let threads: Vec<_> = self.cloth.yarns_of_threads().collect();
         let mut passes = vec![0_usize; self.yarns.layout().yarns().len()];
         threads.iter().for_each(|(_, yarn)| passes[*yarn] += 1);
@@ -88,7 +88,7 @@ impl<'a> Sample<'a> {
                 let whole = Own { points: 0..count, onward: None };
                 (whole, size[1 - set] * passes[yarn] as f64)
             });
-            ratios[set].push(own.length_mm(&self.yarns, yarn, tension) / along);
+            ratios[set].push(own.length_mm(&self.yarns, yarn) / along);
             numbers[set] += 1;
         }
         ratios

@@ -300,7 +300,7 @@ fn a_woven_structure_comes_to_rest() {
     assert!(shares.is_sorted() && shares.last() == Some(&1.0), "{shares:?}");
     assert!(finished.is_at_rest());
     assert_eq!(finished.yarns().points(), at_rest(&sheeting).yarns.points());
-    let measures = structure.measures(finished.yarns(), 0.0).unwrap();
+    let measures = structure.measures(finished.yarns()).unwrap();
     let surfaces = Surfaces::new(finished.yarns());
     let (widths, crimp) = (surfaces.widths(), surfaces.crimp());
     for set in 0..2 {
@@ -309,7 +309,7 @@ fn a_woven_structure_comes_to_rest() {
         assert!((waves - crimp[set]).abs() < 0.005, "{waves} {crimp:?}");
     }
     // Round threads are narrower, and wave otherwise.
-    let woven = structure.measures(&structure.yarns().unwrap(), 0.0).unwrap();
+    let woven = structure.measures(&structure.yarns().unwrap()).unwrap();
     assert!(measures.cover.unwrap().cloth > woven.cover.unwrap().cloth + 0.05);
     for (finish, asked) in [
         (Finish { length: Some(Length::Held), ..Finish::default() }, "a length"),

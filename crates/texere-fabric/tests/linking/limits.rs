@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use proptest::prelude::*;
 use texere_contact::{ContactError, linking, linking_with_progress};
-use texere_core::{Boundary, BoundaryError, ControlPoint, Ends, Settings, Yarn, Yarns};
+use texere_core::{Boundary, BoundaryError, ControlPoint, Ends, Yarn, YarnError, Yarns};
 
 use crate::knits::{D, Knit, as_it_is};
 use crate::{compared, moved, noise, yarns_of};
@@ -34,7 +34,7 @@ fn work_is_bounded_and_told_and_can_be_stopped() {
     let (before, after) = (line(1.0), line(-1.0));
     let boundary = Boundary::without_repeat(before.layout());
     let shares = std::sync::Mutex::new(Vec::new());
-    let found = linking_with_progress(&before, &after, &boundary, &Settings::default(), |share| {
+    let found = linking_with_progress(&before, &after, &boundary, |share| {
         shares.lock().unwrap().push(share);
         ControlFlow::Continue(())
     });
@@ -42,7 +42,7 @@ fn work_is_bounded_and_told_and_can_be_stopped() {
     let shares = shares.into_inner().unwrap();
     assert!(shares.len() > 5 && shares.last() == Some(&1.0) && shares.is_sorted(), "{shares:?}");
     let mut calls = 0;
-    let stopped = linking_with_progress(&before, &after, &boundary, &Settings::default(), |_| {
+    let stopped = linking_with_progress(&before, &after, &boundary, |_| {
         calls += 1;
         if calls < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
@@ -54,27 +54,22 @@ fn other_yarns_and_other_boundaries_are_refused() {
     let knit = Knit::jersey(5.0, 3, 3);
     let before = knit.yarns(1, as_it_is);
     let boundary = Boundary::without_repeat(before.layout());
-    let refused = |after: &Yarns, boundary: &Boundary, settings: &Settings| {
-        linking(&before, after, boundary, settings).unwrap_err()
-    };
-    let settings = Settings::default();
-    assert_eq!(
-        refused(&knit.yarns(2, as_it_is), &boundary, &settings),
-        ContactError::OtherLayout { yarn: 0 }
-    );
+    let refused = |after: &Yarns, boundary: &Boundary| linking(&before, after, boundary).unwrap_err();
+    assert_eq!(refused(&knit.yarns(2, as_it_is), &boundary), ContactError::OtherLayout { yarn: 0 });
     let fewer = Knit::jersey(5.0, 3, 2).yarns(1, as_it_is);
-    assert_eq!(refused(&fewer, &boundary, &settings), ContactError::OtherLayout { yarn: 2 });
+    assert_eq!(refused(&fewer, &boundary), ContactError::OtherLayout { yarn: 2 });
     let other = Boundary::without_repeat(fewer.layout());
     assert_eq!(
-        refused(&before, &other, &settings),
+        refused(&before, &other),
         ContactError::Boundary(BoundaryError::EndsCount { ends: 2, yarns: 3 })
     );
-    let taut = Settings { tension: 2.0, ..settings };
-    assert!(matches!(refused(&before, &boundary, &taut), ContactError::Settings(_)));
+    let taut = before.clone().with_tension(0.3).unwrap();
+    let other = YarnError::OtherTension { given: 0.3, tension: 0.0 };
+    assert_eq!(refused(&taut, &boundary), ContactError::Yarns(other));
     // In a repeat of a millionth of a millimetre all its copies would lie in one place.
     let tiny = Boundary::new(before.layout(), [1e-6; 2], vec![Ends::Repeats([1, 0]); 3]).unwrap();
     let after = moved(&before, |yarn, _, [x, y, z]| [x, y, z + yarn as f32]);
-    assert!(matches!(refused(&after, &tiny, &settings), ContactError::LinkingSize { .. }));
+    assert!(matches!(refused(&after, &tiny), ContactError::LinkingSize { .. }));
 }
 
 #[test]
@@ -131,7 +126,7 @@ proptest! {
             _ => Ends::Repeats([-3, 2]),
         });
         let boundary = Boundary::new(before.layout(), repeat, ends.collect()).unwrap();
-        match linking(&before, &after, &boundary, &Settings::default()) {
+        match linking(&before, &after, &boundary) {
             Ok(found) => prop_assert!(found.largest.is_finite() && found.worst.len() as u64 <= found.passages),
             Err(error) => prop_assert!(matches!(error, ContactError::LinkingSize { .. }), "{error}"),
         }

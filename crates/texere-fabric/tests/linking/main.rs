@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use std::f32::consts::TAU;
 
 use texere_contact::{LINKING_CHANGE, Linking, linking};
-use texere_core::{Boundary, ControlPoint, Origin, Section, Settings, Yarn, Yarns};
+use texere_core::{Boundary, ControlPoint, Origin, Section, Yarn, Yarns};
 use texere_fabric::{Shape, Thread, Woven};
 
 use cloths::{cloth, random_bits, weaves};
@@ -49,7 +49,7 @@ fn moved(yarns: &Yarns, mut to: impl FnMut(usize, usize, [f32; 3]) -> [f32; 3]) 
 }
 
 fn compared(before: &Yarns, after: &Yarns) -> Linking {
-    linking(before, after, &Boundary::without_repeat(before.layout()), &Settings::default()).unwrap()
+    linking(before, after, &Boundary::without_repeat(before.layout())).unwrap()
 }
 
 /// The pairs of yarns that have passed through one another.

@@ -1,7 +1,7 @@
 //! Repeats: yarns that meet their neighbours' copies, and go on over the edge.
 
 use texere_contact::{LINKING_CHANGE, Linking, linking};
-use texere_core::{Boundary, Ends, Settings, Yarns};
+use texere_core::{Boundary, Ends, Yarns};
 
 use crate::knits::{D, Knit, as_it_is};
 use crate::{HARMLESS, SEEN, moved, noise, pairs, yarns_of};
@@ -14,7 +14,7 @@ fn repeated(courses: usize, above: bool, to: impl FnOnce(&Knit) -> Yarns) -> Lin
     let height = if above { courses as f32 * knit.course } else { 0.0 };
     let ends = vec![Ends::Repeats([1, 0]); courses];
     let boundary = Boundary::new(before.layout(), [4.0 * knit.wale, height], ends).unwrap();
-    linking(&before, &to(&knit), &boundary, &Settings::default()).unwrap()
+    linking(&before, &to(&knit), &boundary).unwrap()
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn each_passage_counts_once_wherever_the_edge_lies() {
     let boundary = Boundary::new(before.layout(), repeat, vec![Ends::Repeats([1, 0]); 4]).unwrap();
     let counts = [[0.0, 0.0], [0.25, 0.0], [0.5, 0.5], [1.75, 1.0], [0.0, 1.5], [-7.5, 3.25]].map(|shift| {
         let [before, after] = [&before, &after].map(|yarns| shifted(yarns, shift));
-        let found = linking(&before, &after, &boundary, &Settings::default()).unwrap();
+        let found = linking(&before, &after, &boundary).unwrap();
         pairs(&found);
         (found.compared, found.passages)
     });
@@ -109,10 +109,10 @@ fn the_smallest_repeat_of_a_weave_is_compared() {
     let (before, after) = (weave_repeat(false), weave_repeat(true));
     let ends = [[0, 1], [0, 1], [1, 0], [1, 0]].map(Ends::Repeats).to_vec();
     let boundary = Boundary::new(before.layout(), [5.0 * D; 2], ends).unwrap();
-    let found = linking(&before, &after, &boundary, &Settings::default()).unwrap();
+    let found = linking(&before, &after, &boundary).unwrap();
     assert_eq!(pairs(&found), [[0, 3]], "{found:?}");
     // The same end flips in each of its windows' rounds.
     assert!(found.largest > LINKING_CHANGE, "{found:?}");
-    let same = linking(&before, &before, &boundary, &Settings::default()).unwrap();
+    let same = linking(&before, &before, &boundary).unwrap();
     assert_eq!((same.passages, same.largest), (0, 0.0));
 }

@@ -252,7 +252,7 @@ impl Design {
     /// let cloth = Woven::new(plain, vec![thread; 8], vec![thread; 6], cotton, vec![Section::Circle])?;
     /// let design = Design::of("Muslin", Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?));
     /// let yarns = design.yarns()?;
-    /// let places = (0..20).filter_map(|interval| YarnPlace::at(&yarns, 2, interval, 0.0, 0.0));
+    /// let places = (0..20).filter_map(|interval| YarnPlace::at(&yarns, 2, interval, 0.0));
     /// let said = places.map(|place| design.named(&yarns, &place).to_string()).collect::<Vec<_>>();
     /// assert!(said.contains(&"end 3 at pick 4, cotton".to_owned()));
     /// # Ok::<(), texere_fabric::FabricError>(())

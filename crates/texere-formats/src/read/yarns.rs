@@ -4,14 +4,16 @@ use std::path::Path;
 
 use bytemuck::cast;
 use texere_core::backend::room;
-use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnError, Yarns};
+use texere_core::{
+    Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnError, Yarns, check_tension,
+};
 
 use super::ReadError;
 use super::bytes::Bytes;
 use super::file::{bytes_of, open, small};
 use crate::yarns_file::{
     BYTES_MAX, CORNER_BYTES, HAS_SOURCES, HAS_UPS, MAGIC, MATERIAL_BYTES, SECTION_BYTES, VERSION, YARN_BYTES,
-    bytes_per_point, ends, origin, section, tension,
+    bytes_per_point, ends, origin, section,
 };
 
 /// What a `.yarns` file holds.
@@ -61,9 +63,9 @@ pub fn yarns_from(name: impl AsRef<Path>, bytes: &[u8]) -> Result<SavedYarns, Re
     let materials = bytes.count("the number of materials", MATERIAL_BYTES)?;
     let sections = bytes.count("the number of sections", SECTION_BYTES)?;
     let yarns = bytes.count("the number of yarns", YARN_BYTES)?;
-    let (at, stated) = (bytes.at(), bytes.float("the tension")?);
-    if stated.to_bits() != tension().to_bits() {
-        return Err(bytes.refused(at, "the tension", stated, tension()));
+    let (at, tension) = (bytes.at(), bytes.float("the tension")?);
+    if check_tension(tension).is_err() {
+        return Err(bytes.refused(at, "the tension", tension, "0 to below 1"));
     }
     let repeat = [bytes.float("the repeat along x")?, bytes.float("the repeat along y")?];
 
@@ -74,7 +76,8 @@ pub fn yarns_from(name: impl AsRef<Path>, bytes: &[u8]) -> Result<SavedYarns, Re
     let points = list("control points", count, || point(&mut bytes))?;
 
     let unsound = |source| ReadError::Yarns { file: file.into(), source };
-    let layout = Layout::new(yarns, offsets, sections).map_err(unsound)?;
+    let layout =
+        Layout::new(yarns, offsets, sections).map_err(unsound)?.with_tension(tension).map_err(unsound)?;
     let boundary = Boundary::new(&layout, repeat, ends);
     let boundary = boundary.map_err(|source| ReadError::Boundary { file: file.into(), source })?;
     let mut yarns = Yarns::new(layout, materials, points).map_err(unsound)?;

@@ -10,7 +10,7 @@ use super::target::Target;
 use super::{Output, WriteError};
 use crate::yarns_file::{
     BYTES_MAX, CHECKSUM_BYTES, CORNER_BYTES, ENDING, HEADER_BYTES, MAGIC, MATERIAL_BYTES, SECTION_BYTES,
-    VERSION, YARN_BYTES, bytes_per_point, ends, flags, origin, section, tension,
+    VERSION, YARN_BYTES, bytes_per_point, ends, flags, origin, section,
 };
 
 /// The format's name in errors.
@@ -131,7 +131,7 @@ impl<'a> File<'a> {
         for count in [yarns.materials().len(), layout.sections().len(), layout.yarns().len()] {
             content.long(count as u64)?;
         }
-        content.float(tension())?;
+        content.float(yarns.tension())?;
         self.boundary.repeat().into_iter().try_for_each(|length| content.float(length))
     }
 }

@@ -70,8 +70,10 @@ proptest! {
         repeat in [0.001f32..=1e9, 0.001f32..=1e9],
         ups in prop::option::of(prop::collection::vec(direction(), 72)),
         sources in prop::option::of(prop::collection::vec(any::<u32>(), 72)),
+        tension in prop_oneof![Just(0.0f32), Just(-0.0), 0.0f32..1.0],
     ) {
         let mut yarns = Yarns::builder();
+        yarns.tension(tension);
         let kinds = [materials.len() as u32, sections.len() as u32];
         for material in materials {
             yarns.material(material);

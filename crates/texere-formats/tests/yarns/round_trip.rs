@@ -26,6 +26,7 @@ pub(crate) fn same(yarns: &Yarns, boundary: &Boundary) -> Vec<u8> {
     assert_eq!(length, file.len() as u64);
     let saved = read::yarns_from("cloth.yarns", &file).unwrap();
     assert_eq!(all(&saved.yarns, &saved.boundary), all(yarns, boundary));
+    assert_eq!(saved.yarns.tension().to_bits(), yarns.tension().to_bits());
     let mut again = Vec::new();
     write::repeat_to(&saved.yarns, &saved.boundary, &mut again).unwrap();
     assert!(again == file, "written again it is another file");
@@ -50,6 +51,7 @@ fn woven_cloth_at_rest() {
     let yarns = cloth(POPLIN);
     assert!(yarns.points().iter().any(|point| !point.is_round()), "its threads are to be flat");
     cut(&yarns);
+    cut(&yarns.clone().with_tension(0.3).unwrap());
     cut(&bent(&yarns));
 }
 

@@ -14,7 +14,6 @@ use texere_cpu::SerialBackend;
 use texere_opencl::{OpenClBackend, OpenClError, Schedule};
 
 const TURNING: Settings = Settings {
-    tension: 0.0,
     subdivisions: 3,
     sides: 6,
     frame: Frame::RotationMinimizing,

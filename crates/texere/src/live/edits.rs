@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use texere_core::backend::{Edits, SessionError};
-use texere_core::{ControlPoint, Material, PlanError, Yarn, Yarns, check_material, check_points};
+use texere_core::{ControlPoint, Material, PlanError, Yarn, YarnError, Yarns, check_material, check_points};
 use texere_fabric::{Loom, Structure};
 
 use super::{Live, LiveError, SetYarn, Source};
@@ -82,12 +82,46 @@ impl Live {
         self.set_yarn(yarn, self.yarn(yarn), points)
     }
 
-    /// Takes another structure in place of this one: a knit with other stitches, a cloth with other threads. Yarns that stay as they are
-    /// are not made again.
+    /// Gives all yarns splines of another [tension](texere_core::Layout::tension). The whole mesh
+    /// is made again.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # use std::sync::Arc;
+    /// # use texere::{Live, Material, Section, Settings, Thread, Weave, Woven};
+    /// # let (warp, weft) = (vec![Thread::new(1.0, 0.2); 40], vec![Thread::new(1.0, 0.2); 30]);
+    /// # let twill = Weave::parse("2/2")?.drawdown(40, 30)?;
+    /// # let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
+    /// let mut live = Live::weave(Arc::from(texere::open("cpu")?), cloth, Settings::default())?;
+    /// live.set_tension(0.3)?;
+    /// live.set_lift(7, 3, false)?; // its two yarns have splines of that tension, too
+    /// assert_eq!(live.yarns()?.tension(), 0.3);
+    /// assert!(live.update()?.anew);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// **Errors**: [`LiveError::Yarns`] for a tension outside \[0, 1), and those of
+    /// [`Live::given`]; the fabric is then as it was.
+    pub fn set_tension(&mut self, tension: f32) -> Result<(), LiveError> {
+        let yarns = self.yarns()?.with_tension(tension)?;
+        self.mesh = self.another(&yarns)?;
+        (self.anew, self.picker) = (true, None);
+        Ok(())
+    }
+
+    /// That yarns have splines of the fabric's tension.
+    fn check_tension(&self, yarns: &Yarns) -> Result<(), LiveError> {
+        let [given, tension] = [yarns.tension(), self.tension()];
+        if given == tension { Ok(()) } else { Err(YarnError::OtherTension { given, tension }.into()) }
+    }
+
+    /// Takes another structure in place of this one: a knit with other stitches, a cloth with other
+    /// threads. The tension of splines stays. Yarns that stay as they are are not made again.
     ///
     /// **Errors**: those of [`Live::new`].
     pub fn set_structure(&mut self, structure: &Structure) -> Result<(), LiveError> {
-        self.set_yarns(structure.yarns()?)?;
+        self.set_yarns(structure.yarns()?.with_tension(self.tension())?)?;
         if let Some(design) = structure.woven() {
             self.source = Source::Loom(Loom::new(design.cloth().clone()));
         }
@@ -97,8 +131,10 @@ impl Live {
     /// Takes other yarns in place of these: such as have come to rest. Yarns that stay as they are are not made again. The fabric is known by its
     /// yarns alone from then on.
     ///
-    /// **Errors**: [`LiveError::Session`] of the device.
+    /// **Errors**: [`LiveError::Yarns`] for yarns of another [tension](Live::tension),
+    /// [`LiveError::Session`] of the device.
     pub fn set_yarns(&mut self, yarns: Yarns) -> Result<(), LiveError> {
+        self.check_tension(&yarns)?;
         let (before, after) = (self.mesh.plan().layout().clone(), yarns.layout().clone());
         if before.yarns().len() != after.yarns().len() || before.sections() != after.sections() {
             self.mesh = self.another(&yarns)?;
@@ -127,28 +163,30 @@ impl Live {
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// use std::ops::ControlFlow;
     /// use std::sync::Arc;
-    /// use texere::rest::Finish;
     /// use texere::woven::{Relief, Thread, Weave, Woven, WovenDesign};
     /// use texere::yarn::{Material, Section};
-    /// use texere::{Live, Settings, Structure};
+    /// use texere::{Design, Live, Settings, Structure};
     /// # let (warp, weft) = (vec![Thread::new(0.35, 0.15); 12], vec![Thread::new(0.35, 0.15); 8]);
     /// # let plain = Weave::parse("plain")?.drawdown(12, 8)?;
     /// # let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
-    /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::default())?); // dense plain weave
+    /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::default())?);
+    /// let design = Design::of("Dense plain weave", structure);
     /// let device = Arc::from(texere::open("cpu")?);
-    /// let mut live = Live::new(Arc::clone(&device), &structure, Settings::default())?; // to be seen at once
-    /// let finished = structure.settle(&Finish::default(), 0.0, &*device, |_| ControlFlow::Continue(()))?;
-    /// live.set_rest(finished.yarns())?;
+    /// // To be seen at once.
+    /// let mut live = Live::new(Arc::clone(&device), &design.structure, Settings::default())?;
+    /// live.set_rest(design.rest(&*device).run()?.yarns())?;
     /// live.set_lift(3, 2, false)?; // end 4 and pick 3 lie as woven
     /// live.update()?;
     /// # Ok(())
     /// # }
     /// ```
     ///
-    /// **Errors**: [`LiveError::OtherYarns`] for yarns or sections that are not as many as the fabric's, and those of [`Live::set_yarn`].
+    /// **Errors**: [`LiveError::OtherYarns`] for yarns or sections that are not as many as the
+    /// fabric's, [`LiveError::Yarns`] for yarns of another [tension](Live::tension), and those of
+    /// [`Live::set_yarn`].
     pub fn set_rest(&mut self, rest: &Yarns) -> Result<(), LiveError> {
+        self.check_tension(rest)?;
         let (layout, own) = (rest.layout(), self.mesh.plan().layout());
         if layout.yarns().len() != own.yarns().len() || layout.sections() != own.sections() {
             return Err(LiveError::OtherYarns {

@@ -50,10 +50,9 @@ struct Round {
 pub(super) fn certify(
     cloth: &Woven,
     lies: &mut Lies,
-    settings: &Settings,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<([f64; 2], f64, u32), FabricError> {
-    let piece = crop(cloth, lies.repeat())?;
+    let (piece, settings) = (crop(cloth, lies.repeat())?, &Settings::default());
     let mut yarns = lies.yarns(&piece)?;
     let (mut round, once) = (0, once(&piece, &yarns, lies.repeat()));
     let mut fresh = once.clone();

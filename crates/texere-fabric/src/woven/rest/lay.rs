@@ -23,11 +23,18 @@ pub(super) struct Lies {
     rooms: [Vec<[f32; 2]>; 2],
     /// The layer of each thread of the repeat, 0 for the lowest one. All have 0 where warp and weft have not as many levels.
     layers: [Vec<u32>; 2],
+    /// Tension of the yarns' splines.
+    tension: f32,
 }
 
 impl Lies {
     /// `rest` is in the plan's unit.
-    pub(super) fn new(problem: Problem, plan: &CrossingsPlan, mut rest: Vec<CrossingState>) -> Self {
+    pub(super) fn new(
+        problem: Problem,
+        plan: &CrossingsPlan,
+        mut rest: Vec<CrossingState>,
+        tension: f32,
+    ) -> Self {
         let mm: &mut [f32] = bytemuck::cast_slice_mut(&mut rest);
         mm.iter_mut().for_each(|value| *value *= plan.unit());
         let drawn =
@@ -38,7 +45,7 @@ impl Lies {
         } else {
             problem.repeat.map(|threads| vec![0; threads])
         };
-        Self { repeat: problem.repeat, drawn: drawn.collect(), rooms: problem.rooms, layers, rest }
+        Self { repeat: problem.repeat, drawn: drawn.collect(), rooms: problem.rooms, layers, rest, tension }
     }
 
     /// Ends and picks of the repeat.
@@ -90,7 +97,7 @@ impl Lies {
         passes.into_par_iter().zip(pens).for_each(|(pass, mut pen)| {
             loom.lay(pass, &mut |point, source| pen.write(point, source));
         });
-        let layout = Layout::new(table, offsets, cloth.sections().to_vec())?;
+        let layout = Layout::new(table, offsets, cloth.sections().to_vec())?.with_tension(self.tension)?;
         Ok(Yarns::new(layout, cloth.materials().to_vec(), points)?.with_sources(sources)?)
     }
 }

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use texere_core::backend::zeroed;
 use texere_core::crossings::{self, CrossingState, Crossings, CrossingsPlan, CrossingsRest};
-use texere_core::{Backend, Settings, Yarns};
+use texere_core::{Backend, Yarns, check_tension};
 
 use self::certificate::certify;
 use self::lay::Lies;
@@ -54,10 +54,12 @@ impl Woven {
         Problem::new(self).crossings
     }
 
-    /// Lets the cloth come to rest on `backend` as `finish` has it: threads flatten, shift and share the crimp as the energy of their crossings has it
-    /// ([`texere_core::crossings`]), and are drawn along arcs round one another. Where surfaces as drawn, with splines of `tension`, lack
-    /// clearance, threads are made thinner. What a thread is wide over its height before ([`Thread::flatness`](crate::Thread)) does
-    /// not count, nor [`Woven::crimp`] and [`Woven::shape`]. `progress` gets the share of the work that is done; `Break` ends it.
+    /// Lets the cloth come to rest on `backend` as `finish` has it: threads flatten, shift and
+    /// share the crimp as the energy of their crossings has it ([`texere_core::crossings`]), and
+    /// are drawn along arcs round one another. Where surfaces as drawn, with splines of `tension`
+    /// (from 0 to below 1), lack clearance, threads are made thinner. What a thread is wide over
+    /// its height before ([`Thread::flatness`](crate::Thread)) does not count, nor [`Woven::crimp`]
+    /// and [`Woven::shape`]. `progress` gets the share of the work that is done; `Break` ends it.
     ///
     /// **Errors**: [`FinishError::Woven`] where `finish` asks for a length, a press or a course, [`FinishError::Crossings`] for threads that
     /// can't be settled, [`FinishError::Backend`] for a backend that settles no
@@ -92,12 +94,11 @@ impl Woven {
         if let Some((asked, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) {
             return Err(FinishError::Woven { asked });
         }
-        let (mut lies, rest) = self.lies(finish, backend, |done| progress(SETTLED * done))?;
+        let (mut lies, rest) = self.lies(finish, tension, backend, |done| progress(SETTLED * done))?;
         let repeat = lies.repeat();
         let at_first = lies.area(self);
-        let settings = Settings { tension, ..Settings::default() };
         let (clearance, bend, rounds) =
-            certify(self, &mut lies, &settings, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
+            certify(self, &mut lies, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
         let (area, yarns) = (lies.area(self), lies.yarns(self)?);
         if progress(1.0).is_break() {
             return Err(FabricError::Cancelled.into());
@@ -118,9 +119,11 @@ impl Woven {
     fn lies(
         &self,
         finish: &Finish,
+        tension: f32,
         backend: &dyn Backend,
         mut progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(Lies, CrossingsRest), FinishError> {
+        check_tension(tension).map_err(FabricError::from)?;
         let mut problem = Problem::new(self);
         let [warp, weft] = finish.taut;
         problem.crossings = problem.crossings.tension(warp, weft).press(finish.calender);
@@ -138,6 +141,6 @@ impl Woven {
         }
         let mut all: Vec<CrossingState> = zeroed("crossings", plan.crossings() as u64)?;
         settler.read(&mut all)?;
-        Ok((Lies::new(problem, &plan, all), rest))
+        Ok((Lies::new(problem, &plan, all, tension), rest))
     }
 }

@@ -32,10 +32,12 @@ pub struct Stretch {
 }
 
 impl Woven {
-    /// The cloth stretched along one set of its threads, and `finish` with tensions such that all threads keep the length that they have where the
-    /// cloth comes to rest as `finish` has it: those that are pulled straighten, those that cross them take their crimp, and the cloth becomes
-    /// narrower. Then [`Woven::at_rest`] lets it come to rest. `tension` is that of the splines; `progress` gets the share of the work that
-    /// is done, and `Break` ends it within one pass.
+    /// The cloth stretched along one set of its threads, and `finish` with tensions such that all
+    /// threads keep the length that they have where the cloth comes to rest as `finish` has it:
+    /// those that are pulled straighten, those that cross them take their crimp, and the cloth
+    /// becomes narrower. Then [`Woven::at_rest`] lets it come to rest. `tension` is that of the
+    /// yarns' splines, from 0 to below 1; `progress` gets the share of the work that is done, and
+    /// `Break` ends it within one pass.
     ///
     /// **Errors**: [`FinishError::Stretch`] beyond what threads allow before they are straight or jammed, and those of [`Woven::at_rest`].
     ///
@@ -112,9 +114,9 @@ impl Woven {
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<[f64; 2], FinishError> {
-        let (lies, _) = self.lies(finish, backend, progress)?;
+        let (lies, _) = self.lies(finish, tension, backend, progress)?;
         let piece = crop(self, lies.repeat())?;
-        let lengths = lengths_mm(&lies.yarns(&piece)?, tension);
+        let lengths = lengths_mm(&lies.yarns(&piece)?);
         let (size, ends) = (piece.size_mm(), piece.warp().len());
         let [warp, weft]: [f64; 2] = [&lengths[..ends], &lengths[ends..]].map(|lengths| lengths.iter().sum());
         Ok([warp / (ends as f64 * size[1]) - 1.0, weft / (piece.weft().len() as f64 * size[0]) - 1.0])
